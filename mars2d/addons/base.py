@@ -1,0 +1,85 @@
+"""What an add-on is: hooks that the simulation calls at its four moments."""
+
+from __future__ import annotations
+
+import copy
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from mars2d.description import Description, text
+from mars2d.errors import InputError, nearest
+from mars2d.geometry import Outline
+from mars2d.registry import snake_case
+from mars2d.scene import Scene
+
+if TYPE_CHECKING:
+    from mars2d.world import World
+
+__all__ = ["HOOKS", "Addon"]
+
+HOOKS = ("on_start", "on_step", "on_draw", "on_stop")
+"""The hooks of an add-on, all of them: MARS's Addons_suffix Initialize, Loop and Plot, and the end."""
+
+
+class Addon(Description):
+    """The base of all add-ons: derive, declare fields, and write the hooks you need.
+
+    >>> class Counter(Addon):
+    ...     def on_start(self, world):
+    ...         self.steps = 0
+    ...     def on_step(self, world):
+    ...         self.steps += 1
+
+    A hook is a method named on_start, on_step, on_draw or on_stop; any other ``on_...`` is an
+    error. In a scenario an add-on is frozen. Each world works on a copy of its own, on which hooks
+    may set attributes; laws find it as ``world.addons.<name>``.
+    """
+
+    name: str | None = text(None, optional=True, doc="the name in world.addons")
+
+    friction: ClassVar[float] = 0.5
+    restitution: ClassVar[float] = 0.0
+    _live: ClassVar[bool] = False
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        for attribute in vars(cls):
+            if attribute.startswith("on_") and attribute not in HOOKS:
+                raise InputError(
+                    f"{cls.__name__}.{attribute} is no hook of an add-on{nearest(attribute, HOOKS)}"
+                )
+        super().__init_subclass__(**kwargs)
+        frozen = cls.__setattr__
+
+        def set_attribute(self: Addon, attribute: str, value: Any) -> None:
+            if self.__dict__.get("_live"):
+                object.__setattr__(self, attribute, value)
+            else:
+                frozen(self, attribute, value)
+
+        cls.__setattr__ = set_attribute  # type: ignore[method-assign, assignment]
+
+    @property
+    def key(self) -> str:
+        """The name in ``world.addons``: `name`, or that of the class in snake case."""
+        return self.name or snake_case(type(self).__name__)
+
+    def live(self) -> Self:
+        """Return the copy that one world works on."""
+        twin = copy.copy(self)
+        twin.__dict__["_live"] = True
+        return twin
+
+    def obstacles(self) -> tuple[Outline, ...]:
+        """Return the outlines that stand in the way: two vertices a wall, more a closed polygon."""
+        return ()
+
+    def on_start(self, world: World) -> None:
+        """Do what is to be done once, before the first step."""
+
+    def on_step(self, world: World) -> None:
+        """Do what is to be done at each control step, before the sensors are read."""
+
+    def on_draw(self, world: World, scene: Scene) -> None:
+        """Add shapes to what is drawn of the world, beneath the robots."""
+
+    def on_stop(self, world: World) -> None:
+        """Do what is to be done once, when the experiment is over."""

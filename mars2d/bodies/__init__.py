@@ -1,0 +1,7 @@
+"""How robots move: the drives."""
+
+from mars2d.bodies.base import Drive
+from mars2d.bodies.holonomic import Holonomic
+from mars2d.bodies.unicycle import Unicycle
+
+__all__ = ["Drive", "Holonomic", "Unicycle"]

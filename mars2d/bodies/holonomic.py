@@ -1,0 +1,32 @@
+"""The holonomic drive: it can move in any direction at once."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from mars2d.bodies.base import Drive, Float
+
+__all__ = ["Holonomic"]
+
+
+class Holonomic(Drive):
+    """Moves in any direction and keeps its heading, commanded by (vx, vy) [m/s] in the world's frame.
+
+    x' = vx, y' = vy. `max_linear_speed` bounds the length of (vx, vy), keeping its direction.
+    """
+
+    command_names: ClassVar[tuple[str, str]] = ("vx [m/s]", "vy [m/s]")
+    frame: ClassVar[Literal["robot", "world"]] = "world"
+
+    def saturate(self, command: Float) -> Float:
+        """Return commands (2, n) shortened to max_linear_speed where they are faster."""
+        speed = np.hypot(command[0], command[1])
+        if not (speed > self.max_linear_speed).any():
+            return command
+        return np.asarray(command * (self.max_linear_speed / np.maximum(speed, self.max_linear_speed)))
+
+    def twist(self, command: Float) -> Float:
+        """Return (vx, vy, 0)."""
+        return np.array([command[0], command[1], np.zeros(command.shape[1])])

@@ -1,0 +1,42 @@
+"""The unicycle, also called differential drive with (v, omega) as its command."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+
+from mars2d.bodies.base import Drive, Float
+from mars2d.description import number
+
+__all__ = ["Unicycle"]
+
+
+class Unicycle(Drive):
+    """Two wheels on one axle, commanded by (v [m/s], omega [rad/s]).
+
+    x' = v cos(theta), y' = v sin(theta), theta' = omega. `max_linear_speed` bounds the speed of
+    each wheel, v -+ wheel_semiaxis * omega (m/s), as MARS does.
+    """
+
+    wheel_semiaxis: float = number(
+        0.1, above=0, high=1e3, unit="m", doc="half the distance between the wheels"
+    )
+    command_names: ClassVar[tuple[str, str]] = ("v [m/s]", "omega [rad/s]")
+
+    def saturate(self, command: Float) -> Float:
+        """Return commands (2, n) with each wheel's speed clipped to +-max_linear_speed."""
+        v, rim = command[0], self.wheel_semiaxis * command[1]
+        left = np.minimum(np.maximum(v - rim, -self.max_linear_speed), self.max_linear_speed)
+        right = np.minimum(np.maximum(v + rim, -self.max_linear_speed), self.max_linear_speed)
+        clipped = (left != v - rim) | (right != v + rim)
+        if not clipped.any():
+            return command
+        # What is within its limits stays as it was to the last bit.
+        v = np.where(clipped, (left + right) / 2, v)
+        omega = np.where(clipped, (right - left) / (2 * self.wheel_semiaxis), command[1])
+        return np.array([v, omega])
+
+    def twist(self, command: Float) -> Float:
+        """Return (v, 0, omega)."""
+        return np.array([command[0], np.zeros(command.shape[1]), command[1]])

@@ -1,0 +1,131 @@
+"""Checks of fields that are more than a number: points, poses, polygons, lists of parts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from mars2d.description import Check, real, wrong
+from mars2d.errors import InputError, shown
+from mars2d.geometry import Outline, Point
+
+__all__ = ["LIMIT", "instance", "listing", "outline", "outlines", "point", "pose"]
+
+LIMIT = 1e6
+"""Coordinates go up to this far, metres: beyond it a double can't hold a nanometre."""
+
+
+def _items(name: str, value: object, expected: str) -> list[Any]:
+    if isinstance(value, (str, bytes, dict)) or not isinstance(value, (Iterable, np.ndarray)):
+        raise wrong(name, value, expected)
+    try:
+        return list(value)
+    except TypeError:
+        raise wrong(name, value, expected) from None
+
+
+def _coordinate(name: str, value: object, expected: str) -> float:
+    result = real(name, value, expected)
+    if abs(result) > LIMIT:
+        raise wrong(name, value, f"{expected}, within +-{LIMIT:g} m")
+    return result
+
+
+def point(name: str, value: object) -> Point:
+    """Check a point (x, y) in metres."""
+    expected = "a point (x, y) in metres"
+    items = _items(name, value, expected)
+    if len(items) != 2:
+        raise wrong(name, value, expected)
+    x, y = (_coordinate(name, item, expected) for item in items)
+    return x, y
+
+
+def pose(name: str, value: object) -> tuple[float, float, float]:
+    """Check a pose (x [m], y [m], theta [rad]); a point (x, y) has theta 0."""
+    expected = "a pose (x, y, theta) in metres and radians"
+    items = _items(name, value, expected)
+    if len(items) not in (2, 3):
+        raise wrong(name, value, expected)
+    x, y, theta = (_coordinate(name, item, expected) for item in (*items, 0.0)[:3])
+    return x, y, theta
+
+
+def outline(name: str, value: object, least: int = 2) -> Outline:
+    """Check an outline: two vertices a wall, more a closed polygon that does not cross itself."""
+    what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
+    expected = f"{what}, as [(x, y), ...] in metres"
+    items = _items(name, value, expected)
+    points = [point(f"{name}[{i}]", item) for i, item in enumerate(items)]
+    if len(points) > 2 and points[0] == points[-1]:
+        points.pop()  # a ring written closed
+    if len(points) < least:
+        raise wrong(name, value, f"{expected}, at least {least} different ones")
+    for i, (a, b) in enumerate(pairwise([*points, points[0]] if len(points) > 2 else points)):
+        if np.hypot(a[0] - b[0], a[1] - b[1]) < 1e-6:
+            raise InputError(f"{name}: vertices {i} and {(i + 1) % len(points)} are the same, {a}")
+    if len(points) > 2:
+        _check_ring(name, points)
+    return tuple(points)
+
+
+def _check_ring(name: str, points: list[Point]) -> None:
+    """Refuse a polygon that crosses itself or has no area."""
+    import shapely
+
+    ring = shapely.Polygon(points)
+    straight = np.linalg.matrix_rank(np.diff(np.array(points), axis=0), tol=1e-9) < 2
+    if not ring.is_valid and not straight:
+        reason = shapely.is_valid_reason(ring)  # as "Self-intersection[1 1]"
+        place = reason.partition("[")[2].rstrip("]").replace(" ", ", ")
+        raise InputError(
+            f"{name}: the polygon crosses or touches itself at ({place}): "
+            "list its vertices in order round the outline"
+        )
+    if straight or ring.area < 1e-9:
+        raise wrong(name, points, "a polygon with an area; its vertices lie on one line")
+
+
+def outlines(name: str, value: object) -> tuple[Outline, ...]:
+    """Check a list of outlines."""
+    items = _items(name, value, "a list of outlines, each [(x, y), ...] in metres")
+    if items and _is_point(items[0]):
+        raise wrong(name, value, "a list of outlines: put one more pair of brackets round it")
+    return tuple(outline(f"{name}[{i}]", item) for i, item in enumerate(items))
+
+
+def _is_point(value: object) -> bool:
+    try:
+        first = next(iter(value))  # type: ignore[call-overload]
+    except (TypeError, StopIteration):
+        return False
+    return isinstance(first, (int, float, np.number))
+
+
+def instance(kind: type, example: str) -> Check:
+    """Return a check for one object of a class."""
+
+    def check(name: str, value: object) -> object:
+        if isinstance(value, type) and issubclass(value, kind):
+            raise InputError(f"{name} = {value.__name__}: expected an object; write {value.__name__}(...)")
+        if not isinstance(value, kind):
+            raise wrong(name, value, f"a {kind.__name__}, as {example}")
+        return value
+
+    return check
+
+
+def listing(kind: type, example: str) -> Check:
+    """Return a check for a list of objects of a class, kept as a tuple."""
+
+    def check(name: str, value: object) -> tuple[Any, ...]:
+        if isinstance(value, kind):
+            raise InputError(f"{name} = {shown(value)}: expected a list; write [{shown(value)}]")
+        items = _items(name, value, f"a list, as [{example}]")
+        each = instance(kind, example)
+        return tuple(each(f"{name}[{i}]", item) for i, item in enumerate(items))
+
+    return check

@@ -1,0 +1,63 @@
+"""The errors that MARS2D raises, each written for the person who can mend it."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from mars2d.record import Record
+
+__all__ = ["InputError", "LawError", "Mars2dError", "MissingExtra", "nearest"]
+
+
+class Mars2dError(Exception):
+    """The root of all errors of this package.
+
+    where: the file and line that the error points at, as ``walk.py, line 12``, or None.
+    record: what was recorded until then, when the error ended a run, else None.
+    """
+
+    where: str | None = None
+    record: Record | None = None
+
+    def __str__(self) -> str:
+        text = super().__str__()
+        return f"{self.where}: {text}" if self.where else text
+
+
+class InputError(Mars2dError, ValueError):
+    """Something that was given can't be used; the message names it and says what was expected."""
+
+
+class LawError(InputError):
+    """A control law, sensor or add-on of the user's raised, or returned what can't be used."""
+
+
+class MissingExtra(InputError):
+    """An optional library is needed and not installed; the message holds the pip line."""
+
+
+def nearest(name: object, known: Iterable[str]) -> str:
+    """Return ``"; did you mean 'known'?"`` for the known name nearest to `name`, or a list of all.
+
+    >>> nearest("diametr", ["diameter", "mass"])
+    "; did you mean 'diameter'?"
+    >>> nearest("xyz", ["diameter", "mass"])
+    '; known: diameter, mass'
+    """
+    names = sorted(known)
+    close = difflib.get_close_matches(str(name), names, n=1, cutoff=0.6)
+    if close:
+        return f"; did you mean {close[0]!r}?"
+    return f"; known: {', '.join(names)}" if names else ""
+
+
+def shown(value: Any, limit: int = 60) -> str:
+    """Return `value` as it is quoted in a message: its repr, cut to `limit` characters."""
+    try:
+        text = " ".join(repr(value).split())
+    except Exception as error:  # a user's own __repr__ may be what is broken
+        text = f"<{type(value).__name__} whose repr raises {type(error).__name__}>"
+    return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -1,0 +1,114 @@
+"""One instant of an experiment as it is seen, live or recorded, and the scene made of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.scenario import Robot, Scenario
+from mars2d.scene import Scene, faded
+
+__all__ = ["Frame", "background", "initial_poses", "robots", "sensors", "trails"]
+
+Float = NDArray[np.float64]
+
+INK = "#3d4852"
+OBSTACLE = "#b8c0c8"
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """What is seen at one instant.
+
+    pose: (3, n) now. path: (k, 3, n), the poses at the sampling times so far, the first one being
+    the start. readings: for each sensor's name the pairs (robot index, reading). draw_addons: adds
+    the add-ons' shapes to a scene, where they are alive.
+    """
+
+    scenario: Scenario
+    time: float
+    iteration: int
+    pose: Float
+    path: Float
+    readings: Mapping[str, Sequence[tuple[int, Any]]] = field(default_factory=dict)
+    over_message: str = ""
+    draw_addons: Callable[[Scene], None] | None = None
+
+
+def background(scenario: Scenario) -> Scene:
+    """Return what never moves: the workspace and the obstacles."""
+    scene = Scene()
+    if scenario.workspace is not None:
+        wall = scenario.on_exit == "wall"
+        scene.polygon(
+            scenario.workspace,
+            fill="#ffffff",
+            stroke=INK if wall else faded(INK, 0.55),
+            width=2.5 if wall else 1.2,
+        )
+    for outline in scenario.obstacles:
+        if len(outline) == 2:
+            scene.line(outline, stroke=INK, width=2.5)
+        else:
+            scene.polygon(outline, fill=OBSTACLE, stroke=INK, width=1.5)
+    return scene
+
+
+def trails(frame: Frame) -> Scene:
+    """Return the paths of the robots so far, as the animation's wake style says."""
+    scene = Scene()
+    style = frame.scenario.animation.wake_style
+    for i, color in enumerate(frame.scenario.colors):
+        path = np.vstack([frame.path[:, :2, i], frame.pose[None, :2, i]])
+        scene.line(path, stroke=faded(color, 0.85), width=1.6, style=style)
+    return scene
+
+
+def initial_poses(scenario: Scenario) -> Scene:
+    """Return the robots at their starts, hollow."""
+    scene = Scene()
+    for robot, pose, color in zip(
+        scenario.robots, scenario.initial_pose.T, scenario.colors, strict=True
+    ):
+        _robot(scene, scenario, robot, pose, fill=None, stroke=faded(color, 0.8))
+    return scene
+
+
+def robots(frame: Frame) -> Scene:
+    """Return the robots where they are, filled."""
+    scene = Scene()
+    scenario = frame.scenario
+    for robot, pose, color in zip(scenario.robots, frame.pose.T, scenario.colors, strict=True):
+        _robot(scene, scenario, robot, pose, fill=color, stroke="#ffffff")
+    return scene
+
+
+def _robot(
+    scene: Scene, scenario: Scenario, robot: Robot, pose: Float, fill: str | None, stroke: str
+) -> None:
+    """Draw a robot: its disc with a line from the centre of rotation to the front, or a point."""
+    x, y, theta = pose.tolist()
+    if not scenario.animation.show_real_shape:
+        scene.circle((x, y), 0.0, fill=fill, stroke=stroke, pixels=5.0)
+        return
+    c, s = np.cos(theta), np.sin(theta)
+    offset, r = robot.center_offset, robot.radius
+    center = (x - offset * c, y - offset * s)
+    scene.circle(center, r, fill=fill, stroke=stroke, width=1.5)
+    front = (center[0] + r * c, center[1] + r * s)
+    scene.line([(x, y), front], stroke=stroke if fill is None else "#ffffff", width=2.5)
+
+
+def sensors(frame: Frame) -> Scene:
+    """Return what the sensors see, each drawn by itself."""
+    scene = Scene()
+    for i, robot in enumerate(frame.scenario.robots):
+        for sensor in robot.sensors:
+            for index, reading in frame.readings.get(sensor.key, ()):
+                if index == i:
+                    sensor.draw(scene, frame.pose[:, i], reading, frame.scenario.colors[i])
+    return scene

@@ -1,0 +1,78 @@
+"""Plane geometry and the kinematics of the drives, in numpy alone.
+
+Lengths in metres, angles in radians, counter-clockwise from +x.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["bounds_of", "chord", "inside_polygon", "point_segment_distance", "wrap"]
+
+Float = NDArray[np.float64]
+Point = tuple[float, float]
+Outline = tuple[Point, ...]
+
+
+def wrap(angle: ArrayLike) -> Float:
+    """Return the angle(s) in (-pi, pi].
+
+    >>> float(wrap(3 * np.pi))
+    3.141592653589793
+    """
+    return np.asarray(-((np.pi - np.asarray(angle, dtype=float)) % (2 * np.pi) - np.pi))
+
+
+def chord(v: ArrayLike, omega: ArrayLike, h: ArrayLike) -> Float:
+    """Return the exact displacement of a unicycle over h seconds, in its own frame.
+
+    v: m/s, omega: rad/s, h: s; scalars or arrays (n,). Returns (2, n) metres, or (2,).
+    Source: the arc of radius v/omega seen as its chord, of length v h sinc(omega h / 2) in the
+    direction omega h / 2.
+    """
+    half = np.asarray(omega, dtype=float) * h / 2
+    length = np.asarray(v, dtype=float) * h * np.sinc(half / np.pi)
+    return np.array([length * np.cos(half), length * np.sin(half)])
+
+
+def bounds_of(points: Sequence[Point] | Float) -> tuple[float, float, float, float]:
+    """Return (xmin, xmax, ymin, ymax) of points (k, 2), in the order of MARS's Bounds."""
+    xy = np.asarray(points, dtype=float)
+    (xmin, ymin), (xmax, ymax) = xy.min(axis=0), xy.max(axis=0)
+    return float(xmin), float(xmax), float(ymin), float(ymax)
+
+
+def inside_polygon(x: Float, y: Float, polygon: Float) -> NDArray[np.bool_]:
+    """Return which points (n,) lie inside a closed polygon (k, 2), by the crossing rule.
+
+    The polygon need not be convex. A point exactly on the boundary may fall on either side.
+    """
+    x1, y1 = polygon.T
+    x2, y2 = np.roll(polygon, -1, axis=0).T
+    px, py = x[:, None], y[:, None]
+    spans = (y1 > py) != (y2 > py)
+    rise = np.where(y2 == y1, 1.0, y2 - y1)
+    crosses = spans & (px < x1 + (py - y1) * (x2 - x1) / rise)
+    return np.asarray(crosses.sum(axis=1) % 2 == 1)
+
+
+def point_segment_distance(px: Float, py: Float, segments: Float) -> Float:
+    """Return the distances from points to segments, metres.
+
+    px, py: (...,) broadcast against segments (..., 4) = x1, y1, x2, y2.
+    """
+    x1, y1, x2, y2 = np.moveaxis(segments, -1, 0)
+    ex, ey = x2 - x1, y2 - y1
+    along = ((px - x1) * ex + (py - y1) * ey) / (ex * ex + ey * ey)
+    along = np.minimum(np.maximum(along, 0.0), 1.0)
+    return np.asarray(np.hypot(px - x1 - along * ex, py - y1 - along * ey))
+
+
+def edges_of(outline: Outline) -> list[tuple[Point, Point]]:
+    """Return the edges of an outline: one for two vertices (a wall), else the closed ring's."""
+    if len(outline) == 2:
+        return [(outline[0], outline[1])]
+    return list(zip(outline, (*outline[1:], outline[0]), strict=True))

@@ -1,0 +1,206 @@
+"""What to draw, never how: shapes in world coordinates, in the order they lie on each other.
+
+The window, the films and the figures all paint the same `Scene`. Positions and sizes are metres,
+line widths and text heights are points of the screen or page. Colours are ``#rrggbb`` or, with
+opacity, ``#rrggbbaa``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.errors import InputError, nearest
+from mars2d.geometry import Outline
+
+__all__ = ["PALETTE", "Circle", "Line", "Polygon", "Scene", "Text", "color", "faded", "wake_style"]
+
+Anchor = Literal["center", "left", "right", "above", "below"]
+
+# Okabe & Ito's colours, distinguishable with every common colour vision deficiency (2008).
+PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#5f4b8b", "#444444")
+
+_NAMED = {
+    "black": "#000000", "white": "#ffffff", "gray": "#808080", "grey": "#808080",
+    "red": "#d62728", "green": "#2ca02c", "blue": "#1f77b4", "orange": "#ff7f0e",
+    "purple": "#9467bd", "brown": "#8c564b", "pink": "#e377c2", "cyan": "#17becf",
+    "magenta": "#c2187f", "yellow": "#e8c500",
+    # Matlab's one-letter colours, as MARS's Base_colors uses them
+    "k": "#000000", "r": "#d62728", "g": "#2ca02c", "b": "#1f77b4", "m": "#c2187f",
+    "c": "#17becf", "y": "#e8c500", "w": "#ffffff",
+}  # fmt: skip
+
+WAKE_LINES = ("--", "-.", "-", ":")
+WAKE_MARKERS = (".", "o", "x", "+", "*", "s")
+
+
+def color(name: str, value: object) -> str:
+    """Return a colour as ``#rrggbb`` or ``#rrggbbaa``; field `name` is for the error message."""
+    if isinstance(value, str):
+        lower = value.strip().lower()
+        if lower in _NAMED:
+            return _NAMED[lower]
+        digits = lower.removeprefix("#")
+        if lower.startswith("#") and all(c in "0123456789abcdef" for c in digits):
+            if len(digits) in (6, 8):
+                return lower
+            if len(digits) == 3:
+                return "#" + "".join(2 * c for c in digits)
+    hint = nearest(value, [k for k in _NAMED if len(k) > 1]) if isinstance(value, str) else ""
+    raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
+
+
+def faded(value: str, opacity: float) -> str:
+    """Return the colour ``#rrggbb`` at an opacity from 0 to 1."""
+    return f"{value[:7]}{round(255 * opacity):02x}"
+
+
+def wake_style(name: str, value: object) -> str:
+    """Check a wake style: a line style of Matlab's plot, a marker, or both, as ``-`` or ``o--``."""
+    if isinstance(value, str):
+        rest = value
+        for mark in WAKE_MARKERS:
+            if rest.startswith(mark) and rest not in WAKE_LINES:
+                rest = rest[1:]
+                break
+        if value and rest in ("", *WAKE_LINES):
+            return value
+    raise InputError(
+        f"{name} = {value!r}: expected a line style ({' '.join(WAKE_LINES)}), "
+        f"a marker ({' '.join(WAKE_MARKERS)}), or a marker and a line style, as 'o--'"
+    )
+
+
+def split_wake_style(style: str) -> tuple[str, str]:
+    """Return (marker, line) of a checked wake style; either may be empty."""
+    if style in WAKE_LINES:
+        return "", style
+    return style[0], style[1:]
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A disc or ring: centre (x, y) and radius in metres; `pixels` adds to the radius on screen."""
+
+    center: tuple[float, float]
+    radius: float
+    fill: str | None = None
+    stroke: str | None = None
+    width: float = 1.0
+    pixels: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Polygon:
+    """A closed outline, not necessarily convex: vertices (k, 2) in metres."""
+
+    points: NDArray[np.float64]
+    fill: str | None = None
+    stroke: str | None = None
+    width: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A polyline through points (k, 2) in metres. `style` is that of MARS's wake, as ``o--``."""
+
+    points: NDArray[np.float64]
+    stroke: str
+    width: float = 1.0
+    style: str = "-"
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A label at a point (x, y) in metres; `size` is its height in points."""
+
+    position: tuple[float, float]
+    text: str
+    color: str = "#333333"
+    size: float = 12.0
+    anchor: Anchor = "center"
+
+
+Shape = Circle | Polygon | Line | Text
+
+
+@dataclass(slots=True)
+class Scene:
+    """A list of shapes, the first lying lowest. The methods take what is at hand and add a shape."""
+
+    shapes: list[Shape] = field(default_factory=list)
+
+    def circle(
+        self,
+        center: ArrayLike,
+        radius: float,
+        *,
+        fill: str | None = None,
+        stroke: str | None = None,
+        width: float = 1.0,
+        pixels: float = 0.0,
+    ) -> None:
+        """Add a disc (`fill`), a ring (`stroke`), or both."""
+        x, y = np.asarray(center, dtype=float)[:2].tolist()
+        self.shapes.append(Circle((x, y), float(radius), fill, stroke, width, pixels))
+
+    def polygon(
+        self,
+        points: ArrayLike | Outline,
+        *,
+        fill: str | None = None,
+        stroke: str | None = None,
+        width: float = 1.0,
+    ) -> None:
+        """Add a closed outline through points (k, 2)."""
+        self.shapes.append(Polygon(_points(points), fill, stroke, width))
+
+    def line(
+        self, points: ArrayLike | Outline, *, stroke: str, width: float = 1.0, style: str = "-"
+    ) -> None:
+        """Add a polyline through points (k, 2)."""
+        self.shapes.append(Line(_points(points), stroke, width, style))
+
+    def text(
+        self,
+        position: Sequence[float] | NDArray[np.float64],
+        text: str,
+        *,
+        color: str = "#333333",
+        size: float = 12.0,
+        anchor: Anchor = "center",
+    ) -> None:
+        """Add a label."""
+        x, y = np.asarray(position, dtype=float)[:2].tolist()
+        self.shapes.append(Text((x, y), str(text), color, size, anchor))
+
+    def sector(
+        self,
+        pose: ArrayLike,
+        radius: float,
+        angle: float,
+        *,
+        fill: str | None = None,
+        stroke: str | None = None,
+        width: float = 1.0,
+    ) -> None:
+        """Add a field of view: a sector of `angle` radians about the heading of a pose (3,)."""
+        if angle >= 2 * np.pi:
+            self.circle(pose, radius, fill=fill, stroke=stroke, width=width)
+            return
+        x, y, theta = np.asarray(pose, dtype=float).tolist()
+        steps = theta + np.linspace(-angle / 2, angle / 2, max(2, int(angle / 0.1) + 2))
+        arc = np.column_stack([x + radius * np.cos(steps), y + radius * np.sin(steps)])
+        self.polygon(np.vstack([[x, y], arc]), fill=fill, stroke=stroke, width=width)
+
+    def extend(self, shapes: Iterable[Shape]) -> None:
+        """Add the shapes of another scene."""
+        self.shapes.extend(shapes)
+
+
+def _points(points: ArrayLike | Outline) -> NDArray[np.float64]:
+    return np.asarray(points, dtype=float).reshape(-1, 2)

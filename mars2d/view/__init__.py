@@ -1,0 +1,1 @@
+"""The window and the pictures, drawn with pygame."""
