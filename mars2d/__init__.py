@@ -1,4 +1,39 @@
-"""MARS2D: teams of mobile robots in the plane, with real contact physics."""
-__version__ = "0.1.0"
-from mars2d.bodies import Holonomic, Unicycle
+"""MARS2D: teams of mobile robots in the plane, with real contact physics.
+
+>>> import mars2d
+>>> record = mars2d.run("random_walk", stop_time=10)
+>>> record.pose.shape
+(11, 3, 2)
+"""
+
+from __future__ import annotations
+
+from mars2d.addons import Addon
+from mars2d.bodies import Drive, Holonomic, Unicycle
+from mars2d.errors import InputError, LawError, Mars2dError
+from mars2d.loop import run
+from mars2d.record import Record, load
 from mars2d.scenario import Animation, Robot, Scenario
+from mars2d.sensors import Sensor
+from mars2d.world import World
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Addon",
+    "Animation",
+    "Drive",
+    "Holonomic",
+    "InputError",
+    "LawError",
+    "Mars2dError",
+    "Record",
+    "Robot",
+    "Scenario",
+    "Sensor",
+    "Unicycle",
+    "World",
+    "__version__",
+    "load",
+    "run",
+]

@@ -1,0 +1,242 @@
+"""Control laws: what a law may see, how it is called, and what it may return."""
+
+from __future__ import annotations
+
+import inspect
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.errors import InputError, LawError, nearest, shown
+
+if TYPE_CHECKING:
+    from mars2d.world import World
+
+__all__ = ["Law", "Neighbour", "RobotView", "SensorsOnlyView", "Sense", "called"]
+
+Float = NDArray[np.float64]
+
+_PACKAGE = Path(__file__).parent
+
+
+class Sense(SimpleNamespace):
+    """The readings of one robot's sensors now, as attributes: ``robot.sense.proximity``."""
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise LawError(f"this robot has no sensor {name!r}{nearest(name, vars(self))}")
+
+
+class Neighbour:
+    """Another robot, as far as it is seen: its index, name and pose (3,)."""
+
+    def __init__(self, world: World, index: int) -> None:
+        self._world = world
+        self.index = index
+
+    @property
+    def name(self) -> str:
+        """The other robot's name."""
+        return str(self._world.scenario.robots[self.index].name)
+
+    @property
+    def pose(self) -> Float:
+        """The other robot's pose (3,): x, y [m], theta [rad]."""
+        return self._world.pose[:, self.index]
+
+
+class RobotView:
+    """What the law of one robot may see and use, with full information.
+
+    index: its column in poses and commands. sense: the readings of its sensors. memory: a place to
+    keep things between steps. rng: its own random stream.
+    """
+
+    def __init__(self, world: World, index: int, sense: Sense) -> None:
+        self._world = world
+        self.index = index
+        self.sense = sense
+        self.memory = SimpleNamespace()
+        self._rng: np.random.Generator | None = None
+        self._neighbours: tuple[Neighbour, ...] | None = None
+
+    def __getattr__(self, name: str) -> NoReturn:
+        known = [item for item in dir(type(self)) if not item.startswith("_")]
+        raise LawError(f"a robot has no {name!r}{nearest(name, [*known, 'index', 'sense', 'memory'])}")
+
+    @property
+    def name(self) -> str:
+        """The robot's name."""
+        return str(self._world.scenario.robots[self.index].name)
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds."""
+        return self._world.time
+
+    @property
+    def pose(self) -> Float:
+        """The robot's own pose (3,): x, y [m], theta [rad, not wrapped]."""
+        return self._world.pose[:, self.index]
+
+    @property
+    def command(self) -> Float:
+        """The last command (2,) that was issued, after saturation; zeros at first."""
+        return self._world.command[:, self.index]
+
+    @property
+    def neighbours(self) -> tuple[Neighbour, ...]:
+        """The other robots."""
+        if self._neighbours is None:
+            others = (i for i in range(len(self._world.scenario.robots)) if i != self.index)
+            self._neighbours = tuple(Neighbour(self._world, i) for i in others)
+        return self._neighbours
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """The contacts of this robot since the last step: rows as in ``record.contacts``."""
+        rows = self._world.contacts
+        return rows[(rows["a"] == self.index) | (rows["b"] == self.index)]
+
+    @property
+    def rng(self) -> np.random.Generator:
+        """The robot's own random stream."""
+        if self._rng is None:
+            self._rng = self._world.stream(f"robot {self.name}")
+        return self._rng
+
+
+class SensorsOnlyView(RobotView):
+    """What a law may use that sees sensors only: neither its pose nor other robots."""
+
+    @property
+    def pose(self) -> Float:
+        """Refuse: a pose is not sensed."""
+        raise LawError("this law sees sensors only: robot.pose is not available")
+
+    @property
+    def neighbours(self) -> tuple[Neighbour, ...]:
+        """Refuse: neighbours are not sensed."""
+        raise LawError("this law sees sensors only: robot.neighbours is not available")
+
+
+class Law:
+    """A control law: a function, or a generator that yields commands and keeps its own memory.
+
+    A generator is started at the first step. When it returns, its robots stand still.
+    """
+
+    def __init__(self, function: Callable[[Any], Any], subject: World | RobotView) -> None:
+        """Take the user's function, and what it is called with."""
+        self._function = function
+        self._subject = subject
+        self._running: Iterator[Any] | None = None
+        self.name = getattr(function, "__name__", type(function).__name__)
+
+    def command(self) -> Any:
+        """Return what the law commands now, unchecked. Raises LawError where the law raises."""
+        with called(self.name):
+            if self._running is None:
+                result = self._function(self._subject)
+                if not inspect.isgenerator(result):
+                    return result
+                self._running = result
+            return next(self._running, (0.0, 0.0))
+
+    def refuse(self, message: str) -> NoReturn:
+        """Raise the error that the law's command can't be used, pointing at the law's definition."""
+        error = LawError(f"{self.name} {message}")
+        code = getattr(inspect.unwrap(self._function), "__code__", None)
+        if code is not None:
+            error.where = _place(code.co_filename, code.co_firstlineno)
+        raise error
+
+
+class called:  # noqa: N801 - used like a function, as contextlib's are
+    """Run the user's code so that what it raises becomes a LawError with its file and line."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, tb: Any) -> None:
+        if error is None or not isinstance(error, Exception):
+            return  # nothing, or Ctrl-C
+        where = None
+        for step in traceback.extract_tb(tb):
+            if not Path(step.filename).is_relative_to(_PACKAGE) or "examples" in step.filename:
+                if not step.filename.startswith("<") and step.lineno and _is_users(step.filename):
+                    where = _place(step.filename, step.lineno)
+        if isinstance(error, LawError):
+            error.where = error.where or where
+            return
+        message = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
+        wrapped = LawError(f"{self._name} raised {message}")
+        wrapped.where = where
+        raise wrapped from error
+
+
+def _is_users(filename: str) -> bool:
+    return "site-packages" not in filename and not filename.startswith("<frozen")
+
+
+def _place(filename: str, line: int) -> str:
+    return f"{Path(filename).name}, line {line}"
+
+
+def robot_command(law: Law, value: Any) -> tuple[float, float]:
+    """Check the command of one robot: two finite numbers."""
+    if value is None:
+        law.refuse("returned nothing: a law returns its command, as `return v, omega`")
+    try:
+        first, second = value
+        pair = float(first), float(second)
+    except (TypeError, ValueError):
+        law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
+    if not (np.isfinite(pair[0]) and np.isfinite(pair[1])):
+        law.refuse(f"returned {shown(pair)}: a command must be finite")
+    return pair
+
+
+def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> Float:
+    """Check the command of all robots: a finite array (2, n); for one robot also (2,)."""
+    if value is None:
+        refuse("returned nothing: a law returns its command, an array (2, n)")
+    expected = f"expected two rows and a column for each robot, shape (2, {robots})"
+    try:
+        command = np.array(value, dtype=float)
+    except (TypeError, ValueError):
+        refuse(f"returned {shown(value)}: {expected}")
+    if command.shape == (2,) and robots == 1:
+        command = command.reshape(2, 1)
+    if command.shape != (2, robots):
+        turned = "; transpose it" if command.shape == (robots, 2) else ""
+        refuse(f"returned an array of shape {command.shape}: {expected}{turned}")
+    if not np.isfinite(command).all():
+        row, column = np.argwhere(~np.isfinite(command))[0]
+        refuse(f"returned {command[row, column]} for robot {column}: a command must be finite")
+    return command
+
+
+def commands(
+    central: Law | None, own: Sequence[Law | None], idle: Float
+) -> Float:
+    """Ask all laws for their commands and return them as one array (2, n).
+
+    central: the law of the whole team, if there is one; own: each robot's own law, which overrides
+    its column; idle: zeros (2, n), for robots without a law.
+    """
+    if central is None:
+        command = idle.copy()
+    else:
+        command = team_command(central.command(), idle.shape[1], central.refuse)
+    for i, law in enumerate(own):
+        if law is not None:
+            command[:, i] = robot_command(law, law.command())
+    return command

@@ -1,0 +1,225 @@
+"""Experiments: from a file, a shipped example, a module or a Scenario to what can be run."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import importlib.util
+import inspect
+import itertools
+import sys
+import traceback
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from mars2d.description import Description
+from mars2d.errors import InputError, Mars2dError, nearest, shown
+from mars2d.scenario import Scenario
+
+__all__ = ["Experiment", "examples", "open_experiment", "parse_setting"]
+
+_counter = itertools.count()
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A scenario and the law of its team; `filename` is where they came from, or empty."""
+
+    scenario: Scenario
+    control: Callable[[Any], Any] | None = None
+    filename: str = ""
+
+
+def examples() -> dict[str, Path]:
+    """Return the shipped examples: name to file."""
+    package = Path(__file__).parent
+    for folder in (package / "examples", package.parent / "examples"):  # a wheel's, a checkout's
+        if folder.is_dir():
+            files = sorted(folder.glob("*.py"))
+            return {file.stem: file for file in files if not file.stem.startswith("_")}
+    return {}
+
+
+def open_experiment(
+    source: str | Path | ModuleType | Scenario,
+    options: Mapping[str, Any] | None = None,
+    control: Callable[[Any], Any] | None = None,
+) -> Experiment:
+    """Return the experiment that `source` names, with its fields overridden by `options`.
+
+    source: a file, the name of a shipped example, a module, or a Scenario. options: dotted names
+    of fields, or keyword parameters of a scenario function, with their values. control: the law of
+    the team, in place of the experiment's own. Raises InputError, which points at file and line.
+    """
+    options = dict(options or {})
+    if isinstance(source, Scenario):
+        return Experiment(_override(source, options), control)
+    if isinstance(source, ModuleType):
+        module, name = source, getattr(source, "__file__", None) or source.__name__
+    elif isinstance(source, (str, Path)):
+        path = _find(source)
+        module, name = _load(path), str(path)
+    else:
+        raise InputError(
+            f"experiment = {shown(source)}: expected a file, the name of an example, or a Scenario"
+        )
+    try:
+        scenario = _scenario_of(module, options)
+        own = getattr(module, "control", None)
+        if own is not None and not callable(own):
+            raise InputError(f"control = {shown(own)}: expected a function of the world")
+    except Mars2dError as error:
+        error.where = error.where or Path(name).name
+        raise
+    return Experiment(scenario, control if control is not None else own, name)
+
+
+def _find(source: str | Path) -> Path:
+    path = Path(source)
+    if path.is_file():
+        return path
+    known = examples()
+    if str(source) in known:
+        return known[str(source)]
+    if path.is_dir():
+        raise InputError(f"{path}: a folder; expected an experiment, a file that ends in .py")
+    beside = [str(p) for p in path.parent.glob("*.py")] if path.parent.is_dir() else []
+    kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
+    hint = nearest(str(source), [*beside, *known])
+    raise InputError(f"{source}: there is no such {kind}{hint if 'did you' in hint else ''}")
+
+
+def _load(path: Path) -> ModuleType:
+    """Run an experiment's file as a module of its own, which no other one can see."""
+    if path.suffix != ".py":
+        raise InputError(f"{path}: expected an experiment, a file that ends in .py")
+    name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module  # dataclasses and pickles look a class's module up by its name
+    try:
+        spec.loader.exec_module(module)
+    except SyntaxError as error:
+        problem = InputError(f"{error.msg}: {(error.text or '').strip()}")
+        problem.where = f"{Path(error.filename or path).name}, line {error.lineno}"
+        raise problem from error
+    except Exception as error:
+        message = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
+        problem = InputError(message)
+        problem.where = _line_in(error, path)
+        raise problem from error
+    finally:
+        sys.modules.pop(name, None)
+    return module
+
+
+def _line_in(error: BaseException, path: Path) -> str:
+    """Return the place in `path` that an error passed through."""
+    lines = [
+        step.lineno
+        for step in traceback.extract_tb(error.__traceback__)
+        if Path(step.filename) == path
+    ]
+    return f"{path.name}, line {lines[-1]}" if lines else path.name
+
+
+def _scenario_of(module: ModuleType, options: dict[str, Any]) -> Scenario:
+    """Return a module's scenario, made by its scenario function if it has one."""
+    names = [name for name in vars(module) if not name.startswith("__")]
+    if not hasattr(module, "scenario"):
+        close = nearest("scenario", names)
+        raise InputError(
+            "has no `scenario`: an experiment's file needs `scenario = Scenario(...)`"
+            + (close if "did you" in close else "")
+        )
+    scenario = module.scenario
+    if callable(scenario) and not isinstance(scenario, Scenario):
+        scenario = _call_scenario(scenario, options)
+    if not isinstance(scenario, Scenario):
+        raise InputError(f"scenario = {shown(scenario)}: expected a Scenario, or a function of one")
+    return _override(scenario, options)
+
+
+def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any:
+    """Call a scenario function with those of the options that are its parameters."""
+    parameters = inspect.signature(function).parameters
+    chosen = {name: options.pop(name) for name in list(options) if name in parameters}
+    fields = {f.name for f in dataclasses.fields(Scenario)}
+    for name in options:
+        if name.partition(".")[0] not in fields:
+            raise InputError(f"there is no option {name!r}{nearest(name, [*parameters, *fields])}")
+    missing = [
+        name
+        for name, p in parameters.items()
+        if p.default is p.empty
+        and name not in chosen
+        and p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)
+    ]
+    if missing:
+        raise InputError(
+            f"scenario({', '.join(parameters)}) needs {missing[0]!r}: give it a default, "
+            f"or set it with --set {missing[0]}=..."
+        )
+    try:
+        return function(**chosen)
+    except Mars2dError:
+        raise
+    except Exception as error:
+        problem = InputError(f"{function.__name__}() raised {type(error).__name__}: {error}")
+        code = getattr(function, "__code__", None)
+        if code is not None:
+            problem.where = _line_in(error, Path(code.co_filename))
+        raise problem from error
+
+
+def _override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
+    for name, value in options.items():
+        scenario = _replaced(scenario, str(name).split("."), value, str(name))
+    return scenario
+
+
+def _replaced(target: Any, path: list[str], value: Any, whole: str) -> Any:
+    """Return `target` with the field at the dotted `path` set; ``*`` stands for all items of a list."""
+    if not path:
+        return value
+    first, rest = path[0], path[1:]
+    if isinstance(target, tuple):
+        chosen = range(len(target)) if first == "*" else [_index(first, len(target), whole)]
+        return tuple(
+            _replaced(item, rest, value, whole) if i in chosen else item
+            for i, item in enumerate(target)
+        )
+    if isinstance(target, Description):
+        fields = [f.name for f in dataclasses.fields(target)]
+        if first not in fields:
+            raise InputError(
+                f"there is no option {whole!r}: {type(target).__name__} has no field {first!r}"
+                f"{nearest(first, fields)}"
+            )
+        return target.replace(**{first: _replaced(getattr(target, first), rest, value, whole)})
+    raise InputError(f"there is no option {whole!r}: {shown(target)} has no fields")
+
+
+def _index(text: str, length: int, whole: str) -> int:
+    if not text.isdigit() or int(text) >= length:
+        raise InputError(f"there is no option {whole!r}: expected * or 0 to {length - 1}, not {text!r}")
+    return int(text)
+
+
+def parse_setting(text: str) -> tuple[str, Any]:
+    """Return (name, value) of a setting ``name=value`` from the command line.
+
+    The value is a Python literal, as ``0.5``, ``True`` or ``(1, 2)``; anything else is text.
+    """
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip():
+        raise InputError(f"--set {text}: expected NAME=VALUE, as --set sampling_time=0.5")
+    try:
+        return name.strip(), ast.literal_eval(value.strip())
+    except (ValueError, SyntaxError, MemoryError, RecursionError):
+        return name.strip(), value.strip()

@@ -1,0 +1,195 @@
+"""What happened: the columns of a run over time, and how they are kept."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d import plain
+from mars2d.contact import CONTACT
+from mars2d.errors import InputError
+from mars2d.frame import Frame
+from mars2d.scenario import Scenario
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["FORMAT", "Record", "load"]
+
+Float = NDArray[np.float64]
+
+FORMAT = 1
+"""The version of the file format; files of a higher one are refused."""
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """All data of a run. Row k of a column is the world at ``time[k]`` = k sampling times.
+
+    time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, 2, n), issued at
+    ``time``, after saturation; it takes effect at command_time (T,). sensors: for each sensor's
+    name an array (T, m, ...) of readings, of the m robots in ``sensor_robots[name]``. contacts:
+    one row a pair and control step, with the fields of `mars2d.contact.CONTACT`. over_message: why
+    the run ended. finished: False when an error or Ctrl-C ended it.
+    """
+
+    scenario: Scenario
+    seed: int
+    time: Float
+    pose: Float
+    command: Float
+    command_time: Float
+    sensors: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    sensor_robots: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    contacts: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=CONTACT))
+    over_message: str = ""
+    finished: bool = True
+    filename: str = ""
+    versions: Mapping[str, str] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        rows, robots = len(self), len(self.scenario.robots)
+        return f"<Record of {self.scenario.title!r}: {rows} rows, {robots} robots, {self.over_message!r}>"
+
+    @cached_property
+    def digest(self) -> str:
+        """The sha256 over all columns: the same for the same run, to the last bit."""
+        sha = hashlib.sha256()
+        for name, column in self._columns().items():
+            sha.update(f"{name} {column.dtype.str} {column.shape} ".encode())
+            sha.update(np.ascontiguousarray(column).tobytes())
+        sha.update(self.over_message.encode())
+        return sha.hexdigest()
+
+    @property
+    def collisions(self) -> int:
+        """How many times two bodies came to touch."""
+        return int(self.contacts["began"].sum())
+
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        """Return all columns under the names that they have in a file."""
+        columns: dict[str, NDArray[Any]] = {
+            "time": self.time,
+            "pose": self.pose,
+            "command": self.command,
+            "command_time": self.command_time,
+        }
+        columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
+        # Field by field, since a structured array holds undefined bytes between its fields.
+        columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
+        return columns
+
+    def frame(self, row: int) -> Frame:
+        """Return what was seen at row `row`, negative ones counting from the end."""
+        row = range(len(self))[row]
+        readings = {
+            name: [(robot, values[row, k]) for k, robot in enumerate(self.sensor_robots[name])]
+            for name, values in self.sensors.items()
+        }
+        return Frame(
+            scenario=self.scenario,
+            time=float(self.time[row]),
+            iteration=row,
+            pose=self.pose[row],
+            path=self.pose[: row + 1],
+            readings=readings,
+            over_message=self.over_message if row == len(self) - 1 else "",
+        )
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the paths: initial poses hollow, final poses filled, obstacles and grid.
+
+        ax: matplotlib axes to draw on; by default those of a new figure. Returns the axes.
+        """
+        from mars2d.output.figure import plot_paths
+
+        return plot_paths(self, ax)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the record to a file ``.npz`` and return its path. Raises InputError if it can't."""
+        path = Path(path)
+        if path.suffix.lower() != ".npz":
+            raise InputError(f"{path}: a record is saved as .npz, this ends in {path.suffix!r}")
+        header = {
+            "format": FORMAT,
+            "scenario": plain.from_description(self.scenario),
+            "seed": self.seed,
+            "over_message": self.over_message,
+            "finished": self.finished,
+            "filename": self.filename,
+            "versions": dict(self.versions),
+            "sensor_robots": {name: list(robots) for name, robots in self.sensor_robots.items()},
+            "digest": self.digest,
+        }
+        text = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+        try:
+            with path.open("wb") as file:
+                np.savez_compressed(file, allow_pickle=False, header=text, **self._columns())
+        except OSError as error:
+            raise InputError(f"{path}: can't be written: {error.strerror}") from error
+        return path
+
+
+def load(path: str | Path) -> Record:
+    """Read a record that `Record.save` wrote. Raises InputError for anything else."""
+    path = Path(path)
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
+            header = json.loads(data["header"].tobytes())
+            columns = {name: data[name] for name in data.files if name != "header"}
+    except OSError as error:
+        raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
+    except (ValueError, KeyError, EOFError, AttributeError, zipfile.BadZipFile) as error:
+        raise InputError(f"{path}: not a record of MARS2D, or damaged ({error})") from error
+    return _assemble(path, header, columns)
+
+
+def _assemble(path: Path, header: Any, columns: dict[str, NDArray[Any]]) -> Record:
+    """Put a record together from what a file held."""
+    try:
+        if header["format"] > FORMAT:
+            raise InputError(
+                f"{path}: written by a newer version of MARS2D, {header['versions']['mars2d']}"
+            )
+        contacts = np.zeros(len(columns["contact:time"]), dtype=CONTACT)
+        for name in CONTACT.names or ():
+            contacts[name] = columns[f"contact:{name}"]
+        record = Record(
+            scenario=plain.to_scenario(header["scenario"]),
+            seed=header["seed"],
+            time=columns["time"],
+            pose=columns["pose"],
+            command=columns["command"],
+            command_time=columns["command_time"],
+            sensors={
+                name.removeprefix("sensor:"): values
+                for name, values in columns.items()
+                if name.startswith("sensor:")
+            },
+            sensor_robots={name: tuple(r) for name, r in header["sensor_robots"].items()},
+            contacts=contacts,
+            over_message=header["over_message"],
+            finished=header["finished"],
+            filename=header["filename"],
+            versions=header["versions"],
+        )
+        damaged = record.digest != header["digest"]
+    except (KeyError, TypeError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"{path}: not a record of MARS2D, or damaged ({error})") from error
+    if damaged:
+        raise InputError(f"{path}: damaged: its columns do not have the digest that it states")
+    return record

@@ -1,0 +1,177 @@
+"""The record while it grows: columns written in place, row by row."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.contact import CONTACT
+from mars2d.errors import LawError, shown
+from mars2d.record import Record
+from mars2d.scenario import Scenario
+
+__all__ = ["History", "Recorder"]
+
+Float = NDArray[np.float64]
+
+
+class _Column:
+    """An array that rows are appended to, its capacity doubling."""
+
+    def __init__(self, shape: tuple[int, ...], dtype: Any, capacity: int) -> None:
+        self._rows = np.zeros((capacity, *shape), dtype=dtype)
+
+    def write(self, row: int, value: Any) -> None:
+        if row >= len(self._rows):
+            grown = np.zeros((2 * len(self._rows), *self._rows.shape[1:]), dtype=self._rows.dtype)
+            grown[:row] = self._rows[:row]
+            self._rows = grown
+        self._rows[row] = value
+
+    def upto(self, count: int) -> NDArray[Any]:
+        view = self._rows[:count]
+        view.flags.writeable = False
+        return view
+
+
+class History:
+    """What has been recorded so far, as views: time (k,), pose (k, 3, n), command (k, 2, n)."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+
+    @property
+    def time(self) -> Float:
+        """Times of the rows, (k,) seconds."""
+        return self._recorder.column("time")
+
+    @property
+    def pose(self) -> Float:
+        """Poses, (k, 3, n)."""
+        return self._recorder.column("pose")
+
+    @property
+    def command(self) -> Float:
+        """Commands issued, (k, 2, n)."""
+        return self._recorder.column("command")
+
+    @property
+    def command_time(self) -> Float:
+        """When each command takes effect, (k,) seconds."""
+        return self._recorder.column("command_time")
+
+    def __len__(self) -> int:
+        return self._recorder.rows
+
+
+class Recorder:
+    """Writes the rows of one run."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        """Take the scenario, which says how many robots and sensors there are."""
+        n = len(scenario.robots)
+        capacity = min(scenario.last_iteration + 1, 4096)
+        self._columns = {
+            "time": _Column((), float, capacity),
+            "pose": _Column((3, n), float, capacity),
+            "command": _Column((2, n), float, capacity),
+            "command_time": _Column((), float, capacity),
+        }
+        self._capacity = capacity
+        self._scenario = scenario
+        self._sensors: dict[str, _Column] = {}
+        self._contacts: list[NDArray[np.void]] = []
+        self.rows = 0
+        self.sensor_robots: dict[str, tuple[int, ...]] = {}
+        for i, robot in enumerate(scenario.robots):
+            for sensor in robot.sensors:
+                self.sensor_robots[sensor.key] = (*self.sensor_robots.get(sensor.key, ()), i)
+
+    def write(
+        self,
+        time: float,
+        pose: Float,
+        command: Float,
+        command_time: float,
+        readings: Mapping[str, Sequence[Any]],
+    ) -> None:
+        """Write one row: the world at `time`."""
+        row = self.rows
+        self._columns["time"].write(row, time)
+        self._columns["pose"].write(row, pose)
+        self._columns["command"].write(row, command)
+        self._columns["command_time"].write(row, command_time)
+        for name, values in readings.items():
+            self._write_readings(row, name, values)
+        self.rows += 1
+
+    def _write_readings(self, row: int, name: str, values: Sequence[Any]) -> None:
+        if name not in self._sensors:
+            self._sensors[name] = self._sensor_column(name, values)
+        try:
+            self._sensors[name].write(row, values)
+        except (TypeError, ValueError) as error:
+            raise LawError(
+                f"sensor {name!r} read {shown(values)}: the shape of a reading can't change ({error})"
+            ) from error
+
+    def _sensor_column(self, name: str, values: Sequence[Any]) -> _Column:
+        """Make the column of a sensor out of its first readings."""
+        try:
+            first = np.asarray(values)
+        except ValueError:
+            first = np.empty(0, dtype=object)
+        if first.dtype.kind not in "bifu":
+            raise LawError(
+                f"sensor {name!r} read {shown(values)}: a reading is a number, True or False, or an "
+                "array of them, of the same shape on each robot (else give the sensors other names)"
+            )
+        # A first reading of 3 may be followed by 3.5: whole numbers are kept as floats.
+        dtype = bool if first.dtype.kind == "b" else float
+        return _Column(first.shape, dtype, self._capacity)
+
+    def write_contacts(self, contacts: NDArray[np.void]) -> None:
+        """Write the contacts of one control step."""
+        if len(contacts):
+            self._contacts.append(contacts)
+
+    def column(self, name: str) -> NDArray[Any]:
+        """Return a column so far, as a view that can't be written."""
+        return self._columns[name].upto(self.rows)
+
+    def record(self, seed: int, over_message: str, finished: bool, filename: str) -> Record:
+        """Return the record so far; what is written later does not change it."""
+        contacts = [np.empty(0, dtype=CONTACT), *self._contacts]
+        return Record(
+            scenario=self._scenario,
+            seed=seed,
+            time=self.column("time").copy(),
+            pose=self.column("pose").copy(),
+            command=self.column("command").copy(),
+            command_time=self.column("command_time").copy(),
+            sensors={k: column.upto(self.rows).copy() for k, column in self._sensors.items()},
+            sensor_robots={k: v for k, v in self.sensor_robots.items() if k in self._sensors},
+            contacts=np.concatenate(contacts),
+            over_message=over_message,
+            finished=finished,
+            filename=filename,
+            versions=versions(),
+        )
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of what a run's numbers depend on."""
+    from mars2d import __version__
+
+    return {
+        "mars2d": __version__,
+        "pymunk": version("pymunk"),
+        "numpy": np.__version__,
+        "python": platform.python_version(),
+        "platform": f"{platform.system()} {platform.machine()}",
+    }

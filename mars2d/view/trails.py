@@ -1,0 +1,161 @@
+"""The paths behind the robots, drawn once and then only prolonged."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.scene import split_wake_style
+from mars2d.view.camera import Camera
+from mars2d.view.painter import Painter, rgba
+from mars2d.view.strokes import DASHES, MARK_SPACING, dashes
+
+__all__ = ["Trails"]
+
+Float = NDArray[np.float64]
+
+STRIDE = 2.0
+"""A path is prolonged when it has grown by this many points of the screen: no dots on top of dots."""
+
+
+class Trails:
+    """Draws growing paths on a surface that keeps them, and their loose ends on another.
+
+    style: the wake style. colors: one a robot, with opacity. width: points. The opacity is worked
+    into the colour, as over white, since strokes that are drawn piece by piece would overlap.
+    """
+
+    def __init__(
+        self, painter: Painter, camera: Camera, style: str, colors: tuple[str, ...], width: float
+    ) -> None:
+        """Start with no path drawn."""
+        self.painter, self.camera, self.width = painter, camera, width
+        self.marker, self.line = split_wake_style(style)
+        self.colors = [_over_white(color) for color in colors]
+        self.drawn = 0
+        self.first: Float | None = None
+        self.last: Float | None = None
+
+    def continues(self, path: Float) -> bool:
+        """Return whether a path (k, 3, n) is what has been drawn, or begins with it."""
+        if self.first is None or self.last is None:
+            return True
+        return (
+            len(path) >= self.drawn
+            and np.array_equal(path[0, :2], self.first)
+            and np.array_equal(path[self.drawn - 1, :2], self.last)
+        )
+
+    def prolong(self, surface: pygame.Surface, path: Float) -> None:
+        """Draw what a path (k, 3, n) has more than before."""
+        if len(path) <= self.drawn:
+            return
+        if self.first is None:
+            self.first = path[0, :2].copy()
+            start = self._pixels(self.first[None])
+            self.pen, self.tip = start[0].copy(), start[0].copy()  # (n, 2) each
+            n = len(self.pen)
+            self.pen_along, self.tip_along = np.zeros(n), np.zeros(n)
+            if self.marker:
+                for i in range(n):
+                    self._mark(surface, self.pen[i : i + 1], i)
+        new = self._pixels(path[self.drawn :, :2])  # (m, n, 2)
+        self.last = path[-1, :2].copy()
+        self.drawn = len(path)
+        steps = np.diff(np.concatenate([self.tip[None], new]), axis=0)
+        along = self.tip_along + np.cumsum(np.hypot(steps[..., 0], steps[..., 1]), axis=0)
+        kept = self._crossings(along, STRIDE * self.painter.ui)
+        marked = self._crossings(along, MARK_SPACING * self.painter.ui) if self.marker else None
+        for i in np.nonzero(kept.any(axis=0))[0].tolist():
+            rows = kept[:, i]
+            points = np.concatenate([self.pen[i : i + 1], new[rows, i]])
+            self._stroke(surface, points, float(self.pen_along[i]), i)
+            self.pen[i], self.pen_along[i] = points[-1], along[rows, i][-1]
+            if marked is not None:
+                self._mark(surface, new[marked[:, i], i], i)
+        self.tip, self.tip_along = new[-1].copy(), along[-1].copy()
+
+    def loose_ends(self, surface: pygame.Surface, position: Float) -> None:
+        """Draw from where each path was last drawn to where its robot is, (2, n) metres."""
+        if self.first is None or not self.line:
+            return
+        here = self._pixels(position[None])[0]
+        gaps = self.tip - self.pen
+        for i, (a, b, c) in enumerate(
+            zip(self.pen.tolist(), self.tip.tolist(), here.tolist(), strict=True)
+        ):
+            # By way of the tip, unless that is but a hair from the pen.
+            near = abs(gaps[i, 0]) + abs(gaps[i, 1]) < 0.5
+            points = np.array([a, c] if near else [a, b, c])
+            self._stroke(surface, points, float(self.pen_along[i]), i)
+
+    def _pixels(self, positions: Float) -> Float:
+        """Return (m, n, 2) pixels of (m, 2, n) metres."""
+        c = self.camera
+        return np.stack([c.x + c.scale * positions[:, 0], c.y - c.scale * positions[:, 1]], axis=-1)
+
+    def _crossings(self, along: Float, stride: float) -> NDArray[np.bool_]:
+        """Return where (m, n) lengths along the paths pass a multiple of `stride`."""
+        buckets = np.floor(np.concatenate([self.tip_along[None], along]) / stride)
+        return np.diff(buckets, axis=0) > 0
+
+    def _mark(self, surface: pygame.Surface, points: Float, i: int) -> None:
+        self.painter.marks(surface, points, self.marker, self.colors[i], self.width)
+
+    def _stroke(self, surface: pygame.Surface, points: Float, start: float, i: int) -> None:
+        if not self.line:
+            return
+        if self.line == "-":
+            smooth_line(surface, self.colors[i], points, self.width * self.painter.ui)
+            return
+        pattern = tuple(self.painter.ui * length for length in DASHES[self.line])
+        for piece in dashes(points, pattern, start):
+            smooth_line(surface, self.colors[i], piece, self.width * self.painter.ui)
+
+
+def smooth_line(surface: pygame.Surface, color: str, points: Float, width: float) -> None:
+    """Draw an opaque anti-aliased polyline (k, 2), quickly: hair lines side by side.
+
+    pygame's own wide anti-aliased lines become thinner the nearer they are to a diagonal.
+    """
+    ink = rgba(color)[:3]
+    if len(points) == 2:  # the common case, without numpy
+        (ax, ay), (bx, by) = points.tolist()
+        dx, dy = bx - ax, by - ay
+        length = (dx * dx + dy * dy) ** 0.5
+        if length < 0.05:
+            return
+        nx, ny = -dy / length, dx / length
+        for shift in _shifts(width):
+            pygame.draw.aaline(
+                surface, ink,
+                (ax + shift * nx, ay + shift * ny), (bx + shift * nx, by + shift * ny),
+            )  # fmt: skip
+        return
+    steps = np.diff(points, axis=0)
+    lengths = np.hypot(steps[:, 0], steps[:, 1])
+    keep = lengths > 1e-9
+    if not keep.any():
+        return
+    points = points[np.concatenate([[True], keep])]
+    along = steps[keep] / lengths[keep, None]
+    tangents = np.concatenate([along[:1], along[1:] + along[:-1], along[-1:]])
+    tangents /= np.maximum(np.hypot(tangents[:, 0], tangents[:, 1]), 1e-9)[:, None]
+    normals = np.column_stack([-tangents[:, 1], tangents[:, 0]])
+    for shift in _shifts(width):
+        pygame.draw.aalines(surface, ink, False, (points + shift * normals).tolist())
+
+
+def _shifts(width: float) -> list[float]:
+    count = max(1, ceil(width))
+    reach = max(0.0, (width - 1) / 2)
+    return [0.0] if count == 1 else [reach * (2 * k / (count - 1) - 1) for k in range(count)]
+
+
+def _over_white(color: str) -> str:
+    red, green, blue, alpha = rgba(color)
+    mixed = [round(255 - (255 - c) * alpha / 255) for c in (red, green, blue)]
+    return "#" + "".join(f"{c:02x}" for c in mixed)

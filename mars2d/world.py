@@ -1,0 +1,365 @@
+"""The live simulation: a world that is stepped."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator
+from types import SimpleNamespace
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.addons.base import HOOKS, Addon
+from mars2d.bodies.base import Drive
+from mars2d.contact import CONTACT
+from mars2d.control import Law, RobotView, Sense, SensorsOnlyView, called, commands, team_command
+from mars2d.delay import DelayLine
+from mars2d.description import wrong
+from mars2d.engine import Engine
+from mars2d.errors import InputError, LawError, nearest
+from mars2d.frame import Frame
+from mars2d.geometry import Outline, inside_polygon
+from mars2d.record import Record
+from mars2d.recorder import History, Recorder
+from mars2d.scenario import Scenario
+from mars2d.scene import Scene
+from mars2d.streams import check_seed, stream
+
+__all__ = ["World"]
+
+Float = NDArray[np.float64]
+Pace = Callable[["World"], None]
+
+
+class Addons(SimpleNamespace):
+    """The add-ons of a world by name: ``world.addons.map``."""
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise LawError(f"this world has no add-on {name!r}{nearest(name, vars(self))}")
+
+
+class World:
+    """One live simulation. Worlds share nothing: two in one process are independent.
+
+    >>> from mars2d import Robot, Scenario
+    >>> world = World(Scenario(robots=[Robot(pose=(0, 0, 0))], sampling_time=1.0))
+    >>> world.step([[0.2], [0.0]])
+    >>> world.pose[:, 0].tolist()
+    [0.2, 0.0, 0.0]
+
+    scenario: what is simulated. control: the law of the whole team, a function or generator of the
+    world; a robot's own controller overrides its column. seed: of all random streams. filename:
+    the experiment's file, for the record. pace: called once a control step, between sensing and
+    control, by whoever wants to draw or to wait.
+
+    over: whether the experiment is over, and over_message why.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        control: Callable[[World], Any] | None = None,
+        seed: int = 0,
+        *,
+        filename: str = "",
+        pace: Pace | None = None,
+    ) -> None:
+        if not isinstance(scenario, Scenario):
+            raise wrong("World.scenario", scenario, "a Scenario")
+        self.scenario = scenario
+        self.seed = check_seed(seed)
+        self.filename = filename
+        self.pace = pace
+        self.iteration = 0
+        self.over = False
+        self.over_message = ""
+        self._finished = False
+        self._engine = Engine(scenario)
+        self._recorder = Recorder(scenario)
+        self.history = History(self._recorder)
+        self._workspace = None if scenario.workspace is None else np.array(scenario.workspace)
+        n = len(scenario.robots)
+        self._delay = DelayLine(scenario.command_delay, scenario.sampling_time, n)
+        self._teams = _teams(scenario)
+        self._still = np.zeros((2, n))
+        self._command = _frozen(self._still)
+        self._pose = _frozen(self._engine.pose)
+        self._contacts = np.empty(0, dtype=CONTACT)
+        self._rng: np.random.Generator | None = None
+        self._build_sensors()
+        self._build_laws(control)
+        self._build_addons()
+
+    def _build_sensors(self) -> None:
+        self._senses = [Sense() for _ in self.scenario.robots]
+        self._views = [RobotView(self, i, sense) for i, sense in enumerate(self._senses)]
+        self._sensors = [
+            (sensor, view, self.stream(f"sensor {robot.name} {sensor.key}"), vars(view.sense))
+            for robot, view in zip(self.scenario.robots, self._views, strict=True)
+            for sensor in robot.sensors
+        ]
+        self._readings: dict[str, list[Any]] = {}
+        self._sensed = -1  # the iteration of the readings
+
+    def _build_laws(self, control: Callable[[World], Any] | None) -> None:
+        self.robots: list[RobotView] = []
+        own: list[Law | None] = []
+        for i, robot in enumerate(self.scenario.robots):
+            view = self._views[i]
+            if robot.sees == "sensors":
+                view = SensorsOnlyView(self, i, self._senses[i])
+            self.robots.append(view)
+            own.append(None if robot.controller is None else Law(robot.controller, view))
+        self._own = own
+        if control is not None:
+            _check_control(control)
+        self._central = None if control is None else Law(control, self)
+
+    def _build_addons(self) -> None:
+        live = [addon.live() for addon in self.scenario.addons]
+        self.addons = Addons(**{addon.key: addon for addon in live})
+        # Only hooks that an add-on has of its own are called.
+        self._hooks = {
+            hook: [(a.key, getattr(a, hook)) for a in live if _overrides(a, hook)] for hook in HOOKS
+        }
+        self._call("on_start", self)
+
+    # -- what laws, sensors and add-ons may ask ------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds: iteration x sampling time."""
+        return self.iteration * self.scenario.sampling_time
+
+    @property
+    def pose(self) -> Float:
+        """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; each step makes it anew."""
+        return self._pose
+
+    @property
+    def velocity(self) -> Float:
+        """The velocities (3, n): x', y' [m/s], theta' [rad/s], as the engine has them now."""
+        return self._engine.velocity
+
+    @property
+    def geometric_center(self) -> Float:
+        """The geometric centres (2, n): `Robot.center_offset` behind the centres of rotation [m]."""
+        offset = np.array([robot.center_offset for robot in self.scenario.robots])
+        x, y, theta = self._pose
+        return np.array([x - offset * np.cos(theta), y - offset * np.sin(theta)])
+
+    @property
+    def command(self) -> Float:
+        """The last command (2, n) that was issued, after saturation; zeros at first. Read only."""
+        return self._command
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """The contacts since the last step, one row a pair; fields as in `mars2d.contact.CONTACT`."""
+        return self._contacts
+
+    @property
+    def workspace(self) -> Outline | None:
+        """The polygon in which the robots move, or None."""
+        return self.scenario.workspace
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
+        return self.scenario.bounds
+
+    @property
+    def obstacles(self) -> tuple[Outline, ...]:
+        """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
+        return self._engine.obstacles
+
+    @property
+    def rng(self) -> np.random.Generator:
+        """The random stream of the team's law."""
+        if self._rng is None:
+            self._rng = self.stream("control")
+        return self._rng
+
+    def stream(self, name: str) -> np.random.Generator:
+        """Return a new random stream that depends on the seed and `name` alone."""
+        return stream(self.seed, name)
+
+    def stop(self, why: str) -> None:
+        """End the experiment with this step, and say why."""
+        if not self.over:
+            self.over, self.over_message = True, str(why)
+
+    def distance(self, point: tuple[float, float], limit: float, ignore: int) -> float:
+        """Return the distance to the nearest surface, metres; inf beyond `limit`."""
+        return self._engine.distance(point, limit, ignore)
+
+    def nearby(
+        self, point: tuple[float, float], limit: float, ignore: int
+    ) -> Iterator[tuple[float, float]]:
+        """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
+        return self._engine.nearby(point, limit, ignore)
+
+    def ray(self, start: tuple[float, float], angle: float, length: float, ignore: int) -> float:
+        """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
+        return self._engine.ray(start, angle, length, ignore)
+
+    # -- the control step ----------------------------------------------------------------------
+
+    def step(self, command: Any = None) -> None:
+        """Do one control step, in the order of MARS's Algorithm 1.
+
+        command: (2, n) to use in place of what the laws would command. Raises LawError when a law,
+        sensor or add-on fails, and InputError when the experiment is over already.
+        """
+        if self.over:
+            raise InputError(f"the experiment is over: {self.over_message}")
+        self._call("on_step", self)
+        self.sense()
+        if self.pace is not None:
+            self.pace(self)
+        wanted = self._ask_laws() if command is None else self._given(command)
+        self._command = _frozen(self._saturate(wanted))
+        self._write_row()
+        self._check_workspace()
+        if self.iteration >= self.scenario.last_iteration:
+            self.stop(f"Time is over: {self.time:g} s")
+        if self.over:
+            self._finish()
+            return
+        self._drive()
+
+    def sense(self) -> None:
+        """Read all sensors, once a control step: all robots before any is commanded."""
+        if self._sensed == self.iteration:
+            return
+        readings: dict[str, list[Any]] = {key: [] for key in self._recorder.sensor_robots}
+        for sensor, view, rng, sense in self._sensors:
+            with called(f"sensor {sensor.key!r}"):
+                reading = sensor.read(view, self, rng)
+            sense[sensor.key] = reading
+            readings[sensor.key].append(reading)
+        self._readings = readings
+        self._sensed = self.iteration
+
+    def _call(self, hook: str, *args: Any) -> None:
+        for key, method in self._hooks[hook]:
+            with called(f"add-on {key!r}"):
+                method(*args)
+
+    def _ask_laws(self) -> Float:
+        return commands(self._central, self._own, self._still)
+
+    def _given(self, command: Any) -> Float:
+        def refuse(message: str) -> NoReturn:
+            raise InputError(f"World.step(command) {message.replace('returned', 'was given', 1)}")
+
+        return team_command(command, self._still.shape[1], refuse)
+
+    def _saturate(self, command: Float) -> Float:
+        """Limit the commands (2, n) to what each robot's drive can do."""
+        for drive, columns in self._teams:
+            command[:, columns] = drive.saturate(command[:, columns])
+        return command
+
+    def _twist(self, command: Float) -> Float:
+        """Return the twists (3, n) that the drives make of commands (2, n)."""
+        twist = np.empty((3, command.shape[1]))
+        for drive, columns in self._teams:
+            twist[:, columns] = drive.twist(command[:, columns])
+        return twist
+
+    def _write_row(self) -> None:
+        takes_effect = self.time + self.scenario.command_delay
+        self._recorder.write(self.time, self._pose, self._command, takes_effect, self._readings)
+
+    def _check_workspace(self) -> None:
+        """End the experiment when a robot's centre has left the workspace, if that is asked for."""
+        if self._workspace is None or self.scenario.on_exit != "stop":
+            return
+        x, y = self._pose[:2]
+        outside = np.flatnonzero(~inside_polygon(x, y, self._workspace))
+        if len(outside):
+            i = int(outside[0])
+            name = self.scenario.robots[i].name
+            self.stop(f"Out of bounds: {name} left the workspace at ({x[i]:.3g}, {y[i]:.3g})")
+
+    def _drive(self) -> None:
+        """Move the robots for one sampling time under the commands in effect."""
+        time = self.time
+        for duration, command in self._delay.send(self._command):
+            self._engine.drive(self._twist(command), duration, time)
+            time += duration
+        self._contacts = self._engine.take_contacts()
+        self._recorder.write_contacts(self._contacts)
+        self._pose = _frozen(self._engine.pose)
+        self.iteration += 1
+
+    def _finish(self) -> None:
+        if not self._finished:
+            self._finished = True
+            self._call("on_stop", self)
+
+    # -- what comes out ------------------------------------------------------------------------
+
+    @property
+    def record(self) -> Record:
+        """The record so far."""
+        message = self.over_message if self.over else "not over"
+        return self._recorder.record(self.seed, message, self.over, self.filename)
+
+    @property
+    def frame(self) -> Frame:
+        """What is seen now. Reads the sensors, if they have not been read at this instant."""
+        self.sense()
+        robots = self._recorder.sensor_robots
+        return Frame(
+            scenario=self.scenario,
+            time=self.time,
+            iteration=self.iteration,
+            pose=self._pose,
+            path=self.history.pose,
+            readings={k: list(zip(robots[k], v, strict=True)) for k, v in self._readings.items()},
+            over_message=self.over_message,
+            draw_addons=self._draw_addons,
+        )
+
+    def _draw_addons(self, scene: Scene) -> None:
+        self._call("on_draw", self, scene)
+
+
+def _frozen(array: Float) -> Float:
+    """Return a view that can't be written."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def _overrides(addon: Addon, hook: str) -> bool:
+    return getattr(type(addon), hook) is not getattr(Addon, hook)
+
+
+def _teams(scenario: Scenario) -> list[tuple[Drive, Any]]:
+    """Group the robots by equal drives: pairs of a drive and the columns of its robots."""
+    groups: list[tuple[Drive, list[int]]] = []
+    for i, robot in enumerate(scenario.robots):
+        for drive, columns in groups:
+            if drive == robot.drive and type(drive) is type(robot.drive):
+                columns.append(i)
+                break
+        else:
+            groups.append((robot.drive, [i]))
+    if len(groups) == 1:
+        return [(groups[0][0], slice(None))]
+    return [(drive, np.array(columns)) for drive, columns in groups]
+
+
+def _check_control(control: object) -> None:
+    if not callable(control):
+        raise wrong("control", control, "a function of one argument, the world")
+    try:
+        inspect.signature(control).bind(None)
+    except TypeError:
+        raise wrong("control", control, "a function of exactly one argument, the world") from None
+    except ValueError:
+        pass  # a built-in without a signature: the first call will tell
