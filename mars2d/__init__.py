@@ -11,7 +11,7 @@ from __future__ import annotations
 from mars2d.addons import Addon
 from mars2d.bodies import Drive, Holonomic, Unicycle
 from mars2d.errors import InputError, LawError, Mars2dError
-from mars2d.loop import run
+from mars2d.session import run
 from mars2d.record import Record, load
 from mars2d.scenario import Animation, Robot, Scenario
 from mars2d.sensors import Sensor

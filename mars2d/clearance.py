@@ -1,20 +1,48 @@
-"""How near things are to touching, asked as seldom as can be."""
+"""How near things are to touching, asked as seldom as can be.
+
+Points are complex numbers x + i y, in metres.
+"""
 
 from __future__ import annotations
+
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.geometry import point_segment_distance
-
-__all__ = ["Clearance"]
+__all__ = ["Clearance", "Encounter"]
 
 Float = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 FEW = 32
 """Up to this many discs all pairs are kept; above, those within a skin, found by a k-d tree."""
+
+TINY = 1e-12
+
+
+class Walls:
+    """Line segments that stand still."""
+
+    def __init__(self, start: Complex, edge: Complex) -> None:
+        """Take where segments start and the vectors to their ends, (S,) each."""
+        self._start, self._edge = start, edge
+        self._per_length = edge / np.abs(edge) ** 2
+
+    def __len__(self) -> int:
+        return len(self._start)
+
+    def take(self, which: Index) -> Walls:
+        """Return some of the segments."""
+        return Walls(self._start[which], self._edge[which])
+
+    def towards(self, point: Complex) -> Complex:
+        """Return the vectors from points to the nearest points of the segments, broadcast."""
+        from_start = point - self._start
+        along = np.clip((from_start * self._per_length.conj()).real, 0.0, 1.0)
+        return np.asarray(along * self._edge - from_start)
 
 
 class Clearance:
@@ -27,38 +55,32 @@ class Clearance:
     Source of the list: L. Verlet, Physical Review 159, 98 (1967).
     """
 
-    def __init__(self, radii: Float, segments: Float) -> None:
-        """Take the discs' radii (n,) and the segments (S, 4) = x1, y1, x2, y2, in metres."""
+    def __init__(self, radii: Float, start: Complex, edge: Complex) -> None:
+        """Take the discs' radii (n,), metres, and where segments start and lead to, (S,) each."""
         n = len(radii)
         self._radii = radii
-        self._segments = segments
+        self._walls = Walls(start, edge)
+        self._wall_gap = np.full(n, -inf if len(self._walls) else inf)  # a bound from below
         self._moved = np.zeros(n)  # since the pairs were listed
-        self._skin = np.inf
-        self._wall_gap = np.full(n, -np.inf if len(segments) else np.inf)  # a bound from below
-        i, j = np.triu_indices(n if n <= FEW else 0, 1)
-        self._i, self._j = i, j
-        self._contact_distance = radii[i] + radii[j]
-        if n > FEW:
-            self._skin = -1.0  # list the pairs at the first question
+        self._skin = inf if n <= FEW else -1.0  # negative: list them at the first question
+        self._i, self._j = np.triu_indices(n if n <= FEW else 0, 1)
 
-    def may_touch(self, centers: Float, reach: Float) -> Mask:
-        """Return which discs may touch something while each moves by at most `reach`.
+    def may_touch(self, center: Complex, reach: Float) -> Mask:
+        """Return which discs may touch something while each moves by at most `reach` (n,), metres.
 
-        centers: (n, 2) metres; reach: (n,) metres. A disc that may be touched counts as well.
+        center: (n,). A disc that may be touched counts as well.
         """
         if (self._moved + reach).max() > self._skin:
-            self._list_pairs(centers, reach)
+            self._list_pairs(center, reach)
         near = np.zeros(len(reach), dtype=bool)
         if len(self._i):
-            gap = self._pair_gaps(centers, self._i, self._j, self._contact_distance)
-            close = gap <= reach[self._i] + reach[self._j]
+            close = self._pair_gaps(center) <= reach[self._i] + reach[self._j]
             if close.any():
                 near[self._i[close]] = True
                 near[self._j[close]] = True
-        unsure = self._wall_gap <= reach
-        if unsure.any():
-            which = np.flatnonzero(unsure)
-            self._wall_gap[which] = self.wall_gaps(centers, which).min(axis=1)
+        unsure = np.flatnonzero(self._wall_gap <= reach)
+        if len(unsure):
+            self._wall_gap[unsure] = self._wall_gaps(center, unsure).min(axis=1)
             near |= self._wall_gap <= reach
         return near
 
@@ -67,36 +89,104 @@ class Clearance:
         self._moved += distance
         self._wall_gap -= distance
 
-    def close_pairs(self, centers: Float, near: Mask, reach: float) -> tuple[Index, Index]:
-        """Return the pairs (i, j) among the discs in `near` with a gap of at most `reach`."""
-        both = np.flatnonzero(near[self._i] & near[self._j])
-        i, j = self._i[both], self._j[both]
-        kept = self._pair_gaps(centers, i, j, self._contact_distance[both]) <= reach
-        return i[kept], j[kept]
+    def encounter(self, center: Complex, who: Index, reach: float) -> Encounter:
+        """Return what may touch among the discs `who`, each moving by at most `reach`."""
+        local = np.full(len(self._radii), -1)
+        local[who] = np.arange(len(who))
+        i, j = local[self._i], local[self._j]
+        pair = np.flatnonzero((i >= 0) & (j >= 0))
+        pair = pair[self._pair_gaps(center)[pair] <= 2 * reach]
+        # `moved` has been told already: what is within reach has a bound of zero or less.
+        some = np.flatnonzero(self._wall_gap[who] <= 0)
+        row, segment = np.nonzero(self._wall_gaps(center, who[some]) <= reach)
+        return Encounter(
+            self._radii[who], (i[pair], j[pair]), some[row], self._walls.take(segment), segment
+        )
 
-    def close_walls(self, centers: Float, near: Mask, reach: float) -> tuple[Index, Index]:
-        """Return the pairs (disc, segment) with a gap of at most `reach`, for the discs in `near`."""
-        which = np.flatnonzero(near & (self._wall_gap <= reach))
-        row, segment = np.nonzero(self.wall_gaps(centers, which) <= reach)
-        return which[row], segment
+    def _pair_gaps(self, center: Complex) -> Float:
+        i, j = self._i, self._j
+        return np.asarray(np.abs(center[i] - center[j]) - self._radii[i] - self._radii[j])
 
-    def wall_gaps(self, centers: Float, which: Index) -> Float:
-        """Return the gaps (k, S) between some discs and all segments, metres."""
-        x, y = centers[which, 0, None], centers[which, 1, None]
-        return point_segment_distance(x, y, self._segments) - self._radii[which, None]
+    def _wall_gaps(self, center: Complex, which: Index) -> Float:
+        """Return the gaps (k, S) between some discs and all segments."""
+        distance = np.abs(self._walls.towards(center[which, None]))
+        return np.asarray(distance - self._radii[which, None])
 
-    @staticmethod
-    def _pair_gaps(centers: Float, i: Index, j: Index, contact_distance: Float) -> Float:
-        apart = centers[i] - centers[j]
-        return np.asarray(np.hypot(apart[:, 0], apart[:, 1]) - contact_distance)
-
-    def _list_pairs(self, centers: Float, reach: Float) -> None:
+    def _list_pairs(self, center: Complex, reach: Float) -> None:
         """Make the Verlet list anew, with a skin that lasts for several questions."""
         from scipy.spatial import cKDTree
 
         self._skin = float(max(4 * reach.max(), self._radii.max()))
         cutoff = 2 * self._radii.max() + 2 * self._skin
-        pairs = cKDTree(centers).query_pairs(cutoff, output_type="ndarray")
-        self._i, self._j = pairs[:, 0].astype(np.intp), pairs[:, 1].astype(np.intp)
-        self._contact_distance = self._radii[self._i] + self._radii[self._j]
+        tree = cKDTree(np.column_stack([center.real, center.imag]))
+        pairs = tree.query_pairs(cutoff, output_type="ndarray")
+        self._i, self._j = np.ascontiguousarray(pairs.T.astype(np.intp))
         self._moved[:] = 0.0
+
+
+class Encounter:
+    """Discs that are close to each other, or to segments: their gaps as they move."""
+
+    def __init__(
+        self,
+        radii: Float,
+        pairs: tuple[Index, Index],
+        disc: Index,
+        walls: Walls,
+        segment: Index,
+    ) -> None:
+        """Take pairs of discs (i, j), and of a disc and a segment, which has a number of its own."""
+        self._i, self._j = pairs
+        self._disc, self._walls, self._segment = disc, walls, segment
+        self._radii_sum = np.concatenate([radii[self._i] + radii[self._j], radii[disc]])
+        self._count = len(radii)
+        self._first = np.concatenate([self._i, disc])
+
+    def measure(self, center: Complex) -> None:
+        """Take the discs' centres (k,) and measure all gaps."""
+        between = np.concatenate(
+            [center[self._j] - center[self._i], self._walls.towards(center[self._disc])]
+        )
+        distance = np.abs(between)
+        self._gap = distance - self._radii_sum
+        self._normal = between / np.maximum(distance, TINY)
+        self._touch = self._gap <= 0
+        self.any_touch = bool(self._touch.any())
+
+    def touching(self) -> Mask:
+        """Return which discs touch something, (k,)."""
+        touching = np.zeros(self._count, dtype=bool)
+        if self.any_touch:
+            touching[self._first[self._touch]] = True
+            touching[self._j[self._touch[: len(self._j)]]] = True
+        return touching
+
+    def touching_pairs(self, who: Index) -> tuple[Index, Index, Index, Index]:
+        """Return the pairs that touch: discs (i, j), and disc and segment, by the numbers `who`."""
+        discs, walls = self._touch[: len(self._i)], self._touch[len(self._i) :]
+        return (
+            who[self._i[discs]],
+            who[self._j[discs]],
+            who[self._disc[walls]],
+            self._segment[walls],
+        )
+
+    def time_to_touch(self, velocity: Complex, bend: Float, depth: float) -> float:
+        """Return for how long no pair that is apart gets deeper than `depth`, seconds.
+
+        velocity: (k,) of the discs; bend: (k,) m/s^2, how quickly a velocity may turn away from it.
+        Along straight lines the distance to a convex thing is a convex function of time: it falls
+        no faster than it does now.
+        """
+        if not len(self._gap):
+            return inf
+        pairs = len(self._i)
+        approach = velocity[self._first]
+        approach[:pairs] -= velocity[self._j]
+        turn = bend[self._first]
+        turn[:pairs] += bend[self._j]
+        closing = np.maximum((approach * self._normal.conj()).real, 0.0)
+        # gap + depth = closing h + turn h^2 / 2, solved for h so that both may be zero
+        room = self._gap + depth
+        h = 2 * room / (closing + np.sqrt(closing**2 + 2 * turn * room) + TINY)
+        return float(np.where(self._touch, inf, h).min())

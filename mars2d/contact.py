@@ -27,52 +27,66 @@ CONTACT = np.dtype(
 class ContactLog:
     """Gathers the contacts of the substeps of a control step, and sums them up by pairs."""
 
-    def __init__(self, obstacles: int) -> None:
-        """Take the number of obstacles, which count as -1, -2, ... in the column b."""
-        self._obstacles = obstacles
-        self._rows: list[NDArray[np.void]] = []
+    def __init__(self, outline: Int) -> None:
+        """Take, for each segment, the number of the obstacle that it belongs to, (S,)."""
+        self._outline = outline
+        self._times: list[float] = []
+        self._bodies: list[Int] = []
+        self._values: list[Float] = []
+        self._touching: list[Int] = []
         self._before: Int = np.empty(0, dtype=np.int64)
 
     def add(
-        self, time: float, a: Int, b: Int, point: Float, normal: Float, impulse: Float
+        self, time: float, bodies: Int, values: Float, touching: tuple[Int, Int, Int, Int]
     ) -> None:
-        """Note the contacts of one substep, each array one entry a pair; impulse (k, 2) in N s."""
-        rows = np.zeros(len(a), dtype=_SUBSTEP)
-        rows["time"], rows["a"], rows["b"] = time, a, b
-        rows["point"], rows["normal"], rows["impulse"] = point, normal, impulse
-        self._rows.append(rows)
+        """Note what the solver lists after one substep, and which pairs do touch.
+
+        bodies: (k, 2), robots as 0, 1, ..., obstacles as -1, -2, ...; values: (k, 8) = impulse,
+        normal, point on the first body, point on the second; touching: robots (i, j), and robots
+        and the segments that they touch.
+        """
+        i, j, disc, segment = touching
+        robots = _key(np.minimum(i, j), np.maximum(i, j))
+        walls = _key(disc, -1 - self._outline[segment])
+        self._times.append(time)
+        self._bodies.append(bodies)
+        self._values.append(values)
+        self._touching.append(np.concatenate([robots, walls]))
 
     def take(self) -> NDArray[np.void]:
         """Return the contacts since the last call, one row (dtype CONTACT) a pair."""
-        if not self._rows:
+        if not self._times:
             self._before = self._before[:0]
             return np.empty(0, dtype=CONTACT)
-        rows = np.concatenate(self._rows)
-        self._rows.clear()
-        keys = self.key(rows["a"], rows["b"])
-        pairs, first, group = np.unique(keys, return_index=True, return_inverse=True)
+        substep = np.repeat(np.arange(len(self._times)), [len(rows) for rows in self._bodies])
+        bodies, values = np.concatenate(self._bodies), np.concatenate(self._values)
+        swap = (bodies[:, 0] < 0) | ((bodies[:, 1] >= 0) & (bodies[:, 1] < bodies[:, 0]))
+        a, b = np.where(swap, bodies[:, ::-1].T, bodies.T)
+        sign = np.where(swap, -1.0, 1.0)[:, None]
+
+        key = _key(a, b)
+        live = np.zeros(len(key), dtype=bool)
+        for k, touching in enumerate(self._touching):
+            mine = substep == k
+            live[mine] = np.isin(key[mine], touching)
+        pairs, first, group = np.unique(key[live], return_index=True, return_inverse=True)
+        row = np.flatnonzero(live)[first]
+
         result = np.zeros(len(pairs), dtype=CONTACT)
-        for column in ("time", "a", "b", "point", "normal"):
-            result[column] = rows[column][first]
-        total = np.zeros((len(pairs), 2))
-        np.add.at(total, group.ravel(), rows["impulse"])
-        result["impulse"] = np.hypot(total[:, 0], total[:, 1])
+        result["time"] = np.array(self._times)[substep[row]]
+        result["a"], result["b"] = a[row], b[row]
+        result["normal"] = (values[:, 2:4] * sign)[row]
+        result["point"] = np.where(swap[:, None], values[:, 6:8], values[:, 4:6])[row]
+        impulse = (values[:, 0:2] * sign)[live]
+        total = [np.bincount(group.ravel(), impulse[:, k], len(pairs)) for k in (0, 1)]
+        result["impulse"] = np.hypot(*total)
         result["began"] = ~np.isin(pairs, self._before)
         self._before = pairs
+        for notes in (self._times, self._bodies, self._values, self._touching):
+            notes.clear()
         return result
 
-    def key(self, a: Int, b: Int) -> Int:
-        """Return one number a pair (a, b), the same for each substep."""
-        return (a.astype(np.int64) << 32) + b.astype(np.int64) + self._obstacles + 1
 
-
-_SUBSTEP = np.dtype(
-    [
-        ("time", "f8"),
-        ("a", "i4"),
-        ("b", "i4"),
-        ("point", "f8", (2,)),
-        ("normal", "f8", (2,)),
-        ("impulse", "f8", (2,)),
-    ]
-)
+def _key(a: Int, b: Int) -> Int:
+    """Return one number a pair (a, b); those of a come in order, then those of b."""
+    return (np.asarray(a, dtype=np.int64) << 32) + np.asarray(b, dtype=np.int64) + (1 << 31)

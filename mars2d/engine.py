@@ -12,7 +12,7 @@ A robot is a dynamic body. What its drive asks for is put to it in one of two wa
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import cos, inf, sin, sqrt
 
 import numpy as np
@@ -20,9 +20,9 @@ import pymunk
 from numpy.typing import NDArray
 from pymunk import batch
 
-from mars2d.clearance import Clearance, Float, Index, Mask
+from mars2d.clearance import Clearance, Complex, Encounter, Float, Index, Mask
 from mars2d.contact import ContactLog
-from mars2d.geometry import Outline, edges_of, point_segment_distance
+from mars2d.geometry import Outline, edges_of
 from mars2d.scenario import Scenario
 
 __all__ = ["Engine"]
@@ -71,7 +71,7 @@ class Engine:
         self._in_robot_frame = np.array([robot.drive.frame == "robot" for robot in robots])
         self._bodies = [self._add_robot(scenario, i) for i in range(self.n)]
         self._add_controls(scenario)
-        self.obstacles, self._segments = self._add_obstacles(scenario)
+        self.obstacles, segments = self._add_obstacles(scenario)
 
         # The order of the batch: robots, their control bodies, then the static bodies.
         count = 2 * self.n + len(self.obstacles)
@@ -82,8 +82,10 @@ class Engine:
 
         self._engaged = np.zeros(self.n, dtype=bool)
         self._slipping = np.zeros(self.n, dtype=bool)
-        self._clearance = Clearance(self._radius, self._segments[:, :4])
-        self._contacts = ContactLog(len(self.obstacles))
+        x1, y1, x2, y2, outline = segments.T
+        start = x1 + 1j * y1
+        self._clearance = Clearance(self._radius, start, x2 + 1j * y2 - start)
+        self._contacts = ContactLog(outline.astype(np.int64))
         self._arbiter_buffer = batch.Buffer()
         # The engine names bodies by their addresses; robots are 0, 1, ..., obstacles -1, -2, ...
         named = [(body.id, i) for i, body in enumerate(self._bodies)]
@@ -92,7 +94,7 @@ class Engine:
         self._restitution = max(robot.restitution for robot in robots)
         self._set_accuracy(scenario)
         self._last_step = inf
-        self._read()
+        self._state = self._read().copy()
 
     def _add_robot(self, scenario: Scenario, i: int) -> pymunk.Body:
         robot = scenario.robots[i]
@@ -155,30 +157,26 @@ class Engine:
 
     # -- state ------------------------------------------------------------------------------
 
-    def _read(self) -> None:
-        """Read positions, angles and velocities of all bodies, in one call."""
+    def _read(self) -> Float:
+        """Read (n, 6): x, y, theta, x', y', theta' of all robots, in one call.
+
+        The array is the engine's own memory, and changes with the next step.
+        """
         buffer = self._state_buffer
         buffer.clear()
         batch.get_space_bodies(self.space, _STATE, buffer)
-        state = np.frombuffer(buffer.float_buf(), dtype=np.float64)
-        self._state = state[: 6 * self.n].reshape(self.n, 6).copy()
+        state = np.frombuffer(buffer.float_buf(), dtype=np.float64, count=6 * self.n)
+        return state.reshape(self.n, 6)
 
     @property
     def pose(self) -> Float:
         """The poses (3, n): x, y [m], theta [rad], as a new array."""
-        return np.ascontiguousarray(self._state[:, :3].T)
+        return self._state[:, :3].T.copy()
 
     @property
     def velocity(self) -> Float:
         """The velocities (3, n): x', y' [m/s], theta' [rad/s], as a new array."""
-        return np.ascontiguousarray(self._state[:, 3:].T)
-
-    def _centers(self) -> Float:
-        """Return the geometric centres (n, 2)."""
-        x, y, theta = self._state[:, 0], self._state[:, 1], self._state[:, 2]
-        if not self._offset.any():
-            return self._state[:, :2]
-        return np.column_stack([x - self._offset * np.cos(theta), y - self._offset * np.sin(theta)])
+        return self._state[:, 3:].T.copy()
 
     # -- motion -----------------------------------------------------------------------------
 
@@ -187,34 +185,36 @@ class Engine:
 
         time: that of the start, seconds, for the contacts.
         """
-        near, reach = self._find_near(twist, duration)
+        center = _center(self._state, self._offset)
+        near, reach = self._find_near(twist, center, duration)
         self._engage(near)
-        self._velocity[: self.n] = _chord_velocity(
+        self._velocity[: self.n] = chord_velocity(
             twist, self._state[:, 2], duration, self._in_robot_frame
         )
         if near.any():
-            self._substeps(twist, duration, time, near, reach)
+            who = np.flatnonzero(near)
+            encounter = self._clearance.encounter(center, who, reach)
+            self._substeps(twist[:, who], duration, time, who, encounter)
         else:
-            batch.set_space_bodies(self.space, _VELOCITY, self._velocity_buffer)
-            self.space.step(duration)
-            self._last_step = duration
-            self._read()
+            self._step(duration)
+        self._state = self._read().copy()
 
-    def _find_near(self, twist: Float, duration: float) -> tuple[Mask, float]:
+    def _find_near(
+        self, twist: Float, center: Complex, duration: float
+    ) -> tuple[Mask, float]:
         """Return which robots may touch something, and how far one of them may move.
 
         One that is near may be pushed by the quickest of them, and so be near to others.
         """
-        linear = np.hypot(twist[0], twist[1])
-        speed = linear + np.abs(self._offset * twist[2])
-        if self._slipping.any():
-            speed = np.where(self._slipping, np.maximum(speed, self._actual_speed()), speed)
+        speed = np.hypot(twist[0], twist[1]) + np.abs(self._offset * twist[2])
         near = self._slipping.copy()
-        reach = speed * duration
-        count = -1
+        if near.any():
+            actual = np.abs(_center_velocity(self._state, self._offset))
+            speed = np.where(near, np.maximum(speed, actual), speed)
+        reach, count = speed * duration, -1
         while np.count_nonzero(near) != count:
             count = np.count_nonzero(near)
-            near |= self._clearance.may_touch(self._centers(), reach)
+            near |= self._clearance.may_touch(center, reach)
             if near.any():
                 pushed = speed[near].max() * (1 + self._restitution)
                 reach = np.where(near, pushed * duration, speed * duration)
@@ -229,95 +229,75 @@ class Engine:
             self.space.remove(*self._joints[i])
         self._engaged = near
 
+    def _step(self, h: float) -> None:
+        """Give all bodies their velocities and let the engine go on by h seconds."""
+        batch.set_space_bodies(self.space, _VELOCITY, self._velocity_buffer)
+        self.space.step(h)
+        self._last_step = h
+
     def _substeps(
-        self, twist: Float, duration: float, time: float, near: Mask, reach: float
+        self, twist: Float, duration: float, time: float, who: Index, encounter: Encounter
     ) -> None:
-        """Step through `duration` as finely as the gaps between those that are near ask for."""
-        centers = self._centers()
-        i, j = self._clearance.close_pairs(centers, near, 2 * reach)
-        apart = self._radius[i] + self._radius[j]
-        disc, segment = self._clearance.close_walls(centers, near, reach)
-        wall, outline = self._segments[segment, :4], self._segments[segment, 4].astype(np.int64)
-        who = np.flatnonzero(near)
-        commanded = np.hypot(twist[0], twist[1]) + np.abs(self._offset * twist[2])
+        """Step through `duration` as finely as those need that are near something.
+
+        twist: (3, k) of the robots `who`, (k,) indices.
+        """
+        offset, turns = self._offset[who], self._in_robot_frame[who]
+        slipping = self._slipping[who]
+        state = self._state[who]
         elapsed = 0.0
         while True:
-            centers = self._centers()
-            gap = np.hypot(*(centers[i] - centers[j]).T) - apart
-            wall_gap = (
-                point_segment_distance(centers[disc, 0], centers[disc, 1], wall)
-                - self._radius[disc]
-            )
-            hit, wall_hit = gap <= 0, wall_gap <= 0
-            touching = np.zeros(self.n, dtype=bool)
-            touching[i[hit]] = touching[j[hit]] = touching[disc[wall_hit]] = True
-            if elapsed > 0 and touching.any():
-                pairs = (i[hit], j[hit]), (disc[wall_hit], -1 - outline[wall_hit])
-                self._read_contacts(time + elapsed, pairs)
+            encounter.measure(_center(state, offset))
+            touching = encounter.touching()
+            if elapsed > 0 and encounter.any_touch:
+                self._note_contacts(time + elapsed, who, encounter)
             if elapsed >= duration:
+                self._slipping[who] = slipping
                 return
-            left = duration - elapsed
-            h = self._recover(twist, touching, left)
-            speed = np.where(self._slipping, self._actual_speed(), commanded)
-            h = min(h, self._time_to_touch(gap, speed[i] + speed[j]))
-            h = min(h, self._time_to_touch(wall_gap, speed[disc]))
-            if self._slipping.any():
-                h = min(h, GROWTH * self._last_step)
+            left = h = duration - elapsed
+            slipping |= touching
+            some_slip = bool(slipping.any())
+            if some_slip:
+                h = min(h, self._contact_step, GROWTH * self._last_step)
+                slipping &= touching | self._out_of_reach(twist, state, h, who)
+            # The tangent's velocity now; over h, that of the chord bends away from it.
+            tangent = chord_velocity(twist, state[:, 2], 0.0, turns)
+            moving = np.where(slipping[:, None], state[:, 3:], tangent)
+            bend = np.abs(offset) * moving[:, 2] ** 2
+            bend += np.where(slipping | ~turns, 0.0, np.hypot(twist[0], twist[1]) * np.abs(twist[2]))
+            velocity = _center_velocity(np.hstack([state[:, :3], moving]), offset)
+            h = min(h, encounter.time_to_touch(velocity, bend, self._entry))
             if h < left < 2 * h:
                 h = left / 2  # rather than a sliver at the end
-            self._aim(twist, who, h)
-            self.space.step(h)
-            self._last_step = h
+            self._aim(twist, state, slipping, who, h)
+            self._step(h)
             elapsed = duration if h == left else elapsed + h
-            self._read()
+            state = self._read()[who]
 
-    def _actual_speed(self) -> Float:
-        """Return how fast each disc's centre may be moving, (n,) m/s."""
-        _, _, _, vx, vy, spin = self._state.T
-        return np.asarray(np.hypot(vx, vy) + np.abs(self._offset * spin))
+    def _out_of_reach(self, twist: Float, state: Float, h: float, who: Index) -> Mask:
+        """Return which robots their drives can't bring back to their commands within h."""
+        wanted = chord_velocity(twist, state[:, 2], h, self._in_robot_frame[who])
+        error = np.abs(state[:, 3:] - wanted)
+        impulse = np.hypot(error[:, 0], error[:, 1]) * self._mass[who]
+        slow = impulse > self._max_force[who] * h
+        return np.asarray(slow | (error[:, 2] * self._moment[who] > self._max_torque[who] * h))
 
-    def _recover(self, twist: Float, touching: Mask, h: float) -> float:
-        """Find out which robots slip, and return how long the next substep may be for them.
-
-        Who touches something slips. Who no longer does slips until its drive has the force to
-        bring it back to its command within one substep.
-        """
-        self._slipping |= touching
-        if not self._slipping.any():
-            return h
-        h = min(h, self._contact_step)
-        wanted = _chord_velocity(twist, self._state[:, 2], h, self._in_robot_frame)
-        error = self._state[:, 3:] - wanted
-        in_reach = np.hypot(error[:, 0], error[:, 1]) * self._mass <= self._max_force * h
-        in_reach &= np.abs(error[:, 2]) * self._moment <= self._max_torque * h
-        self._slipping &= touching | ~in_reach
-        return h
-
-    def _time_to_touch(self, gap: Float, closing: Float) -> float:
-        """Return how long all stay less deep than the entry allowed, those that are apart."""
-        apart = (gap > 0) & (closing > 0)
-        if not apart.any():
-            return inf
-        return float(((gap[apart] + self._entry) / closing[apart]).min())
-
-    def _aim(self, twist: Float, who: Index, h: float) -> None:
+    def _aim(self, twist: Float, state: Float, slipping: Mask, who: Index, h: float) -> None:
         """Set the velocities of the robots `who` and of their control bodies for a substep of h.
 
         The engine moves bodies by the velocities that they have, then the joints work towards the
         control bodies': so these get the velocities of the substep after this one.
         """
-        twist, turns = twist[:, who], self._in_robot_frame[who]
-        theta, slipping = self._state[who, 2], self._slipping[who]
-        now = _chord_velocity(twist, theta, h, turns)
-        now[slipping] = self._state[who[slipping], 3:]
+        turns = self._in_robot_frame[who]
+        now = chord_velocity(twist, state[:, 2], h, turns)
+        now[slipping] = state[slipping, 3:]
         self._velocity[who] = now
-        self._velocity[self.n + who] = _chord_velocity(twist, theta + now[:, 2] * h, h, turns)
-        batch.set_space_bodies(self.space, _VELOCITY, self._velocity_buffer)
+        self._velocity[self.n + who] = chord_velocity(twist, state[:, 2] + now[:, 2] * h, h, turns)
 
     # -- contacts ---------------------------------------------------------------------------
 
-    def _read_contacts(self, time: float, pairs: Sequence[tuple[Index, Index]]) -> None:
-        """Read the solver's contacts of the last substep, of those pairs that do touch.
+    def _note_contacts(self, time: float, who: Index, encounter: Encounter) -> None:
+        """Note the solver's contacts of the last substep, and which pairs do touch.
 
         The solver also lists pairs for up to two steps after they parted.
         """
@@ -326,17 +306,8 @@ class Engine:
         batch.get_space_arbiters(self.space, _ARBITER, buffer)
         ids = np.frombuffer(buffer.int_buf(), dtype=np.int64).reshape(-1, 2)
         values = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, 8)
-        a, b = self._name[np.searchsorted(self._address, ids)].T
-        swap = (a < 0) | ((b >= 0) & (b < a))
-        first, second = np.where(swap, b, a), np.where(swap, a, b)
-        key = self._contacts.key
-        live = np.isin(key(first, second), np.concatenate([key(p, q) for p, q in pairs]))
-        sign = np.where(swap, -1.0, 1.0)[:, None]
-        impulse, normal = values[:, 0:2] * sign, values[:, 2:4] * sign
-        point = np.where(swap[:, None], values[:, 6:8], values[:, 4:6])
-        self._contacts.add(
-            time, first[live], second[live], point[live], normal[live], impulse[live]
-        )
+        bodies = self._name[np.searchsorted(self._address, ids)]
+        self._contacts.add(time, bodies, values.copy(), encounter.touching_pairs(who))
 
     def take_contacts(self) -> NDArray[np.void]:
         """Return the contacts since the last call, one row (dtype CONTACT) a pair."""
@@ -366,14 +337,34 @@ class Engine:
         return inf if info is None else info.alpha * length
 
 
-def _chord_velocity(twist: Float, theta: Float, h: float, in_robot_frame: Mask) -> Float:
+def chord_velocity(twist: Float, theta: Float, h: float, in_robot_frame: Mask) -> Float:
     """Return (k, 3): the velocities that bring robots at headings (k,) along their arcs in h.
 
     twist: (3, k), of which the first two are along the robot's axes or the world's.
     """
     forward, left, spin = twist
-    half = spin * (h / 2)
-    direction = np.where(in_robot_frame, theta + half, 0.0)
-    shrink = np.where(in_robot_frame, np.sinc(half / np.pi), 1.0)
-    c, s = shrink * np.cos(direction), shrink * np.sin(direction)
-    return np.column_stack([forward * c - left * s, forward * s + left * c, spin])
+    half = np.where(in_robot_frame, spin * (h / 2), 0.0)
+    turned = np.where(in_robot_frame, theta + half, 0.0)
+    shrink = np.where(half == 0.0, 1.0, np.sin(half) / np.where(half == 0.0, 1.0, half))
+    c, s = shrink * np.cos(turned), shrink * np.sin(turned)
+    velocity = np.empty((len(theta), 3))
+    velocity[:, 0] = forward * c - left * s
+    velocity[:, 1] = forward * s + left * c
+    velocity[:, 2] = spin
+    return velocity
+
+
+def _center(state: Float, offset: Float) -> Complex:
+    """Return the geometric centres of robots with states (k, 6), as x + i y."""
+    center = state[:, 0] + 1j * state[:, 1]
+    if offset.any():
+        center -= offset * np.exp(1j * state[:, 2])
+    return center
+
+
+def _center_velocity(state: Float, offset: Float) -> Complex:
+    """Return the velocities of the geometric centres, as x' + i y'."""
+    velocity = state[:, 3] + 1j * state[:, 4]
+    if offset.any():
+        velocity -= 1j * offset * state[:, 5] * np.exp(1j * state[:, 2])
+    return velocity

@@ -12,12 +12,23 @@ from numpy.typing import NDArray
 from mars2d.scenario import Robot, Scenario
 from mars2d.scene import Scene, faded
 
-__all__ = ["Frame", "background", "initial_poses", "robots", "sensors", "trails"]
+__all__ = [
+    "Frame",
+    "background",
+    "initial_poses",
+    "obstacles",
+    "robots",
+    "sensors",
+    "trail_colors",
+    "trails",
+    "workspace",
+]
 
 Float = NDArray[np.float64]
 
 INK = "#3d4852"
 OBSTACLE = "#b8c0c8"
+TRAIL_WIDTH = 1.6
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +52,13 @@ class Frame:
 
 def background(scenario: Scenario) -> Scene:
     """Return what never moves: the workspace and the obstacles."""
+    scene = workspace(scenario)
+    scene.extend(obstacles(scenario).shapes)
+    return scene
+
+
+def workspace(scenario: Scenario) -> Scene:
+    """Return the workspace, on which a grid may be drawn."""
     scene = Scene()
     if scenario.workspace is not None:
         wall = scenario.on_exit == "wall"
@@ -50,6 +68,12 @@ def background(scenario: Scenario) -> Scene:
             stroke=INK if wall else faded(INK, 0.55),
             width=2.5 if wall else 1.2,
         )
+    return scene
+
+
+def obstacles(scenario: Scenario) -> Scene:
+    """Return the obstacles."""
+    scene = Scene()
     for outline in scenario.obstacles:
         if len(outline) == 2:
             scene.line(outline, stroke=INK, width=2.5)
@@ -62,10 +86,15 @@ def trails(frame: Frame) -> Scene:
     """Return the paths of the robots so far, as the animation's wake style says."""
     scene = Scene()
     style = frame.scenario.animation.wake_style
-    for i, color in enumerate(frame.scenario.colors):
+    for i, color in enumerate(trail_colors(frame.scenario)):
         path = np.vstack([frame.path[:, :2, i], frame.pose[None, :2, i]])
-        scene.line(path, stroke=faded(color, 0.85), width=1.6, style=style)
+        scene.line(path, stroke=color, width=TRAIL_WIDTH, style=style)
     return scene
+
+
+def trail_colors(scenario: Scenario) -> tuple[str, ...]:
+    """Return the colours of the robots' paths."""
+    return tuple(faded(color, 0.85) for color in scenario.colors)
 
 
 def initial_poses(scenario: Scenario) -> Scene:

@@ -74,6 +74,7 @@ class World:
         self.iteration = 0
         self.over = False
         self.over_message = ""
+        self._stepping = False
         self._finished = False
         self._engine = Engine(scenario)
         self._recorder = Recorder(scenario)
@@ -207,13 +208,23 @@ class World:
     # -- the control step ----------------------------------------------------------------------
 
     def step(self, command: Any = None) -> None:
-        """Do one control step, in the order of MARS's Algorithm 1.
+        """Do one control step.
 
         command: (2, n) to use in place of what the laws would command. Raises LawError when a law,
         sensor or add-on fails, and InputError when the experiment is over already.
         """
         if self.over:
             raise InputError(f"the experiment is over: {self.over_message}")
+        if self._stepping:
+            raise InputError("world.step() was called from within a step: by a law, sensor or add-on")
+        self._stepping = True
+        try:
+            self._control_step(command)
+        finally:
+            self._stepping = False
+
+    def _control_step(self, command: Any) -> None:
+        """Do what MARS's Algorithm 1 does in one pass of its loop."""
         self._call("on_step", self)
         self.sense()
         if self.pace is not None:

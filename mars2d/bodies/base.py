@@ -13,6 +13,9 @@ __all__ = ["Drive"]
 
 Float = NDArray[np.float64]
 
+ROUNDING = 1e-12
+"""By how much, relatively, a command may exceed its limit: what was saturated once stays as it is."""
+
 
 class Drive(Description):
     """The base of all drives.

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from mars2d.bodies.base import Drive, Float
+from mars2d.bodies.base import ROUNDING, Drive, Float
 
 __all__ = ["Holonomic"]
 
@@ -23,9 +23,10 @@ class Holonomic(Drive):
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) shortened to max_linear_speed where they are faster."""
         speed = np.hypot(command[0], command[1])
-        if not (speed > self.max_linear_speed).any():
+        over = speed > self.max_linear_speed * (1 + ROUNDING)
+        if not over.any():
             return command
-        return np.asarray(command * (self.max_linear_speed / np.maximum(speed, self.max_linear_speed)))
+        return command * np.where(over, self.max_linear_speed / np.where(over, speed, 1.0), 1.0)
 
     def twist(self, command: Float) -> Float:
         """Return (vx, vy, 0)."""

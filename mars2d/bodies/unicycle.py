@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from mars2d.bodies.base import Drive, Float
+from mars2d.bodies.base import ROUNDING, Drive, Float
 from mars2d.description import number
 
 __all__ = ["Unicycle"]
@@ -27,14 +27,14 @@ class Unicycle(Drive):
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) with each wheel's speed clipped to +-max_linear_speed."""
         v, rim = command[0], self.wheel_semiaxis * command[1]
-        left = np.minimum(np.maximum(v - rim, -self.max_linear_speed), self.max_linear_speed)
-        right = np.minimum(np.maximum(v + rim, -self.max_linear_speed), self.max_linear_speed)
-        clipped = (left != v - rim) | (right != v + rim)
-        if not clipped.any():
+        left, right = v - rim, v + rim
+        limit = self.max_linear_speed
+        over = np.maximum(np.abs(left), np.abs(right)) > limit * (1 + ROUNDING)
+        if not over.any():
             return command
-        # What is within its limits stays as it was to the last bit.
-        v = np.where(clipped, (left + right) / 2, v)
-        omega = np.where(clipped, (right - left) / (2 * self.wheel_semiaxis), command[1])
+        left, right = np.clip(left, -limit, limit), np.clip(right, -limit, limit)
+        v = np.where(over, (left + right) / 2, v)
+        omega = np.where(over, (right - left) / (2 * self.wheel_semiaxis), command[1])
         return np.array([v, omega])
 
     def twist(self, command: Float) -> Float:

@@ -69,7 +69,9 @@ class Fonts:
                 high = middle - 1
         return text[:low].rstrip() + "…"
 
-    def wrap(self, text: str, size: float, room: float, lines: int, bold: bool = False) -> list[str]:
+    def wrap(
+        self, text: str, size: float, room: float, lines: int, bold: bool = False
+    ) -> list[str]:
         """Return `text` as at most `lines` lines none of which is wider than `room` pixels."""
         result: list[str] = []
         for paragraph in text.splitlines() or [""]:

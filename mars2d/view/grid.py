@@ -34,7 +34,7 @@ def spacing(scale: float, least: float) -> float:
 def ticks(low: float, high: float, step: float) -> Float:
     """Return the multiples of `step` from `low` to `high`, both included."""
     first, last = ceil(low / step - 1e-6), floor(high / step + 1e-6)
-    return np.arange(first, min(last, first + 2000) + 1) * step
+    return np.arange(first, min(last, first + 2000) + 1, dtype=np.float64) * step
 
 
 def label(value: float, step: float) -> str:

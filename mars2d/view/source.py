@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from mars2d.errors import Mars2dError
+from mars2d.files import Experiment
 from mars2d.frame import Frame
+from mars2d.record import Record
 from mars2d.scenario import Scenario
+from mars2d.world import World
 
-__all__ = ["Source"]
+__all__ = ["Live", "Playback", "Source"]
 
 
 class Source(Protocol):
@@ -30,3 +34,79 @@ class Source(Protocol):
 
     def restart(self) -> None:
         """Go back to the start."""
+
+
+class Live:
+    """A live experiment: each advance is one control step of its world."""
+
+    def __init__(self, experiment: Experiment, seed: int = 0) -> None:
+        self._experiment = experiment
+        self._seed = seed
+        self.restart()
+
+    def restart(self) -> None:
+        """Build the world anew."""
+        e = self._experiment
+        self._world = World(e.scenario, e.control, self._seed, filename=e.filename)
+
+    @property
+    def scenario(self) -> Scenario:
+        """What is simulated."""
+        return self._world.scenario
+
+    @property
+    def frame(self) -> Frame:
+        """The present instant."""
+        return self._world.frame
+
+    @property
+    def over(self) -> bool:
+        """Whether the experiment is over."""
+        return self._world.over
+
+    @property
+    def record(self) -> Record:
+        """The record so far."""
+        return self._world.record
+
+    def advance(self) -> None:
+        """Do one control step. A Mars2dError ends the experiment and carries its record."""
+        if self._world.over:
+            return
+        try:
+            self._world.step()
+        except Mars2dError as error:
+            self._world.stop(f"Error: {error}")
+            error.record = self._world.record
+            raise
+
+
+class Playback:
+    """A recorded run, row by row."""
+
+    def __init__(self, record: Record) -> None:
+        self._record = record
+        self._row = 0
+
+    @property
+    def scenario(self) -> Scenario:
+        """What was simulated."""
+        return self._record.scenario
+
+    @property
+    def frame(self) -> Frame:
+        """The present row."""
+        return self._record.frame(self._row)
+
+    @property
+    def over(self) -> bool:
+        """Whether this is the last row."""
+        return self._row == len(self._record) - 1
+
+    def advance(self) -> None:
+        """Go on by one row."""
+        self._row = min(self._row + 1, len(self._record) - 1)
+
+    def restart(self) -> None:
+        """Go back to the first row."""
+        self._row = 0

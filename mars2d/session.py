@@ -1,0 +1,52 @@
+"""Run an experiment in one call, with a window or without."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from mars2d.files import open_experiment
+from mars2d.loop import Progress, simulate
+from mars2d.record import Record
+from mars2d.scenario import Scenario, playback_speed
+from mars2d.streams import check_seed
+from mars2d.world import World
+
+__all__ = ["run"]
+
+
+def run(
+    experiment: str | Path | ModuleType | Scenario,
+    stop_time: float | None = None,
+    speed: float | str = "max",
+    options: Mapping[str, Any] | None = None,
+    *,
+    control: Callable[[World], Any] | None = None,
+    seed: int = 0,
+    show: bool | None = None,
+    progress: Progress | None = None,
+) -> Record:
+    """Run an experiment to its end and return the record.
+
+    experiment: a file, the name of a shipped example, a module, or a Scenario. stop_time: seconds,
+    in place of the scenario's. speed: simulated seconds per second; "max" does not wait, 0 makes
+    one step a key press. options: fields by their dotted names, as ``{"robots.*.diameter": 0.2}``,
+    and parameters of a scenario function. control: the law of the team, in place of the
+    experiment's. seed: of all random streams. show: whether in a window; by default, if a speed is
+    given. progress: called with the world after each step, without a window.
+
+    Raises InputError for what can't be run. When a law fails, the error carries what was recorded
+    until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
+    """
+    options = dict(options or {})
+    if stop_time is not None:
+        options["stop_time"] = stop_time
+    speed, seed = playback_speed("speed", speed), check_seed(seed)
+    opened = open_experiment(experiment, options, control)
+    if speed == 0 or (speed != "max" if show is None else show):
+        from mars2d.view.show import show_experiment
+
+        return show_experiment(opened, speed, seed)
+    return simulate(opened, seed, speed, progress)

@@ -1,0 +1,39 @@
+"""Is there a screen?"""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import pygame
+
+__all__ = ["NO_DISPLAY", "display_available"]
+
+NO_DISPLAY = (
+    "there is no display for a window; run it with --headless, draw a picture with "
+    "--figure OUT.png, or make a film with --video OUT.gif"
+)
+
+NOT_REAL = ("dummy", "offscreen", "evdev", "disk")
+
+
+def display_available() -> bool:
+    """Return whether a window could be opened that a person sees."""
+    wanted = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER") or ""
+    if wanted.lower() in NOT_REAL:
+        return False
+    if pygame.display.get_init():
+        return pygame.display.get_driver() not in NOT_REAL
+    if sys.platform in ("win32", "darwin", "cygwin", "emscripten"):
+        return True
+    if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        return False
+    # The variable may name a screen that is gone, as after a lost ssh connection: try.
+    try:
+        pygame.display.init()
+    except pygame.error:
+        return False
+    try:
+        return pygame.display.get_driver() not in NOT_REAL
+    finally:
+        pygame.display.quit()

@@ -1,0 +1,24 @@
+"""Which parts of the picture are shown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Self
+
+from mars2d.scenario import Animation
+
+__all__ = ["Layers"]
+
+
+@dataclass(frozen=True, slots=True)
+class Layers:
+    """What may be switched on and off while watching."""
+
+    grid: bool = True
+    trails: bool = True
+    sensors: bool = True
+
+    @classmethod
+    def of(cls, animation: Animation, *, sensors: bool = True) -> Self:
+        """Return what an experiment starts with."""
+        return cls(grid=animation.grid, trails=animation.wake, sensors=sensors)

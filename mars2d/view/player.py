@@ -1,0 +1,209 @@
+"""The clock of a window: how far the source goes for the time that passes on the wall."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+
+from mars2d.errors import InputError, Mars2dError
+from mars2d.frame import Frame
+from mars2d.scenario import playback_speed
+from mars2d.view.source import Source
+
+__all__ = ["SPEEDS", "Player", "between"]
+
+SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+"""The rungs of + and -; above them lies "max"."""
+
+LONGEST_GAP = 0.1
+"""Wall time beyond this between two pictures, seconds, is not caught up with."""
+
+
+class Player:
+    """Plays a source: at a factor of real time, as fast as it goes, paused, or by single steps.
+
+    speed: a factor, 0 for manual mode (one step a key press), or "max". budget: seconds of each
+    picture that the simulation may take.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        speed: float | str,
+        budget: float = 0.014,
+        clock: Callable[[], float] = time.perf_counter,
+    ) -> None:
+        """Start at the source's present frame, playing unless in manual mode."""
+        checked = playback_speed("speed", speed)
+        self.source = source
+        self.speed = float("inf") if checked == "max" else float(checked)
+        self.paused = False
+        self.error: Mars2dError | None = None
+        self._budget, self._clock = budget, clock
+        self._present = source.frame
+        self._previous: Frame | None = None
+        self._time = self._present.time
+        self._pace: deque[tuple[float, float]] = deque()
+
+    @property
+    def manual(self) -> bool:
+        """Whether each step waits for a key."""
+        return self.speed == 0
+
+    @property
+    def playing(self) -> bool:
+        """Whether time passes."""
+        return not (self.paused or self.manual or self.over)
+
+    @property
+    def over(self) -> bool:
+        """Whether the last frame is reached and shown, or a law has failed."""
+        if self.error is not None:
+            return True
+        return self.source.over and self._time >= self._present.time
+
+    @property
+    def frame(self) -> Frame:
+        """What is to be drawn now: between the last two frames while time passes, else the last."""
+        present, previous = self._present, self._previous
+        if previous is None or self._time >= present.time or present.time <= previous.time:
+            return present
+        return between(previous, present, self._time)
+
+    @property
+    def factor(self) -> float | None:
+        """How many times as fast as the wall clock it went of late; None when not known yet."""
+        if len(self._pace) < 2:
+            return None
+        (wall0, time0), (wall1, time1) = self._pace[0], self._pace[-1]
+        return (time1 - time0) / (wall1 - wall0) if wall1 - wall0 > 0.25 else None
+
+    def pass_time(self, wall: float) -> None:
+        """Go on for `wall` seconds that have passed since the last picture."""
+        if not self.playing:
+            self._pace.clear()
+            return
+        if self.speed == float("inf"):
+            self._advance_for_long()
+            self._settle()
+        else:
+            wanted = self._time + self.speed * min(wall, LONGEST_GAP)
+            self._advance_until(wanted)
+            # Where the simulation is too slow, time waits for it instead of piling up a debt.
+            self._time = min(wanted, self._present.time)
+        now = self._clock()
+        self._pace.append((now, self._time))
+        while now - self._pace[0][0] > 1.5:
+            self._pace.popleft()
+
+    def step(self) -> None:
+        """Go on by one sampling time, and pause."""
+        if not self.manual:
+            self.paused = True
+        self._settle()
+        if not self.over:
+            self._advance()
+        self._settle()
+
+    def pause_or_resume(self) -> None:
+        """Stop time or let it pass; in manual mode, one step."""
+        if self.manual:
+            self.step()
+            return
+        self.paused = not self.paused
+        if self.paused:
+            self._settle()
+
+    def faster(self) -> None:
+        """Go one rung up; from manual mode to the lowest."""
+        higher = [rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)]
+        self.speed = higher[0] if higher else float("inf")
+        self._pace.clear()
+
+    def slower(self) -> None:
+        """Go one rung down, at most to the lowest."""
+        lower = [rung for rung in SPEEDS if rung < self.speed * (1 - 1e-9)]
+        if lower:
+            self.speed = lower[-1]
+            self._pace.clear()
+
+    def restart(self) -> None:
+        """Go back to the start; a law that failed gets another chance."""
+        self.error = None
+        self._pace.clear()
+        try:
+            self.source.restart()
+        except Mars2dError as error:
+            self.error = error
+        self._settle()
+
+    def status(self) -> tuple[str, bool]:
+        """Return the speed in words, and whether time stands still."""
+        if self.over:
+            return ("stopped" if self.error else "over"), True
+        if self.manual:
+            return "manual", True
+        if self.paused:
+            return "paused", True
+        factor = self.factor
+        if self.speed == float("inf"):
+            return ("max" if factor is None else f"max  {_times(factor)}"), False
+        text = _times(self.speed)
+        if factor is not None and factor < 0.9 * self.speed:
+            text += f"  reaches {_times(factor)}"
+        return text, False
+
+    def _settle(self) -> None:
+        """Show the source's present frame."""
+        self._present = self.source.frame
+        self._previous = None
+        self._time = self._present.time
+
+    def _advance_for_long(self) -> None:
+        """Go on for as long as a picture may take, asking for no frame in between."""
+        deadline = self._clock() + self._budget
+        while not self.source.over and self._advance():
+            if self._clock() >= deadline:
+                break
+
+    def _advance_until(self, wanted: float) -> None:
+        deadline = self._clock() + self._budget
+        while self._present.time < wanted and not self.source.over:
+            before = self._present
+            if not self._advance():
+                self._settle()
+                break
+            self._present, self._previous = self.source.frame, before
+            if self._clock() >= deadline:
+                break
+
+    def _advance(self) -> bool:
+        """Go on by one sampling time; return whether the law held."""
+        try:
+            self.source.advance()
+        except Mars2dError as error:
+            self.error = error
+        return self.error is None
+
+
+def between(first: Frame, second: Frame, time: float) -> Frame:
+    """Return what is seen at a time [s] between two frames: poses linear, all else of the first.
+
+    Raises InputError when `time` does not lie between them.
+    """
+    if not first.time <= time <= second.time:
+        raise InputError(f"time = {time:g}: expected one from {first.time:g} to {second.time:g}")
+    if second.time == first.time:
+        return second
+    share = (time - first.time) / (second.time - first.time)
+    pose = first.pose + share * (second.pose - first.pose)
+    return replace(first, time=time, pose=pose)
+
+
+def _times(factor: float) -> str:
+    """Return a factor of real time as it is read: 0.1x, 2x, 340x."""
+    if factor >= 10 and factor != round(factor):
+        factor = float(f"{factor:.2g}")
+    return f"{factor:.10g}x" if factor == round(factor, 1) else f"{factor:.2g}x"
