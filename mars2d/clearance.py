@@ -172,7 +172,10 @@ class Encounter:
         )
 
     def time_to_touch(self, velocity: Complex, bend: Float, depth: float) -> float:
-        """Return for how long no pair that is apart gets deeper than `depth`, seconds.
+        """Return for how long no pair gets deeper than `depth`, seconds.
+
+        A pair that is about as deep already may get an eighth of `depth` deeper: so the solver is
+        called again soon after an impact that it could not stop at once.
 
         velocity: (k,) of the discs; bend: (k,) m/s^2, how quickly a velocity may turn away from it.
         Along straight lines the distance to a convex thing is a convex function of time: it falls
@@ -186,7 +189,7 @@ class Encounter:
         turn = bend[self._first]
         turn[:pairs] += bend[self._j]
         closing = np.maximum((approach * self._normal.conj()).real, 0.0)
-        # gap + depth = closing h + turn h^2 / 2, solved for h so that both may be zero
-        room = self._gap + depth
+        # room = closing h + turn h^2 / 2, solved for h so that both may be zero
+        room = np.maximum(self._gap + depth, depth / 8)
         h = 2 * room / (closing + np.sqrt(closing**2 + 2 * turn * room) + TINY)
-        return float(np.where(self._touch, inf, h).min())
+        return float(h.min())

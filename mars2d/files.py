@@ -26,7 +26,7 @@ _counter = itertools.count()
 
 @dataclass(frozen=True)
 class Experiment:
-    """A scenario and the law of its team; `filename` is where they came from, or empty."""
+    """A scenario and the law of its team; `filename` is the file's name, or empty."""
 
     scenario: Scenario
     control: Callable[[Any], Any] | None = None
@@ -74,7 +74,7 @@ def open_experiment(
     except Mars2dError as error:
         error.where = error.where or Path(name).name
         raise
-    return Experiment(scenario, control if control is not None else own, name)
+    return Experiment(scenario, control if control is not None else own, Path(name).name)
 
 
 def _find(source: str | Path) -> Path:

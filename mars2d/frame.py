@@ -135,9 +135,9 @@ def _robot(
 def sensors(frame: Frame) -> Scene:
     """Return what the sensors see, each drawn by itself."""
     scene = Scene()
-    for i, robot in enumerate(frame.scenario.robots):
-        for sensor in robot.sensors:
-            for index, reading in frame.readings.get(sensor.key, ()):
-                if index == i:
-                    sensor.draw(scene, frame.pose[:, i], reading, frame.scenario.colors[i])
+    colors = frame.scenario.colors
+    carried = [{sensor.key: sensor for sensor in r.sensors} for r in frame.scenario.robots]
+    for key, readings in frame.readings.items():
+        for i, reading in readings:
+            carried[i][key].draw(scene, frame.pose[:, i], reading, colors[i])
     return scene

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from mars2d.errors import Mars2dError
 from mars2d.files import Experiment
@@ -12,7 +12,7 @@ from mars2d.world import World
 
 __all__ = ["Interrupted", "simulate"]
 
-Progress = Callable[[World], None]
+Watcher = Callable[[World], None]
 
 
 class Interrupted(KeyboardInterrupt):
@@ -27,23 +27,31 @@ def simulate(
     experiment: Experiment,
     seed: int = 0,
     speed: float | str = "max",
-    progress: Progress | None = None,
+    watchers: Sequence[Watcher] = (),
 ) -> Record:
     """Run an opened experiment to its end and return the record.
 
-    speed: simulated seconds per second, > 0, or "max". progress: called with the world after each
-    step. A Mars2dError that ends the run carries what was recorded until then as its `record`;
-    Ctrl-C raises Interrupted, which does as well.
+    speed: simulated seconds per second, > 0, or "max". watchers: called with the world at each
+    control step, once its sensors have been read: to draw, to count, to wait. A Mars2dError that
+    ends the run carries what was recorded until then as its `record`; Ctrl-C raises Interrupted,
+    which does as well.
     """
-    pace = None if speed == "max" else RealTime(float(speed))
+    every = [*watchers] if speed == "max" else [*watchers, RealTime(float(speed))]
+
+    def pace(world: World) -> None:
+        for watcher in every:
+            watcher(world)
+
     world = World(
-        experiment.scenario, experiment.control, seed, filename=experiment.filename, pace=pace
+        experiment.scenario,
+        experiment.control,
+        seed,
+        filename=experiment.filename,
+        pace=pace if every else None,
     )
     try:
         while not world.over:
             world.step()
-            if progress is not None:
-                progress(world)
     except Mars2dError as error:
         world.stop(f"Error: {error}")
         error.record = world.record

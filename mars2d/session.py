@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from mars2d.files import open_experiment
-from mars2d.loop import Progress, simulate
+from mars2d.loop import Watcher, simulate
 from mars2d.record import Record
 from mars2d.scenario import Scenario, playback_speed
 from mars2d.streams import check_seed
@@ -26,7 +26,7 @@ def run(
     control: Callable[[World], Any] | None = None,
     seed: int = 0,
     show: bool | None = None,
-    progress: Progress | None = None,
+    watchers: Sequence[Watcher] = (),
 ) -> Record:
     """Run an experiment to its end and return the record.
 
@@ -35,7 +35,8 @@ def run(
     one step a key press. options: fields by their dotted names, as ``{"robots.*.diameter": 0.2}``,
     and parameters of a scenario function. control: the law of the team, in place of the
     experiment's. seed: of all random streams. show: whether in a window; by default, if a speed is
-    given. progress: called with the world after each step, without a window.
+    given. watchers: functions called with the world at each control step, once its sensors have
+    been read; without a window.
 
     Raises InputError for what can't be run. When a law fails, the error carries what was recorded
     until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
@@ -49,4 +50,4 @@ def run(
         from mars2d.view.show import show_experiment
 
         return show_experiment(opened, speed, seed)
-    return simulate(opened, seed, speed, progress)
+    return simulate(opened, seed, speed, watchers)

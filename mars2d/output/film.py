@@ -78,7 +78,7 @@ def save_film(
     if suffix == ".gif" and fps > 50:
         raise InputError(f"fps = {fps:g}: expected at most 50, more a GIF can't show")
     if suffix == ".mp4":
-        _require_av(target)
+        require_av(target)
         size = (size[0] + size[0] % 2, size[1] + size[1] % 2)
     with _replacing(target) as file:
         pictures = _pictures(frames, size, sensors=sensors, status=status, progress=progress)
@@ -198,30 +198,38 @@ def _palette(picture: Any) -> Any:
     """Return an image that holds the palette: the first picture's colours and their tints.
 
     Robots move over white, obstacles and each other, so shades between each strong colour and its
-    surroundings are added to what the first picture shows.
+    surroundings are added to what the first picture shows; then those of the banner at the end, and
+    a few from everywhere for what add-ons may bring.
     """
     from PIL import Image
 
-    counted = picture.getcolors(1 << 24) or []
-    counted.sort(key=lambda item: -item[0])
-    chosen: dict[tuple[int, int, int], None] = {}
-    for _, color in counted[:24]:
-        chosen[color] = None
-    strong = [c for n, c in counted if n >= 4 and max(c) - min(c) > 60][:24]
-    for color in strong:
-        for ground in ((255, 255, 255), (184, 192, 200)):
-            for share in (0.2, 0.4, 0.6, 0.8, 0.9):
-                chosen[
-                    tuple(round(g + share * (c - g)) for c, g in zip(color, ground, strict=True))
-                ] = None
-    reduced = picture.quantize(colors=CLEAR - 1, method=Image.Quantize.MEDIANCUT)
-    rest = np.array(reduced.getpalette()).reshape(-1, 3).tolist()
-    for color in rest:
-        chosen[tuple(color)] = None
-    flat = [c for color in list(chosen)[:CLEAR] for c in color]
+    from mars2d.view import theme
+
+    counted = sorted(picture.getcolors(1 << 24) or [], key=lambda item: -item[0])
+    strong = [color for n, color in counted if n >= 4 and max(color) - min(color) > 60][:12]
+    wanted = [color for _, color in counted[:24]]
+    for ground in ((255, 255, 255), (184, 192, 200)):
+        for share in (0.85, 0.2, 0.4, 0.6, 0.1):
+            wanted += [_mixed(color, ground, share) for color in strong]
+    for banner in (theme.OVER, theme.ERROR):
+        ink = tuple(bytes.fromhex(banner[1:]))
+        wanted += [_mixed(ink, (255, 255, 255), share) for share in (1.0, 0.8, 0.6, 0.4, 0.2)]
+    wanted += [(r, g, b) for r in (0, 128, 255) for g in (0, 128, 255) for b in (0, 128, 255)]
+    rest = picture.quantize(colors=256, method=Image.Quantize.MEDIANCUT).getpalette()
+    wanted += [tuple(rest[k : k + 3]) for k in range(0, len(rest), 3)]
+    # Pillow matches colours by cells of four levels: two in one cell would be mistaken.
+    cells: dict[tuple[int, ...], tuple[int, ...]] = {}
+    for color in wanted:
+        cells.setdefault(tuple(c // 6 for c in color), color)
+    flat = [c for color in list(cells.values())[:CLEAR] for c in color]
     image = Image.new("P", (16, 16))
     image.putpalette(flat + flat[:3] * (CLEAR - len(flat) // 3))
     return image
+
+
+def _mixed(color: tuple[int, ...], ground: tuple[int, ...], share: float) -> tuple[int, ...]:
+    """Return a colour laid over a ground with an opacity from 0 to 1."""
+    return tuple(round(g + share * (c - g)) for c, g in zip(color, ground, strict=True))
 
 
 def _write_gif_head(file: BinaryIO, palette: Any, size: tuple[int, int]) -> None:
@@ -235,7 +243,7 @@ def _write_gif_head(file: BinaryIO, palette: Any, size: tuple[int, int]) -> None
 # -- MP4 ------------------------------------------------------------------------------------------
 
 
-def _require_av(target: Path) -> None:
+def require_av(target: Path) -> None:
     try:
         import av  # noqa: F401
     except ImportError:
@@ -255,8 +263,9 @@ def _write_mp4(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) -
         for picture in pictures:
             if stream is None:
                 stream = _video_stream(container, picture.get_size(), fps)
-            pixels = pygame.surfarray.array3d(picture).swapaxes(0, 1)
-            frame = av.VideoFrame.from_ndarray(np.ascontiguousarray(pixels), format="rgb24")
+            width, height = picture.get_size()
+            flat = np.frombuffer(pygame.image.tobytes(picture, "RGB"), dtype=np.uint8)
+            frame = av.VideoFrame.from_ndarray(flat.reshape(height, width, 3), format="rgb24")
             container.mux(stream.encode(frame))
             count += 1
         if stream is not None:
@@ -272,7 +281,7 @@ def _video_stream(container: Any, size: tuple[int, int], fps: float) -> Any:
     stream.width, stream.height = size
     stream.pix_fmt = "yuv420p"
     if known[0] == "libx264":
-        stream.options = {"crf": "18", "preset": "fast", "tune": "animation"}
+        stream.options = {"crf": "18", "preset": "veryfast", "tune": "animation"}
     else:
         stream.bit_rate = 8_000_000
     return stream

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import pygame
@@ -17,6 +17,8 @@ from mars2d.view.painter import Painter
 __all__ = ["Banner", "Layout", "Status", "draw_footer", "draw_header", "draw_help", "fitted"]
 
 BANNER_LINES = 8
+FOOTER = 44.0
+"""The height of the footer, and of a banner of one line in its place, points."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +27,7 @@ class Status:
 
     text: str
     waiting: bool = False
+    error: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +49,7 @@ class Layout:
     footer: pygame.Rect
 
     @classmethod
-    def of(cls, size: tuple[int, int], footer_height: float = 40.0) -> Layout:
+    def of(cls, size: tuple[int, int], footer_height: float = FOOTER) -> Layout:
         """Divide a surface of `size` pixels; `footer_height` in points."""
         width, height = size
         ui = interface_scale(size)
@@ -63,7 +66,7 @@ class Layout:
 def interface_scale(size: tuple[int, int]) -> float:
     """Return the pixels a point on a surface of `size` pixels: 1 at 1280 x 720."""
     share = min(size[0] / 1280, size[1] / 720)
-    return max(0.85, float(share**0.8))
+    return max(0.9, float(share**0.8))
 
 
 def fitted(scenario: Scenario, size: tuple[int, int], layout: Layout) -> Camera:
@@ -85,9 +88,10 @@ def draw_header(
     surface.fill(theme.EDGE, (bar.left, bar.bottom - 1, bar.width, 1))
     pad = round(20 * ui)
     right = bar.right - pad
+    widest = "0" * len(str(frame.scenario.last_iteration))
     if status is not None:
         right = _chip(surface, painter, status, right, bar.centery, ui) - round(24 * ui)
-    right = _figure(surface, painter, "step", str(frame.iteration), "00000", right, bar, ui)
+    right = _figure(surface, painter, "step", str(frame.iteration), widest, right, bar, ui)
     right -= round(24 * ui)
     digits = decimals(frame.scenario)
     widest = f"{frame.scenario.stop_time:.{digits}f} s"
@@ -133,6 +137,8 @@ def _chip(
     """Draw the status as a word on a coloured plate; return its left end."""
     ink = theme.WAITING if status.waiting else theme.RUNNING
     fill = theme.WAITING_PALE if status.waiting else theme.RUNNING_PALE
+    if status.error:
+        ink, fill = theme.ERROR, theme.ERROR_PALE
     image = painter.fonts.render(status.text, 17 * ui, ink, bold=True)
     width = max(image.get_width() + round(26 * ui), round(76 * ui))
     plate = pygame.Rect(right - width, 0, width, round(32 * ui))
@@ -145,8 +151,8 @@ def _chip(
 def footer_height(banner: Banner | None, size: tuple[int, int], painter: Painter) -> float:
     """Return how high the footer must be, points: more than one line for a long message."""
     if banner is None:
-        return 40.0
-    return 24.0 + 23.0 * len(_banner_lines(banner, size, painter))
+        return FOOTER
+    return FOOTER - 23.0 + 23.0 * len(_banner_lines(banner, size, painter))
 
 
 def _banner_lines(banner: Banner, size: tuple[int, int], painter: Painter) -> list[str]:
@@ -162,9 +168,12 @@ def draw_footer(
     painter: Painter,
     banner: Banner | None,
     left: str,
-    right: str = "",
+    hints: Sequence[tuple[str, str]] = (),
 ) -> None:
-    """Draw the banner across the footer, or where there is none a quiet line of text."""
+    """Draw the banner across the footer, or where there is none a quiet line of text.
+
+    hints: pairs of a key and what it does, for the right end.
+    """
     ui, bar, fonts = layout.ui, layout.footer, painter.fonts
     if bar.height <= 0:
         return
@@ -172,10 +181,8 @@ def draw_footer(
     if banner is None:
         surface.fill(theme.BAR, bar)
         surface.fill(theme.EDGE, (bar.left, bar.top, bar.width, 1))
-        image = fonts.render(right, 14 * ui, theme.TEXT)
-        place = image.get_rect(midright=(bar.right - pad, bar.centery))
-        surface.blit(image, place)
-        text = fonts.shorten(left, 14 * ui, place.left - 3 * pad)
+        end = _hints(surface, painter, hints, bar.right - pad, bar.centery, ui)
+        text = fonts.shorten(left, 14 * ui, end - 2 * pad)
         image = fonts.render(text, 14 * ui, theme.MUTED)
         surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
         return
@@ -189,6 +196,26 @@ def draw_footer(
         y += step
     hint = fonts.render(banner.hint, 15 * ui, "#e6ebf0")
     surface.blit(hint, hint.get_rect(midright=(bar.right - pad, bar.centery)))
+
+
+def _hints(
+    surface: pygame.Surface,
+    painter: Painter,
+    hints: Sequence[tuple[str, str]],
+    right: int,
+    middle: int,
+    ui: float,
+) -> int:
+    """Write keys and what they do, from the right; return the left end."""
+    for name, meaning in reversed(hints):
+        word = painter.fonts.render(meaning, 14 * ui, theme.MUTED)
+        key = painter.fonts.render(name, 14 * ui, theme.TEXT, bold=True)
+        place = word.get_rect(midright=(right, middle))
+        surface.blit(word, place)
+        place = key.get_rect(midright=(place.left - round(6 * ui), middle))
+        surface.blit(key, place)
+        right = place.left - round(20 * ui)
+    return right
 
 
 def draw_help(

@@ -12,10 +12,13 @@ from mars2d.view.camera import Camera
 from mars2d.view.fonts import Fonts
 from mars2d.view.theme import GRID, GRID_AXIS, MUTED, PAGE
 
-__all__ = ["draw_grid", "draw_labels", "label", "spacing", "ticks"]
+__all__ = ["draw_grid", "label", "labels", "spacing", "ticks"]
 
 Bounds = tuple[float, float, float, float]
 Float = NDArray[np.float64]
+
+LEAST_SPACING = 42
+"""Points between grid lines, at least."""
 
 
 def spacing(scale: float, least: float) -> float:
@@ -50,16 +53,12 @@ def label(value: float, step: float) -> str:
 
 def draw_grid(surface: pygame.Surface, camera: Camera, bounds: Bounds, ui: float) -> None:
     """Draw lines one pixel wide within bounds (xmin, xmax, ymin, ymax), metres."""
-    clip = surface.get_clip()
-    (left, top), (right, bottom) = camera.to_pixels(
-        [(bounds[0], bounds[3]), (bounds[1], bounds[2])]
-    ).tolist()
-    left, right = max(left, clip.left), min(right, clip.right)
-    top, bottom = max(top, clip.top), min(bottom, clip.bottom)
-    if left >= right or top >= bottom:
+    shown = _visible(surface.get_clip(), camera, bounds)
+    if shown is None:
         return
-    step = spacing(camera.scale, 42 * ui)
-    xmin, xmax, ymin, ymax = camera_bounds(camera, left, top, right, bottom)
+    left, top, right, bottom = shown
+    step = spacing(camera.scale, LEAST_SPACING * ui)
+    xmin, xmax, ymin, ymax = _metres(camera, *shown)
     for x in ticks(xmin, xmax, step).tolist():
         px = round(camera.x + camera.scale * x)
         color = GRID_AXIS if abs(x) < step / 2 else GRID
@@ -70,52 +69,65 @@ def draw_grid(surface: pygame.Surface, camera: Camera, bounds: Bounds, ui: float
         pygame.draw.line(surface, color, (round(left), py), (round(right) - 1, py))
 
 
-def draw_labels(
-    surface: pygame.Surface, camera: Camera, bounds: Bounds, fonts: Fonts, ui: float
-) -> None:
-    """Write the metres along the left and lower side of `bounds`, or of what is visible of it."""
-    clip = surface.get_clip()
+def labels(
+    clip: pygame.Rect, camera: Camera, bounds: Bounds, fonts: Fonts, ui: float
+) -> list[tuple[pygame.Surface, tuple[int, int]]]:
+    """Return the metres, as images and where they go.
+
+    They stand along the left and lower side of `bounds`, or of what is visible of it in `clip`.
+    """
     size, gap = 12 * ui, round(7 * ui)
-    step = spacing(camera.scale, 42 * ui)
+    step = spacing(camera.scale, LEAST_SPACING * ui)
+    shown = _visible(clip, camera, bounds)
+    if shown is None:
+        return []
+    left, _, _, bottom = shown
+    xmin, xmax, ymin, ymax = _metres(camera, *shown)
+    xs, ys = ticks(xmin, xmax, step).tolist(), ticks(ymin, ymax, step).tolist()
+    widest = max((fonts.width(label(y, step), size) for y in ys), default=0)
+    below = min(round(bottom) + gap, clip.bottom - round(size * 1.7))
+    beside = max(round(left) - gap, clip.left + widest + gap)
+    result = []
+    for x in xs:
+        image = fonts.render(label(x, step), size, MUTED)
+        place = image.get_rect(midtop=(round(camera.x + camera.scale * x), below))
+        if below >= bottom or beside + gap <= place.left:
+            result.append(_on_plate(image, place, plate=below < bottom))
+    for y in ys:
+        image = fonts.render(label(y, step), size, MUTED)
+        place = image.get_rect(midright=(beside, round(camera.y - camera.scale * y)))
+        if beside <= left or place.bottom <= below:
+            result.append(_on_plate(image, place, plate=beside > left))
+    return result
+
+
+def _on_plate(
+    image: pygame.Surface, place: pygame.Rect, *, plate: bool
+) -> tuple[pygame.Surface, tuple[int, int]]:
+    """Put a label on a pale plate, where it lies inside the picture."""
+    if not plate:
+        return image, place.topleft
+    larger = place.inflate(8, 2)
+    result = pygame.Surface(larger.size, 0, 32)
+    result.fill(PAGE)
+    result.blit(image, (4, 1))
+    result.set_alpha(215)
+    return result, larger.topleft
+
+
+def _visible(
+    clip: pygame.Rect, camera: Camera, bounds: Bounds
+) -> tuple[float, float, float, float] | None:
+    """Return (left, top, right, bottom), pixels, of what is seen of bounds; None for nothing."""
     (left, top), (right, bottom) = camera.to_pixels(
         [(bounds[0], bounds[3]), (bounds[1], bounds[2])]
     ).tolist()
     left, right = max(left, clip.left), min(right, clip.right)
     top, bottom = max(top, clip.top), min(bottom, clip.bottom)
-    if left >= right or top >= bottom:
-        return
-    xmin, xmax, ymin, ymax = camera_bounds(camera, left, top, right, bottom)
-    xs, ys = ticks(xmin, xmax, step).tolist(), ticks(ymin, ymax, step).tolist()
-    below = min(round(bottom) + gap, clip.bottom - round(size * 1.6))
-    widest = max((fonts.width(label(y, step), size) for y in ys), default=0)
-    beside = max(round(left) - gap, clip.left + widest + gap)
-    for x in xs:
-        image = fonts.render(label(x, step), size, MUTED)
-        place = image.get_rect(midtop=(round(camera.x + camera.scale * x), below))
-        if clip.left + widest + 2 * gap <= place.left and place.right <= clip.right:
-            _write(surface, image, place, inside=below < bottom)
-    for y in ys:
-        image = fonts.render(label(y, step), size, MUTED)
-        place = image.get_rect(midright=(beside, round(camera.y - camera.scale * y)))
-        if clip.top <= place.top and place.bottom <= below - (0 if below < bottom else -gap):
-            _write(surface, image, place, inside=beside > left)
+    return (left, top, right, bottom) if left < right and top < bottom else None
 
 
-def _write(
-    surface: pygame.Surface, image: pygame.Surface, place: pygame.Rect, *, inside: bool
-) -> None:
-    """Write a label, on a plate where it lies inside the picture."""
-    if inside:
-        plate = pygame.Surface(place.inflate(6, 0).size, 0, 32)
-        plate.fill(PAGE)
-        plate.set_alpha(200)
-        surface.blit(plate, place.inflate(6, 0))
-    surface.blit(image, place)
-
-
-def camera_bounds(
-    camera: Camera, left: float, top: float, right: float, bottom: float
-) -> tuple[float, float, float, float]:
+def _metres(camera: Camera, left: float, top: float, right: float, bottom: float) -> Bounds:
     """Return (xmin, xmax, ymin, ymax), metres, of a rectangle of pixels."""
     (xmin, ymax), (xmax, ymin) = camera.to_world([(left, top), (right, bottom)]).tolist()
     return xmin, xmax, ymin, ymax

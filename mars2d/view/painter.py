@@ -8,6 +8,7 @@ sprites, at quarters of a pixel so that slow movement stays smooth.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Sequence
+from functools import cache
 from math import ceil, floor
 
 import numpy as np
@@ -33,6 +34,7 @@ FAINT = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
 
 
+@cache
 def rgba(color: str) -> Rgba:
     """Return ``#rrggbb`` or ``#rrggbbaa`` as four numbers from 0 to 255."""
     digits = color[1:] + ("ff" if len(color) == 7 else "")
@@ -139,7 +141,9 @@ class Painter:
         (ax, ay), (bx, by) = shape.points.tolist()
         x, y = camera.x + camera.scale * ax, camera.y - camera.scale * ay
         dx, dy = camera.scale * (bx - ax), camera.scale * (ay - by)
-        width = shape.width * self.ui
+        # A short line stays a line: a small robot's heading must not become a blob.
+        width = min(shape.width * self.ui, max(1.0, (abs(dx) + abs(dy)) / 3.5))
+        width = round(8 * width) / 8
         color = rgba(shape.stroke)
         if max(abs(dx), abs(dy)) > LARGEST_SPRITE / 2:
             _stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
@@ -357,7 +361,8 @@ def _mark(marker: str, x: float, y: float, ui: float, width: float) -> tuple[Dra
     spokes = {
         "x": [(-r, -r, r, r), (-r, r, r, -r)],
         "+": [(-r, 0, r, 0), (0, -r, 0, r)],
-        "*": [(0, -r, 0, r), (-0.87 * r, -r / 2, 0.87 * r, r / 2), (-0.87 * r, r / 2, 0.87 * r, -r / 2)],
+        "*": [(0, -r, 0, r), (-0.87 * r, -r / 2, 0.87 * r, r / 2),
+              (-0.87 * r, r / 2, 0.87 * r, -r / 2)],
         "s": [(-r, -r, r, -r), (r, -r, r, r), (r, r, -r, r), (-r, r, -r, -r)],
     }[marker]  # fmt: skip
     pieces = [np.array([(x + a, y + b), (x + c, y + d)]) for a, b, c, d in spokes]

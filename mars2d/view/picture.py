@@ -9,7 +9,7 @@ import pygame
 
 from mars2d.errors import InputError
 from mars2d.frame import Frame
-from mars2d.view.bars import Banner, Layout, Status, draw_footer, draw_header, fitted
+from mars2d.view.bars import FOOTER, Banner, Layout, Status, draw_footer, draw_header, fitted
 from mars2d.view.camera import Camera
 from mars2d.view.layers import Layers
 from mars2d.view.painter import Painter
@@ -41,7 +41,7 @@ class Artist:
         if not all(isinstance(side, int) and 16 <= side <= 16_384 for side in size):
             raise InputError(f"size = {size!r}: expected (width, height) in pixels, 16 to 16384")
         self.size = size
-        self.layout = Layout.of(size, 40.0 if footer else 0.0)
+        self.layout = Layout.of(size, FOOTER if footer else 0.0)
         self.painter = Painter()
         self.painter.ui = self.layout.ui
         self._stage = Stage(self.painter)

@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
-from mars2d.errors import InputError, Mars2dError
+from mars2d.errors import Mars2dError
 from mars2d.frame import Frame
 from mars2d.scenario import playback_speed
 from mars2d.view.source import Source
@@ -191,15 +191,14 @@ class Player:
 def between(first: Frame, second: Frame, time: float) -> Frame:
     """Return what is seen at a time [s] between two frames: poses linear, all else of the first.
 
-    Raises InputError when `time` does not lie between them.
+    A time before or after both is taken as the first's or the second's.
     """
-    if not first.time <= time <= second.time:
-        raise InputError(f"time = {time:g}: expected one from {first.time:g} to {second.time:g}")
-    if second.time == first.time:
+    span = second.time - first.time
+    if span <= 0 or time >= second.time:
         return second
-    share = (time - first.time) / (second.time - first.time)
+    share = max(0.0, (time - first.time) / span)
     pose = first.pose + share * (second.pose - first.pose)
-    return replace(first, time=time, pose=pose)
+    return replace(first, time=max(time, first.time), pose=pose)
 
 
 def _times(factor: float) -> str:

@@ -12,7 +12,7 @@ from mars2d.frame import Frame
 from mars2d.scenario import Scenario
 from mars2d.scene import Polygon, Scene
 from mars2d.view.camera import Camera
-from mars2d.view.grid import draw_grid, draw_labels
+from mars2d.view.grid import draw_grid, labels
 from mars2d.view.layers import Layers
 from mars2d.view.painter import Painter
 from mars2d.view.theme import PAGE
@@ -36,6 +36,7 @@ class Stage:
         self._scenario: Scenario | None = None
         self._trailed: pygame.Surface | None = None
         self._trails: Trails | None = None
+        self._labels: list[tuple[pygame.Surface, tuple[int, int]]] = []
 
     def draw(
         self,
@@ -63,6 +64,7 @@ class Stage:
             moving.extend(scenes.sensors(frame).shapes)
         moving.extend(scenes.robots(frame).shapes)
         self.painter.paint(surface, moving.shapes, camera)
+        surface.fblits(self._labels)
         surface.set_clip(before)
 
     def _background(
@@ -79,6 +81,7 @@ class Stage:
             still.set_clip(plot)
             still.fill(PAGE)
             self.painter.paint(still, scenes.workspace(scenario).shapes, camera)
+            self._labels = []
             if layers.grid:
                 self._grid(still, scenario, camera)
             self.painter.paint(still, scenes.obstacles(scenario).shapes, camera)
@@ -97,7 +100,7 @@ class Stage:
             shapes = scenes.workspace(scenario).shapes
             edge = [replace(s, fill=None) for s in shapes if isinstance(s, Polygon)]
             self.painter.paint(still, edge, camera)
-        draw_labels(still, camera, bounds, self.painter.fonts, self.painter.ui)
+        self._labels = labels(still.get_clip(), camera, bounds, self.painter.fonts, self.painter.ui)
 
     def _with_trails(self, still: pygame.Surface, frame: Frame, camera: Camera) -> pygame.Surface:
         if self._trails is None or self._trailed is None or not self._trails.continues(frame.path):

@@ -18,7 +18,7 @@ __all__ = ["Trails"]
 Float = NDArray[np.float64]
 
 STRIDE = 2.0
-"""A path is prolonged when it has grown by this many points of the screen: no dots on top of dots."""
+"""A path is prolonged when it has grown by so many points: no dots on top of dots."""
 
 
 class Trails:
@@ -35,6 +35,7 @@ class Trails:
         self.painter, self.camera, self.width = painter, camera, width
         self.marker, self.line = split_wake_style(style)
         self.colors = [_over_white(color) for color in colors]
+        self.inks = [rgba(color)[:3] for color in self.colors]
         self.drawn = 0
         self.first: Float | None = None
         self.last: Float | None = None
@@ -69,12 +70,17 @@ class Trails:
         along = self.tip_along + np.cumsum(np.hypot(steps[..., 0], steps[..., 1]), axis=0)
         kept = self._crossings(along, STRIDE * self.painter.ui)
         marked = self._crossings(along, MARK_SPACING * self.painter.ui) if self.marker else None
-        for i in np.nonzero(kept.any(axis=0))[0].tolist():
+        grown = np.nonzero(kept.any(axis=0))[0]
+        if self.line == "-" and len(new) == 1:
+            self._segments(surface, grown, self.pen[grown], new[0, grown])
+        for i in grown.tolist():
             rows = kept[:, i]
-            points = np.concatenate([self.pen[i : i + 1], new[rows, i]])
-            self._stroke(surface, points, float(self.pen_along[i]), i)
-            self.pen[i], self.pen_along[i] = points[-1], along[rows, i][-1]
-            if marked is not None:
+            if self.line != "-" or len(new) > 1:
+                points = np.concatenate([self.pen[i : i + 1], new[rows, i]])
+                self._stroke(surface, points, float(self.pen_along[i]), i)
+            self.pen[i], self.pen_along[i] = new[rows, i][-1], along[rows, i][-1]
+        if marked is not None:
+            for i in np.nonzero(marked.any(axis=0))[0].tolist():
                 self._mark(surface, new[marked[:, i], i], i)
         self.tip, self.tip_along = new[-1].copy(), along[-1].copy()
 
@@ -83,13 +89,13 @@ class Trails:
         if self.first is None or not self.line:
             return
         here = self._pixels(position[None])[0]
-        gaps = self.tip - self.pen
-        for i, (a, b, c) in enumerate(
-            zip(self.pen.tolist(), self.tip.tolist(), here.tolist(), strict=True)
-        ):
-            # By way of the tip, unless that is but a hair from the pen.
-            near = abs(gaps[i, 0]) + abs(gaps[i, 1]) < 0.5
-            points = np.array([a, c] if near else [a, b, c])
+        if self.line == "-":
+            everyone = np.arange(len(here))
+            self._segments(surface, everyone, self.pen, self.tip)
+            self._segments(surface, everyone, self.tip, here)
+            return
+        for i in range(len(here)):
+            points = np.array([self.pen[i], self.tip[i], here[i]])
             self._stroke(surface, points, float(self.pen_along[i]), i)
 
     def _pixels(self, positions: Float) -> Float:
@@ -108,33 +114,38 @@ class Trails:
     def _stroke(self, surface: pygame.Surface, points: Float, start: float, i: int) -> None:
         if not self.line:
             return
-        if self.line == "-":
-            smooth_line(surface, self.colors[i], points, self.width * self.painter.ui)
+        pieces = [points]
+        if self.line != "-":
+            pattern = tuple(self.painter.ui * length for length in DASHES[self.line])
+            pieces = dashes(points, pattern, start)
+        for piece in pieces:
+            smooth_line(surface, self.inks[i], piece, self.width * self.painter.ui)
+
+    def _segments(
+        self, surface: pygame.Surface, which: NDArray[np.intp], starts: Float, ends: Float
+    ) -> None:
+        """Draw one straight piece for each of some robots, from (m, 2) to (m, 2) pixels."""
+        steps = ends - starts
+        lengths = np.hypot(steps[:, 0], steps[:, 1])
+        keep = lengths > 0.05
+        if not keep.any():
             return
-        pattern = tuple(self.painter.ui * length for length in DASHES[self.line])
-        for piece in dashes(points, pattern, start):
-            smooth_line(surface, self.colors[i], piece, self.width * self.painter.ui)
+        starts, ends, steps = starts[keep], ends[keep], steps[keep] / lengths[keep, None]
+        normals = np.column_stack([-steps[:, 1], steps[:, 0]])
+        inks = [self.inks[i] for i in which[keep].tolist()]
+        for shift in _shifts(self.width * self.painter.ui):
+            a, b = (starts + shift * normals).tolist(), (ends + shift * normals).tolist()
+            for ink, start, end in zip(inks, a, b, strict=True):
+                pygame.draw.aaline(surface, ink, start, end)
 
 
-def smooth_line(surface: pygame.Surface, color: str, points: Float, width: float) -> None:
+def smooth_line(
+    surface: pygame.Surface, ink: tuple[int, int, int], points: Float, width: float
+) -> None:
     """Draw an opaque anti-aliased polyline (k, 2), quickly: hair lines side by side.
 
     pygame's own wide anti-aliased lines become thinner the nearer they are to a diagonal.
     """
-    ink = rgba(color)[:3]
-    if len(points) == 2:  # the common case, without numpy
-        (ax, ay), (bx, by) = points.tolist()
-        dx, dy = bx - ax, by - ay
-        length = (dx * dx + dy * dy) ** 0.5
-        if length < 0.05:
-            return
-        nx, ny = -dy / length, dx / length
-        for shift in _shifts(width):
-            pygame.draw.aaline(
-                surface, ink,
-                (ax + shift * nx, ay + shift * ny), (bx + shift * nx, by + shift * ny),
-            )  # fmt: skip
-        return
     steps = np.diff(points, axis=0)
     lengths = np.hypot(steps[:, 0], steps[:, 1])
     keep = lengths > 1e-9

@@ -35,6 +35,8 @@ __all__ = ["Window"]
 PICTURES_A_SECOND = 60
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
 WHEEL_FACTOR = 1.15
+HINTS = (("Space", "pause"), ("→", "step"), ("+ −", "speed"), ("F1", "help"))
+MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
 DEEPEST, WIDEST = 400.0, 0.05
 """How far one can zoom in and out, times the scale at which the workspace fits."""
 
@@ -130,11 +132,10 @@ class Window:
         frame = self.player.frame
         self._stage.draw(surface, frame, self.camera, self.layers, self.layout.plot)
         text, waiting = self.player.status()
-        draw_header(surface, self.layout, self._painter, frame, Status(text, waiting))
-        hints = "any key one step" if self.player.manual else "Space pause   → step   + − speed"
-        draw_footer(
-            surface, self.layout, self._painter, banner, summary(frame), hints + "   F1 help"
-        )
+        status = Status(text, waiting, error=self.player.error is not None)
+        draw_header(surface, self.layout, self._painter, frame, status)
+        hints = MANUAL_HINTS if self.player.manual else HINTS
+        draw_footer(surface, self.layout, self._painter, banner, summary(frame), hints)
         if self.help:
             draw_help(surface, self.layout, self._painter, (*keys.KEYS, *keys.MOUSE))
 

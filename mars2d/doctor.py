@@ -1,0 +1,81 @@
+"""What this machine offers to MARS2D, and whether the installation works."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import platform
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+__all__ = ["Finding", "examine"]
+
+LIBRARIES = ("pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was looked at; `ok` is None where it is a matter of taste."""
+
+    name: str
+    text: str
+    ok: bool | None = True
+
+
+def examine() -> Iterator[Finding]:
+    """Yield what was found, one thing after the other."""
+    from mars2d import __version__
+
+    yield Finding("mars2d", __version__)
+    yield Finding("python", f"{platform.python_version()}, {sys.executable}")
+    yield Finding("system", f"{platform.system()} {platform.release()}, {platform.machine()}")
+    for name in LIBRARIES:
+        yield _library(name)
+    yield _display()
+    yield _films()
+    yield _physics()
+
+
+def _library(name: str) -> Finding:
+    try:
+        return Finding(name, importlib.metadata.version(name))
+    except importlib.metadata.PackageNotFoundError:
+        return Finding(name, "is missing: pip install --force-reinstall mars2d", ok=False)
+
+
+def _display() -> Finding:
+    from mars2d.view.display import display_available
+
+    if display_available():
+        return Finding("display", "yes: windows open")
+    return Finding("display", "none: runs are without a window, pictures and films work", ok=None)
+
+
+def _films() -> Finding:
+    try:
+        version = importlib.metadata.version("av")
+    except importlib.metadata.PackageNotFoundError:
+        return Finding("films", '.gif; for .mp4 as well: pip install "mars2d[video]"', ok=None)
+    return Finding("films", f".gif and .mp4 (PyAV {version})")
+
+
+def _physics() -> Finding:
+    """Drive one robot along an arc, and compare with the closed form."""
+    from mars2d.scenario import Robot, Scenario
+    from mars2d.world import World
+
+    v, omega, steps = 0.2, 0.5, 1000
+    scenario = Scenario(robots=[Robot(pose=(0, 0, 0))], sampling_time=0.1, stop_time=1e3)
+    world = World(scenario)
+    start = time.perf_counter()
+    for _ in range(steps):
+        world.step([[v], [omega]])
+    rate = steps / (time.perf_counter() - start)
+    angle = omega * world.time
+    exact = np.array([v / omega * np.sin(angle), v / omega * (1 - np.cos(angle)), angle])
+    error = float(np.abs(world.pose[:, 0] - exact).max())
+    text = f"an arc of {steps} steps is off by {error:.1e} m; {rate:,.0f} steps/s"
+    return Finding("physics", text, ok=error < 1e-9)

@@ -1,0 +1,521 @@
+"""Figures of records with matplotlib: the paths, or snapshots of them, for reports and papers."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass, replace
+from functools import partial
+from io import BytesIO
+from math import ceil, floor, log, log10
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d import frame as seen
+from mars2d.errors import InputError, shown
+from mars2d.scene import Circle, Line, Polygon, Scene, Shape, Text, faded, split_wake_style
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from mars2d.record import Record
+    from mars2d.scenario import Scenario
+
+__all__ = ["SUFFIXES", "paint", "plot_paths", "plot_snapshots", "save_figure"]
+
+Float = NDArray[np.float64]
+
+SUFFIXES = (".png", ".pdf", ".svg")
+"""The formats of `save_figure`."""
+
+LEGEND_LIMIT = 8
+"""With more robots than this there is no legend: base colours recur."""
+
+PANEL_LIMIT = 64
+NAME_LIMIT = 24
+
+INK = "#1f2933"
+MUTED = "#616e7c"
+GRID = "#e6e9ed"
+
+WORKSPACE, GRID_LINES, SHAPES = 1.0, 1.5, 2.0
+"""Levels in matplotlib's order of drawing; its grid can only lie at 0.5, 1.5 or 2.5."""
+
+TEXT_GAP = 4.0  # points between a label and what it names
+MARK_SPACING = 9.0  # points along a path from one mark to the next
+
+# Matlab's line styles, which are matplotlib's as well.
+LINES: dict[str, Any] = {"": "none", "-": "-", "--": "--", ":": ":", "-.": "-."}
+
+# Matlab's marks: its name, whether it is filled, its diameter in points.
+MARKS: dict[str, tuple[Any, bool, float]] = {
+    ".": ("o", True, 4.4),
+    "o": ("o", False, 6.4),
+    "x": ("x", True, 6.4),
+    "+": ("+", True, 6.4),
+    "*": ((6, 2, 0), True, 6.4),
+    "s": ("s", False, 6.0),
+}
+
+
+def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) -> None:
+    """Paint the shapes of a scene on matplotlib axes, in metres, the first one lowest.
+
+    scale: what line widths, marks and text heights [points] are multiplied by. level: matplotlib's
+    zorder of all the shapes. A circle's `pixels` are points of the page; where it has a radius as
+    well they are turned into metres as the axes are now, so set the limits before.
+    """
+    ppm = _points_per_metre(ax)
+    for shape in scene.shapes:
+        if isinstance(shape, Circle):
+            _circle(shape, ax, scale, level, ppm)
+        elif isinstance(shape, Line):
+            _line(shape, ax, scale, level, ppm)
+        elif isinstance(shape, Polygon):
+            _polygon(shape, ax, scale, level)
+        else:
+            _text(shape, ax, scale, level)
+    ax.autoscale_view()
+
+
+def _circle(shape: Circle, ax: Axes, scale: float, level: float, ppm: float) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Circle as Disc
+
+    fill, stroke = shape.fill or "none", shape.stroke or "none"
+    width = shape.width * scale if shape.stroke else 0.0
+    if shape.radius == 0:  # a mark, of the same size however one zooms
+        x, y = shape.center
+        size = 2 * shape.pixels * scale
+        mark = Line2D(
+            [x], [y], linestyle="none", marker="o", markersize=size,
+            markerfacecolor=fill, markeredgecolor=stroke, markeredgewidth=width, zorder=level,
+        )  # fmt: skip
+        ax.add_line(mark)
+        return
+    radius = shape.radius + shape.pixels * scale / ppm
+    disc = Disc(
+        shape.center, radius, facecolor=fill, edgecolor=stroke, linewidth=width, zorder=level
+    )
+    ax.add_patch(disc)
+
+
+def _polygon(shape: Polygon, ax: Axes, scale: float, level: float) -> None:
+    from matplotlib.patches import Polygon as Patch
+
+    if len(shape.points) == 0:
+        return
+    patch = Patch(
+        shape.points, closed=True, joinstyle="round", zorder=level,
+        facecolor=shape.fill or "none", edgecolor=shape.stroke or "none",
+        linewidth=shape.width * scale if shape.stroke else 0.0,
+    )  # fmt: skip
+    ax.add_patch(patch)
+
+
+def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None:
+    from matplotlib.lines import Line2D
+
+    mark, style = split_wake_style(shape.style)
+    line = Line2D(
+        shape.points[:, 0], shape.points[:, 1], color=shape.stroke, linewidth=shape.width * scale,
+        solid_capstyle="butt" if len(shape.points) == 2 else "round", solid_joinstyle="round",
+        zorder=level,
+    )  # fmt: skip
+    line.set_linestyle(LINES[style])
+    if mark:
+        name, filled, size = MARKS[mark]
+        line.set_marker(name)
+        line.set_markersize(size * scale)
+        line.set_markeredgewidth(0.0 if mark == "." else shape.width * scale)
+        line.set_markerfacecolor(shape.stroke if filled else "none")
+        line.set_markevery(_spaced(shape.points, MARK_SPACING * scale / ppm))
+    ax.add_line(line)
+
+
+def _spaced(points: Float, spacing: float) -> list[int]:
+    """Return which points (k, 2) to mark, so that marks lie `spacing` metres apart or more."""
+    if len(points) == 0:
+        return []
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    kept: list[int] = np.unique(np.floor(along / spacing), return_index=True)[1].tolist()
+    return kept
+
+
+def _text(shape: Text, ax: Axes, scale: float, level: float) -> None:
+    # "left" puts the text's left end at the point, as in Matlab and matplotlib.
+    shifts = {"left": (1, 0), "right": (-1, 0), "above": (0, 1), "below": (0, -1)}
+    dx, dy = shifts.get(shape.anchor, (0, 0))
+    label = ax.annotate(
+        shape.text,
+        shape.position,
+        xytext=(dx * TEXT_GAP * scale, dy * TEXT_GAP * scale),
+        textcoords="offset points",
+        color=shape.color,
+        fontsize=shape.size * scale,
+        horizontalalignment="left" if dx > 0 else "right" if dx < 0 else "center",
+        verticalalignment="bottom" if dy > 0 else "top" if dy < 0 else "center",
+        annotation_clip=True,
+        zorder=level,
+    )
+    label.set_parse_math(False)
+    label.set_clip_on(True)
+
+
+def plot_paths(record: Record, ax: Axes | None = None) -> Axes:
+    """Draw the paths of a record: initial poses hollow, final poses filled, obstacles and grid.
+
+    ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
+    and which a notebook shows. Returns the axes. Raises InputError if the record has no rows.
+
+    >>> import mars2d
+    >>> ax = mars2d.run("random_walk", stop_time=10).plot()
+    >>> ax.get_xlabel(), ax.get_title()
+    ('x [m]', 'Random movements, t = 10 s')
+    """
+    view = _View.of(record, len(record) - 1)
+    own = ax is None
+    if ax is None:
+        legend_width = _legend_width(record.scenario)
+        width, height = view.inches(5.2, 4.8)
+        figure = _new_figure(width + 0.8 + legend_width, height + 0.9)
+        ax = figure.add_subplot()
+    else:
+        _check_axes(ax)
+        if ax.has_data():  # a second record over a first one
+            view = view.union((*ax.get_xlim(), *ax.get_ylim()))
+    _dress(ax, record.scenario, view)
+    _label(ax)
+    title = f"{record.scenario.title}, {_time(float(record.time[-1]))}"
+    _set_title(ax, title, 72 * ax.get_figure(root=True).get_figwidth() / 7.5)  # type: ignore[union-attr]
+    _add_legend(ax, record.scenario)
+    if own:
+        ax.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]
+        _show_in_notebooks(ax)
+    _paint_frame(ax, record, len(record) - 1)
+    return ax
+
+
+def plot_snapshots(record: Record, times: ArrayLike, figure: Figure | None = None) -> Figure:
+    """Draw the paths until each of some times, one panel a time.
+
+    times: seconds, within the record; the panel shows the last row that is not after it. figure:
+    a matplotlib figure to draw on, by default a new one. Returns the figure. Raises InputError for
+    a time outside of the record, and if the record has no rows.
+    """
+    rows = _rows_at(record, times)
+    scenario = record.scenario
+    view = _View.of(record, max(rows))
+    cols = _columns(len(rows), view.width / view.height)
+    lines = ceil(len(rows) / cols)
+    own = figure is None
+    if figure is None:
+        room = min(3.2, 9.6 / cols)
+        width, height = view.inches(room, room)
+        figure = _new_figure(
+            cols * (width + 0.25) + 0.6 + _legend_width(scenario), lines * (height + 0.4) + 0.9
+        )
+    panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
+    for unused in panels[len(rows) :]:
+        unused.remove()
+    for k, (ax, row) in enumerate(zip(panels, rows, strict=False)):
+        _dress(ax, scenario, view)
+        _label(ax, below=k + cols >= len(rows), beside=k % cols == 0)
+        ax.set_title(_time(float(record.time[row])), fontsize=10, color=INK)
+    _add_legend(panels[min(cols, len(rows)) - 1], scenario)
+    heading = figure.suptitle(
+        _wrapped(scenario.title, 72 * figure.get_figwidth() / 8), fontsize=12, color=INK
+    )
+    heading.set_parse_math(False)
+    if own:
+        figure.draw_without_rendering()
+        figure.__dict__["_repr_png_"] = partial(_png, figure)
+    for ax, row in zip(panels, rows, strict=False):
+        _paint_frame(ax, record, row)
+    return figure
+
+
+def save_figure(record: Record, path: str | Path, times: ArrayLike | None = None) -> Path:
+    """Save a figure of a record as ``.png``, ``.pdf`` or ``.svg`` and return its path.
+
+    times: seconds; when given, snapshots at these times, else the paths of the whole run. The same
+    record gives the same bytes. Raises InputError for another suffix, a path that can't be
+    written, a record without rows, or a time outside of it.
+    """
+    import matplotlib as mpl
+
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        known = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        raise InputError(f"{path}: a figure is saved as {known}, this ends in {path.suffix!r}")
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: can't be written: there is no folder {path.parent}")
+    # Without the date, and with ids that do not depend on chance.
+    dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+    with mpl.rc_context({"svg.hashsalt": "mars2d", "pdf.fonttype": 42}):
+        if times is None:
+            figure: Any = plot_paths(record).get_figure(root=True)
+        else:
+            figure = plot_snapshots(record, times)
+        file = BytesIO()  # so that nothing half written stays behind
+        figure.savefig(
+            file, format=suffix[1:], dpi=200, bbox_inches="tight", pad_inches=0.1,
+            metadata=dates.get(suffix),
+        )  # fmt: skip
+    try:
+        path.write_bytes(file.getvalue())
+    except OSError as error:
+        raise InputError(f"{path}: can't be written: {error.strerror}") from error
+    return path
+
+
+@dataclass(frozen=True)
+class _View:
+    """What part of the plane is drawn, metres."""
+
+    xmin: float
+    xmax: float
+    ymin: float
+    ymax: float
+
+    RATIO = 8.0
+    """The longest side to the shortest: a corridor is given some room."""
+
+    @classmethod
+    def of(cls, record: Record, row: int) -> Self:
+        """Return the view of the workspace, and of all paths until `row`, with a margin."""
+        if len(record) == 0:
+            raise InputError("the record has no rows: nothing ran, so there is nothing to draw")
+        xy = record.pose[: row + 1, :2]
+        low, high = xy.min(axis=0), xy.max(axis=0)  # (2, n)
+        reach = np.array(
+            [robot.radius + abs(robot.center_offset) for robot in record.scenario.robots]
+        )
+        xmin, xmax, ymin, ymax = record.scenario.bounds
+        xmin = min(xmin, float((low[0] - reach).min()))
+        xmax = max(xmax, float((high[0] + reach).max()))
+        ymin = min(ymin, float((low[1] - reach).min()))
+        ymax = max(ymax, float((high[1] + reach).max()))
+        margin = 0.02 * max(xmax - xmin, ymax - ymin)
+        view = cls(xmin - margin, xmax + margin, ymin - margin, ymax + margin)
+        more_x = max(0.0, view.height / cls.RATIO - view.width) / 2
+        more_y = max(0.0, view.width / cls.RATIO - view.height) / 2
+        return cls(view.xmin - more_x, view.xmax + more_x, view.ymin - more_y, view.ymax + more_y)
+
+    @property
+    def width(self) -> float:
+        return self.xmax - self.xmin
+
+    @property
+    def height(self) -> float:
+        return self.ymax - self.ymin
+
+    def union(self, limits: tuple[float, float, float, float]) -> Self:
+        xmin, xmax, ymin, ymax = limits
+        return replace(
+            self,
+            xmin=min(self.xmin, xmin), xmax=max(self.xmax, xmax),
+            ymin=min(self.ymin, ymin), ymax=max(self.ymax, ymax),
+        )  # fmt: skip
+
+    def inches(self, width: float, height: float) -> tuple[float, float]:
+        """Return the largest (width, height) in the view's proportions that fits, inches."""
+        scale = min(width / self.width, height / self.height)
+        return scale * self.width, scale * self.height
+
+
+def _new_figure(width: float, height: float) -> Figure:
+    """Return a figure [inches] that pyplot does not know of."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), layout="constrained", facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _check_axes(ax: object) -> None:
+    from matplotlib.axes import Axes
+
+    if not isinstance(ax, Axes) or ax.name != "rectilinear":
+        raise InputError(
+            f"ax = {shown(ax)}: expected plain axes of matplotlib, as plt.subplots()[1]"
+        )
+
+
+def _dress(ax: Axes, scenario: Scenario, view: _View) -> None:
+    """Set limits, grid and ticks, and paint what never moves."""
+    ax.set_aspect("equal")
+    ax.set_xlim(view.xmin, view.xmax)
+    ax.set_ylim(view.ymin, view.ymax)
+    ax.set_facecolor("white")
+    ax.set_axisbelow("line")  # the grid between WORKSPACE and SHAPES
+    ax.tick_params(length=0, labelsize=9, labelcolor=MUTED)
+    _set_ticks(ax)
+    ax.callbacks.connect("xlim_changed", _set_ticks)
+    ax.callbacks.connect("ylim_changed", _set_ticks)
+    if scenario.animation.grid:
+        ax.grid(visible=True, color=GRID, linewidth=0.6)
+    else:
+        ax.grid(visible=False)
+    ax.spines[:].set(color=GRID, linewidth=0.8, visible=scenario.workspace is None)
+    for shape in seen.workspace(scenario).shapes:
+        if isinstance(shape, Polygon):  # its outline is the frame of the grid
+            paint(Scene([replace(shape, stroke=None)]), ax, level=WORKSPACE)
+            for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
+                line.set_clip_path(ax.patches[-1])
+            paint(Scene([replace(shape, fill=None)]), ax, scale=0.75)
+    paint(seen.obstacles(scenario), ax, scale=0.6)
+
+
+def _set_ticks(ax: Axes) -> None:
+    """Set the ticks of both axes at the same distance: 1, 2 or 5 times a power of ten metres."""
+    from matplotlib.ticker import MultipleLocator
+
+    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
+    wanted = max(abs(xmax - xmin), abs(ymax - ymin)) / 11
+    power = 10.0 ** floor(log10(wanted))
+    step = next(factor * power for factor in (1, 2, 5, 10) if factor * power >= wanted * (1 - 1e-9))
+    ax.xaxis.set_major_locator(MultipleLocator(step))
+    ax.yaxis.set_major_locator(MultipleLocator(step))
+
+
+def _label(ax: Axes, *, below: bool = True, beside: bool = True) -> None:
+    """Label the axes below and beside the drawing, where there is no other panel."""
+    ax.tick_params(labelbottom=below, labelleft=beside)
+    if below:
+        ax.set_xlabel("x [m]", color=INK, fontsize=10)
+    if beside:
+        ax.set_ylabel("y [m]", color=INK, fontsize=10)
+
+
+def _paint_frame(ax: Axes, record: Record, row: int) -> None:
+    """Paint the paths until a row, the initial poses, and the robots as they are then."""
+    scenario = record.scenario
+    now = record.frame(row)
+    # Trails end at the pose now: it is not to be there twice.
+    now = replace(now, path=now.path[:-1])
+    few = len(scenario.robots) <= LEGEND_LIMIT
+    radius = min(robot.radius for robot in scenario.robots) * _points_per_metre(ax)
+    drawn = scenario.animation.show_real_shape
+    scale = min(max(radius / 9, 0.1), 0.75) if drawn else 0.75 if few else 0.5
+    if scenario.animation.wake:
+        trails = seen.trails(now)
+        if not few:
+            trails = Scene([_paler(shape) for shape in trails.shapes])
+        paint(trails, ax, scale=0.65 if few else 0.4)
+    if scenario.animation.show_initial_pose:
+        paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75))
+    paint(seen.robots(now), ax, scale=scale)
+
+
+def _paler(shape: Shape) -> Shape:
+    """Return a line more faint, so that in a crowd the robots stand out from their paths."""
+    return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
+
+
+def _points_per_metre(ax: Axes) -> float:
+    """Return how many points of the page a metre takes, as the axes are laid out now."""
+    ax.apply_aspect()
+    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
+    box = ax.get_window_extent()
+    per_metre = min(box.width / abs(xmax - xmin), box.height / abs(ymax - ymin))
+    return float(72 * per_metre / ax.get_figure(root=True).dpi)  # type: ignore[union-attr]
+
+
+def _set_title(ax: Axes, title: str, characters: float) -> None:
+    ax.set_title(_wrapped(title, characters), fontsize=12, color=INK, parse_math=False)
+
+
+def _wrapped(title: str, characters: float) -> str:
+    return textwrap.fill(title, max(20, int(characters)), max_lines=3, placeholder=" …")
+
+
+def _time(seconds: float) -> str:
+    return f"t = {seconds:.10g} s"
+
+
+def _names(scenario: Scenario) -> list[str]:
+    """Return the robots' names as they stand in a legend, or none if there are too many."""
+    if len(scenario.robots) > LEGEND_LIMIT:
+        return []
+    names = [" ".join(str(robot.name).split()) for robot in scenario.robots]
+    return [name if len(name) <= NAME_LIMIT else name[: NAME_LIMIT - 1] + "…" for name in names]
+
+
+def _legend_width(scenario: Scenario) -> float:
+    """Return about how wide the legend will be, inches."""
+    names = _names(scenario)
+    return 0.3 + 0.075 * max(map(len, names)) if names else 0.0
+
+
+def _add_legend(ax: Axes, scenario: Scenario) -> None:
+    """Name the robots beside the drawing, if they are few."""
+    from matplotlib.lines import Line2D
+
+    names = _names(scenario)
+    if not names:
+        return
+    handles: list[Artist] = [
+        Line2D([], [], linestyle="none", marker="o", markersize=6, color=color, markeredgewidth=0)
+        for color in scenario.colors
+    ]
+    legend = ax.legend(
+        handles, names, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
+        frameon=False, fontsize=9, labelcolor=INK, handletextpad=0.1, handlelength=1.5,
+    )  # fmt: skip
+    for text in legend.get_texts():
+        text.set_parse_math(False)
+
+
+def _columns(count: int, ratio: float) -> int:
+    """Return in how many columns to lay out panels whose width to height is `ratio`."""
+
+    def fault(cols: int) -> float:
+        lines = ceil(count / cols)
+        return abs(log(cols * ratio / lines / 1.6)) + 0.3 * (cols * lines - count)
+
+    return min(range(1, count + 1), key=fault)
+
+
+def _rows_at(record: Record, times: ArrayLike) -> list[int]:
+    """Return the last rows of a record that are not after the times [s]."""
+    if len(record) == 0:
+        raise InputError("the record has no rows: nothing ran, so there is nothing to draw")
+    expected = "expected times in seconds, as [0, 2.5, 10]"
+    try:
+        wanted = np.atleast_1d(np.asarray(times))
+    except ValueError:
+        raise InputError(f"times = {shown(times)}: {expected}") from None
+    if wanted.ndim != 1 or wanted.dtype.kind not in "iuf":
+        raise InputError(f"times = {shown(times)}: {expected}")
+    if not 1 <= len(wanted) <= PANEL_LIMIT:
+        raise InputError(f"times: {len(wanted)} of them; a figure has 1 to {PANEL_LIMIT} panels")
+    first, last = float(record.time[0]), float(record.time[-1])
+    hair = 1e-6 * record.scenario.sampling_time  # 3 * 0.1 is a little more than 0.3
+    for time in wanted.tolist():
+        if not first - hair <= time <= last + hair:  # true for NaN as well
+            raise InputError(
+                f"times: {time:.10g} s is outside of the record, "
+                f"which goes from {first:.10g} to {last:.10g} s"
+            )
+    rows = np.searchsorted(record.time, wanted.astype(float) + hair, side="right") - 1
+    return [max(0, row) for row in rows.tolist()]
+
+
+def _show_in_notebooks(ax: Axes) -> None:
+    """Let a notebook show the axes, or their figure: it asks for the method _repr_png_."""
+    figure: Any = ax.get_figure(root=True)
+    ax.__dict__["_repr_png_"] = figure.__dict__["_repr_png_"] = partial(_png, figure)
+
+
+def _png(figure: Figure) -> bytes:
+    file = BytesIO()
+    figure.savefig(file, format="png", dpi=120, bbox_inches="tight", pad_inches=0.1)
+    return file.getvalue()

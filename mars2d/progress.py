@@ -1,0 +1,53 @@
+"""A progress bar for a person who waits."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Protocol, TextIO
+
+__all__ = ["Progress"]
+
+
+class Stepped(Protocol):
+    """What progress is shown of: something whose iteration counts up."""
+
+    iteration: int
+
+
+class Progress:
+    """A bar on one line of a terminal: how far, how quick, how long still. Elsewhere it is silent."""
+
+    def __init__(self, total: int, unit: str = "steps", stream: TextIO | None = None) -> None:
+        """Take how many steps there are in all; `stream` is stderr by default."""
+        self._total = max(total, 1)
+        self._unit = unit
+        self._stream = sys.stderr if stream is None else stream
+        self._on = self._stream.isatty()
+        self._start = time.monotonic()
+        self._next = self._start + 0.5  # a short run needs no bar
+        self._shown = False
+
+    def __call__(self, world: Stepped) -> None:
+        """Show how far a world has come."""
+        self.update(world.iteration)
+
+    def update(self, done: int) -> None:
+        """Show that `done` steps of all have been made, ten times a second at most."""
+        if not self._on or (now := time.monotonic()) < self._next:
+            return
+        self._next = now + 0.1
+        self._shown = True
+        rate = done / (now - self._start)
+        left = (self._total - done) / rate if rate else 0.0
+        filled = round(30 * done / self._total)
+        bar = "#" * filled + "-" * (30 - filled)
+        line = f"\r{bar} {100 * done / self._total:3.0f} %  {rate:,.0f} {self._unit}/s  {left:.0f} s left "
+        self._stream.write(line)
+        self._stream.flush()
+
+    def close(self) -> None:
+        """Wipe the bar off the terminal."""
+        if self._shown:
+            self._stream.write("\r" + " " * 78 + "\r")
+            self._stream.flush()
