@@ -27,11 +27,14 @@ def _items(name: str, value: object, expected: str) -> list[Any]:
         raise wrong(name, value, expected) from None
 
 
-def _coordinate(name: str, value: object, expected: str) -> float:
-    result = real(name, value, expected)
-    if abs(result) > LIMIT:
-        raise wrong(name, value, f"{expected}, within +-{LIMIT:g} m")
-    return result
+def _coordinates(name: str, value: object, items: list[Any], expected: str) -> list[float]:
+    try:
+        numbers = [real(name, item) for item in items]
+    except InputError:
+        raise wrong(name, value, f"{expected}, all of them finite") from None
+    if any(abs(number) > LIMIT for number in numbers):
+        raise wrong(name, value, f"{expected}, within +-{LIMIT:g}")
+    return numbers
 
 
 def point(name: str, value: object) -> Point:
@@ -40,7 +43,7 @@ def point(name: str, value: object) -> Point:
     items = _items(name, value, expected)
     if len(items) != 2:
         raise wrong(name, value, expected)
-    x, y = (_coordinate(name, item, expected) for item in items)
+    x, y = _coordinates(name, value, items, expected)
     return x, y
 
 
@@ -50,7 +53,7 @@ def pose(name: str, value: object) -> tuple[float, float, float]:
     items = _items(name, value, expected)
     if len(items) not in (2, 3):
         raise wrong(name, value, expected)
-    x, y, theta = (_coordinate(name, item, expected) for item in (*items, 0.0)[:3])
+    x, y, theta = _coordinates(name, value, [*items, 0.0][:3], expected)
     return x, y, theta
 
 
@@ -110,7 +113,9 @@ def instance(kind: type, example: str) -> Check:
 
     def check(name: str, value: object) -> object:
         if isinstance(value, type) and issubclass(value, kind):
-            raise InputError(f"{name} = {value.__name__}: expected an object; write {value.__name__}(...)")
+            raise InputError(
+                f"{name} = {value.__name__}: expected an object; write {value.__name__}(...)"
+            )
         if not isinstance(value, kind):
             raise wrong(name, value, f"a {kind.__name__}, as {example}")
         return value

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import sys
 import time
 import traceback
@@ -140,7 +141,9 @@ def check(arguments: argparse.Namespace) -> int:
     _describe(experiment)
     # Some mistakes only show when laws, sensors and add-ons are called.
     sampling_time = experiment.scenario.sampling_time
-    trial = experiment.scenario.replace(stop_time=min(10 * sampling_time, experiment.scenario.stop_time))
+    trial = experiment.scenario.replace(
+        stop_time=min(10 * sampling_time, experiment.scenario.stop_time)
+    )
     record, _ = _simulate(Experiment(trial, experiment.control, experiment.filename), 0, "max", [])
     print(f"sound: {len(record)} control steps done")
     return OK
@@ -193,12 +196,16 @@ def _has_display() -> bool:
 def _wants_window(arguments: argparse.Namespace) -> bool:
     if arguments.headless:
         if arguments.speed == 0:
-            raise InputError("--speed 0 makes one step a key press: it needs a window, not --headless")
+            raise InputError(
+                "--speed 0 makes one step a key press: it needs a window, not --headless"
+            )
         return False
     if _has_display():
         return True
     if arguments.speed == 0:
-        raise InputError("--speed 0 makes one step a key press, and there is no display for a window")
+        raise InputError(
+            "--speed 0 makes one step a key press, and there is no display for a window"
+        )
     print("mars2d: there is no display, so this runs without a window", file=sys.stderr)
     return False
 
@@ -356,7 +363,9 @@ def _describe(experiment: Experiment) -> None:
     if len(scenario.robots) > 8:
         print(f"            and {len(scenario.robots) - 8} robots more")
     shape = "no limits" if scenario.workspace is None else f"{len(scenario.workspace)} corners"
-    print(f"workspace   {xmax - xmin:g} m x {ymax - ymin:g} m, {shape}, on_exit {scenario.on_exit!r}")
+    print(
+        f"workspace   {xmax - xmin:g} m x {ymax - ymin:g} m, {shape}, on_exit {scenario.on_exit!r}"
+    )
     print(f"obstacles   {len(scenario.obstacles)}")
     print(f"add-ons     {', '.join(addon.key for addon in scenario.addons) or 'none'}")
     print(f"time        {scenario.stop_time:g} s in steps of {scenario.sampling_time:g} s")
@@ -372,7 +381,9 @@ def _check_record(path: Path) -> int:
 
     record = load(path)
     versions = ", ".join(f"{name} {version}" for name, version in record.versions.items())
-    print(f"record of   {record.scenario.title} ({record.filename or 'a Scenario'}), seed {record.seed}")
+    print(
+        f"record of   {record.scenario.title} ({record.filename or 'a Scenario'}), seed {record.seed}"
+    )
     print(f"rows        {len(record)}, up to {record.time[-1] if len(record) else 0:g} s")
     print(f"ended       {record.over_message}")
     print(f"made with   {versions}")
@@ -399,7 +410,7 @@ class _Parser(argparse.ArgumentParser):
             if isinstance(action, argparse._SubParsersAction):
                 known += [*action.choices]
                 known += [o for sub in action.choices.values() for o in sub._option_string_actions]
-        for word in message.replace("'", " ").replace("=", " ").split():
+        for word in re.split(r"[\s'=:]+", message):
             found = nearest(word, known)
             if found.startswith("; did") and word not in known:
                 hint = found
@@ -422,20 +433,30 @@ def _parser() -> argparse.ArgumentParser:
         return sub
 
     sub = verb("demo", demo)
-    sub.add_argument("name", nargs="?", metavar="NAME", help="an example; without it, all are listed")
+    sub.add_argument(
+        "name", nargs="?", metavar="NAME", help="an example; without it, all are listed"
+    )
     _add_common(sub)
 
     sub = verb("run", run)
-    sub.add_argument("experiment", metavar="EXPERIMENT", help="a .py file, or the name of an example")
+    sub.add_argument(
+        "experiment", metavar="EXPERIMENT", help="a .py file, or the name of an example"
+    )
     _add_common(sub)
     _add_speed(sub)
     sub.add_argument("--stop-time", type=float, metavar="S", help="seconds to simulate")
     sub.add_argument(
-        "--set", action="append", default=[], metavar="KEY=VALUE", help="override a field or parameter"
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="override a field or parameter",
     )
     sub.add_argument("--record", type=Path, metavar="OUT.npz", help="save all data")
     sub.add_argument("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
-    sub.add_argument("--at", type=_times, metavar="T1,T2,...", help="snapshots at these times in the figure")
+    sub.add_argument(
+        "--at", type=_times, metavar="T1,T2,...", help="snapshots at these times in the figure"
+    )
     sub.add_argument("--video", type=Path, metavar="OUT", help="make a film: .gif, .mp4")
     sub.add_argument("--json", action="store_true", help="print the outcome as one line of JSON")
 
@@ -445,7 +466,9 @@ def _parser() -> argparse.ArgumentParser:
 
     verb("list", list_parts)
     sub = verb("check", check)
-    sub.add_argument("file", metavar="FILE", help="an experiment (.py or an example's name), a record (.npz)")
+    sub.add_argument(
+        "file", metavar="FILE", help="an experiment (.py or an example's name), a record (.npz)"
+    )
     verb("doctor", doctor)
     return parser
 

@@ -6,13 +6,13 @@ import inspect
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from types import SimpleNamespace
+from types import SimpleNamespace, TracebackType
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.errors import InputError, LawError, nearest, shown
+from mars2d.errors import LawError, described, nearest, shown
 
 if TYPE_CHECKING:
     from mars2d.world import World
@@ -66,7 +66,9 @@ class RobotView:
 
     def __getattr__(self, name: str) -> NoReturn:
         known = [item for item in dir(type(self)) if not item.startswith("_")]
-        raise LawError(f"a robot has no {name!r}{nearest(name, [*known, 'index', 'sense', 'memory'])}")
+        raise LawError(
+            f"a robot has no {name!r}{nearest(name, [*known, 'index', 'sense', 'memory'])}"
+        )
 
     @property
     def name(self) -> str:
@@ -100,7 +102,7 @@ class RobotView:
     def contacts(self) -> NDArray[np.void]:
         """The contacts of this robot since the last step: rows as in ``record.contacts``."""
         rows = self._world.contacts
-        return rows[(rows["a"] == self.index) | (rows["b"] == self.index)]
+        return np.asarray(rows[(rows["a"] == self.index) | (rows["b"] == self.index)])
 
     @property
     def rng(self) -> np.random.Generator:
@@ -165,25 +167,31 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
     def __enter__(self) -> None:
         pass
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, tb: Any) -> None:
-        if error is None or not isinstance(error, Exception):
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, tb: TracebackType | None
+    ) -> None:
+        if error is None or not isinstance(error, (Exception, SystemExit)):
             return  # nothing, or Ctrl-C
-        where = None
-        for step in traceback.extract_tb(tb):
-            if not Path(step.filename).is_relative_to(_PACKAGE) or "examples" in step.filename:
-                if not step.filename.startswith("<") and step.lineno and _is_users(step.filename):
-                    where = _place(step.filename, step.lineno)
+        where = _users_line(tb)
         if isinstance(error, LawError):
             error.where = error.where or where
             return
-        message = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
-        wrapped = LawError(f"{self._name} raised {message}")
+        wrapped = LawError(f"{self._name} raised {described(error)}")
         wrapped.where = where
         raise wrapped from error
 
 
-def _is_users(filename: str) -> bool:
-    return "site-packages" not in filename and not filename.startswith("<frozen")
+def _users_line(tb: TracebackType | None) -> str | None:
+    """Return the innermost place of a traceback that lies in the user's own code."""
+    steps = [step for step in traceback.extract_tb(tb) if _is_users(Path(step.filename))]
+    return _place(steps[-1].filename, steps[-1].lineno or 0) if steps else None
+
+
+def _is_users(path: Path) -> bool:
+    if path.is_relative_to(_PACKAGE / "examples"):
+        return True
+    ours = path.is_relative_to(_PACKAGE)
+    return not (ours or "site-packages" in path.parts or str(path).startswith("<"))
 
 
 def _place(filename: str, line: int) -> str:
@@ -224,9 +232,7 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     return command
 
 
-def commands(
-    central: Law | None, own: Sequence[Law | None], idle: Float
-) -> Float:
+def commands(central: Law | None, own: Sequence[Law | None], idle: Float) -> Float:
     """Ask all laws for their commands and return them as one array (2, n).
 
     central: the law of the whole team, if there is one; own: each robot's own law, which overrides

@@ -51,8 +51,8 @@ def _bounds(low: float | None, above: float | None, high: float | None, unit: st
 
 
 def number(
-    default: Any = dataclasses.MISSING,
     *,
+    default: Any = dataclasses.MISSING,
     low: float | None = None,
     above: float | None = None,
     high: float | None = None,
@@ -76,10 +76,10 @@ def number(
             raise wrong(name, value, expected)
         return result
 
-    return entry(default, check=check, unit=unit, doc=doc)
+    return entry(default=default, check=check, unit=unit, doc=doc)
 
 
-def integer(default: Any = dataclasses.MISSING, *, low: int, high: int, doc: str = "") -> Any:
+def integer(*, default: Any = dataclasses.MISSING, low: int, high: int, doc: str = "") -> Any:
     """Declare a field that is a whole number, ``low <= value <= high``."""
 
     def check(name: str, value: object) -> int:
@@ -90,10 +90,10 @@ def integer(default: Any = dataclasses.MISSING, *, low: int, high: int, doc: str
             raise wrong(name, value, expected)
         return int(value)
 
-    return entry(default, check=check, doc=doc)
+    return entry(default=default, check=check, doc=doc)
 
 
-def choice(default: Any = dataclasses.MISSING, *, of: Sequence[str], doc: str = "") -> Any:
+def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = "") -> Any:
     """Declare a field that is one of a few words."""
 
     def check(name: str, value: object) -> str:
@@ -103,15 +103,15 @@ def choice(default: Any = dataclasses.MISSING, *, of: Sequence[str], doc: str = 
             raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
         return value
 
-    return entry(default, check=check, doc=doc)
+    return entry(default=default, check=check, doc=doc)
 
 
-def flag(default: Any = dataclasses.MISSING, *, doc: str = "") -> Any:
+def flag(*, default: Any = dataclasses.MISSING, doc: str = "") -> Any:
     """Declare a field that is True or False."""
-    return entry(default, check=_check_bool, doc=doc)
+    return entry(default=default, check=_check_bool, doc=doc)
 
 
-def text(default: Any = dataclasses.MISSING, *, optional: bool = False, doc: str = "") -> Any:
+def text(*, default: Any = dataclasses.MISSING, optional: bool = False, doc: str = "") -> Any:
     """Declare a field that is text."""
 
     def check(name: str, value: object) -> str | None:
@@ -119,12 +119,12 @@ def text(default: Any = dataclasses.MISSING, *, optional: bool = False, doc: str
             return None
         return _check_str(name, value)
 
-    return entry(default, check=check, doc=doc)
+    return entry(default=default, check=check, doc=doc)
 
 
 def entry(
-    default: Any = dataclasses.MISSING,
     *,
+    default: Any = dataclasses.MISSING,
     check: Check,
     unit: str = "",
     doc: str = "",

@@ -34,7 +34,11 @@ ITERATIONS = 15
 ITERATIONS_UNEQUAL = 20  # with masses more than three times apart
 
 GROWTH = 2.0
-"""How much longer a substep may be than the one before, while impulses are carried over from it."""
+"""How much longer a substep may be than the one before, while impulses are carried over from it.
+
+The solver scales them by the ratio of the two. That is right for those of steady forces, but after
+an impact it would throw the robots back: then the next substep must be no longer.
+"""
 
 _STATE = (
     batch.BodyFields.POSITION
@@ -94,6 +98,7 @@ class Engine:
         self._restitution = max(robot.restitution for robot in robots)
         self._set_accuracy(scenario)
         self._last_step = inf
+        self._impact = False  # in the last step
         self._state = self._read().copy()
 
     def _add_robot(self, scenario: Scenario, i: int) -> pymunk.Body:
@@ -122,16 +127,9 @@ class Engine:
 
     def _add_obstacles(self, scenario: Scenario) -> tuple[tuple[Outline, ...], Float]:
         """Return the outlines, and their edges (S, 5) = x1, y1, x2, y2, index of the outline."""
-        surfaces = [
-            (outline, addon.friction, addon.restitution)
-            for addon in scenario.addons
-            for outline in addon.obstacles()
-        ]
-        if scenario.on_exit == "wall" and scenario.workspace is not None:
-            surfaces.append((scenario.workspace, 1.0, 1.0))
         self._statics = []
         edges: list[tuple[float, ...]] = []
-        for k, (outline, friction, restitution) in enumerate(surfaces):
+        for k, (outline, friction, restitution) in enumerate(scenario.surfaces):
             body = pymunk.Body(body_type=pymunk.Body.STATIC)
             self.space.add(body)
             self._statics.append(body)
@@ -140,7 +138,7 @@ class Engine:
                 segment.friction, segment.elasticity = friction, restitution
                 self.space.add(segment)
                 edges.append((*a, *b, k))
-        return tuple(s[0] for s in surfaces), np.array(edges).reshape(-1, 5)
+        return tuple(s.outline for s in scenario.surfaces), np.array(edges).reshape(-1, 5)
 
     def _set_accuracy(self, scenario: Scenario) -> None:
         """Work out how deep a body may enter in one substep, and how long one in contact may be."""
@@ -197,11 +195,10 @@ class Engine:
             self._substeps(twist[:, who], duration, time, who, encounter)
         else:
             self._step(duration)
+            self._impact = False
         self._state = self._read().copy()
 
-    def _find_near(
-        self, twist: Float, center: Complex, duration: float
-    ) -> tuple[Mask, float]:
+    def _find_near(self, twist: Float, center: Complex, duration: float) -> tuple[Mask, float]:
         """Return which robots may touch something, and how far one of them may move.
 
         One that is near may be pushed by the quickest of them, and so be near to others.
@@ -212,8 +209,8 @@ class Engine:
             actual = np.abs(_center_velocity(self._state, self._offset))
             speed = np.where(near, np.maximum(speed, actual), speed)
         reach, count = speed * duration, -1
-        while np.count_nonzero(near) != count:
-            count = np.count_nonzero(near)
+        while int(near.sum()) != count:
+            count = int(near.sum())
             near |= self._clearance.may_touch(center, reach)
             if near.any():
                 pushed = speed[near].max() * (1 + self._restitution)
@@ -258,13 +255,16 @@ class Engine:
             slipping |= touching
             some_slip = bool(slipping.any())
             if some_slip:
-                h = min(h, self._contact_step, GROWTH * self._last_step)
+                growth = 1.0 if self._impact else GROWTH
+                h = min(h, self._contact_step, growth * self._last_step)
                 slipping &= touching | self._out_of_reach(twist, state, h, who)
             # The tangent's velocity now; over h, that of the chord bends away from it.
             tangent = chord_velocity(twist, state[:, 2], 0.0, turns)
             moving = np.where(slipping[:, None], state[:, 3:], tangent)
             bend = np.abs(offset) * moving[:, 2] ** 2
-            bend += np.where(slipping | ~turns, 0.0, np.hypot(twist[0], twist[1]) * np.abs(twist[2]))
+            bend += np.where(
+                slipping | ~turns, 0.0, np.hypot(twist[0], twist[1]) * np.abs(twist[2])
+            )
             velocity = _center_velocity(np.hstack([state[:, :3], moving]), offset)
             h = min(h, encounter.time_to_touch(velocity, bend, self._entry))
             if h < left < 2 * h:
@@ -273,6 +273,8 @@ class Engine:
             self._step(h)
             elapsed = duration if h == left else elapsed + h
             state = self._read()[who]
+            change = np.hypot(*(state[:, 3:5] - self._velocity[who, :2]).T)
+            self._impact = bool((change * self._mass[who] > 1.01 * self._max_force[who] * h).any())
 
     def _out_of_reach(self, twist: Float, state: Float, h: float, who: Index) -> Mask:
         """Return which robots their drives can't bring back to their commands within h."""

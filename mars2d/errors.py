@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import traceback
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -39,8 +40,10 @@ class MissingExtra(InputError):
     """An optional library is needed and not installed; the message holds the pip line."""
 
 
-def nearest(name: object, known: Iterable[str]) -> str:
+def nearest(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
     """Return ``"; did you mean 'known'?"`` for the known name nearest to `name`, or a list of all.
+
+    likeness: how near it must be, from 0 to 1. More than a dozen are not listed.
 
     >>> nearest("diametr", ["diameter", "mass"])
     "; did you mean 'diameter'?"
@@ -48,10 +51,18 @@ def nearest(name: object, known: Iterable[str]) -> str:
     '; known: diameter, mass'
     """
     names = sorted(known)
-    close = difflib.get_close_matches(str(name), names, n=1, cutoff=0.6)
+    close = difflib.get_close_matches(str(name), names, n=1, cutoff=likeness)
     if close:
         return f"; did you mean {close[0]!r}?"
-    return f"; known: {', '.join(names)}" if names else ""
+    return f"; known: {', '.join(names)}" if 0 < len(names) <= 12 else ""
+
+
+def described(error: BaseException) -> str:
+    """Return what an exception of the user's code says, with Python's own hint at a misspelt name."""
+    if isinstance(error, InputError):
+        return str(error)
+    lines = traceback.TracebackException.from_exception(error).format_exception_only()
+    return " ".join("".join(lines).split())
 
 
 def shown(value: Any, limit: int = 60) -> str:

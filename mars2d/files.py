@@ -16,7 +16,7 @@ from types import ModuleType
 from typing import Any
 
 from mars2d.description import Description
-from mars2d.errors import InputError, Mars2dError, nearest, shown
+from mars2d.errors import InputError, Mars2dError, described, nearest, shown
 from mars2d.scenario import Scenario
 
 __all__ = ["Experiment", "examples", "open_experiment", "parse_setting"]
@@ -88,8 +88,7 @@ def _find(source: str | Path) -> Path:
         raise InputError(f"{path}: a folder; expected an experiment, a file that ends in .py")
     beside = [str(p) for p in path.parent.glob("*.py")] if path.parent.is_dir() else []
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
-    hint = nearest(str(source), [*beside, *known])
-    raise InputError(f"{source}: there is no such {kind}{hint if 'did you' in hint else ''}")
+    raise InputError(f"{source}: there is no such {kind}{nearest(source, [*beside, *known], 0.75)}")
 
 
 def _load(path: Path) -> ModuleType:
@@ -105,12 +104,12 @@ def _load(path: Path) -> ModuleType:
     try:
         spec.loader.exec_module(module)
     except SyntaxError as error:
-        problem = InputError(f"{error.msg}: {(error.text or '').strip()}")
-        problem.where = f"{Path(error.filename or path).name}, line {error.lineno}"
+        problem = InputError(": ".join(filter(None, [error.msg, (error.text or "").strip()])))
+        place = Path(error.filename or path).name
+        problem.where = f"{place}, line {error.lineno}" if error.lineno else place
         raise problem from error
-    except Exception as error:
-        message = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
-        problem = InputError(message)
+    except (Exception, SystemExit) as error:
+        problem = InputError(described(error))
         problem.where = _line_in(error, path)
         raise problem from error
     finally:
@@ -123,7 +122,7 @@ def _line_in(error: BaseException, path: Path) -> str:
     lines = [
         step.lineno
         for step in traceback.extract_tb(error.__traceback__)
-        if Path(step.filename) == path
+        if Path(step.filename).absolute() == path.absolute()
     ]
     return f"{path.name}, line {lines[-1]}" if lines else path.name
 
@@ -167,13 +166,11 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
         )
     try:
         return function(**chosen)
-    except Mars2dError:
-        raise
-    except Exception as error:
-        problem = InputError(f"{function.__name__}() raised {type(error).__name__}: {error}")
+    except (Exception, SystemExit) as error:
+        problem = error if isinstance(error, Mars2dError) else InputError(described(error))
         code = getattr(function, "__code__", None)
         if code is not None:
-            problem.where = _line_in(error, Path(code.co_filename))
+            problem.where = problem.where or _line_in(error, Path(code.co_filename))
         raise problem from error
 
 
@@ -207,7 +204,9 @@ def _replaced(target: Any, path: list[str], value: Any, whole: str) -> Any:
 
 def _index(text: str, length: int, whole: str) -> int:
     if not text.isdigit() or int(text) >= length:
-        raise InputError(f"there is no option {whole!r}: expected * or 0 to {length - 1}, not {text!r}")
+        raise InputError(
+            f"there is no option {whole!r}: expected * or 0 to {length - 1}, not {text!r}"
+        )
     return int(text)
 
 

@@ -14,7 +14,7 @@ __all__ = ["bounds_of", "chord", "inside_polygon", "point_segment_distance", "wr
 
 Float = NDArray[np.float64]
 Point = tuple[float, float]
-Outline = tuple[Point, ...]
+Outline = Sequence[Point]
 
 
 def wrap(angle: ArrayLike) -> Float:

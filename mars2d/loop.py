@@ -36,7 +36,9 @@ def simulate(
     ends the run carries what was recorded until then as its `record`; Ctrl-C raises Interrupted,
     which does as well.
     """
-    every = [*watchers] if speed == "max" else [*watchers, RealTime(float(speed))]
+    every: list[Watcher] = [*watchers]
+    if speed != "max":
+        every.append(RealTime(float(speed)))
 
     def pace(world: World) -> None:
         for watcher in every:

@@ -19,6 +19,7 @@ from mars2d.contact import CONTACT
 from mars2d.errors import InputError
 from mars2d.frame import Frame
 from mars2d.scenario import Scenario
+from mars2d.scene import Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,7 +40,8 @@ class Record:
     ``time``, after saturation; it takes effect at command_time (T,). sensors: for each sensor's
     name an array (T, m, ...) of readings, of the m robots in ``sensor_robots[name]``. contacts:
     one row a pair and control step, with the fields of `mars2d.contact.CONTACT`. over_message: why
-    the run ended. finished: False when an error or Ctrl-C ended it.
+    the run ended. finished: whether it is over. drawn: what the add-ons drew at its end, which a
+    file does not keep.
     """
 
     scenario: Scenario
@@ -55,6 +57,7 @@ class Record:
     finished: bool = True
     filename: str = ""
     versions: Mapping[str, str] = field(default_factory=dict)
+    drawn: Scene = field(default_factory=Scene, repr=False)
 
     def __len__(self) -> int:
         return len(self.time)
@@ -94,6 +97,7 @@ class Record:
     def frame(self, row: int) -> Frame:
         """Return what was seen at row `row`, negative ones counting from the end."""
         row = range(len(self))[row]
+        last = row == len(self) - 1
         readings = {
             name: [(robot, values[row, k]) for k, robot in enumerate(self.sensor_robots[name])]
             for name, values in self.sensors.items()
@@ -105,7 +109,8 @@ class Record:
             pose=self.pose[row],
             path=self.pose[: row + 1],
             readings=readings,
-            over_message=self.over_message if row == len(self) - 1 else "",
+            over_message=self.over_message if last else "",
+            draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
         )
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -152,7 +157,7 @@ def load(path: str | Path) -> Record:
     except OSError as error:
         raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
     except (ValueError, KeyError, EOFError, AttributeError, zipfile.BadZipFile) as error:
-        raise InputError(f"{path}: not a record of MARS2D, or damaged ({error})") from error
+        raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
     return _assemble(path, header, columns)
 
 

@@ -14,6 +14,7 @@ from mars2d.contact import CONTACT
 from mars2d.errors import LawError, shown
 from mars2d.record import Record
 from mars2d.scenario import Scenario
+from mars2d.scene import Scene
 
 __all__ = ["History", "Recorder"]
 
@@ -144,7 +145,9 @@ class Recorder:
         """Return a column so far, as a view that can't be written."""
         return self._columns[name].upto(self.rows)
 
-    def record(self, seed: int, over_message: str, finished: bool, filename: str) -> Record:
+    def record(
+        self, seed: int, over_message: str, finished: bool, filename: str, drawn: Scene
+    ) -> Record:
         """Return the record so far; what is written later does not change it."""
         contacts = [np.empty(0, dtype=CONTACT), *self._contacts]
         return Record(
@@ -161,6 +164,7 @@ class Recorder:
             finished=finished,
             filename=filename,
             versions=versions(),
+            drawn=drawn,
         )
 
 

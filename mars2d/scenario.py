@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import cos, floor, hypot, pi, sin
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +33,7 @@ def _controller(name: str, value: object) -> object:
         raise wrong(name, value, "a function of one argument, the robot: def law(robot): ...")
     if value is not None:
         try:
-            inspect.signature(value).bind(None)  # type: ignore[arg-type]
+            inspect.signature(value).bind(None)
         except TypeError:
             raise wrong(name, value, "a function of exactly one argument, the robot") from None
         except ValueError:
@@ -53,32 +53,44 @@ class Robot(Description):
     """
 
     pose: tuple[float, float, float] = entry(
-        (0.0, 0.0, 0.0), check=checks.pose, unit="m, m, rad", doc="initial pose (x, y, theta)"
+        default=(0.0, 0.0, 0.0),
+        check=checks.pose,
+        unit="m, m, rad",
+        doc="initial pose (x, y, theta)",
     )
     drive: Drive = entry(
         check=checks.instance(Drive, "Unicycle()"), factory=Unicycle, doc="how it moves"
     )
-    diameter: float = number(0.3, low=1e-3, high=1e3, unit="m", doc="diameter of the chassis")
-    mass: float = number(1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
+    diameter: float = number(
+        default=0.3, low=1e-3, high=1e3, unit="m", doc="diameter of the chassis"
+    )
+    mass: float = number(default=1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
     friction: float = number(
-        0.5, low=0, high=1e3, doc="coefficient of friction; a contact has the product of both"
+        default=0.5,
+        low=0,
+        high=1e3,
+        doc="coefficient of friction; a contact has the product of both",
     )
     restitution: float = number(
-        0.0, low=0, high=1, doc="0 stops, 1 bounces back; a contact has the product of both"
+        default=0.0, low=0, high=1, doc="0 stops, 1 bounces back; a contact has the product of both"
     )
     center_offset: float = number(
-        0.0, low=-1e3, high=1e3, unit="m",
+        default=0.0, low=-1e3, high=1e3, unit="m",
         doc="how far the centre of rotation lies ahead of the geometric centre",
     )  # fmt: skip
-    sensors: tuple[Sensor, ...] = entry(
-        (), check=checks.listing(Sensor, "Proximity(range=0.3)"), doc="what it perceives with"
+    sensors: Sequence[Sensor] = entry(
+        default=(),
+        check=checks.listing(Sensor, "Proximity(range=0.3)"),
+        doc="what it perceives with",
     )
     controller: Callable[[Any], Any] | None = entry(
-        None, check=_controller, doc="its own law, a function or generator of the robot"
+        default=None, check=_controller, doc="its own law, a function or generator of the robot"
     )
-    sees: str = choice("full", of=("full", "sensors"), doc="what its law may see")
-    name: str | None = text(None, optional=True, doc="its name, else robot0, robot1, ...")
-    color: str | None = entry(None, check=_optional_color, doc="its colour, else from base_colors")
+    sees: str = choice(default="full", of=("full", "sensors"), doc="what its law may see")
+    name: str | None = text(default=None, optional=True, doc="its name, else robot0, robot1, ...")
+    color: str | None = entry(
+        default=None, check=_optional_color, doc="its colour, else from base_colors"
+    )
 
     def at(self, x: float, y: float, theta: float = 0.0) -> Self:
         """Return a copy of this robot at pose (x [m], y [m], theta [rad])."""
@@ -109,21 +121,33 @@ def _check_unique(name: str, keys: list[str]) -> None:
             raise InputError(f"{name}: two are called {key!r}; give one another name=...")
 
 
+class Obstacle(NamedTuple):
+    """Something fixed: its outline [m], coefficient of friction and restitution."""
+
+    outline: Outline
+    friction: float
+    restitution: float
+
+
 class Animation(Description):
     """How an experiment looks when it is drawn: the Animation fields of the paper's Table 1."""
 
-    grid: bool = flag(True, doc="draw the grid")
-    show_initial_pose: bool = flag(True, doc="draw where the robots started")
-    show_real_shape: bool = flag(True, doc="draw robots to scale, else as points")
-    wake: bool = flag(True, doc="draw the paths behind the robots")
-    wake_style: str = entry("-", check=wake_style, doc="line style of the paths, as in Matlab's plot")
+    grid: bool = flag(default=True, doc="draw the grid")
+    show_initial_pose: bool = flag(default=True, doc="draw where the robots started")
+    show_real_shape: bool = flag(default=True, doc="draw robots to scale, else as points")
+    wake: bool = flag(default=True, doc="draw the paths behind the robots")
+    wake_style: str = entry(
+        default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"
+    )
     playback_speed: float | str = entry(
-        1.0,
+        default=1.0,
         check=lambda name, value: playback_speed(name, value),
         doc="1 is real time, 0 one step a key press, 'max' as fast as it goes",
     )
-    base_colors: tuple[str, ...] = entry(
-        PALETTE, check=lambda name, value: _colors(name, value), doc="the robots' colours, cycled"
+    base_colors: Sequence[str] = entry(
+        default=PALETTE,
+        check=lambda name, value: _colors(name, value),
+        doc="the robots' colours, cycled",
     )
 
 
@@ -172,33 +196,38 @@ class Scenario(Description):
     numbers out of range.
     """
 
-    title: str = text("[Simulation]", doc="the title shown")
-    robots: tuple[Robot, ...] = entry(1, check=_robots, doc="the team, or how many default robots")
+    title: str = text(default="[Simulation]", doc="the title shown")
+    robots: Sequence[Robot] = entry(
+        default=1, check=_robots, doc="the team, or how many default robots"
+    )
     workspace: Outline | None = entry(
-        ((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)),
+        default=((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)),
         check=_workspace, unit="m", doc="the polygon in which the robots move; None: no limits",
     )  # fmt: skip
     on_exit: str = choice(
-        "stop", of=("stop", "wall", "ignore"),
+        default="stop", of=("stop", "wall", "ignore"),
         doc="a robot at the workspace's edge: the experiment is over, a wall stands there, or nothing",
     )  # fmt: skip
-    sampling_time: float = number(0.1, low=1e-6, high=1e4, unit="s", doc="time between commands")
-    stop_time: float = number(100.0, low=0, high=1e12, unit="s", doc="the longest duration")
+    sampling_time: float = number(
+        default=0.1, low=1e-6, high=1e4, unit="s", doc="time between commands"
+    )
+    stop_time: float = number(default=100.0, low=0, high=1e12, unit="s", doc="the longest duration")
     command_delay: float = number(
-        0.0, low=0, high=1e6, unit="s", doc="from a command's issue to its effect"
+        default=0.0, low=0, high=1e6, unit="s", doc="from a command's issue to its effect"
     )
-    physics: str = choice("contact", of=("contact",), doc="what happens when things touch")
+    physics: str = choice(default="contact", of=("contact",), doc="what happens when things touch")
     max_overlap: float = number(
-        1e-3, low=1e-5, high=1.0, unit="m", doc="how deep bodies may overlap for an instant"
+        default=1e-3, low=1e-5, high=1.0, unit="m", doc="how deep bodies may overlap for an instant"
     )
-    addons: tuple[Addon, ...] = entry(
-        (), check=checks.listing(Addon, "Map([...])"), doc="maps, measures, games"
+    addons: Sequence[Addon] = entry(
+        default=(), check=checks.listing(Addon, "Map([...])"), doc="maps, measures, games"
     )
     animation: Animation = entry(
         check=checks.instance(Animation, "Animation()"), factory=Animation, doc="how it is drawn"
     )
 
     def _validate(self) -> None:
+        object.__setattr__(self, "_obstacles", self._check_obstacles())
         if isinstance(self.robots, int):
             object.__setattr__(self, "robots", self._circle_of_robots(self.robots))
         taken = {robot.name for robot in self.robots}
@@ -271,7 +300,7 @@ class Scenario(Description):
                     f"{gap:.3g} m from its centre; its radius is {robot.radius:g} m"
                 )
 
-    def _check_off_obstacles(self, outlines: tuple[Outline, ...]) -> None:
+    def _check_off_obstacles(self, outlines: Sequence[Outline]) -> None:
         import shapely
 
         shapes = [shapely.LineString(o) if len(o) == 2 else shapely.Polygon(o) for o in outlines]
@@ -280,7 +309,11 @@ class Scenario(Description):
             center = shapely.Point(robot.center)
             for k in sorted(tree.query(center, "dwithin", robot.radius - self.max_overlap)):
                 where = "inside" if shapes[k].contains(center) else "in contact with"
-                hint = " (if it is a room, draw it as walls of two points)" if where == "inside" else ""
+                hint = (
+                    " (if it is a room, draw it as walls of two points)"
+                    if where == "inside"
+                    else ""
+                )
                 raise InputError(
                     f"Robot.pose of {robot.name} = {robot.pose}: starts {where} obstacle {k}, "
                     f"{shown(outlines[k], 80)}{hint}"
@@ -306,10 +339,28 @@ class Scenario(Description):
                         "inside each other"
                     )
 
+    def _check_obstacles(self) -> tuple[Obstacle, ...]:
+        """Return all obstacles, those of the user's own add-ons checked as well."""
+        found = [
+            Obstacle(outline, addon.friction, addon.restitution)
+            for addon in self.addons
+            for outline in checks.outlines(f"{type(addon).__name__}.obstacles()", addon.obstacles())
+        ]
+        if self.on_exit == "wall" and self.workspace is not None:
+            found.append(Obstacle(self.workspace, 1.0, 1.0))
+        return tuple(found)
+
+    @property
+    def surfaces(self) -> tuple[Obstacle, ...]:
+        """What stands in the way: the add-ons' obstacles, then the workspace where it is a wall."""
+        return self.__dict__["_obstacles"]  # type: ignore[no-any-return]
+
     @property
     def obstacles(self) -> tuple[Outline, ...]:
-        """The outlines of all obstacles, in the order of the add-ons."""
-        return tuple(outline for addon in self.addons for outline in addon.obstacles())
+        """The outlines of the add-ons' obstacles, in order."""
+        walled = self.on_exit == "wall" and self.workspace is not None
+        found = self.surfaces[:-1] if walled else self.surfaces
+        return tuple(obstacle.outline for obstacle in found)
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:

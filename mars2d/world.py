@@ -74,6 +74,7 @@ class World:
         self.iteration = 0
         self.over = False
         self.over_message = ""
+        self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = False
         self._finished = False
         self._engine = Engine(scenario)
@@ -216,7 +217,9 @@ class World:
         if self.over:
             raise InputError(f"the experiment is over: {self.over_message}")
         if self._stepping:
-            raise InputError("world.step() was called from within a step: by a law, sensor or add-on")
+            raise InputError(
+                "world.step() was called from within a step: by a law, sensor or add-on"
+            )
         self._stepping = True
         try:
             self._control_step(command)
@@ -310,6 +313,7 @@ class World:
         if not self._finished:
             self._finished = True
             self._call("on_stop", self)
+            self._draw_addons(self._drawn)
 
     # -- what comes out ------------------------------------------------------------------------
 
@@ -317,7 +321,7 @@ class World:
     def record(self) -> Record:
         """The record so far."""
         message = self.over_message if self.over else "not over"
-        return self._recorder.record(self.seed, message, self.over, self.filename)
+        return self._recorder.record(self.seed, message, self.over, self.filename, self._drawn)
 
     @property
     def frame(self) -> Frame:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from mars2d.description import Description, text
+from mars2d.description import Description, number, text
 from mars2d.errors import InputError, nearest
 from mars2d.geometry import Outline
 from mars2d.registry import snake_case
@@ -34,10 +34,14 @@ class Addon(Description):
     may set attributes; laws find it as ``world.addons.<name>``.
     """
 
-    name: str | None = text(None, optional=True, doc="the name in world.addons")
+    name: str | None = text(default=None, optional=True, doc="the name in world.addons")
 
-    friction: ClassVar[float] = 0.5
-    restitution: ClassVar[float] = 0.0
+    friction: float = number(
+        default=1.0, low=0, high=1e3, doc="of its obstacles; a contact has the product of both"
+    )
+    restitution: float = number(
+        default=1.0, low=0, high=1, doc="of its obstacles; a contact has the product of both"
+    )
     _live: ClassVar[bool] = False
 
     def __init_subclass__(cls, **kwargs: Any) -> None:

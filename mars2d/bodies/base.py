@@ -25,9 +25,15 @@ class Drive(Description):
     robots at once.
     """
 
-    max_linear_speed: float = number(0.5, above=0, high=1e3, unit="m/s", doc="bound of the speed")
-    max_force: float = number(5.0, above=0, high=1e6, unit="N", doc="what the drive can push with")
-    max_torque: float = number(0.5, above=0, high=1e6, unit="N m", doc="what it can turn with")
+    max_linear_speed: float = number(
+        default=0.5, above=0, high=1e3, unit="m/s", doc="bound of the speed"
+    )
+    max_force: float = number(
+        default=5.0, above=0, high=1e6, unit="N", doc="what the drive can push with"
+    )
+    max_torque: float = number(
+        default=0.5, above=0, high=1e6, unit="N m", doc="what it can turn with"
+    )
 
     command_names: ClassVar[tuple[str, str]] = ("u1", "u2")
     """The names and units of the two rows of a command."""

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
 
     from mars2d.record import Record
     from mars2d.scenario import Scenario
@@ -46,6 +48,7 @@ WORKSPACE, GRID_LINES, SHAPES = 1.0, 1.5, 2.0
 """Levels in matplotlib's order of drawing; its grid can only lie at 0.5, 1.5 or 2.5."""
 
 TEXT_GAP = 4.0  # points between a label and what it names
+TICK_SPACING = 28.0  # points between ticks, at least
 MARK_SPACING = 9.0  # points along a path from one mark to the next
 
 # Matlab's line styles, which are matplotlib's as well.
@@ -79,7 +82,22 @@ def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) 
             _polygon(shape, ax, scale, level)
         else:
             _text(shape, ax, scale, level)
-    ax.autoscale_view()
+    if scene.shapes:
+        ax.update_datalim(np.vstack([_corners(shape) for shape in scene.shapes]))
+        ax.autoscale_view()
+
+
+def _corners(shape: Shape) -> Float:
+    """Return points (k, 2) within whose bounds a shape lies, metres."""
+    if isinstance(shape, Circle):
+        return np.add(shape.center, [[-shape.radius] * 2, [shape.radius] * 2])
+    return np.reshape(shape.position, (1, 2)) if isinstance(shape, Text) else shape.points
+
+
+def _add(artist: Line2D | Patch, ax: Axes) -> None:
+    """Add a shape to axes, within which it stays: it is none of the layout's concern."""
+    artist.set_in_layout(False)
+    ax.add_artist(artist)
 
 
 def _circle(shape: Circle, ax: Axes, scale: float, level: float, ppm: float) -> None:
@@ -95,26 +113,26 @@ def _circle(shape: Circle, ax: Axes, scale: float, level: float, ppm: float) -> 
             [x], [y], linestyle="none", marker="o", markersize=size,
             markerfacecolor=fill, markeredgecolor=stroke, markeredgewidth=width, zorder=level,
         )  # fmt: skip
-        ax.add_line(mark)
+        _add(mark, ax)
         return
     radius = shape.radius + shape.pixels * scale / ppm
     disc = Disc(
         shape.center, radius, facecolor=fill, edgecolor=stroke, linewidth=width, zorder=level
     )
-    ax.add_patch(disc)
+    _add(disc, ax)
 
 
 def _polygon(shape: Polygon, ax: Axes, scale: float, level: float) -> None:
-    from matplotlib.patches import Polygon as Patch
+    from matplotlib.patches import Polygon as Outline
 
     if len(shape.points) == 0:
         return
-    patch = Patch(
+    patch = Outline(
         shape.points, closed=True, joinstyle="round", zorder=level,
         facecolor=shape.fill or "none", edgecolor=shape.stroke or "none",
         linewidth=shape.width * scale if shape.stroke else 0.0,
     )  # fmt: skip
-    ax.add_patch(patch)
+    _add(patch, ax)
 
 
 def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None:
@@ -134,7 +152,7 @@ def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None
         line.set_markeredgewidth(0.0 if mark == "." else shape.width * scale)
         line.set_markerfacecolor(shape.stroke if filled else "none")
         line.set_markevery(_spaced(shape.points, MARK_SPACING * scale / ppm))
-    ax.add_line(line)
+    _add(line, ax)
 
 
 def _spaced(points: Float, spacing: float) -> list[int]:
@@ -165,6 +183,7 @@ def _text(shape: Text, ax: Axes, scale: float, level: float) -> None:
     )
     label.set_parse_math(False)
     label.set_clip_on(True)
+    label.set_in_layout(False)
 
 
 def plot_paths(record: Record, ax: Axes | None = None) -> Axes:
@@ -192,7 +211,7 @@ def plot_paths(record: Record, ax: Axes | None = None) -> Axes:
     _dress(ax, record.scenario, view)
     _label(ax)
     title = f"{record.scenario.title}, {_time(float(record.time[-1]))}"
-    _set_title(ax, title, 72 * ax.get_figure(root=True).get_figwidth() / 7.5)  # type: ignore[union-attr]
+    _set_title(ax, title)
     _add_legend(ax, record.scenario)
     if own:
         ax.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]
@@ -228,10 +247,8 @@ def plot_snapshots(record: Record, times: ArrayLike, figure: Figure | None = Non
         _label(ax, below=k + cols >= len(rows), beside=k % cols == 0)
         ax.set_title(_time(float(record.time[row])), fontsize=10, color=INK)
     _add_legend(panels[min(cols, len(rows)) - 1], scenario)
-    heading = figure.suptitle(
-        _wrapped(scenario.title, 72 * figure.get_figwidth() / 8), fontsize=12, color=INK
-    )
-    heading.set_parse_math(False)
+    heading = _wrapped(scenario.title, figure.bbox.width / figure.dpi)
+    figure.suptitle(heading, fontsize=12, color=INK, parse_math=False)
     if own:
         figure.draw_without_rendering()
         figure.__dict__["_repr_png_"] = partial(_png, figure)
@@ -378,8 +395,7 @@ def _set_ticks(ax: Axes) -> None:
     """Set the ticks of both axes at the same distance: 1, 2 or 5 times a power of ten metres."""
     from matplotlib.ticker import MultipleLocator
 
-    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
-    wanted = max(abs(xmax - xmin), abs(ymax - ymin)) / 11
+    wanted = TICK_SPACING / _points_per_metre(ax)
     power = 10.0 ** floor(log10(wanted))
     step = next(factor * power for factor in (1, 2, 5, 10) if factor * power >= wanted * (1 - 1e-9))
     ax.xaxis.set_major_locator(MultipleLocator(step))
@@ -399,6 +415,7 @@ def _paint_frame(ax: Axes, record: Record, row: int) -> None:
     """Paint the paths until a row, the initial poses, and the robots as they are then."""
     scenario = record.scenario
     now = record.frame(row)
+    _set_ticks(ax)  # again, now that the layout is known
     # Trails end at the pose now: it is not to be there twice.
     now = replace(now, path=now.path[:-1])
     few = len(scenario.robots) <= LEGEND_LIMIT
@@ -409,7 +426,7 @@ def _paint_frame(ax: Axes, record: Record, row: int) -> None:
         trails = seen.trails(now)
         if not few:
             trails = Scene([_paler(shape) for shape in trails.shapes])
-        paint(trails, ax, scale=0.65 if few else 0.4)
+        paint(trails, ax, scale=0.55 if few else 0.4)
     if scenario.animation.show_initial_pose:
         paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75))
     paint(seen.robots(now), ax, scale=scale)
@@ -422,19 +439,23 @@ def _paler(shape: Shape) -> Shape:
 
 def _points_per_metre(ax: Axes) -> float:
     """Return how many points of the page a metre takes, as the axes are laid out now."""
-    ax.apply_aspect()
+    figure: Any = ax.get_figure()
+    box = ax.get_position(original=True)
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
-    box = ax.get_window_extent()
-    per_metre = min(box.width / abs(xmax - xmin), box.height / abs(ymax - ymin))
-    return float(72 * per_metre / ax.get_figure(root=True).dpi)  # type: ignore[union-attr]
+    across = box.width * figure.bbox.width / abs(xmax - xmin)
+    upwards = box.height * figure.bbox.height / abs(ymax - ymin)
+    return float(72 / figure.dpi * min(across, upwards))
 
 
-def _set_title(ax: Axes, title: str, characters: float) -> None:
-    ax.set_title(_wrapped(title, characters), fontsize=12, color=INK, parse_math=False)
+def _set_title(ax: Axes, title: str) -> None:
+    ax.apply_aspect()
+    room = 1.25 * ax.get_window_extent().width / ax.get_figure(root=True).dpi  # type: ignore[union-attr]
+    ax.set_title(_wrapped(title, room), fontsize=12, color=INK, parse_math=False)
 
 
-def _wrapped(title: str, characters: float) -> str:
-    return textwrap.fill(title, max(20, int(characters)), max_lines=3, placeholder=" …")
+def _wrapped(title: str, room: float) -> str:
+    """Return a title of 12 points in lines that fit into some room, inches."""
+    return textwrap.fill(title, max(20, int(room * 10)), max_lines=3, placeholder=" …")
 
 
 def _time(seconds: float) -> str:

@@ -139,10 +139,9 @@ def _write_gif(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) -
 
     One palette for all. Frames that differ in nothing prolong the one before.
     """
-    import pygame
     from PIL import GifImagePlugin, Image
 
-    palette: Image.Image | None = None
+    matches: Pixels | None = None
     written = shown = 0  # hundredths of a second
     pending: tuple[Pixels, tuple[int, int]] | None = None
     before: Pixels | None = None
@@ -150,22 +149,23 @@ def _write_gif(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) -
 
     def flush(until: int) -> None:
         nonlocal written
-        if pending is None or palette is None:
+        if pending is None:
             return
         pixels, corner = pending
-        image = Image.fromarray(pixels, mode="P")
+        image = Image.frombytes("P", pixels.shape[::-1], pixels.tobytes())
+        pause = min(until - written, 65_535)
         for block in GifImagePlugin.getdata(
-            image, corner, duration=10 * max(2, until - written), transparency=CLEAR, disposal=1
+            image, corner, duration=10 * pause, transparency=CLEAR, disposal=1
         ):
             file.write(block)
         written = until
 
     for picture in pictures:
-        rgb = Image.frombytes("RGB", picture.get_size(), pygame.image.tobytes(picture, "RGB"))
-        if palette is None:
-            palette = _palette(rgb)
+        if matches is None:
+            palette = _palette(picture)
+            matches = _matches(palette)
             _write_gif_head(file, palette, picture.get_size())
-        indexed = np.asarray(rgb.quantize(palette=palette, dither=Image.Dither.NONE))
+        indexed = _indexed(picture, matches)
         change = _difference(before, indexed)
         if change is not None:
             flush(shown)
@@ -194,17 +194,20 @@ def _difference(before: Pixels | None, now: Pixels) -> tuple[Pixels, tuple[int, 
     return np.where(changed[part], now[part], np.uint8(CLEAR)), (int(columns[0]), int(rows[0]))
 
 
-def _palette(picture: Any) -> Any:
-    """Return an image that holds the palette: the first picture's colours and their tints.
+def _palette(surface: pygame.Surface) -> Pixels:
+    """Return the palette (k, 3), k < 256: the first picture's colours and their tints.
 
     Robots move over white, obstacles and each other, so shades between each strong colour and its
     surroundings are added to what the first picture shows; then those of the banner at the end, and
     a few from everywhere for what add-ons may bring.
     """
+    import pygame
     from PIL import Image
 
     from mars2d.view import theme
 
+    pixels = pygame.image.tobytes(surface, "RGB")
+    picture: Any = Image.frombytes("RGB", surface.get_size(), pixels)
     counted = sorted(picture.getcolors(1 << 24) or [], key=lambda item: -item[0])
     strong = [color for n, color in counted if n >= 4 and max(color) - min(color) > 60][:12]
     wanted = [color for _, color in counted[:24]]
@@ -215,16 +218,40 @@ def _palette(picture: Any) -> Any:
         ink = tuple(bytes.fromhex(banner[1:]))
         wanted += [_mixed(ink, (255, 255, 255), share) for share in (1.0, 0.8, 0.6, 0.4, 0.2)]
     wanted += [(r, g, b) for r in (0, 128, 255) for g in (0, 128, 255) for b in (0, 128, 255)]
-    rest = picture.quantize(colors=256, method=Image.Quantize.MEDIANCUT).getpalette()
+    reduced = picture.quantize(colors=256, method=Image.Quantize.MEDIANCUT)
+    rest = reduced.getpalette() or []
     wanted += [tuple(rest[k : k + 3]) for k in range(0, len(rest), 3)]
-    # Pillow matches colours by cells of four levels: two in one cell would be mistaken.
     cells: dict[tuple[int, ...], tuple[int, ...]] = {}
-    for color in wanted:
+    for color in wanted:  # of colours that can hardly be told apart, the first
         cells.setdefault(tuple(c // 6 for c in color), color)
-    flat = [c for color in list(cells.values())[:CLEAR] for c in color]
-    image = Image.new("P", (16, 16))
-    image.putpalette(flat + flat[:3] * (CLEAR - len(flat) // 3))
-    return image
+    return np.array(list(cells.values())[:CLEAR], dtype=np.uint8)
+
+
+def _matches(palette: Pixels) -> Pixels:
+    """Return the palette's entry for each colour of six bits a channel, (2**18,).
+
+    The palette's own colours match themselves, so that white stays white.
+    """
+    from scipy.spatial import cKDTree
+
+    codes = np.arange(1 << 18)
+    channels = np.column_stack([codes >> 12, codes >> 6 & 63, codes & 63])
+    entries: Pixels = cKDTree(palette).query(4 * channels + 1.5)[1].astype(np.uint8)
+    own = palette.astype(int) >> 2
+    backwards = np.arange(len(palette))[::-1]  # of two with one code, the first
+    entries[(own[:, 0] << 12 | own[:, 1] << 6 | own[:, 2])[backwards]] = backwards
+    return entries
+
+
+def _indexed(picture: pygame.Surface, matches: Pixels) -> Pixels:
+    """Return each pixel's entry in the palette, (height, width)."""
+    import pygame
+
+    flat = np.frombuffer(pygame.image.tobytes(picture, "BGRA"), dtype="<u4")
+    codes = (flat >> 6 & 0x3F000) | (flat >> 4 & 0xFC0) | (flat >> 2 & 0x3F)
+    width, height = picture.get_size()
+    indexed: Pixels = matches[codes].reshape(height, width)
+    return indexed
 
 
 def _mixed(color: tuple[int, ...], ground: tuple[int, ...], share: float) -> tuple[int, ...]:
@@ -232,9 +259,9 @@ def _mixed(color: tuple[int, ...], ground: tuple[int, ...], share: float) -> tup
     return tuple(round(g + share * (c - g)) for c, g in zip(color, ground, strict=True))
 
 
-def _write_gif_head(file: BinaryIO, palette: Any, size: tuple[int, int]) -> None:
+def _write_gif_head(file: BinaryIO, palette: Pixels, size: tuple[int, int]) -> None:
     """Write the header: size, the palette of 256 colours, and that the film repeats for ever."""
-    colors = bytes(palette.getpalette("RGB"))[: 3 * CLEAR].ljust(768, b"\0")
+    colors = palette.tobytes().ljust(768, b"\0")
     sides = size[0].to_bytes(2, "little") + size[1].to_bytes(2, "little")
     file.write(b"GIF89a" + sides + b"\xf7\x00\x00" + colors)
     file.write(b"!\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00")

@@ -44,7 +44,7 @@ class Footage:
             scene = Scene()
             frame.draw_addons(scene)
             frame = dataclasses.replace(
-                frame, draw_addons=lambda target, shapes=scene.shapes: target.extend(shapes)
+                frame, draw_addons=lambda target: target.extend(scene.shapes)
             )
         self._frames[frame.iteration] = frame
 

@@ -46,9 +46,7 @@ class Surroundings(Protocol):
     ) -> Iterator[tuple[float, float]]:
         """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
 
-    def ray(
-        self, start: tuple[float, float], angle: float, length: float, ignore: int
-    ) -> float:
+    def ray(self, start: tuple[float, float], angle: float, length: float, ignore: int) -> float:
         """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
 
 
@@ -67,7 +65,7 @@ class Sensor(Description):
     class in snake case.
     """
 
-    name: str | None = text(None, optional=True, doc="the name of the reading")
+    name: str | None = text(default=None, optional=True, doc="the name of the reading")
 
     @property
     def key(self) -> str:
@@ -87,7 +85,9 @@ class Sensor(Description):
         robot: the robot that carries the sensor, with everything known of it.
         rng: the random stream of this one sensor.
         """
-        raise NotImplementedError(f"{type(self).__name__} needs a method read(self, robot, world, rng)")
+        raise NotImplementedError(
+            f"{type(self).__name__} needs a method read(self, robot, world, rng)"
+        )
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw field of view and reading for a robot at `pose` (3,). By default, nothing."""

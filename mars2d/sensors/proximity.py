@@ -28,7 +28,7 @@ class Proximity(Sensor):
 
     range: float = number(above=0, high=1e6, unit="m", doc="how far it sees, from the robot's pose")
     field_of_view: float = number(
-        2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about the heading"
+        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about the heading"
     )
 
     def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> bool:

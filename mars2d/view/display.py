@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 
 import pygame
 
-__all__ = ["NO_DISPLAY", "display_available"]
+from mars2d.errors import InputError
+
+__all__ = ["NO_DISPLAY", "display_available", "open_display"]
 
 NO_DISPLAY = (
     "there is no display for a window; run it with --headless, draw a picture with "
@@ -15,6 +18,7 @@ NO_DISPLAY = (
 )
 
 NOT_REAL = ("dummy", "offscreen", "evdev", "disk")
+ATTEMPTS = 3
 
 
 def display_available() -> bool:
@@ -30,10 +34,25 @@ def display_available() -> bool:
         return False
     # The variable may name a screen that is gone, as after a lost ssh connection: try.
     try:
-        pygame.display.init()
-    except pygame.error:
+        open_display()
+    except InputError:
         return False
-    try:
-        return pygame.display.get_driver() not in NOT_REAL
-    finally:
+    pygame.display.quit()
+    return True
+
+
+def open_display() -> None:
+    """Start pygame's display. Raises InputError where there is none that a person sees."""
+    for attempt in range(ATTEMPTS):
+        try:
+            pygame.display.init()
+        except pygame.error:
+            # A bare X server starts anew when its last window has closed, and is deaf meanwhile.
+            if attempt + 1 < ATTEMPTS and os.environ.get("DISPLAY"):
+                time.sleep(0.1)
+            continue
+        if pygame.display.get_driver() not in NOT_REAL:
+            return
         pygame.display.quit()
+        break
+    raise InputError(NO_DISPLAY)

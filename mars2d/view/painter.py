@@ -300,7 +300,8 @@ def _disc_layers(
 
 def _disc(x: float, y: float, radius: float, width: float = 0.0) -> Draw:
     def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
-        center = ((x - left) * factor - 0.5, (y - top) * factor - 0.5)
+        # Unlike lines and polygons, circles are centred on the corners between pixels.
+        center = (round((x - left) * factor), round((y - top) * factor))
         # A width of 0 would fill the ring.
         thick = max(1, round(width * factor)) if width > 0 else 0
         pygame.draw.circle(large, color, center, max(radius * factor, 0.5), thick)
@@ -345,8 +346,8 @@ def _stroked(pieces: list[Float], width: float) -> Draw:
             if len(points) > 1:
                 pygame.draw.lines(large, color, False, points, thick)
             if thick > 2:
-                for point in points:  # round joints and ends
-                    pygame.draw.circle(large, color, point, thick / 2)
+                for x, y in points:  # round joints and ends
+                    pygame.draw.circle(large, color, (round(x + 0.5), round(y + 0.5)), thick / 2)
 
     return draw
 

@@ -22,7 +22,7 @@ from mars2d.view.bars import (
     footer_height,
 )
 from mars2d.view.camera import Camera
-from mars2d.view.display import NO_DISPLAY, display_available
+from mars2d.view.display import NO_DISPLAY, open_display
 from mars2d.view.layers import Layers
 from mars2d.view.painter import Painter
 from mars2d.view.picture import summary
@@ -83,9 +83,8 @@ class Window:
 
         Ctrl+C in the terminal closes it as Esc does.
         """
-        if not display_available():
-            raise InputError(NO_DISPLAY)
         ours = not pygame.display.get_init()
+        open_display()
         try:
             screen = self._show()
             self._loop(screen)
@@ -98,7 +97,6 @@ class Window:
             raise self.player.error
 
     def _show(self) -> pygame.Surface:
-        pygame.display.init()
         pygame.display.set_caption(self.title)
         pygame.display.set_icon(_icon(self._painter))
         try:

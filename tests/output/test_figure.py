@@ -1,0 +1,484 @@
+"""Figures show what the record holds, are reproducible, and leave matplotlib's state alone."""
+
+from __future__ import annotations
+
+import dataclasses
+import pickle
+import subprocess
+import sys
+import time
+from io import BytesIO
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_hex, to_rgba
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Polygon
+
+import mars2d
+from mars2d import Animation, InputError, Record, Robot, Scenario
+from mars2d.addons import Map
+from mars2d.output.figure import paint, plot_paths, plot_snapshots, save_figure
+from mars2d.scene import Scene
+
+BLUE, RED = "#0072b2", "#d55e00"
+CHEVRON = [(2.0, 2.0), (4.0, 4.0), (2.0, 3.0), (0.0, 4.0)]
+
+
+def law(robot):
+    return 0.3, 0.2 * np.cos(robot.time)
+
+
+def team(**changes):
+    settings = {
+        "title": "Two go round",
+        "robots": [
+            Robot(pose=(-3, -3, 0), name="Ada", controller=law),
+            Robot(pose=(-3, 1, 0.5), name="Bob", controller=law, diameter=0.6),
+        ],
+        "sampling_time": 0.1,
+        "stop_time": 8.0,
+        "addons": [Map([CHEVRON, [(-4, 4), (-1, 4)]])],
+    }
+    return Scenario(**(settings | changes))
+
+
+@pytest.fixture(scope="module")
+def record() -> Record:
+    return mars2d.run(team())
+
+
+def trails(ax):
+    return [line for line in ax.lines if len(line.get_xdata()) > 2]
+
+
+def discs(ax):
+    return [patch for patch in ax.patches if isinstance(patch, Circle)]
+
+
+def hollow(artist):
+    return to_rgba(artist.get_facecolor())[3] == 0
+
+
+def pixel(ax, point):
+    """Return the colour painted at a point in metres."""
+    canvas = FigureCanvasAgg(ax.figure)
+    canvas.draw()
+    image = np.asarray(canvas.buffer_rgba())[:, :, :3]
+    x, y = ax.transData.transform(point)
+    return to_hex(image[image.shape[0] - 1 - int(y), int(x)] / 255)
+
+
+# -- the paths --------------------------------------------------------------------------------
+
+
+def test_the_paths_are_the_poses_of_the_record(record):
+    lines = trails(record.plot())
+    assert len(lines) == 2
+    for i, (line, color) in enumerate(zip(lines, record.scenario.colors, strict=True)):
+        np.testing.assert_array_equal(line.get_xydata(), record.pose[:, :2, i])
+        assert to_hex(line.get_color()) == color
+
+
+def test_initial_poses_are_hollow_and_final_poses_filled_and_to_scale(record):
+    initial, final = discs(record.plot())[:2], discs(record.plot())[2:]
+    for i, robot in enumerate(record.scenario.robots):
+        assert hollow(initial[i])
+        assert to_hex(initial[i].get_edgecolor()) == record.scenario.colors[i]
+        assert to_hex(final[i].get_facecolor()) == record.scenario.colors[i]
+        assert initial[i].get_radius() == final[i].get_radius() == robot.diameter / 2
+        np.testing.assert_allclose(initial[i].center, record.pose[0, :2, i])
+        np.testing.assert_allclose(final[i].center, record.pose[-1, :2, i])
+
+
+def test_the_page_shows_white_in_a_start_and_colour_in_an_end(record):
+    ax = record.plot()
+    ax.figure.set_dpi(300)
+    x, y, theta = record.pose[0, :, 1]
+    behind = (x - 0.15 * np.cos(theta + 0.5), y - 0.15 * np.sin(theta + 0.5))
+    assert pixel(ax, behind) == "#ffffff"
+    x, y, theta = record.pose[-1, :, 1]
+    assert pixel(ax, (x - 0.15 * np.cos(theta), y - 0.15 * np.sin(theta))) == RED
+    assert pixel(ax, (2.0, 2.5)) == "#b8c0c8"
+    assert pixel(ax, (2.02, 3.5)) != "#b8c0c8", "a concave obstacle stays concave"
+
+
+def test_a_heading_points_from_the_centre_of_rotation_to_the_front():
+    robot = Robot(pose=(1, 1, np.pi / 2), diameter=1.0, center_offset=0.2)
+    scenario = Scenario(robots=[robot], stop_time=1)
+    ax = mars2d.run(scenario, control=lambda world: [[0.0], [0.0]]).plot()
+    heading = ax.lines[-1].get_xydata()
+    np.testing.assert_allclose(heading, [(1, 1), (1, 1.3)], atol=1e-12)
+    np.testing.assert_allclose(discs(ax)[-1].center, (1, 0.8))
+
+
+def test_axes_are_equal_labelled_and_titled(record):
+    ax = record.plot()
+    assert ax.get_aspect() == 1
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("x [m]", "y [m]")
+    assert ax.get_title() == "Two go round, t = 8 s"
+    ax.figure.canvas.draw()
+    across, up = ax.transData.transform((1, 0)), ax.transData.transform((0, 1))
+    origin = ax.transData.transform((0, 0))
+    assert (across - origin)[0] == pytest.approx((up - origin)[1], rel=1e-6)
+    np.testing.assert_allclose(np.diff(ax.get_xticks())[0], np.diff(ax.get_yticks())[0])
+
+
+def test_titles_and_names_are_shown_as_they_are_written():
+    robots = [Robot(name="_a $x^2$")]
+    scenario = Scenario(title=r"From $5 to $\nonsense", robots=robots, stop_time=1)
+    ax = mars2d.run(scenario, control=lambda world: [[0.1], [0.0]]).plot()
+    assert ax.get_title() == r"From $5 to $\nonsense, t = 1 s"
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["_a $x^2$"]
+    ax.figure.canvas.draw()  # raises where it is taken for mathematics
+
+
+def test_a_title_of_any_length_stays_on_the_page(record):
+    scenario = record.scenario.replace(title="A title without end, " * 30)
+    ax = dataclasses.replace(record, scenario=scenario).plot()
+    ax.figure.canvas.draw()
+    page, title = ax.figure.bbox, ax.title.get_window_extent()
+    assert page.x0 <= title.x0
+    assert title.x1 <= page.x1
+    assert title.y1 <= page.y1
+
+
+def test_the_legend_names_few_robots_beside_the_drawing(record):
+    ax = record.plot()
+    legend = ax.get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["Ada", "Bob"]
+    assert [to_hex(h.get_color()) for h in legend.legend_handles] == list(record.scenario.colors)
+    ax.figure.canvas.draw()
+    assert legend.get_window_extent().x0 >= ax.get_window_extent().x1
+    assert legend.get_window_extent().x1 <= ax.figure.bbox.x1
+
+
+def test_more_than_eight_robots_have_no_legend():
+    for count, named in ((8, True), (9, False)):
+        run = mars2d.run(Scenario(robots=count, stop_time=1), control=lambda w: 0 * w.command)
+        assert (run.plot().get_legend() is not None) is named
+
+
+# -- what the animation's fields choose -------------------------------------------------------
+
+
+def styled(record, **changes):
+    scenario = record.scenario.replace(animation=Animation(**changes))
+    return dataclasses.replace(record, scenario=scenario).plot()
+
+
+def test_without_wake_there_are_no_paths(record):
+    assert trails(styled(record, wake=False)) == []
+
+
+def test_without_show_initial_pose_there_are_no_rings(record):
+    assert not any(hollow(disc) for disc in discs(styled(record, show_initial_pose=False)))
+
+
+def test_the_grid_is_drawn_if_it_is_wished(record):
+    on, off = styled(record), styled(record, grid=False)
+    assert all(line.get_visible() for line in on.get_xgridlines())
+    assert not any(line.get_visible() for line in off.get_xgridlines())
+
+
+def test_the_grid_lies_on_the_workspace_and_below_the_obstacles(record):
+    ax = record.plot()
+    at = next(tick for tick in ax.get_xticks() if -5 < tick < -1)
+    step = ax.get_yticks()[1] - ax.get_yticks()[0]
+    assert pixel(ax, (at, -4 + step / 3)) != "#ffffff"
+    order = [patch.get_zorder() for patch in ax.patches if isinstance(patch, Polygon)]
+    assert order[0] < 1.5 < min(order[1:])
+
+
+@pytest.mark.parametrize(
+    ("style", "marker", "line"),
+    [
+        ("o--", "o", "--"),
+        (".", "o", "None"),
+        ("x-.", "x", "-."),
+        (":", "None", ":"),
+        ("s", "s", "None"),
+    ],
+)
+def test_wake_styles_are_matlabs(record, style, marker, line):
+    trail = trails(styled(record, wake_style=style))[0]
+    assert str(trail.get_marker()) == marker
+    assert trail.get_linestyle() == line
+    np.testing.assert_array_equal(trail.get_xydata(), record.pose[:, :2, 0])
+
+
+def test_marks_on_a_path_are_thinned_out_and_keep_their_distance(record):
+    ax = styled(record, wake_style="o")
+    trail = trails(ax)[0]
+    marked = ax.transData.transform(trail.get_xydata()[trail.get_markevery()])
+    assert 5 < len(marked) < len(record) / 2
+    apart = np.hypot(*np.diff(marked, axis=0).T) * 72 / ax.figure.dpi
+    assert apart.min() > 0.5 * trail.get_markersize()
+
+
+def test_robots_as_points_have_the_same_size_at_any_diameter(record):
+    ax = styled(record, show_real_shape=False)
+    assert discs(ax) == []
+    marks = [line for line in ax.lines if len(line.get_xdata()) == 1]
+    assert [mark.get_markerfacecolor() for mark in marks] == ["none", "none", BLUE, RED]
+    assert len({mark.get_markersize() for mark in marks}) == 1
+
+
+# -- what is in view --------------------------------------------------------------------------
+
+
+def limits(ax):
+    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
+    return xmin, xmax, ymin, ymax
+
+
+def test_the_workspace_fills_the_axes(record):
+    np.testing.assert_allclose(limits(record.plot()), (-5, 5, -5, 5), atol=0.3)
+
+
+def test_a_path_that_leaves_the_workspace_stays_in_view():
+    scenario = Scenario(robots=[Robot()], on_exit="ignore", stop_time=100)
+    run = mars2d.run(scenario, control=lambda world: [[0.2], [0.0]])
+    xmin, xmax, ymin, ymax = limits(run.plot())
+    assert xmin < -5
+    assert 20.15 < xmax < 22
+    assert ymin < -5
+    assert ymax > 5
+
+
+def test_without_a_workspace_the_view_holds_paths_and_obstacles(record):
+    scenario = record.scenario.replace(workspace=None)
+    xmin, xmax, ymin, ymax = limits(dataclasses.replace(record, scenario=scenario).plot())
+    assert xmin < -4
+    assert xmax > 4
+    assert ymin < -3.15
+    assert ymax > 4
+
+
+def test_a_long_straight_path_leaves_room_for_labels():
+    scenario = Scenario(robots=[Robot()], workspace=None, stop_time=4000)
+    run = mars2d.run(scenario, options={"sampling_time": 10.0}, control=lambda w: [[0.2], [0.0]])
+    xmin, xmax, ymin, ymax = limits(run.plot())
+    assert (xmax - xmin) / (ymax - ymin) < 10
+
+
+# -- axes and figures of one's own ------------------------------------------------------------
+
+
+def test_paths_are_drawn_on_given_axes(record):
+    axes = Figure().subplots(1, 2)
+    assert record.plot(axes[1]) is axes[1]
+    assert not axes[0].has_data()
+
+
+def test_a_second_record_on_the_same_axes_keeps_the_first_in_view(record):
+    ax = Figure().add_subplot()
+    far = Scenario(robots=[Robot(pose=(20, 0, 0))], workspace=None, stop_time=1)
+    mars2d.run(far, control=lambda world: [[0.1], [0.0]]).plot(ax)
+    record.plot(ax)
+    xmin, xmax, *_ = limits(ax)
+    assert xmin < -5
+    assert xmax > 20
+
+
+@pytest.mark.parametrize(
+    "ax", [Figure(), Figure().subplots(1, 2), Figure().add_subplot(projection="polar"), "ax"]
+)
+def test_what_are_no_plain_axes_is_refused(record, ax):
+    with pytest.raises(InputError, match=r"^ax = .*expected plain axes"):
+        plot_paths(record, ax)
+
+
+def test_a_notebook_shows_the_axes_and_their_figure(record):
+    ax = record.plot()
+    for shown in (ax, ax.figure, pickle.loads(pickle.dumps(ax)), plot_snapshots(record, [1])):
+        assert shown._repr_png_().startswith(b"\x89PNG")
+
+
+def test_neither_windows_nor_pyplot_are_touched(tmp_path):
+    code = """
+import sys, mars2d
+assert "matplotlib" not in sys.modules
+import mars2d.output.figure as figure
+assert "matplotlib" not in sys.modules
+run = mars2d.run("random_walk", stop_time=20)
+run.plot()._repr_png_()
+figure.plot_snapshots(run, [0, 20])
+import matplotlib
+names = set(matplotlib.rcParams) - {"backend"}  # to look at that one imports pyplot
+before = {name: matplotlib.rcParams[name] for name in names}
+figure.save_figure(run, sys.argv[1])
+assert {name: matplotlib.rcParams[name] for name in names} == before
+for module in ("matplotlib.pyplot", "pygame", "pymunk.pygame_util", "tkinter"):
+    assert module not in sys.modules, module
+"""
+    path = str(tmp_path / "walk.png")
+    subprocess.run([sys.executable, "-W", "error", "-c", code, path], check=True, timeout=60)
+
+
+# -- snapshots --------------------------------------------------------------------------------
+
+
+def test_snapshots_show_the_paths_until_each_time(record):
+    figure = plot_snapshots(record, [0.3, 4.04, 8])
+    assert [ax.get_title() for ax in figure.axes] == ["t = 0.3 s", "t = 4 s", "t = 8 s"]
+    for ax, row in zip(figure.axes, (3, 40, 80), strict=True):
+        assert record.time[row] == pytest.approx(float(ax.get_title()[4:-2]))
+        np.testing.assert_array_equal(trails(ax)[1].get_xydata(), record.pose[: row + 1, :2, 1])
+        np.testing.assert_allclose(discs(ax)[-1].center, record.pose[row, :2, 1])
+        assert ax.get_aspect() == 1
+    assert len({limits(ax) for ax in figure.axes}) == 1
+    assert [ax.get_legend() is not None for ax in figure.axes] == [False, False, True]
+
+
+def test_snapshots_are_labelled_at_the_outer_panels_only(record):
+    axes = plot_snapshots(record, [0, 1, 2, 3, 4]).axes
+    assert len(axes) == 5
+    assert [ax.get_ylabel() for ax in axes] == ["y [m]", "", "", "y [m]", ""]
+    assert [ax.get_xlabel() for ax in axes] == ["", "", "x [m]", "x [m]", "x [m]"]
+
+
+def test_one_time_is_enough_and_a_figure_may_be_given(record):
+    figure = Figure()
+    assert plot_snapshots(record, 4.0, figure) is figure
+    assert len(figure.axes) == 1
+
+
+@pytest.mark.parametrize(("time", "named"), [(8.1, "8.1 s"), (-1, "-1 s"), (np.nan, "nan s")])
+def test_a_time_outside_of_the_record_is_refused(record, time, named):
+    with pytest.raises(InputError, match=rf"{named} is outside of the record.* 0 to 8 s"):
+        plot_snapshots(record, [1.0, time])
+
+
+@pytest.mark.parametrize("times", ["soon", [[1, 2]], [True], None, [1, "x"], [[1], [1, 2]]])
+def test_what_are_no_times_is_refused(record, times):
+    with pytest.raises(InputError, match=r"^times = .*expected times in seconds"):
+        plot_snapshots(record, times)
+
+
+@pytest.mark.parametrize("count", [0, 65])
+def test_too_many_panels_and_none_are_refused(record, count):
+    with pytest.raises(InputError, match=f"{count} of them"):
+        plot_snapshots(record, np.linspace(0, 1, count))
+
+
+# -- files ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("suffix", "start"),
+    [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PDF", b"%PDF")],
+)
+@pytest.mark.parametrize("times", [None, [0, 8]])
+def test_files_have_their_format_and_are_reproducible(record, tmp_path, suffix, start, times):
+    first, second = tmp_path / f"a{suffix}", tmp_path / f"b{suffix}"
+    assert save_figure(record, first, times) == first
+    save_figure(record, str(second), times)
+    assert first.read_bytes().startswith(start)
+    assert first.read_bytes() == second.read_bytes()
+    for dated in (b"CreationDate", b"dc:date"):
+        assert dated not in first.read_bytes()
+
+
+def test_paths_are_vectors_in_pdf_and_svg(record, tmp_path):
+    text = save_figure(record, tmp_path / "a.svg").read_text()
+    assert "<image" not in text
+    assert b"/Subtype /Image" not in save_figure(record, tmp_path / "a.pdf").read_bytes()
+
+
+@pytest.mark.parametrize("name", ["a.jpg", "a", "a.svgz"])
+def test_an_unknown_suffix_is_refused_with_the_known_ones(record, tmp_path, name):
+    with pytest.raises(InputError, match=rf"{name}: .*\.png, \.pdf or \.svg"):
+        save_figure(record, tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_can_not_be_written_is_an_input_error(record, tmp_path):
+    with pytest.raises(InputError, match=r"no/a\.png: can't be written: there is no folder .*no"):
+        save_figure(record, tmp_path / "no" / "a.png")
+    (tmp_path / "folder.png").mkdir()
+    with pytest.raises(InputError, match=r"folder\.png: can't be written"):
+        save_figure(record, tmp_path / "folder.png")
+
+
+def test_a_record_without_rows_is_refused(record, tmp_path):
+    empty = dataclasses.replace(
+        record, time=record.time[:0], pose=record.pose[:0], command=record.command[:0]
+    )
+    for draw in (
+        empty.plot,
+        lambda: plot_snapshots(empty, [0]),
+        lambda: save_figure(empty, tmp_path / "a.png"),
+    ):
+        with pytest.raises(InputError, match="no rows"):
+            draw()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_record_of_one_row_is_drawn(record):
+    one = dataclasses.replace(
+        record, time=record.time[:1], pose=record.pose[:1], command=record.command[:1]
+    )
+    assert one.plot().get_title().endswith("t = 0 s")
+
+
+def test_a_hundred_robots_of_a_thousand_rows_are_drawn_quickly(record):
+    steps = np.random.default_rng(3).normal(size=(1000, 3, 100)) * 0.05
+    grid = [Robot(pose=(x, y, 0)) for x in range(10) for y in range(10)]
+    scenario = Scenario(robots=grid, workspace=None, sampling_time=1, stop_time=999)
+    pose = scenario.initial_pose + np.cumsum(steps, axis=0)
+    large = dataclasses.replace(record, scenario=scenario, time=np.arange(1000.0), pose=pose)
+    begin = time.perf_counter()
+    large.plot().figure.savefig(BytesIO(), format="png")
+    assert time.perf_counter() - begin < 5  # it takes 0.3 s
+
+
+# -- paint ------------------------------------------------------------------------------------
+
+
+def test_the_first_shape_lies_lowest_whatever_its_kind():
+    for top in ("line", "disc"):
+        scene = Scene()
+        if top == "disc":
+            scene.line([(0, 0), (2, 0)], stroke="#00ff00", width=20)
+        scene.circle((1, 0), 0.8, fill="#ff0000")
+        if top == "line":
+            scene.line([(0, 0), (2, 0)], stroke="#00ff00", width=20)
+        ax = Figure().add_subplot()
+        ax.axis([0, 2, -1, 1])
+        paint(scene, ax)
+        assert pixel(ax, (1, 0)) == ("#00ff00" if top == "line" else "#ff0000")
+
+
+def test_every_kind_of_shape_is_painted_with_its_opacity_and_anchor():
+    scene = Scene()
+    scene.polygon(CHEVRON, fill="#ff000080")
+    scene.line([(0, 0), (1, 1)], stroke="#000000", width=3)
+    scene.text((1, 2), "right $_", anchor="right", size=9)
+    scene.circle((3, 1), 0.0, stroke="#0000ff", pixels=6)
+    ax = Figure().add_subplot()
+    paint(scene, ax, scale=0.5)
+    (polygon,), (line, mark), (text,) = ax.patches, ax.lines, ax.texts
+    np.testing.assert_array_equal(polygon.get_xy()[:-1], CHEVRON)
+    assert polygon.get_alpha() is None
+    assert polygon.get_facecolor()[3] == pytest.approx(0.5, abs=0.01)
+    assert isinstance(line, Line2D)
+    assert line.get_linewidth() == 1.5
+    assert mark.get_markerfacecolor() == "none"
+    assert mark.get_markersize() == 6
+    assert (text.get_text(), text.get_ha(), text.get_fontsize()) == ("right $_", "right", 4.5)
+    assert pixel(ax, (2.0, 2.5)) == "#ff7f7f"
+    low, high = ax.get_xlim()
+    assert low <= 0
+    assert high >= 4
+
+
+def test_pixels_add_to_the_radius_on_the_page():
+    ax = Figure(figsize=(4, 4), dpi=72).add_axes((0, 0, 1, 1))
+    ax.axis([0, 288, 0, 288])  # a metre is a point
+    scene = Scene()
+    scene.circle((100, 100), 20, fill="#000000", pixels=5)
+    paint(scene, ax)
+    assert ax.patches[0].get_radius() == pytest.approx(25)

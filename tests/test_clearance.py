@@ -1,0 +1,158 @@
+"""A disc that is said to be free is free."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mars2d.clearance import FEW, Clearance, Walls
+
+
+def gap_to_segment(point: complex, start: complex, edge: complex) -> float:
+    """The distance, found by trying many points of the segment and refining round the best."""
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        along = np.linspace(low, high, 11)
+        best = along[np.argmin(np.abs(start + along * edge - point))]
+        width = (high - low) / 10
+        low, high = max(best - width, 0.0), min(best + width, 1.0)
+    return float(np.abs(start + best * edge - point))
+
+
+def truly_near(center, radii, start, edge, reach) -> np.ndarray:
+    """Which discs could touch something if each moves by its reach, tried one by one."""
+    n = len(center)
+    near = np.zeros(n, dtype=bool)
+    for i in range(n):
+        for j in range(n):
+            if i != j:
+                gap = abs(center[i] - center[j]) - radii[i] - radii[j]
+                near[i] |= gap <= reach[i] + reach[j]
+        for a, e in zip(start, edge, strict=True):
+            near[i] |= gap_to_segment(center[i], a, e) - radii[i] <= reach[i]
+    return near
+
+
+def random_walk(seed: int, n: int, segments: int, ticks: int, box: float):
+    """Yield (clearance's answer, truth) while discs move at random by less than their reach."""
+    rng = np.random.default_rng(seed)
+
+    def places(count: int) -> np.ndarray:
+        return rng.uniform(-box, box, count) + 1j * rng.uniform(-box, box, count)
+
+    radii = rng.uniform(0.05, 0.3, n)
+    start, edge = places(segments), places(segments)
+    clearance = Clearance(radii, start, edge)
+    center = places(n)
+    for _ in range(ticks):
+        reach = rng.uniform(0, 0.2, n) * rng.choice([0.05, 1.0, 3.0])
+        answer = clearance.may_touch(center, reach)
+        yield answer, truly_near(center, radii, start, edge, reach)
+        clearance.moved(reach)
+        center = center + reach * rng.uniform(0, 1, n) * np.exp(1j * rng.uniform(0, 7, n))
+
+
+@given(seed=st.integers(0, 2**32), n=st.integers(1, 6), segments=st.integers(0, 3))
+def test_among_few_discs_the_answer_is_exact(seed, n, segments):
+    for answer, truth in random_walk(seed, n, segments, ticks=6, box=1.5):
+        assert answer.tolist() == truth.tolist()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_among_many_discs_nothing_within_reach_is_called_free(seed):
+    n = FEW + 8
+    for answer, truth in random_walk(seed, n, 3, ticks=12, box=6.0):
+        assert not (truth & ~answer).any()
+
+
+def test_among_many_discs_far_ones_are_called_free():
+    answers = [answer for answer, _ in random_walk(5, FEW + 8, 2, ticks=6, box=30.0)]
+    assert np.mean(answers) < 0.5
+
+
+def test_pairs_are_listed_anew_only_when_discs_have_moved_by_the_skin():
+    n = FEW + 1
+    clearance = Clearance(np.full(n, 0.1), np.empty(0, complex), np.empty(0, complex))
+    listings = 0
+    original = clearance._list_pairs
+
+    def counted(center, reach):
+        nonlocal listings
+        listings += 1
+        original(center, reach)
+
+    clearance._list_pairs = counted  # type: ignore[method-assign]
+    center = np.arange(n) + 0j
+    reach = np.full(n, 0.01)
+    for _ in range(30):
+        clearance.may_touch(center, reach)
+        clearance.moved(reach)
+    assert 1 <= listings <= 4
+
+
+@given(seed=st.integers(0, 2**32))
+def test_an_encounter_measures_every_gap_within_reach(seed):
+    rng = np.random.default_rng(seed)
+    n = 6
+    center = rng.uniform(-1, 1, n) + 1j * rng.uniform(-1, 1, n)
+    radii = rng.uniform(0.05, 0.3, n)
+    start = rng.uniform(-1, 1, 3) + 1j * rng.uniform(-1, 1, 3)
+    edge = rng.uniform(-1, 1, 3) + 1j * rng.uniform(-1, 1, 3)
+    clearance = Clearance(radii, start, edge)
+    reach = np.full(n, 0.2)
+    near = clearance.may_touch(center, reach)
+    clearance.moved(reach)
+    who = np.flatnonzero(near)
+    encounter = clearance.encounter(center, who, 0.2)
+    encounter.measure(center[who])
+    touching = np.zeros(n, dtype=bool)
+    touching[who] = encounter.touching()
+    expected = truly_near(center, radii, start, edge, np.zeros(n))
+    assert touching.tolist() == expected.tolist()
+    i, j, disc, segment = encounter.touching_pairs(who)
+    for a, b in zip(i, j, strict=True):
+        assert abs(center[a] - center[b]) <= radii[a] + radii[b]
+    for a, s in zip(disc, segment, strict=True):
+        assert gap_to_segment(center[a], start[s], edge[s]) <= radii[a] + 1e-6
+
+
+@given(seed=st.integers(0, 2**32), depth=st.floats(1e-5, 1e-2))
+def test_until_the_time_to_touch_nothing_gets_deeper_than_allowed(seed, depth):
+    rng = np.random.default_rng(seed)
+    n = 5
+    radii = np.full(n, 0.1)
+    center = np.arange(n) * 0.25 + 1j * rng.uniform(-0.1, 0.1, n)
+    start, edge = np.array([-1 - 0.4j]), np.array([3 + 0.1j])
+    clearance = Clearance(radii, start, edge)
+    reach = np.full(n, 9.0)
+    clearance.may_touch(center, reach)
+    clearance.moved(reach)
+    encounter = clearance.encounter(center, np.arange(n), 9.0)
+    encounter.measure(center)
+    velocity = rng.uniform(-1, 1, n) + 1j * rng.uniform(-1, 1, n)
+    h = encounter.time_to_touch(velocity, np.zeros(n), depth)
+    for part in np.linspace(0, min(h, 10.0), 20):
+        at = center + velocity * part
+        between = np.abs(at[:, None] - at[None, :])[np.triu_indices(n, 1)]
+        assert (between - 0.2).min() >= -depth - 1e-9
+        walls = [gap_to_segment(c, start[0], edge[0]) - 0.1 for c in at]
+        assert min(walls) >= -depth - 1e-6
+
+
+def test_things_that_move_apart_never_touch():
+    clearance = Clearance(np.full(2, 0.1), np.empty(0, complex), np.empty(0, complex))
+    center = np.array([0j, 1 + 0j])
+    encounter = clearance.encounter(center, np.arange(2), 9.0)
+    encounter.measure(center)
+    apart = encounter.time_to_touch(np.array([-1 + 0j, 1 + 0j]), np.zeros(2), 1e-3)
+    towards = encounter.time_to_touch(np.array([1 + 0j, -1 + 0j]), np.zeros(2), 1e-3)
+    assert apart > 1e6
+    assert towards == pytest.approx((0.8 + 1e-3) / 2)
+
+
+def test_the_nearest_point_of_a_wall_may_be_its_end():
+    walls = Walls(np.array([0j]), np.array([1 + 0j]))
+    towards = walls.towards(np.array([0.5 + 2j, -3 - 4j, 4 + 4j]))
+    assert np.abs(towards) == pytest.approx([2, 5, 5])

@@ -1,0 +1,78 @@
+"""Commands take effect after the transmission delay, whole sampling times or not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mars2d import Holonomic, Robot, Scenario, World
+from mars2d.delay import DelayLine
+
+
+@given(
+    delay=st.floats(0, 5),
+    sampling_time=st.floats(0.01, 2),
+    count=st.integers(1, 30),
+)
+def test_what_is_in_effect_was_issued_a_delay_ago(delay, sampling_time, count):
+    line = DelayLine(delay, sampling_time, 1)
+    for k in range(count):
+        pieces = line.send(np.full((2, 1), float(k + 1)))  # command k reads k + 1, before it 0
+        assert sum(duration for duration, _ in pieces) == pytest.approx(sampling_time)
+        time = k * sampling_time
+        for duration, command in pieces:
+            assert duration > 0
+            middle = time + duration / 2
+            issued = np.floor((middle - delay) / sampling_time)
+            assert command[0, 0] == max(issued + 1, 0)
+            time += duration
+
+
+@pytest.mark.parametrize("whole", [0, 1, 3, 7])
+def test_a_delay_of_whole_sampling_times_makes_no_extra_steps(whole):
+    line = DelayLine(whole * 0.1, 0.1, 1)
+    for k in range(20):
+        pieces = line.send(np.full((2, 1), float(k)))
+        assert len(pieces) == 1
+        assert pieces[0][0] == 0.1
+        assert pieces[0][1][0, 0] == max(k - whole, 0)
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.1, 0.25, 0.3, 1.0, 1.05, 2.7])
+def test_a_robot_moves_by_the_delayed_command_at_every_sampling_time(delay):
+    scenario = Scenario(
+        robots=[Robot(drive=Holonomic(max_linear_speed=10))], workspace=None, command_delay=delay
+    )
+    world = World(scenario)
+    speeds = np.random.default_rng(0).uniform(-1, 1, 40)
+    for speed in speeds:
+        world.step([[speed], [0]])
+    record = world.record
+    for k, time in enumerate(record.time):
+        # Command j works from 0.1 j + delay on, for 0.1 s.
+        begun = np.clip(time - delay - 0.1 * np.arange(40), 0, 0.1)
+        assert record.pose[k, 0, 0] == pytest.approx(speeds @ begun, abs=1e-9)
+
+
+def test_command_time_says_when_a_command_takes_effect():
+    world = World(Scenario(command_delay=0.25, sampling_time=0.1, stop_time=1))
+    while not world.over:
+        world.step()
+    assert np.array_equal(world.record.command_time, world.record.time + 0.25)
+
+
+def test_the_law_sees_the_command_it_issued_not_the_one_in_effect():
+    seen = []
+
+    def law(robot):
+        seen.append(float(robot.command[0]))
+        return 0.1 * (len(seen)), 0
+
+    scenario = Scenario(robots=[Robot(controller=law)], command_delay=5, stop_time=0.4)
+    world = World(scenario)
+    while not world.over:
+        world.step()
+    assert seen == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
+    assert world.pose[0, 0] == 0

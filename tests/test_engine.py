@@ -1,0 +1,655 @@
+"""The physics: exact where nothing touches, honest forces where something does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import product
+
+import numpy as np
+import pymunk
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
+from mars2d.addons import Map
+
+EXACT = 1e-9  # metres
+
+
+def free(*robots: Robot, **fields) -> Scenario:
+    """A scenario without limits, for as long as one likes."""
+    sampling_time = fields.setdefault("sampling_time", 0.1)
+    defaults = {"workspace": None, "stop_time": 1e6 * sampling_time}
+    return Scenario(robots=list(robots), **(defaults | fields))
+
+
+def drive(world: World, command, seconds: float) -> np.ndarray:
+    """Command the same for some seconds; returns the poses (T, 3, n) at the sampling times."""
+    poses = [world.pose]
+    for _ in range(round(seconds / world.scenario.sampling_time)):
+        world.step(command)
+        poses.append(world.pose)
+    return np.array(poses)
+
+
+def arc(pose, v: float, omega: float, t: float) -> np.ndarray:
+    """The unicycle's motion, as the integral of v (cos, sin)(theta + omega t)."""
+    x, y, theta = pose
+    if omega == 0:
+        return np.array([x + v * t * np.cos(theta), y + v * t * np.sin(theta), theta])
+    turned = theta + omega * t
+    radius = v / omega
+    return np.array(
+        [
+            x + radius * (np.sin(turned) - np.sin(theta)),
+            y - radius * (np.cos(turned) - np.cos(theta)),
+            turned,
+        ]
+    )
+
+
+def straight(pose, vx: float, vy: float, t: float) -> np.ndarray:
+    x, y, theta = pose
+    return np.array([x + vx * t, y + vy * t, theta])
+
+
+def moved(robot: Robot, pose, command, t: float) -> np.ndarray:
+    law = arc if isinstance(robot.drive, Unicycle) else straight
+    return law(pose, command[0], command[1], t)
+
+
+# -- free motion ----------------------------------------------------------------------------
+
+speeds = st.floats(-0.3, 0.3)
+# The formula above loses digits of its own for radii of kilometres.
+spins = st.one_of(st.just(0.0), st.floats(1e-3, 2.0), st.floats(-2.0, -1e-3))
+
+
+@given(
+    commands=st.lists(st.tuples(speeds, spins), min_size=1, max_size=8),
+    sampling_time=st.floats(1e-3, 100.0),
+    heading=st.floats(-7, 7),
+    offset=st.floats(-0.15, 0.15),
+)
+@example(commands=[(0.3, 2.0)] * 8, sampling_time=100.0, heading=1.0, offset=0.15)
+def test_a_unicycle_follows_the_closed_form_arc(commands, sampling_time, heading, offset):
+    robot = Robot(pose=(1, -2, heading), center_offset=offset)
+    world = World(free(robot, sampling_time=sampling_time))
+    expected = np.array(robot.pose)
+    for command in commands:
+        world.step([[command[0]], [command[1]]])
+        expected = arc(expected, *command, sampling_time)
+        assert np.abs(world.pose[:2, 0] - expected[:2]).max() < EXACT
+        assert world.pose[2, 0] == pytest.approx(expected[2], abs=1e-9)
+
+
+@given(
+    commands=st.lists(st.tuples(speeds, speeds), min_size=1, max_size=8),
+    sampling_time=st.floats(1e-3, 100.0),
+)
+def test_a_holonomic_robot_goes_straight_and_keeps_its_heading(commands, sampling_time):
+    world = World(free(Robot(pose=(0, 0, 2), drive=Holonomic()), sampling_time=sampling_time))
+    for command in commands:
+        world.step([[command[0]], [command[1]]])
+    expected = np.sum(commands, axis=0) * sampling_time
+    assert np.abs(world.pose[:2, 0] - expected).max() < EXACT
+    assert world.pose[2, 0] == 2
+
+
+@given(
+    team=st.lists(st.sampled_from(["unicycle", "holonomic"]), min_size=2, max_size=6),
+    ticks=st.integers(1, 6),
+    sampling_time=st.floats(1e-3, 50.0),
+    delay=st.floats(0, 20.0),
+    seed=st.integers(0, 2**32),
+)
+def test_a_mixed_team_with_delay_is_where_its_commands_bring_it(
+    team, ticks, sampling_time, delay, seed
+):
+    rng = np.random.default_rng(seed)
+    robots = [
+        Robot(
+            pose=(1e3 * i, 0, rng.uniform(-3, 3)),
+            drive=Unicycle() if kind == "unicycle" else Holonomic(),
+            center_offset=rng.uniform(-0.1, 0.1),
+        )
+        for i, kind in enumerate(team)
+    ]
+    world = World(free(*robots, sampling_time=sampling_time, command_delay=delay))
+    commands = rng.uniform(-0.2, 0.2, (ticks, 2, len(team)))
+    for command in commands:
+        world.step(command)
+    # Command k is in effect from k Ts + delay to (k + 1) Ts + delay; all ends at ticks Ts.
+    end = ticks * sampling_time
+    for i, robot in enumerate(robots):
+        expected = np.array(robot.pose)
+        for k in range(ticks):
+            start = k * sampling_time + delay
+            duration = min(start + sampling_time, end) - start
+            if duration > 0:
+                expected = moved(robot, expected, commands[k, :, i], duration)
+        assert np.abs(world.pose[:2, i] - expected[:2]).max() < EXACT
+
+
+@pytest.mark.parametrize("spin", [1e-12, 1e-9, 1e-6])
+def test_an_arc_of_huge_radius_is_as_exact(spin):
+    world = World(free(Robot()))
+    drive(world, [[0.4], [spin]], 10)
+    x, y, theta = world.pose[:, 0]
+    assert x == pytest.approx(4.0, abs=EXACT)
+    assert y == pytest.approx(0.4 * spin * 10**2 / 2, abs=EXACT)
+    assert theta == pytest.approx(10 * spin, rel=1e-9)
+
+
+def test_twenty_thousand_ticks_stay_exact():
+    world = World(free(Robot(), Robot(pose=(0, 50, 0), drive=Holonomic()), sampling_time=0.05))
+    for _ in range(20_000):
+        world.step([[0.2, 0.01], [0.3, -0.02]])
+    turning = arc((0, 0, 0), 0.2, 0.3, 1000.0)
+    assert np.abs(world.pose[:2, 0] - turning[:2]).max() < EXACT
+    assert np.abs(world.pose[:2, 1] - [10, 30]).max() < EXACT
+
+
+def test_arcs_stay_exact_where_others_are_near_but_nothing_touches():
+    # Two robots pass each other a millimetre apart, a third one touches a wall far away.
+    robots = [Robot(pose=(-1, 0, 0)), Robot(pose=(1, 0.301, np.pi)), Robot(pose=(9, 9, 0))]
+    wall = Map([[(9.15 + 1e-6, 8), (9.15 + 1e-6, 10)]])
+    world = World(free(*robots, addons=[wall]))
+    drive(world, [[0.3, 0.3, 0.3], [0, 0, 0]], 5)
+    assert np.abs(world.pose[:2, 0] - [0.5, 0]).max() < EXACT
+    assert np.abs(world.pose[:2, 1] - [-0.5, 0.301]).max() < EXACT
+    pairs = {(int(row["a"]), int(row["b"])) for row in world.record.contacts}
+    assert pairs == {(2, -1)}
+
+
+def test_the_geometric_centre_runs_round_the_centre_of_rotation():
+    world = World(free(Robot(center_offset=0.1)))
+    drive(world, [[0], [1.0]], np.pi)  # 3.1 s
+    angle = world.pose[2, 0]
+    assert np.abs(world.pose[:2, 0]).max() < EXACT
+    expected = -0.1 * np.cos(angle), -0.1 * np.sin(angle)
+    assert world.geometric_center[:, 0] == pytest.approx(expected)
+
+
+# -- how much work it is --------------------------------------------------------------------
+
+
+@contextmanager
+def counted_steps() -> Iterator[list[float]]:
+    """Gather the lengths of all steps of the engine."""
+    lengths: list[float] = []
+    original = pymunk.Space.step
+
+    def step(space: pymunk.Space, dt: float) -> None:
+        lengths.append(dt)
+        original(space, dt)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pymunk.Space, "step", step)
+        yield lengths
+
+
+@pytest.mark.parametrize("sampling_time", [0.01, 0.1, 1.0])
+def test_a_tick_in_which_nothing_can_touch_is_one_step(sampling_time):
+    walls = Map([[(3, -3), (3, 3)]])
+    robots = [Robot(pose=(0, 0, 0)), Robot(pose=(0, 2, np.pi)), Robot(pose=(0, -2, 1))]
+    world = World(free(*robots, sampling_time=sampling_time, addons=[walls]))
+    with counted_steps() as steps:
+        world.step([[0.4, 0.4, 0.4], [1, 0, -1]])
+    assert steps == [sampling_time]
+
+
+def test_a_tick_in_which_a_delayed_command_arrives_is_two_steps():
+    world = World(free(Robot(), sampling_time=1.0, command_delay=0.25))
+    with counted_steps() as steps:
+        world.step([[0.4], [0]])
+    assert steps == [0.25, 0.75]
+
+
+def test_substeps_add_up_to_the_sampling_time():
+    world = World(free(Robot(), Robot(pose=(0.35, 0, np.pi)), sampling_time=0.5))
+    with counted_steps() as steps:
+        world.step([[0.4, 0.4], [0, 0]])
+    assert len(steps) > 1
+    assert sum(steps) == pytest.approx(0.5, abs=1e-12)
+
+
+def test_a_robot_that_has_left_the_crowd_costs_one_step_again():
+    world = World(free(Robot(), Robot(pose=(0.31, 0, np.pi))))
+    drive(world, [[0.3, 0.3], [0, 0]], 2)
+    drive(world, [[-0.3, -0.3], [0, 0]], 2)
+    with counted_steps() as steps:
+        world.step([[-0.3, -0.3], [0, 0]])
+    assert len(steps) == 1
+
+
+def test_more_overlap_allowed_means_fewer_substeps():
+    def work(max_overlap: float) -> int:
+        robots = [Robot(), Robot(pose=(0.5, 0, np.pi))]
+        with counted_steps() as steps:
+            drive(World(free(*robots, max_overlap=max_overlap)), [[0.4, 0.4], [0, 0]], 5)
+        return len(steps)
+
+    fine, usual, coarse = work(1e-5), work(1e-3), work(1e-2)
+    assert fine > 3 * usual
+    assert usual > 1.5 * coarse
+
+
+# -- contact --------------------------------------------------------------------------------
+
+
+def test_two_equal_robots_head_on_stop_and_their_midpoint_does_not_drift():
+    robots = [Robot(pose=(-0.5, 0, 0)), Robot(pose=(0.5, 0, np.pi))]
+    world = World(free(*robots, stop_time=60))
+    poses = drive(world, [[0.3, 0.3], [0, 0]], 60)
+    assert np.abs(poses[:, :2].mean(axis=2)).max() < 1e-6
+    assert np.abs(world.velocity[:2]).max() < 1e-6
+    gap = np.hypot(*(world.pose[:2, 1] - world.pose[:2, 0])) - 0.3
+    assert -1e-3 < gap <= 0
+
+
+@pytest.mark.parametrize("slope", [0.2, 0.6, 1.0, 1.3])
+def test_along_a_frictionless_wall_a_robot_slides_at_v_cos_a(slope):
+    # A strong motor that keeps the heading, so that the wall does not turn it.
+    drives = Holonomic(max_torque=100)
+    robot = Robot(pose=(0, 0.2, 0), drive=drives, friction=0)
+    world = World(free(robot, addons=[Map([[(-1, 0), (9, 0)]], friction=0)]))
+    command = [[0.3 * np.cos(slope)], [-0.3 * np.sin(slope)]]
+    drive(world, command, 5)
+    start = world.pose[0, 0]
+    drive(world, command, 5)
+    assert (world.pose[0, 0] - start) / 5 == pytest.approx(0.3 * np.cos(slope), abs=1e-4)
+    assert world.pose[1, 0] == pytest.approx(0.15, abs=1e-3)
+
+
+def test_friction_holds_back_what_slides():
+    command = [[0.3 * np.cos(0.6)], [-0.3 * np.sin(0.6)]]
+
+    def way(friction: float) -> float:
+        robot = Robot(pose=(0, 0.2, 0), drive=Holonomic(), friction=friction)
+        world = World(free(robot, addons=[Map([[(-1, 0), (9, 0)]], friction=1.0)]))
+        return float(drive(world, command, 5)[-1, 0, 0])
+
+    assert way(0.0) > way(0.3) + 0.01
+    assert way(0.3) > way(1.0) + 0.01
+
+
+def test_the_stronger_of_two_robots_pushes_the_weaker_one_back():
+    weak = Robot(pose=(-0.2, 0, 0), drive=Unicycle(max_force=2))
+    strong = Robot(pose=(0.2, 0, np.pi), drive=Unicycle(max_force=6))
+    world = World(free(weak, strong))
+    drive(world, [[0.3, 0.3], [0, 0]], 5)
+    assert world.pose[0, 0] < -0.5
+    assert np.isfinite(world.pose).all()
+
+
+def test_a_braked_robot_holds_its_place_against_a_weaker_one():
+    pusher = Robot(pose=(-0.2, 0, 0), drive=Unicycle(max_force=4.7))
+    braked = Robot(pose=(0.2, 0, np.pi), drive=Unicycle(max_force=5.3))
+    world = World(free(pusher, braked))
+    drive(world, [[0.3, 0], [0, 0]], 5)  # the impact itself moves it
+    before = world.pose[0, 1]
+    drive(world, [[0.3, 0], [0, 0]], 30)
+    assert world.pose[0, 1] == pytest.approx(before, abs=1e-5)
+    assert before < 0.25
+
+
+def test_two_weak_robots_together_push_what_one_cannot():
+    def pushed(helpers: int) -> float:
+        pushers = [
+            Robot(pose=(-0.4, 0.16 * side, 0), drive=Unicycle(max_force=3.5), friction=0)
+            for side in ((-1, 1) if helpers == 2 else (0,))
+        ]
+        target = Robot(pose=(0, 0, 0), drive=Holonomic(max_force=5), friction=0)
+        world = World(free(*pushers, target))
+        command = np.zeros((2, helpers + 1))
+        command[0, :helpers] = 0.2
+        drive(world, command, 4)
+        return float(world.pose[0, -1])
+
+    assert pushed(1) < 0.02  # the impact alone
+    assert pushed(2) > 0.1
+
+
+def test_a_hit_beside_the_centre_turns_a_robot():
+    target = Robot(pose=(0.5, 0.2, 0), drive=Unicycle(max_torque=0.01))
+    world = World(free(Robot(), target))
+    drive(world, [[0.4, 0], [0, 0]], 3)
+    assert abs(world.pose[2, 1]) > 0.05
+
+
+def test_a_spinning_robot_turns_the_one_it_leans_on():
+    leaning = Robot(pose=(0, 0, 0), friction=1, drive=Unicycle(max_torque=5))
+    target = Robot(pose=(0.31, 0, 0), friction=1, drive=Unicycle(max_torque=0.01))
+    world = World(free(leaning, target))
+    drive(world, [[0.3, 0], [0, 0]], 1)
+    before = float(world.pose[2, 1])
+    drive(world, [[0.1, 0], [2.0, 0]], 1)
+    assert world.pose[2, 1] - before < -0.01  # like cog wheels, the other way round
+
+
+@pytest.mark.parametrize("restitution", [0.3, 0.5, 0.8, 1.0])
+def test_robots_bounce_off_at_their_restitution(restitution):
+    # With hardly any force in the drive, what happens after the impact is free flight.
+    weak = Unicycle(max_force=1e-6, max_torque=1e-6)
+    e = np.sqrt(restitution)  # a contact has the product
+    robots = [
+        Robot(pose=(-0.2, 0, 0), drive=weak, restitution=e),
+        Robot(pose=(0.2, 0, np.pi), drive=weak, restitution=e),
+    ]
+    world = World(free(*robots))
+    drive(world, [[0.4, 0.4], [0, 0]], 0.5)
+    assert world.velocity[0] == pytest.approx([-0.4 * restitution, 0.4 * restitution], rel=1e-3)
+
+
+@pytest.mark.parametrize("distance", [0.1, 0.1037, 0.1311, 0.56])
+@pytest.mark.parametrize("speed", [0.3, 0.5, 2.0, 100.0])
+def test_without_restitution_nothing_bounces(speed, distance):
+    weak = Unicycle(max_linear_speed=speed, max_force=1e-6, max_torque=1e-6)
+    wall = Map([[(0.15 + distance, -1), (0.15 + distance, 1)]])
+    world = World(free(Robot(drive=weak), addons=[wall]))
+    slowest = speed
+    for _ in range(20):
+        world.step([[speed], [0]])
+        slowest = min(slowest, world.velocity[0, 0])
+    assert abs(slowest) < 1e-3 * speed
+    assert world.pose[0, 0] == pytest.approx(distance, abs=1e-3)
+
+
+def test_robots_in_a_row_pass_an_impact_on_without_bouncing():
+    weak = Holonomic(max_linear_speed=2, max_force=1e-6, max_torque=1e-6)
+    row = [Robot(pose=(x, 0, 0), drive=weak) for x in (0, 0.7, 1.003, 1.306)]
+    world = World(free(*row))
+    momentum = 0.0
+    for _ in range(20):
+        world.step([[1.5, 0, 0, 0], [0, 0, 0, 0]])
+        assert world.velocity[0].min() > -1e-3
+        momentum = float(world.velocity[0].sum())
+    assert momentum == pytest.approx(1.5, rel=1e-3)
+    assert world.velocity[0] == pytest.approx([1.5 / 4] * 4, rel=0.05)
+
+
+def test_a_robot_bounces_off_a_wall_at_the_product_of_both_restitutions():
+    weak = Unicycle(max_force=1e-6, max_torque=1e-6)
+    robot = Robot(drive=weak, restitution=0.8)
+    world = World(free(robot, addons=[Map([[(0.3, -1), (0.3, 1)]], restitution=0.5)]))
+    drive(world, [[0.4], [0]], 1)
+    assert world.velocity[0, 0] == pytest.approx(-0.4 * 0.8 * 0.5, rel=1e-3)
+
+
+@pytest.mark.parametrize(("force", "mass"), [(0.05, 1.0), (0.1, 0.5), (0.2, 3.0)])
+def test_a_robot_thrown_off_comes_back_at_force_over_mass(force, mass):
+    robot = Robot(
+        drive=Unicycle(max_force=force, max_torque=1), restitution=1, mass=mass, friction=0
+    )
+    wall = Map([[(0.2, -1), (0.2, 1)]], restitution=1, friction=0)
+    world = World(free(robot, addons=[wall], sampling_time=0.02))
+    drive(world, [[0.4], [0]], 0.16)
+    assert world.velocity[0, 0] == pytest.approx(-0.4, rel=0.05)
+    before = world.velocity[0, 0]
+    drive(world, [[0.4], [0]], 1)
+    assert (world.velocity[0, 0] - before) / 1.0 == pytest.approx(force / mass, rel=0.02)
+
+
+def test_a_robot_back_at_its_command_follows_it_exactly_again():
+    robot = Robot(drive=Unicycle(max_force=2), restitution=1)
+    wall = Map([[(0.2, -9), (0.2, 9)]], restitution=0.5)
+    world = World(free(robot, addons=[wall]))
+    drive(world, [[0.4], [0]], 0.3)
+    drive(world, [[-0.3], [0]], 1)
+    start = world.pose[:, 0]
+    drive(world, [[-0.3], [0.5]], 1)
+    assert np.abs(world.pose[:2, 0] - arc(start, -0.3, 0.5, 1.0)[:2]).max() < EXACT
+
+
+# -- obstacles ------------------------------------------------------------------------------
+
+CONCAVE = [(5, 2), (4, 3), (6, 4), (5, 3)]  # the first obstacle of the paper
+
+
+def test_a_robot_can_stand_in_the_notch_of_a_concave_obstacle():
+    # (5.1, 3) lies in the convex hull of the outline, to the right of its inner corner (5, 3).
+    world = World(free(Robot(pose=(5.2, 3, 0), diameter=0.1), addons=[Map([CONCAVE])]))
+    drive(world, [[0], [0]], 1)
+    assert world.pose[:, 0] == pytest.approx([5.2, 3, 0], abs=1e-12)
+    assert len(world.record.contacts) == 0
+
+
+def test_a_robot_drives_into_the_notch_as_far_as_it_fits():
+    robot = Robot(pose=(5.7, 3, np.pi), diameter=0.1, friction=0)
+    world = World(free(robot, addons=[Map([CONCAVE], friction=0)]))
+    drive(world, [[0.3], [0]], 5)
+    assert world.pose[0, 0] == pytest.approx(5.05, abs=1e-3)
+    assert len(world.record.contacts) > 0
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("sampling_time", [0.05, 2.0])
+def test_a_wall_of_two_vertices_stops_a_robot_from_both_sides(side, sampling_time):
+    robot = Robot(pose=(side, 0, 0 if side < 0 else np.pi))
+    wall = Map([[(0, -1), (0, 1)]])
+    world = World(free(robot, addons=[wall], sampling_time=sampling_time))
+    drive(world, [[0.5], [0]], 10)
+    assert side * world.pose[0, 0] == pytest.approx(0.15, abs=1e-3)
+
+
+def test_a_robot_goes_round_the_end_of_a_wall():
+    world = World(free(Robot(pose=(-1, 0.3, 0)), addons=[Map([[(0, -1), (0, 0)]])]))
+    drive(world, [[0.4], [0]], 5)
+    assert world.pose[0, 0] == pytest.approx(1.0)
+
+
+def test_even_the_fastest_robot_does_not_tunnel_through_a_wall():
+    robot = Robot(diameter=0.05, drive=Unicycle(max_linear_speed=100))
+    world = World(free(robot, addons=[Map([[(0.5, -1), (0.5, 1)]])], sampling_time=1.0))
+    world.step([[100], [0]])
+    assert world.pose[0, 0] == pytest.approx(0.475, abs=1e-3)
+
+
+@pytest.mark.parametrize("on_exit", ["wall", "stop", "ignore"])
+def test_at_the_edge_of_the_workspace_happens_what_on_exit_says(on_exit):
+    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    world = World(free(Robot(), workspace=square, on_exit=on_exit))
+    while not world.over and world.time < 10:
+        world.step([[0.3], [0]])
+    x = world.pose[0, 0]
+    if on_exit == "wall":
+        assert x == pytest.approx(0.85, abs=1e-3)
+        assert world.record.contacts["b"].max() == -1
+    elif on_exit == "stop":
+        assert world.over
+        assert "robot0" in world.over_message
+        assert 1 < x < 1.04
+    else:
+        assert x == pytest.approx(3.0, abs=1e-9)
+
+
+def test_inside_a_concave_workspace_with_walls_a_robot_stays_inside():
+    corner = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]  # an L
+    world = World(free(Robot(pose=(0.5, 1.5, -0.4)), workspace=corner, on_exit="wall"))
+    drive(world, [[0.4], [0]], 10)
+    x, y, _ = world.pose[:, 0]
+    assert x < 0.852 or y < 0.852
+    assert -1e-3 < x - 0.15 < 1.7
+    assert -1e-3 < y - 0.15 < 1.7
+
+
+# -- crowds ---------------------------------------------------------------------------------
+
+BOX = 1.5
+DIAMETER = 0.3
+
+
+def scattered(rng: np.random.Generator, count: int, box: float) -> np.ndarray:
+    """Places (count, 2) in the box at which discs do not overlap."""
+    inner = box / 2 - DIAMETER / 2 - 1e-3
+    while True:
+        places: list[np.ndarray] = []
+        for _ in range(4000):
+            place = rng.uniform(-inner, inner, 2)
+            if all(np.hypot(*(place - other)) > DIAMETER for other in places):
+                places.append(place)
+                if len(places) == count:
+                    return np.array(places)
+
+
+def deepest(
+    seed: int, *, speed: float, sampling_time: float, mass_ratio: float = 1, restitution: float = 0,
+    ticks: int = 20, count: int = 10, box: float = BOX, max_overlap: float = 1e-3,
+    offset: float = 0.0,
+) -> float:  # fmt: skip
+    """Let a crowd push at random; return the deepest overlap after any substep, metres."""
+    rng = np.random.default_rng(seed)
+    robots = [
+        Robot(
+            pose=(x, y, rng.uniform(-3, 3)),
+            drive=(Unicycle, Holonomic)[i % 2](max_linear_speed=speed),
+            mass=mass_ratio ** (i % 3 / 2),
+            restitution=restitution,
+            center_offset=offset * rng.uniform(-1, 1),
+        )
+        for i, (x, y) in enumerate(scattered(rng, count, box))
+    ]
+    robots = [r.at(*_rotation_center(r)) for r in robots]
+    h = box / 2
+    scenario = free(
+        *robots, workspace=[(-h, -h), (h, -h), (h, h), (-h, h)], on_exit="wall",
+        sampling_time=sampling_time, max_overlap=max_overlap,
+    )  # fmt: skip
+    world = World(scenario)
+    offsets = np.array([r.center_offset for r in robots])
+    i, j = np.triu_indices(count, 1)
+    worst = 0.0
+    original = pymunk.Space.step
+
+    def step(space: pymunk.Space, dt: float) -> None:
+        nonlocal worst
+        original(space, dt)
+        bodies = [body for body in space.bodies if body.body_type == pymunk.Body.DYNAMIC]
+        state = np.array([(*body.position, body.angle) for body in bodies])
+        assert np.isfinite(state).all()
+        center = state[:, :2] - offsets[:, None] * np.column_stack(
+            [np.cos(state[:, 2]), np.sin(state[:, 2])]
+        )
+        apart = np.hypot(*(center[i] - center[j]).T)
+        into_wall = np.abs(center).max() + DIAMETER / 2 - h
+        worst = max(worst, DIAMETER - apart.min(), into_wall)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pymunk.Space, "step", step)
+        for _ in range(ticks):
+            command = rng.uniform(-speed, speed, (2, count))
+            command[1, ::2] *= 5
+            world.step(command)
+    return worst
+
+
+def _rotation_center(robot: Robot) -> tuple[float, float, float]:
+    """The pose of a robot whose geometric centre is where its pose was meant to be."""
+    x, y, theta = robot.pose
+    return x + robot.center_offset * np.cos(theta), y + robot.center_offset * np.sin(theta), theta
+
+
+@pytest.mark.parametrize("restitution", [0, 0.5, 1])
+@pytest.mark.parametrize("mass_ratio", [1, 10])
+@pytest.mark.parametrize("sampling_time", [0.05, 0.5])
+@pytest.mark.parametrize("speed", [0.3, 2.0])
+def test_in_a_crowd_nothing_overlaps_by_more_than_a_millimetre(
+    speed, sampling_time, mass_ratio, restitution
+):
+    ticks = 60 if sampling_time < 0.1 else 15
+    for seed in range(2):
+        depth = deepest(
+            seed, speed=speed, sampling_time=sampling_time, mass_ratio=mass_ratio,
+            restitution=restitution, ticks=ticks,
+        )  # fmt: skip
+        assert depth <= 1e-3
+
+
+@pytest.mark.parametrize("offset", [0.05, 0.15])
+def test_in_a_crowd_of_robots_that_turn_about_another_point_the_overlap_is_as_small(offset):
+    depth = deepest(3, speed=0.5, sampling_time=0.5, offset=offset, ticks=15)
+    assert depth <= 1e-3
+
+
+@pytest.mark.parametrize("max_overlap", [1e-4, 5e-3, 2e-2])
+def test_the_overlap_stays_under_what_is_allowed(max_overlap):
+    depth = deepest(1, speed=0.5, sampling_time=0.1, ticks=30, max_overlap=max_overlap)
+    assert depth <= max_overlap
+
+
+def test_in_a_larger_crowd_with_listed_pairs_the_overlap_is_as_small():
+    depth = deepest(0, speed=0.8, sampling_time=0.2, count=50, box=3.2, ticks=20)
+    assert depth <= 1e-3
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("seed", range(10))
+def test_in_many_crowds_nothing_overlaps_by_more_than_a_millimetre(seed):
+    for speed, sampling_time, mass_ratio, restitution, offset in product(
+        [0.3, 0.8, 2.0], [0.05, 0.5], [1, 3, 10], [0, 0.5, 1], [0, 0.15]
+    ):
+        depth = deepest(
+            seed, speed=speed, sampling_time=sampling_time, mass_ratio=mass_ratio,
+            restitution=restitution, offset=offset, ticks=40,
+        )  # fmt: skip
+        assert depth <= 1e-3, (speed, sampling_time, mass_ratio, restitution, offset)
+
+
+@given(seed=st.integers(0, 2**32))
+def test_two_robots_pushed_at_random_stay_finite_and_apart(seed):
+    depth = deepest(seed, speed=1.0, sampling_time=0.3, count=2, box=0.8, ticks=4, offset=0.1)
+    assert depth <= 1e-3
+
+
+# -- worlds ---------------------------------------------------------------------------------
+
+
+def test_two_worlds_stepped_in_turn_go_as_each_goes_alone():
+    def world(seed: int) -> tuple[World, np.random.Generator]:
+        rng = np.random.default_rng(seed)
+        places = scattered(rng, 6, 1.2)
+        robots = [Robot(pose=(x, y, 0)) for x, y in places]
+        h = 0.6
+        box = [(-h, -h), (h, -h), (h, h), (-h, h)]
+        return World(free(*robots, workspace=box, on_exit="wall")), rng
+
+    def step(pair: tuple[World, np.random.Generator]) -> None:
+        pair[0].step(pair[1].uniform(-0.4, 0.4, (2, 6)))
+
+    alone = [world(1), world(2)]
+    for one in alone:
+        for _ in range(40):
+            step(one)
+    together = [world(1), world(2)]
+    for _ in range(40):
+        step(together[0])
+        step(together[1])
+    for (a, _), (b, _) in zip(alone, together, strict=True):
+        assert a.record.digest == b.record.digest
+        assert a.record.collisions > 0
+
+
+def test_the_fixed_order_of_bodies_is_checked_by_where_robots_stand():
+    robots = [Robot(pose=(i, -i, i / 10)) for i in range(40)]
+    world = World(free(*robots, addons=[Map([[(-1, 0), (-1, 5)], CONCAVE_FAR])]))
+    assert np.array_equal(world.pose, np.array([r.pose for r in robots]).T)
+    world.step(np.zeros((2, 40)))
+    assert np.array_equal(world.pose, np.array([r.pose for r in robots]).T)
+
+
+CONCAVE_FAR = [(x + 100, y) for x, y in CONCAVE]
+
+
+def test_robots_that_start_overlapping_by_less_than_is_allowed_part_again():
+    world = World(free(Robot(), Robot(pose=(0.2993, 0, 0))))
+    drive(world, [[0, 0], [0, 0]], 5)
+    gap = world.pose[0, 1] - world.pose[0, 0] - 0.3
+    assert -1.5e-4 < gap <= 1e-5
+
+
+def test_a_thousand_robots_in_one_place_are_refused_at_once():
+    with pytest.raises(InputError, match="inside each other"):
+        Scenario(robots=[Robot()] * 5000)

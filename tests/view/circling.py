@@ -1,0 +1,62 @@
+"""A source for the tests of the window: robots on circles, computed beforehand."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mars2d.errors import LawError
+from mars2d.frame import Frame
+from mars2d.scenario import Animation, Robot, Scenario
+from mars2d.sensors import Proximity
+
+
+def circling_scenario(sampling_time=0.1, rows=100, robots=2, animation=None, **changes):
+    robot = Robot(diameter=0.6, sensors=[Proximity(range=1.0)])
+    return Scenario(
+        title="Circling",
+        robots=[robot.at(4.0 - 1.5 * i, 0, np.pi / 2) for i in range(robots)],
+        sampling_time=sampling_time,
+        stop_time=rows * sampling_time,
+        animation=animation or Animation(),
+        **changes,
+    )
+
+
+class Circling:
+    """Robots go round the origin at 0.5 rad/s; frame k is at k sampling times."""
+
+    def __init__(self, scenario=None, rows=100, message="the circle is closed", fails_at=None):
+        self.scenario = scenario or circling_scenario(rows=rows)
+        self.rows, self.message, self.fails_at = rows, message, fails_at
+        self.row = self.restarts = 0
+        angle = 0.5 * self.scenario.sampling_time * np.arange(rows + 1)[:, None]
+        radius = np.array([robot.pose[0] for robot in self.scenario.robots])
+        heading = angle + np.pi / 2 + 0 * radius
+        self.path = np.stack([radius * np.cos(angle), radius * np.sin(angle), heading], axis=1)
+
+    @property
+    def frame(self):
+        k = self.row
+        readings = {"proximity": [(i, False) for i in range(len(self.scenario.robots))]}
+        return Frame(
+            scenario=self.scenario,
+            time=k * self.scenario.sampling_time,
+            iteration=k,
+            pose=self.path[k],
+            path=self.path[: k + 1],
+            readings=readings,
+            over_message=self.message if self.over else "",
+        )
+
+    @property
+    def over(self):
+        return self.row == self.rows
+
+    def advance(self):
+        if self.row == self.fails_at:
+            raise LawError("the law of robot0 returned nan")
+        self.row = min(self.row + 1, self.rows)
+
+    def restart(self):
+        self.row = 0
+        self.restarts += 1
