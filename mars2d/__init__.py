@@ -11,10 +11,10 @@ from __future__ import annotations
 from mars2d.addons import Addon
 from mars2d.bodies import Drive, Holonomic, Unicycle
 from mars2d.errors import InputError, LawError, Mars2dError
-from mars2d.session import run
 from mars2d.record import Record, load
 from mars2d.scenario import Animation, Robot, Scenario
 from mars2d.sensors import Sensor
+from mars2d.session import run
 from mars2d.world import World
 
 __version__ = "0.1.0"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import traceback
 from collections.abc import Callable, Iterator, Sequence
+from math import isfinite
 from pathlib import Path
 from types import SimpleNamespace, TracebackType
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -17,7 +18,7 @@ from mars2d.errors import LawError, described, nearest, shown
 if TYPE_CHECKING:
     from mars2d.world import World
 
-__all__ = ["Law", "Neighbour", "RobotView", "SensorsOnlyView", "Sense", "called"]
+__all__ = ["Law", "Neighbour", "RobotView", "Sense", "SensorsOnlyView", "called"]
 
 Float = NDArray[np.float64]
 
@@ -132,10 +133,13 @@ class Law:
     A generator is started at the first step. When it returns, its robots stand still.
     """
 
-    def __init__(self, function: Callable[[Any], Any], subject: World | RobotView) -> None:
-        """Take the user's function, and what it is called with."""
+    def __init__(
+        self, function: Callable[[Any], Any], subject: World | RobotView, still: Any = (0.0, 0.0)
+    ) -> None:
+        """Take the user's function, what it is called with, and the command to stand still."""
         self._function = function
         self._subject = subject
+        self._still = still
         self._running: Iterator[Any] | None = None
         self.name = getattr(function, "__name__", type(function).__name__)
 
@@ -147,7 +151,7 @@ class Law:
                 if not inspect.isgenerator(result):
                     return result
                 self._running = result
-            return next(self._running, (0.0, 0.0))
+            return next(self._running, self._still)
 
     def refuse(self, message: str) -> NoReturn:
         """Raise the error that the law's command can't be used, pointing at the law's definition."""
@@ -202,14 +206,13 @@ def robot_command(law: Law, value: Any) -> tuple[float, float]:
     """Check the command of one robot: two finite numbers."""
     if value is None:
         law.refuse("returned nothing: a law returns its command, as `return v, omega`")
-    try:
-        first, second = value
-        pair = float(first), float(second)
-    except (TypeError, ValueError):
+    command = _numbers(value)
+    if command is None or command.shape not in ((2,), (2, 1)):
         law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
-    if not (np.isfinite(pair[0]) and np.isfinite(pair[1])):
-        law.refuse(f"returned {shown(pair)}: a command must be finite")
-    return pair
+    first, second = command.ravel().tolist()
+    if not (isfinite(first) and isfinite(second)):
+        law.refuse(f"returned {shown((first, second))}: a command must be finite")
+    return first, second
 
 
 def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> Float:
@@ -217,9 +220,8 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     if value is None:
         refuse("returned nothing: a law returns its command, an array (2, n)")
     expected = f"expected two rows and a column for each robot, shape (2, {robots})"
-    try:
-        command = np.array(value, dtype=float)
-    except (TypeError, ValueError):
+    command = _numbers(value)
+    if command is None:
         refuse(f"returned {shown(value)}: {expected}")
     if command.shape == (2,) and robots == 1:
         command = command.reshape(2, 1)
@@ -230,6 +232,18 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
         row, column = np.argwhere(~np.isfinite(command))[0]
         refuse(f"returned {command[row, column]} for robot {column}: a command must be finite")
     return command
+
+
+def _numbers(value: Any) -> Float | None:
+    """Return a new array of floats, or None if `value` holds anything but real numbers.
+
+    Text, truth values, complex numbers and integers beyond a float are none.
+    """
+    try:
+        found = np.asarray(value)
+    except (TypeError, ValueError):  # such as rows of different lengths
+        return None
+    return found.astype(float) if found.dtype.kind in "iuf" else None
 
 
 def commands(central: Law | None, own: Sequence[Law | None], idle: Float) -> Float:

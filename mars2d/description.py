@@ -182,6 +182,7 @@ class Description:
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
+        _keep_checks(cls)
         dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
         cls.__init__ = _gated(cls, cls.__init__)  # type: ignore[method-assign]
 
@@ -216,6 +217,20 @@ def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
     if field.default_factory is not dataclasses.MISSING:
         return bool(field.default_factory() == value)
     return False
+
+
+def _keep_checks(cls: type[Description]) -> None:
+    """Let a subclass give an inherited field a new default without losing the field's check."""
+    inherited = getattr(super(cls, cls), "__dataclass_fields__", {})
+    annotations = cls.__dict__.get("__annotations__", {})
+    for name, field in inherited.items():
+        default = vars(cls).get(name, dataclasses.MISSING)
+        declared = name in annotations or default is not dataclasses.MISSING
+        if declared and "check" in field.metadata and not isinstance(default, dataclasses.Field):
+            again = entry(default=default, kw_only=field.kw_only, **field.metadata)
+            setattr(cls, name, again)
+            cls.__annotations__ = {name: field.type, **annotations}
+            annotations = cls.__annotations__
 
 
 def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:

@@ -65,7 +65,8 @@ class Engine:
         robots = scenario.robots
         self.n = len(robots)
         self.space = pymunk.Space()
-        self.space.collision_slop = min(SLOP, scenario.max_overlap / 4)
+        smallest = min(robot.radius for robot in robots)
+        self.space.collision_slop = min(SLOP, scenario.max_overlap / 4, smallest / 16)
         masses = np.array([robot.mass for robot in robots])
         unequal = masses.max() > 3 * masses.min()
         self.space.iterations = ITERATIONS_UNEQUAL if unequal else ITERATIONS
@@ -143,7 +144,8 @@ class Engine:
     def _set_accuracy(self, scenario: Scenario) -> None:
         """Work out how deep a body may enter in one substep, and how long one in contact may be."""
         robots = scenario.robots
-        # A fifth of the overlap allowed is left to the slop and to what the solver leaves over.
+        self._max_overlap = scenario.max_overlap
+        # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
         self._entry = min(0.75 * scenario.max_overlap, 0.25 * float(self._radius.min()))
         self._mass = np.array([robot.mass for robot in robots])
         self._moment = np.array([body.moment for body in self._bodies])
@@ -213,8 +215,8 @@ class Engine:
             count = int(near.sum())
             near |= self._clearance.may_touch(center, reach)
             if near.any():
-                pushed = speed[near].max() * (1 + self._restitution)
-                reach = np.where(near, pushed * duration, speed * duration)
+                pushed = speed[near].max() * (1 + self._restitution) * duration + self._max_overlap
+                reach = np.where(near, pushed, speed * duration)
         self._clearance.moved(reach)
         return near, float(reach[near].max()) if count else 0.0
 
@@ -239,8 +241,7 @@ class Engine:
 
         twist: (3, k) of the robots `who`, (k,) indices.
         """
-        offset, turns = self._offset[who], self._in_robot_frame[who]
-        slipping = self._slipping[who]
+        offset, slipping = self._offset[who], self._slipping[who]
         state = self._state[who]
         elapsed = 0.0
         while True:
@@ -258,14 +259,7 @@ class Engine:
                 growth = 1.0 if self._impact else GROWTH
                 h = min(h, self._contact_step, growth * self._last_step)
                 slipping &= touching | self._out_of_reach(twist, state, h, who)
-            # The tangent's velocity now; over h, that of the chord bends away from it.
-            tangent = chord_velocity(twist, state[:, 2], 0.0, turns)
-            moving = np.where(slipping[:, None], state[:, 3:], tangent)
-            bend = np.abs(offset) * moving[:, 2] ** 2
-            bend += np.where(
-                slipping | ~turns, 0.0, np.hypot(twist[0], twist[1]) * np.abs(twist[2])
-            )
-            velocity = _center_velocity(np.hstack([state[:, :3], moving]), offset)
+            velocity, bend = self._motion(twist, state, slipping, who)
             h = min(h, encounter.time_to_touch(velocity, bend, self._entry))
             if h < left < 2 * h:
                 h = left / 2  # rather than a sliver at the end
@@ -273,8 +267,24 @@ class Engine:
             self._step(h)
             elapsed = duration if h == left else elapsed + h
             state = self._read()[who]
-            change = np.hypot(*(state[:, 3:5] - self._velocity[who, :2]).T)
-            self._impact = bool((change * self._mass[who] > 1.01 * self._max_force[who] * h).any())
+            self._impact = self._was_hit(state, who, h)
+
+    def _motion(
+        self, twist: Float, state: Float, slipping: Mask, who: Index
+    ) -> tuple[Complex, Float]:
+        """Return how the discs' centres move now, and how quickly that may turn [m/s^2]."""
+        offset, turns = self._offset[who], self._in_robot_frame[who]
+        tangent = chord_velocity(twist, state[:, 2], 0.0, turns)
+        moving = np.where(slipping[:, None], state[:, 3:], tangent)
+        bend = np.abs(offset) * moving[:, 2] ** 2
+        follows = turns & ~slipping
+        bend[follows] += np.abs(np.hypot(twist[0], twist[1]) * twist[2])[follows]
+        return _center_velocity(np.hstack([state[:, :3], moving]), offset), bend
+
+    def _was_hit(self, state: Float, who: Index, h: float) -> bool:
+        """Return whether the last substep changed a velocity by more than a drive can."""
+        change = np.hypot(*(state[:, 3:5] - self._velocity[who, :2]).T)
+        return bool((change * self._mass[who] > 1.01 * self._max_force[who] * h).any())
 
     def _out_of_reach(self, twist: Float, state: Float, h: float, who: Index) -> Mask:
         """Return which robots their drives can't bring back to their commands within h."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import builtins
 import difflib
-import traceback
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -58,11 +58,22 @@ def nearest(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
 
 
 def described(error: BaseException) -> str:
-    """Return what an exception of the user's code says, with Python's own hint at a misspelt name."""
+    """Return what an exception of the user's code says, with the name nearest to a misspelt one."""
     if isinstance(error, InputError):
         return str(error)
-    lines = traceback.TracebackException.from_exception(error).format_exception_only()
-    return " ".join("".join(lines).split())
+    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    known: set[str] = set()
+    if isinstance(error, NameError):
+        step = error.__traceback__
+        while step is not None:
+            known = {*step.tb_frame.f_locals, *step.tb_frame.f_globals, *dir(builtins)}
+            step = step.tb_next
+    elif isinstance(error, AttributeError):
+        known = {name for name in dir(error.obj) if not name.startswith("_")}
+    else:
+        return text
+    hint = nearest(error.name, known)
+    return text + hint if hint.startswith("; did") else text
 
 
 def shown(value: Any, limit: int = 60) -> str:

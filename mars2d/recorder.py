@@ -26,6 +26,7 @@ class _Column:
 
     def __init__(self, shape: tuple[int, ...], dtype: Any, capacity: int) -> None:
         self._rows = np.zeros((capacity, *shape), dtype=dtype)
+        self.shape, self.dtype = shape, self._rows.dtype
 
     def write(self, row: int, value: Any) -> None:
         if row >= len(self._rows):
@@ -112,29 +113,19 @@ class Recorder:
         self.rows += 1
 
     def _write_readings(self, row: int, name: str, values: Sequence[Any]) -> None:
-        if name not in self._sensors:
-            self._sensors[name] = self._sensor_column(name, values)
-        try:
-            self._sensors[name].write(row, values)
-        except (TypeError, ValueError) as error:
-            raise LawError(
-                f"sensor {name!r} read {shown(values)}: the shape of a reading can't change ({error})"
-            ) from error
-
-    def _sensor_column(self, name: str, values: Sequence[Any]) -> _Column:
-        """Make the column of a sensor out of its first readings."""
-        try:
-            first = np.asarray(values)
-        except ValueError:
-            first = np.empty(0, dtype=object)
-        if first.dtype.kind not in "bifu":
-            raise LawError(
-                f"sensor {name!r} read {shown(values)}: a reading is a number, True or False, or an "
-                "array of them, of the same shape on each robot (else give the sensors other names)"
-            )
+        given = _as_reading(name, values)
         # A first reading of 3 may be followed by 3.5: whole numbers are kept as floats.
-        dtype = bool if first.dtype.kind == "b" else float
-        return _Column(first.shape, dtype, self._capacity)
+        dtype = bool if given.dtype.kind == "b" else float
+        column = self._sensors.get(name)
+        if column is None:
+            column = self._sensors[name] = _Column(given.shape, dtype, self._capacity)
+        if given.shape != column.shape or dtype != column.dtype:
+            raise LawError(
+                f"sensor {name!r} read {shown(values)}: the shape and kind of a reading can't "
+                f"change; it was {_kind(column.dtype, column.shape)}, now it is "
+                f"{_kind(given.dtype, given.shape)}"
+            )
+        column.write(row, given)
 
     def write_contacts(self, contacts: NDArray[np.void]) -> None:
         """Write the contacts of one control step."""
@@ -166,6 +157,25 @@ class Recorder:
             versions=versions(),
             drawn=drawn,
         )
+
+
+def _as_reading(name: str, values: Sequence[Any]) -> NDArray[Any]:
+    """Return the readings of the robots that carry sensor `name` as one array (m, ...)."""
+    try:
+        given = np.asarray(values)
+    except ValueError:  # of different shapes
+        given = np.empty(0, dtype=object)
+    if given.dtype.kind not in "bifu":
+        raise LawError(
+            f"sensor {name!r} read {shown(values)}: a reading is a number, True or False, or an "
+            "array of them, of the same shape on each robot (else give the sensors other names)"
+        )
+    return given
+
+
+def _kind(dtype: np.dtype[Any], shape: tuple[int, ...]) -> str:
+    what = "True or False" if dtype.kind == "b" else "numbers"
+    return f"{what} of shape {shape[1:]}" if len(shape) > 1 else what
 
 
 def versions() -> dict[str, str]:

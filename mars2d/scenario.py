@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import inspect
+import numbers
+from collections import Counter
 from collections.abc import Callable, Sequence
-from math import cos, floor, hypot, pi, sin
+from math import cos, floor, pi, sin
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -14,7 +16,7 @@ from mars2d import checks
 from mars2d.addons.base import Addon
 from mars2d.bodies.base import Drive
 from mars2d.bodies.unicycle import Unicycle
-from mars2d.description import Description, choice, entry, flag, number, text, wrong
+from mars2d.description import Description, choice, entry, flag, number, real, text, wrong
 from mars2d.errors import InputError, shown
 from mars2d.geometry import Outline, Point, bounds_of, edges_of
 from mars2d.scene import PALETTE, color, wake_style
@@ -24,6 +26,9 @@ __all__ = ["Animation", "Robot", "Scenario"]
 
 MASS_RATIO = 10.0
 """The largest ratio of masses that contacts hold; at 100, crowds push robots through walls."""
+
+ACCELERATION = 1e5
+"""How strongly a drive may accelerate its robot, m/s^2; more needs ever more substeps."""
 
 ROW_LIMIT = 100_000_000
 
@@ -108,6 +113,11 @@ class Robot(Description):
         return x - self.center_offset * cos(theta), y - self.center_offset * sin(theta)
 
     def _validate(self) -> None:
+        if self.drive.max_force > ACCELERATION * self.mass:
+            raise wrong(
+                "Robot.drive.max_force", self.drive.max_force,
+                f"at most {ACCELERATION:g} m/s^2 times the mass, {self.mass:g} kg",
+            )  # fmt: skip
         if abs(self.center_offset) > self.radius:
             raise wrong(
                 "Robot.center_offset", self.center_offset, f"within the radius, {self.radius:g} m"
@@ -116,8 +126,8 @@ class Robot(Description):
 
 
 def _check_unique(name: str, keys: list[str]) -> None:
-    for key in keys:
-        if keys.count(key) > 1:
+    for key, count in Counter(keys).items():
+        if count > 1:
             raise InputError(f"{name}: two are called {key!r}; give one another name=...")
 
 
@@ -154,13 +164,12 @@ class Animation(Description):
 def playback_speed(name: str, value: object) -> float | str:
     """Check a playback speed: a factor of real time, 0 for one step a key press, or "max"."""
     expected = "a factor of real time (1 is real time), 0 for one step a key press, or 'max'"
-    if value == "max":
+    if isinstance(value, str) and value == "max":
         return "max"
-    if isinstance(value, str) or isinstance(value, bool) or not isinstance(value, (int, float)):
+    factor = real(name, value, expected)
+    if not 0 <= factor <= 1e6:
         raise wrong(name, value, expected)
-    if not 0 <= value <= 1e6:  # false for NaN as well
-        raise wrong(name, value, expected)
-    return float(value)
+    return factor
 
 
 def _colors(name: str, value: object) -> tuple[str, ...]:
@@ -171,10 +180,10 @@ def _colors(name: str, value: object) -> tuple[str, ...]:
 
 def _robots(name: str, value: object) -> object:
     """Check a list of robots; a number n stands for n default robots, placed by the scenario."""
-    if isinstance(value, int) and not isinstance(value, bool):
-        if not 1 <= value <= 100_000:
+    if isinstance(value, numbers.Integral) and not isinstance(value, bool):
+        if not 1 <= int(value) <= 10_000:
             raise wrong(name, value, "a list of robots, or how many")
-        return value
+        return int(value)
     robots = checks.listing(Robot, "Robot(pose=(0, 0, 0))")(name, value)
     if not robots:
         raise wrong(name, value, "at least one robot, as [Robot(pose=(0, 0, 0))]")
@@ -294,7 +303,7 @@ class Scenario(Description):
                     f"Robot.pose of {robot.name} = {robot.pose}: starts outside the workspace"
                     " (Scenario.workspace, or on_exit='ignore' to let it)"
                 )
-            if self.on_exit == "wall" and gap < robot.radius - self.max_overlap:
+            if self.on_exit == "wall" and gap < robot.radius - self._overlap(robot):
                 raise InputError(
                     f"Robot.pose of {robot.name} = {robot.pose}: starts in the workspace's wall, "
                     f"{gap:.3g} m from its centre; its radius is {robot.radius:g} m"
@@ -307,7 +316,8 @@ class Scenario(Description):
         tree = shapely.STRtree(shapes)
         for robot in self.robots:
             center = shapely.Point(robot.center)
-            for k in sorted(tree.query(center, "dwithin", robot.radius - self.max_overlap)):
+            reach = robot.radius - self._overlap(robot)
+            for k in sorted(tree.query(center, "dwithin", reach)):
                 where = "inside" if shapes[k].contains(center) else "in contact with"
                 hint = (
                     " (if it is a room, draw it as walls of two points)"
@@ -320,24 +330,28 @@ class Scenario(Description):
                 )
 
     def _check_apart(self) -> None:
-        if len(self.robots) < 2:
-            return
         centers = np.array([robot.center for robot in self.robots])
         radii = np.array([robot.radius for robot in self.robots])
-        order = np.argsort(centers[:, 0], kind="stable")
-        reach = 2 * radii.max()
-        for position, i in enumerate(order):
-            for j in order[position + 1 :]:
-                if centers[j, 0] - centers[i, 0] > reach:
-                    break
-                gap = hypot(*(centers[j] - centers[i])) - radii[i] - radii[j]
-                if gap < -self.max_overlap:
-                    a, b = sorted((int(i), int(j)))
-                    raise InputError(
-                        f"Robot.pose of {self.robots[a].name} = {self.robots[a].pose} and of "
-                        f"{self.robots[b].name} = {self.robots[b].pose}: they start {-gap:.3g} m "
-                        "inside each other"
-                    )
+        allowed = min(self._overlap(robot) for robot in self.robots)
+        # Sweep along the longer side: who comes later than the reach is too far away.
+        along = centers[:, np.argmax(np.ptp(centers, axis=0))]
+        order = np.argsort(along, kind="stable")
+        ends = np.searchsorted(along[order], along[order] + 2 * radii.max(), side="right")
+        for place, i in enumerate(order):
+            others = order[place + 1 : ends[place]]
+            gaps = np.hypot(*(centers[others] - centers[i]).T) - radii[others] - radii[i]
+            if (gaps < -allowed).any():
+                k = int(np.argmin(gaps))
+                a, b = sorted((int(i), int(others[k])))
+                raise InputError(
+                    f"Robot.pose of {self.robots[a].name} = {self.robots[a].pose} and of "
+                    f"{self.robots[b].name} = {self.robots[b].pose}: they start {-gaps[k]:.3g} m "
+                    "inside each other"
+                )
+
+    def _overlap(self, robot: Robot) -> float:
+        """Return how deep a robot may start in something, metres."""
+        return min(self.max_overlap, robot.radius / 4)
 
     def _check_obstacles(self) -> tuple[Obstacle, ...]:
         """Return all obstacles, those of the user's own add-ons checked as well."""

@@ -17,7 +17,7 @@ from mars2d.control import Law, RobotView, Sense, SensorsOnlyView, called, comma
 from mars2d.delay import DelayLine
 from mars2d.description import wrong
 from mars2d.engine import Engine
-from mars2d.errors import InputError, LawError, nearest
+from mars2d.errors import InputError, LawError, nearest, shown
 from mars2d.frame import Frame
 from mars2d.geometry import Outline, inside_polygon
 from mars2d.record import Record
@@ -27,6 +27,9 @@ from mars2d.scene import Scene
 from mars2d.streams import check_seed, stream
 
 __all__ = ["World"]
+
+FASTEST = 1e6
+"""What a drive may ask for at most, m/s and rad/s."""
 
 Float = NDArray[np.float64]
 Pace = Callable[["World"], None]
@@ -116,7 +119,7 @@ class World:
         self._own = own
         if control is not None:
             _check_control(control)
-        self._central = None if control is None else Law(control, self)
+        self._central = None if control is None else Law(control, self, self._still)
 
     def _build_addons(self) -> None:
         live = [addon.live() for addon in self.scenario.addons]
@@ -141,7 +144,10 @@ class World:
 
     @property
     def velocity(self) -> Float:
-        """The velocities (3, n): x', y' [m/s], theta' [rad/s], as the engine has them now."""
+        """The bodies' velocities (3, n): x', y' [m/s], theta' [rad/s].
+
+        In free motion those of the last step's chords, in contact what the solver has left.
+        """
         return self._engine.velocity
 
     @property
@@ -251,6 +257,8 @@ class World:
         for sensor, view, rng, sense in self._sensors:
             with called(f"sensor {sensor.key!r}"):
                 reading = sensor.read(view, self, rng)
+            if isinstance(reading, np.ndarray):
+                reading = _frozen(reading.copy())  # a law can't change what is recorded
             sense[sensor.key] = reading
             readings[sensor.key].append(reading)
         self._readings = readings
@@ -273,14 +281,18 @@ class World:
     def _saturate(self, command: Float) -> Float:
         """Limit the commands (2, n) to what each robot's drive can do."""
         for drive, columns in self._teams:
-            command[:, columns] = drive.saturate(command[:, columns])
+            with called(f"drive {type(drive).__name__}"):
+                command[:, columns] = drive.saturate(command[:, columns])
         return command
 
     def _twist(self, command: Float) -> Float:
         """Return the twists (3, n) that the drives make of commands (2, n)."""
         twist = np.empty((3, command.shape[1]))
         for drive, columns in self._teams:
-            twist[:, columns] = drive.twist(command[:, columns])
+            with called(f"drive {type(drive).__name__}"):
+                twist[:, columns] = drive.twist(command[:, columns])
+        if not (np.abs(twist) <= FASTEST).all():  # neither for NaN
+            raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {FASTEST:g}")
         return twist
 
     def _write_row(self) -> None:
@@ -304,7 +316,7 @@ class World:
         for duration, command in self._delay.send(self._command):
             self._engine.drive(self._twist(command), duration, time)
             time += duration
-        self._contacts = self._engine.take_contacts()
+        self._contacts = _frozen(self._engine.take_contacts())
         self._recorder.write_contacts(self._contacts)
         self._pose = _frozen(self._engine.pose)
         self.iteration += 1
@@ -343,7 +355,7 @@ class World:
         self._call("on_draw", self, scene)
 
 
-def _frozen(array: Float) -> Float:
+def _frozen(array: NDArray[Any]) -> NDArray[Any]:
     """Return a view that can't be written."""
     view = array.view()
     view.flags.writeable = False

@@ -23,7 +23,8 @@ LAYERS = [
     {"world", "pace", "progress"},
     {"loop"},
     {"session", "rerun", "doctor", "view", "output"},
-    {"cli", "__main__"},
+    {"cli"},
+    {"__main__"},
 ]
 """The modules and folders of the package, low to high: each imports from below only."""
 

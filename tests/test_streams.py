@@ -27,10 +27,7 @@ def test_streams_of_neighbouring_seeds_are_not_correlated():
 
 
 def test_the_numbers_stay_the_same_in_later_versions():
-    assert stream(0, "control").integers(1000, size=4).tolist() == PINNED
-
-
-PINNED = [0, 0, 0, 0]
+    assert stream(0, "control").integers(1000, size=4).tolist() == [662, 295, 792, 384]
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2**63 - 1, np.int64(5), np.uint8(3)])

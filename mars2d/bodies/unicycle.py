@@ -20,7 +20,7 @@ class Unicycle(Drive):
     """
 
     wheel_semiaxis: float = number(
-        default=0.1, above=0, high=1e3, unit="m", doc="half the distance between the wheels"
+        default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
     )
     command_names: ClassVar[tuple[str, str]] = ("v [m/s]", "omega [rad/s]")
 

@@ -214,7 +214,7 @@ def plot_paths(record: Record, ax: Axes | None = None) -> Axes:
     _set_title(ax, title)
     _add_legend(ax, record.scenario)
     if own:
-        ax.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]
+        ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
         _show_in_notebooks(ax)
     _paint_frame(ax, record, len(record) - 1)
     return ax
@@ -277,7 +277,7 @@ def save_figure(record: Record, path: str | Path, times: ArrayLike | None = None
     dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "pdf.fonttype": 42}):
         if times is None:
-            figure: Any = plot_paths(record).get_figure(root=True)
+            figure: Any = plot_paths(record).get_figure()
         else:
             figure = plot_snapshots(record, times)
         file = BytesIO()  # so that nothing half written stays behind
@@ -449,7 +449,7 @@ def _points_per_metre(ax: Axes) -> float:
 
 def _set_title(ax: Axes, title: str) -> None:
     ax.apply_aspect()
-    room = 1.25 * ax.get_window_extent().width / ax.get_figure(root=True).dpi  # type: ignore[union-attr]
+    room = 1.25 * ax.get_window_extent().width / ax.get_figure().dpi  # type: ignore[union-attr]
     ax.set_title(_wrapped(title, room), fontsize=12, color=INK, parse_math=False)
 
 
@@ -488,11 +488,12 @@ def _add_legend(ax: Axes, scenario: Scenario) -> None:
         for color in scenario.colors
     ]
     legend = ax.legend(
-        handles, names, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
+        handles, ["robot"] * len(names), loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
         frameon=False, fontsize=9, labelcolor=INK, handletextpad=0.1, handlelength=1.5,
     )  # fmt: skip
-    for text in legend.get_texts():
+    for text, name in zip(legend.get_texts(), names, strict=True):
         text.set_parse_math(False)
+        text.set_text(name)  # only now: a legend leaves out labels that begin with "_"
 
 
 def _columns(count: int, ratio: float) -> int:
@@ -532,7 +533,7 @@ def _rows_at(record: Record, times: ArrayLike) -> list[int]:
 
 def _show_in_notebooks(ax: Axes) -> None:
     """Let a notebook show the axes, or their figure: it asks for the method _repr_png_."""
-    figure: Any = ax.get_figure(root=True)
+    figure: Any = ax.get_figure()
     ax.__dict__["_repr_png_"] = figure.__dict__["_repr_png_"] = partial(_png, figure)
 
 

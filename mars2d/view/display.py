@@ -43,6 +43,10 @@ def display_available() -> bool:
 
 def open_display() -> None:
     """Start pygame's display. Raises InputError where there is none that a person sees."""
+    if pygame.display.get_init():
+        if pygame.display.get_driver() in NOT_REAL:
+            raise InputError(NO_DISPLAY)
+        return
     for attempt in range(ATTEMPTS):
         try:
             pygame.display.init()

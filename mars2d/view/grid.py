@@ -41,14 +41,14 @@ def ticks(low: float, high: float, step: float) -> Float:
 
 
 def label(value: float, step: float) -> str:
-    """Return a tick's value with as many decimals as its step has.
+    r"""Return a tick's value with as many decimals as its step has, and a true minus sign.
 
-    >>> label(0.5, 0.5), label(-2.0, 1.0)
-    ('0.5', '−2')
+    >>> label(0.5, 0.5), ascii(label(-2.0, 1.0))
+    ('0.5', "'\\u22122'")
     """
     decimals = max(0, -floor(log10(step) + 1e-9))
     text = f"{value + 0.0:.{decimals}f}"
-    return text.replace("-", "−") if float(text) != 0 else text.lstrip("-")
+    return text.replace("-", "\N{MINUS SIGN}") if float(text) != 0 else text.lstrip("-")
 
 
 def draw_grid(surface: pygame.Surface, camera: Camera, bounds: Bounds, ui: float) -> None:

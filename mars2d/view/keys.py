@@ -25,7 +25,7 @@ KEYS = (
     Key("pause", ("space",), ("Space",), "pause, go on; in manual mode one step"),
     Key("step", ("right",), ("→",), "one step, and pause", repeats=True),
     Key("faster", ("+", "=", "[+]"), ("+",), "faster", repeats=True),
-    Key("slower", ("-", "[-]"), ("−",), "slower", repeats=True),
+    Key("slower", ("-", "[-]"), ("\N{MINUS SIGN}",), "slower", repeats=True),
     Key("grid", ("g",), ("G",), "grid on and off"),
     Key("trails", ("t",), ("T",), "trails on and off"),
     Key("sensors", ("s",), ("S",), "sensors on and off"),

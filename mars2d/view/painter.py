@@ -19,7 +19,7 @@ from mars2d.scene import Circle, Line, Polygon, Shape, Text, split_wake_style
 from mars2d.view.camera import Camera
 from mars2d.view.clip import clip_lines, clip_polygon
 from mars2d.view.fonts import Fonts
-from mars2d.view.strokes import DASHES, MARK_SPACING, arc_length, dashes
+from mars2d.view.strokes import DASHES, MARK_SPACING, arc_length, dashes, hairlines
 
 __all__ = ["Painter", "rgba"]
 
@@ -30,6 +30,8 @@ Draw = Callable[[pygame.Surface, float, float, float, Rgba], None]
 
 PHASES = 4
 LARGEST_SPRITE = 160.0
+LARGE = 40_000
+"""The area in pixels beyond which a shape is not drawn larger and averaged, if that may be."""
 FAINT = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
 
@@ -82,8 +84,7 @@ class Painter:
             return
         radius = round(8 * radius) / 8
         if reach > LARGEST_SPRITE:
-            for color, draw in _disc_layers(shape, radius, width, x, y):
-                _cover(surface, color, _box(x, y, reach), draw)
+            self._large_circle(surface, shape, x, y, radius)
             return
         px, fx = _phase(x)
         py, fy = _phase(y)
@@ -93,6 +94,17 @@ class Painter:
             layers = _disc_layers(shape, radius, width, fx, fy)
             sprite = self._keep(key, _box(fx, fy, reach), layers)
         surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
+
+    def _large_circle(
+        self, surface: pygame.Surface, shape: Circle, x: float, y: float, radius: float
+    ) -> None:
+        """Draw a circle as the polygon of many corners that it nearly is."""
+        angles = np.linspace(0, 2 * np.pi, int(min(max(radius, 90), 1500)))
+        ring = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
+        if shape.fill:
+            self._fill(surface, ring, rgba(shape.fill))
+        if shape.stroke:
+            _stroke(surface, rgba(shape.stroke), [ring], shape.width * self.ui)
 
     # -- polygons -----------------------------------------------------------------------------
 
@@ -112,7 +124,7 @@ class Painter:
         if len(visible) < 3:
             return
         box = _extent(visible, 1.0)
-        large = box.width * box.height > 40_000
+        large = box.width * box.height > LARGE
         factor = 1 if large and color[3] < FAINT else 0
         _cover(surface, color, box, _filled(visible), factor=factor)
 
@@ -268,6 +280,12 @@ def _cover(
     area = box.width * box.height
     if factor == 0:
         factor = 4 if area < 250_000 else 2
+    if factor == 1:
+        layer = pygame.Surface(box.size, pygame.SRCALPHA, 32)
+        layer.fill((*color[:3], 0))
+        draw(layer, box.left + corner[0], box.top + corner[1], 1, color)
+        surface.blit(layer, box.topleft)
+        return
     large = pygame.Surface((box.width * factor, box.height * factor), pygame.SRCALPHA, 32)
     # The colour without opacity, so that averaging changes the opacity alone.
     large.fill((*color[:3], 0))
@@ -335,7 +353,9 @@ def _stroke(surface: pygame.Surface, color: Rgba, pieces: list[Float], width: fl
     pieces = [part for piece in pieces for part in clip_lines(piece, box) if len(part)]
     if pieces:
         extent = _extent(np.vstack(pieces), width / 2 + 1)
-        _cover(surface, color, extent, _stroked(pieces, width))
+        large = extent.width * extent.height > LARGE
+        draw = _drawn_finely(pieces, width) if large else _stroked(pieces, width)
+        _cover(surface, color, extent, draw, factor=1 if large else 0)
 
 
 def _stroked(pieces: list[Float], width: float) -> Draw:
@@ -348,6 +368,16 @@ def _stroked(pieces: list[Float], width: float) -> Draw:
             if thick > 2:
                 for x, y in points:  # round joints and ends
                     pygame.draw.circle(large, color, (round(x + 0.5), round(y + 0.5)), thick / 2)
+
+    return draw
+
+
+def _drawn_finely(pieces: list[Float], width: float) -> Draw:
+    """Return how to draw polylines at their true size: for those that span much of the picture."""
+
+    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
+        for piece in pieces:
+            hairlines(large, color, (piece - (left, top)) * factor - 0.5, width)
 
     return draw
 

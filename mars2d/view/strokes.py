@@ -1,11 +1,14 @@
-"""Cut polylines into dashes; thin out marks: what MARS's wake styles need, in pixels."""
+"""Draw polylines: smooth and quick, or cut into dashes as MARS's wake styles need. In pixels."""
 
 from __future__ import annotations
 
+from math import ceil
+
 import numpy as np
+import pygame
 from numpy.typing import NDArray
 
-__all__ = ["DASHES", "MARK_SPACING", "arc_length", "dashes"]
+__all__ = ["DASHES", "MARK_SPACING", "arc_length", "dashes", "hair_shifts", "hairlines"]
 
 Float = NDArray[np.float64]
 
@@ -56,3 +59,32 @@ def dashes(points: Float, pattern: tuple[float, ...], start: float = 0.0) -> lis
                 pieces.append(np.vstack([ends[:1], inner, ends[1:]]))
         offset += on + off
     return pieces
+
+
+def hairlines(surface: pygame.Surface, ink: tuple[int, ...], points: Float, width: float) -> None:
+    """Draw an anti-aliased polyline (k, 2), quickly: hair lines side by side.
+
+    On a surface with opacity that is filled with the ink's colour and no opacity, the opacity of
+    the ink is kept where lines cross; elsewhere the ink is opaque. (pygame's own wide anti-aliased
+    lines become thinner the nearer they are to a diagonal.)
+    """
+    steps = np.diff(points, axis=0)
+    lengths = np.hypot(steps[:, 0], steps[:, 1])
+    keep = lengths > 1e-9
+    if not keep.any():
+        return
+    points = points[np.concatenate([[True], keep])]
+    along = steps[keep] / lengths[keep, None]
+    bends = np.concatenate([along[:1], (along[1:] + along[:-1]) / 2, along[-1:]])
+    # Farther out where the line bends, so that its sides stay parallel: a mitre, at most doubled.
+    bends /= np.maximum((bends**2).sum(axis=1), 0.25)[:, None]
+    normals = np.column_stack([-bends[:, 1], bends[:, 0]])
+    for shift in hair_shifts(width):
+        pygame.draw.aalines(surface, ink, False, (points + shift * normals).tolist())
+
+
+def hair_shifts(width: float) -> list[float]:
+    """Return how far to the side hair lines lie that make up a line of `width` pixels."""
+    count = max(1, ceil(width))
+    reach = max(0.0, (width - 1) / 2)
+    return [0.0] if count == 1 else [reach * (2 * k / (count - 1) - 1) for k in range(count)]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import ceil
-
 import numpy as np
 import pygame
 from numpy.typing import NDArray
@@ -11,7 +9,7 @@ from numpy.typing import NDArray
 from mars2d.scene import split_wake_style
 from mars2d.view.camera import Camera
 from mars2d.view.painter import Painter, rgba
-from mars2d.view.strokes import DASHES, MARK_SPACING, dashes
+from mars2d.view.strokes import DASHES, MARK_SPACING, dashes, hair_shifts, hairlines
 
 __all__ = ["Trails"]
 
@@ -119,7 +117,7 @@ class Trails:
             pattern = tuple(self.painter.ui * length for length in DASHES[self.line])
             pieces = dashes(points, pattern, start)
         for piece in pieces:
-            smooth_line(surface, self.inks[i], piece, self.width * self.painter.ui)
+            hairlines(surface, self.inks[i], piece, self.width * self.painter.ui)
 
     def _segments(
         self, surface: pygame.Surface, which: NDArray[np.intp], starts: Float, ends: Float
@@ -133,37 +131,10 @@ class Trails:
         starts, ends, steps = starts[keep], ends[keep], steps[keep] / lengths[keep, None]
         normals = np.column_stack([-steps[:, 1], steps[:, 0]])
         inks = [self.inks[i] for i in which[keep].tolist()]
-        for shift in _shifts(self.width * self.painter.ui):
+        for shift in hair_shifts(self.width * self.painter.ui):
             a, b = (starts + shift * normals).tolist(), (ends + shift * normals).tolist()
             for ink, start, end in zip(inks, a, b, strict=True):
                 pygame.draw.aaline(surface, ink, start, end)
-
-
-def smooth_line(
-    surface: pygame.Surface, ink: tuple[int, int, int], points: Float, width: float
-) -> None:
-    """Draw an opaque anti-aliased polyline (k, 2), quickly: hair lines side by side.
-
-    pygame's own wide anti-aliased lines become thinner the nearer they are to a diagonal.
-    """
-    steps = np.diff(points, axis=0)
-    lengths = np.hypot(steps[:, 0], steps[:, 1])
-    keep = lengths > 1e-9
-    if not keep.any():
-        return
-    points = points[np.concatenate([[True], keep])]
-    along = steps[keep] / lengths[keep, None]
-    tangents = np.concatenate([along[:1], along[1:] + along[:-1], along[-1:]])
-    tangents /= np.maximum(np.hypot(tangents[:, 0], tangents[:, 1]), 1e-9)[:, None]
-    normals = np.column_stack([-tangents[:, 1], tangents[:, 0]])
-    for shift in _shifts(width):
-        pygame.draw.aalines(surface, ink, False, (points + shift * normals).tolist())
-
-
-def _shifts(width: float) -> list[float]:
-    count = max(1, ceil(width))
-    reach = max(0.0, (width - 1) / 2)
-    return [0.0] if count == 1 else [reach * (2 * k / (count - 1) - 1) for k in range(count)]
 
 
 def _over_white(color: str) -> str:

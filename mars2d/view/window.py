@@ -35,7 +35,7 @@ __all__ = ["Window"]
 PICTURES_A_SECOND = 60
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
 WHEEL_FACTOR = 1.15
-HINTS = (("Space", "pause"), ("→", "step"), ("+ −", "speed"), ("F1", "help"))
+HINTS = (("Space", "pause"), ("→", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"))
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
 DEEPEST, WIDEST = 400.0, 0.05
 """How far one can zoom in and out, times the scale at which the workspace fits."""

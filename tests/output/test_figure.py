@@ -127,11 +127,11 @@ def test_axes_are_equal_labelled_and_titled(record):
 
 
 def test_titles_and_names_are_shown_as_they_are_written():
-    robots = [Robot(name="_a $x^2$")]
-    scenario = Scenario(title=r"From $5 to $\nonsense", robots=robots, stop_time=1)
+    robots = [Robot(name=r"_a $\nor$ b")]
+    scenario = Scenario(title=r"From $\nonsense$ to 5", robots=robots, stop_time=1)
     ax = mars2d.run(scenario, control=lambda world: [[0.1], [0.0]]).plot()
-    assert ax.get_title() == r"From $5 to $\nonsense, t = 1 s"
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["_a $x^2$"]
+    assert ax.get_title() == r"From $\nonsense$ to 5, t = 1 s"
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == [r"_a $\nor$ b"]
     ax.figure.canvas.draw()  # raises where it is taken for mathematics
 
 
@@ -140,6 +140,7 @@ def test_a_title_of_any_length_stays_on_the_page(record):
     ax = dataclasses.replace(record, scenario=scenario).plot()
     ax.figure.canvas.draw()
     page, title = ax.figure.bbox, ax.title.get_window_extent()
+    assert ax.get_title().count("\n") == 2
     assert page.x0 <= title.x0
     assert title.x1 <= page.x1
     assert title.y1 <= page.y1
@@ -159,6 +160,13 @@ def test_more_than_eight_robots_have_no_legend():
     for count, named in ((8, True), (9, False)):
         run = mars2d.run(Scenario(robots=count, stop_time=1), control=lambda w: 0 * w.command)
         assert (run.plot().get_legend() is not None) is named
+
+
+def test_in_a_crowd_the_paths_are_paler_than_the_robots():
+    drive = Scenario(robots=9, stop_time=1)
+    ax = mars2d.run(drive, control=lambda w: [[0.1] * 9, [0.0] * 9]).plot()
+    assert {round(to_rgba(line.get_color())[3], 1) for line in trails(ax)} == {0.5}
+    assert to_rgba(discs(ax)[-1].get_facecolor())[3] == 1
 
 
 # -- what the animation's fields choose -------------------------------------------------------
@@ -185,6 +193,7 @@ def test_the_grid_is_drawn_if_it_is_wished(record):
 
 def test_the_grid_lies_on_the_workspace_and_below_the_obstacles(record):
     ax = record.plot()
+    ax.figure.set_dpi(300)
     at = next(tick for tick in ax.get_xticks() if -5 < tick < -1)
     step = ax.get_yticks()[1] - ax.get_yticks()[0]
     assert pixel(ax, (at, -4 + step / 3)) != "#ffffff"
@@ -315,7 +324,9 @@ for module in ("matplotlib.pyplot", "pygame", "pymunk.pygame_util", "tkinter"):
     assert module not in sys.modules, module
 """
     path = str(tmp_path / "walk.png")
-    subprocess.run([sys.executable, "-W", "error", "-c", code, path], check=True, timeout=60)
+    subprocess.run(
+        [sys.executable, "-W", "error::UserWarning", "-c", code, path], check=True, timeout=60
+    )
 
 
 # -- snapshots --------------------------------------------------------------------------------
@@ -477,8 +488,8 @@ def test_every_kind_of_shape_is_painted_with_its_opacity_and_anchor():
 
 def test_pixels_add_to_the_radius_on_the_page():
     ax = Figure(figsize=(4, 4), dpi=72).add_axes((0, 0, 1, 1))
-    ax.axis([0, 288, 0, 288])  # a metre is a point
+    ax.axis([0, 144, 0, 144])  # a metre is two points
     scene = Scene()
-    scene.circle((100, 100), 20, fill="#000000", pixels=5)
+    scene.circle((70, 70), 20, fill="#000000", pixels=5)
     paint(scene, ax)
-    assert ax.patches[0].get_radius() == pytest.approx(25)
+    assert ax.patches[0].get_radius() == pytest.approx(22.5)

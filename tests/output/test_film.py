@@ -1,15 +1,16 @@
 """Films: read back what was written."""
 
 import builtins
+import itertools
 import subprocess
 import sys
 
 import numpy as np
 import pytest
-from mars2d.errors import InputError, MissingExtra
-from mars2d.output.film import film_rows, save_film
 from PIL import Image
 
+from mars2d.errors import InputError, MissingExtra
+from mars2d.output.film import film_rows, save_film
 from tests.view.circling import Circling
 
 SIZE = (320, 240)
@@ -42,8 +43,9 @@ def test_a_gif_holds_every_frame_for_its_time_and_repeats(tmp_path):
 
 
 def test_a_gif_shows_what_the_picture_shows(tmp_path):
-    from mars2d.view.picture import Artist
     from pygame.surfarray import array3d
+
+    from mars2d.view.picture import Artist
 
     save_film(frames(), tmp_path / "film.gif", size=SIZE, sensors=False)
     artist = Artist(SIZE)
@@ -58,7 +60,7 @@ def test_a_gif_shows_what_the_picture_shows(tmp_path):
 def test_robots_move_in_a_gif(tmp_path):
     save_film(frames(), tmp_path / "film.gif", size=SIZE)
     pictures = read_gif(tmp_path / "film.gif")[0]
-    assert all((a != b).any() for a, b in zip(pictures, pictures[1:], strict=False))
+    assert all((a != b).any() for a, b in itertools.pairwise(pictures))
 
 
 def test_frames_that_do_not_differ_prolong_the_one_before(tmp_path):
@@ -117,7 +119,7 @@ def test_wrong_names_and_places_are_told(tmp_path):
         save_film([], tmp_path / "film.gif")
     with pytest.raises(InputError, match="fps = 0"):
         save_film(frames(), tmp_path / "film.gif", fps=0)
-    with pytest.raises(InputError, match="fps = 100.*at most 50"):
+    with pytest.raises(InputError, match=r"fps = 100.*at most 50"):
         save_film(frames(), tmp_path / "film.gif", fps=100)
     assert list(tmp_path.iterdir()) == []
 

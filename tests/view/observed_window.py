@@ -10,16 +10,18 @@ import sys
 from mars2d.errors import LawError
 from mars2d.scenario import Animation
 from mars2d.view.window import Window
-
 from tests.view.circling import Circling, circling_scenario
 
 
 class Observed(Window):
     """A window that prints its state as a line of JSON whenever that has changed."""
 
-    told = ""
+    told = state = ""
 
     def draw(self, surface):
+        if self.told != self.state:  # of the picture before, which is on the screen by now
+            self.told = self.state
+            print(self.told, flush=True)
         super().draw(surface)
         frame = self.player.frame
         state = {
@@ -35,10 +37,7 @@ class Observed(Window):
             "origin": [round(self.camera.x, 1), round(self.camera.y, 1)],
             "size": surface.get_size(),
         }
-        told = json.dumps(state)
-        if told != self.told:
-            self.told = told
-            print(told, flush=True)
+        self.state = json.dumps(state)
 
 
 def main():

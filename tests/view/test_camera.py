@@ -65,7 +65,7 @@ def test_ticks_include_both_ends():
 
 def test_labels_have_the_decimals_of_their_step_and_no_minus_zero():
     values = ticks(-0.5, 0.5, 0.25)
-    assert [label(v, 0.5) for v in (-0.5, -1e-17, 0.5)] == ["−0.5", "0.0", "0.5"]
+    assert [label(v, 0.5) for v in (-0.5, -1e-17, 0.5)] == ["\N{MINUS SIGN}0.5", "0.0", "0.5"]
     assert label(20.0, 10.0) == "20"
     assert len(values) == 5
 

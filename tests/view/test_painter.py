@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pygame
 import pytest
+
 from mars2d.errors import InputError
 from mars2d.frame import Frame
 from mars2d.scenario import Animation
@@ -15,7 +16,6 @@ from mars2d.view.camera import Camera
 from mars2d.view.painter import Painter
 from mars2d.view.picture import Artist, paint_frame, save_png
 from mars2d.view.strokes import dashes
-
 from tests.view.circling import Circling, circling_scenario
 
 CAMERA = Camera(scale=10.0, x=50.0, y=50.0)  # (-5, -5) to (5, 5) on 100 x 100 pixels
@@ -62,7 +62,7 @@ def test_a_large_disc_is_like_a_small_one():
     scene = Scene()
     scene.circle((20.0, 0), 20.0, fill="#000000")  # a radius of 200 pixels
     covered = coverage(painted(scene))
-    assert covered[50, 49] < 0.2
+    assert covered[50, 49] < 0.3
     assert covered[50, 51] > 0.8
 
 

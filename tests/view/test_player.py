@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+
 from mars2d.errors import InputError, LawError
 from mars2d.view import keys
 from mars2d.view.player import SPEEDS, Player, between
-
 from tests.view.circling import Circling, circling_scenario
 
 

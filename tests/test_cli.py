@@ -1,0 +1,327 @@
+"""The command line as a student types it: real processes, their output and exit codes."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import cli
+
+HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
+
+
+def mars(*arguments, cwd, **environment):
+    """Run the command line without a display and return the finished process."""
+    env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    return subprocess.run(
+        [sys.executable, "-m", "mars2d", *map(str, arguments)],
+        cwd=cwd, env=env | environment, capture_output=True, text=True, timeout=120, check=False,
+    )  # fmt: skip
+
+
+def test_demo_without_a_name_lists_the_examples(tmp_path):
+    done = mars("demo", cwd=tmp_path)
+    assert done.returncode == 0
+    for name in ("random_walk", "go_to_point", "follow_the_leader", "own_sensor_and_addon"):
+        assert name in done.stdout
+
+
+def test_demo_without_a_display_makes_a_picture_and_a_film_and_says_where(tmp_path):
+    from PIL import Image
+
+    done = mars("demo", "go_to_point", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    paths = [line.split()[1] for line in done.stdout.splitlines() if "mars2d_demo" in line]
+    assert len(paths) == 2
+    with Image.open(tmp_path / paths[0]) as picture, Image.open(tmp_path / paths[1]) as film:
+        assert picture.format == "PNG"
+        assert film.format == "GIF"
+        assert film.n_frames > 50
+
+
+def test_run_prints_its_outcome_as_one_line_of_json(tmp_path):
+    done = mars("run", "random_walk", "--headless", "--stop-time", 20, "--json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("\n") == 1
+    outcome = json.loads(done.stdout)
+    record = mars2d.run("random_walk", stop_time=20)
+    assert outcome["ticks"] == 20
+    assert outcome["time"] == 20.0
+    assert outcome["over"] is True
+    assert outcome["message"] == record.over_message
+    assert outcome["digest"] == record.digest
+    assert outcome["collisions"] == record.collisions
+    assert outcome["seed"] == 0
+    assert outcome["wall_s"] > 0
+
+
+def test_run_saves_record_figure_and_film(tmp_path):
+    done = mars(
+        "run", "go_to_point", "--headless", "--stop-time", 2, "--record", "a.npz",
+        "--figure", "a.pdf", "--video", "a.gif", cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert mars2d.load(tmp_path / "a.npz").pose.shape == (41, 3, 2)
+    assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
+    assert (tmp_path / "a.gif").read_bytes().startswith(b"GIF89a")
+
+
+def test_run_draws_snapshots(tmp_path):
+    done = mars(
+        "run", "go_to_point", "--headless", "--figure", "a.svg", "--at", "0,5,10", cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert b"<svg" in (tmp_path / "a.svg").read_bytes()
+
+
+def test_set_overrides_fields_and_parameters(tmp_path):
+    done = mars(
+        "run", "follow_the_leader", "--headless", "--stop-time", 1, "--record", "a.npz",
+        "--set", "followers=2", "--set", "robots.*.diameter=0.2", "--set", "sampling_time=0.5",
+        cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    record = mars2d.load(tmp_path / "a.npz")
+    assert [robot.diameter for robot in record.scenario.robots] == [0.2] * 3
+    assert record.time.tolist() == [0.0, 0.5, 1.0]
+
+
+def test_a_run_without_a_display_says_so_and_runs(tmp_path):
+    done = mars("run", "random_walk", "--stop-time", 5, cwd=tmp_path)
+    assert done.returncode == 0
+    assert "no display" in done.stderr
+    assert "Random movements" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["replay", "{npz}"], "no display"),
+        (["run", "random_walk", "--headless", "--speed", "0"], "needs a window"),
+        (["run", "random_walk", "--speed", "0"], "no display"),
+    ],
+)
+def test_what_needs_a_window_says_what_to_do_without_one(tmp_path, arguments, expected):
+    mars2d.run("random_walk", stop_time=3).save(tmp_path / "a.npz")
+    done = mars(*[a.format(npz="a.npz") for a in arguments], cwd=tmp_path)
+    assert done.returncode == 2
+    assert expected in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_check_runs_a_record_again(tmp_path):
+    mars2d.run("follow_the_leader", stop_time=20).save(tmp_path / "a.npz")
+    done = mars("check", "a.npz", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "bit-identical" in done.stdout
+
+
+def test_check_says_where_a_record_departs(tmp_path, capsys):
+    record = mars2d.run("follow_the_leader", stop_time=5)
+    pose = record.pose.copy()
+    pose[30:, 0, 1] += 0.25
+    columns = {k: getattr(record, k) for k in ("scenario", "seed", "time", "command")}
+    forged = mars2d.Record(pose=pose, command_time=record.command_time, **columns)
+    forged.save(tmp_path / "a.npz")
+    assert cli.main(["check", str(tmp_path / "a.npz")]) == 0
+    assert "departs at row 30, by 0.25 m" in capsys.readouterr().out
+
+
+def test_check_describes_an_experiment_and_tries_its_laws(tmp_path):
+    done = mars("check", "own_sensor_and_addon", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    for word in ("Light seekers", "eyes", "lamps", "10 m x 10 m", "sound"):
+        assert word in done.stdout
+
+
+def test_doctor_finds_the_installation_sound(tmp_path):
+    done = mars("doctor", cwd=tmp_path)
+    assert done.returncode == 0, done.stdout
+    assert "pymunk" in done.stdout
+    assert "NO " not in done.stdout
+
+
+def test_list_names_every_part_with_one_line(tmp_path):
+    done = mars("list", cwd=tmp_path)
+    for name in ("random_walk", "Unicycle", "Holonomic", "Proximity", "Map"):
+        [line] = [x for x in done.stdout.splitlines() if x.split()[:1] == [name]]
+        assert len(line.split()) > 4
+
+
+# What students get wrong, and the words that must be in the one line that they read.
+FILES = {
+    "no scenario": ("x = 1\n", ["bad.py", "scenario = Scenario(...)"]),
+    "misspelt scenario": ("scenaro = 1\n", ["bad.py", "'scenaro'"]),
+    "syntax": ("def control(world:\n    pass\n", ["bad.py, line 1"]),
+    "import": ("import nmpy\n", ["bad.py, line 1", "nmpy"]),
+    "exit": ("import sys\nsys.exit(3)\n", ["bad.py, line 2", "SystemExit"]),
+    "typo in the law": (
+        HEAD + "scenario = Scenario()\ndef control(world):\n    return wrold.pose[:2]\n",
+        ["bad.py, line 6", "wrold", "did you mean 'world'?"],
+    ),
+    "attribute in the law": (
+        HEAD + "scenario = Scenario()\ndef control(world):\n    return world.posee\n",
+        ["bad.py, line 6", "posee", "did you mean 'pose'?"],
+    ),
+    "misspelt sensor": (
+        HEAD + "def law(robot):\n    return robot.sense.proximty\n"
+        "from mars2d.sensors import Proximity\n"
+        "scenario = Scenario(robots=[Robot(sensors=[Proximity(range=1)], controller=law)])\n",
+        ["bad.py, line 5", "'proximty'", "did you mean 'proximity'?"],
+    ),
+    "nothing returned": (
+        HEAD + "scenario = Scenario()\ndef control(world):\n    world.pose\n",
+        ["bad.py, line 5", "control returned nothing"],
+    ),
+    "wrong shape": (
+        HEAD + "scenario = Scenario(robots=3)\ndef control(world):\n    return np.zeros((3, 2))\n",
+        ["bad.py", "(3, 2)", "(2, 3)", "transpose"],
+    ),
+    "NaN command": (
+        HEAD + "scenario = Scenario()\ndef control(world):\n    return 0.1, float('nan')\n",
+        ["bad.py", "control returned nan", "finite"],
+    ),
+    "self-crossing polygon": (
+        HEAD + "scenario = Scenario(addons=[Map([[(1, 1), (2, 2), (2, 1), (1, 2)]])])\n",
+        ["bad.py, line 4", "Map.outlines[0]", "crosses", "(1.5, 1.5)"],
+    ),
+    "start inside an obstacle": (
+        HEAD + "scenario = Scenario(addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])\n",
+        ["bad.py, line 4", "robot0", "inside obstacle 0"],
+    ),
+    "start inside each other": (
+        HEAD + "scenario = Scenario(robots=[Robot(), Robot(pose=(0.1, 0, 0))])\n",
+        ["bad.py, line 4", "robot0", "robot1", "0.2 m inside each other"],
+    ),
+    "negative diameter": (
+        HEAD + "scenario = Scenario(robots=[Robot(diameter=-0.3)])\n",
+        ["bad.py, line 4", "Robot.diameter = -0.3", "expected a number"],
+    ),
+    "NaN in a pose": (
+        HEAD + "scenario = Scenario(robots=[Robot(pose=(0, float('nan'), 0))])\n",
+        ["bad.py, line 4", "Robot.pose = (0, nan, 0)", "finite"],
+    ),
+    "unknown field": (
+        HEAD + "scenario = Scenario(sampling_tme=0.1)\n",
+        ["bad.py, line 4", "'sampling_tme'", "did you mean 'sampling_time'?"],
+    ),
+    "wrong type": (
+        HEAD + "scenario = Scenario(sampling_time='0.1')\n",
+        ["bad.py, line 4", "Scenario.sampling_time = '0.1'", "expected a number"],
+    ),
+    "unknown hook": (
+        HEAD + "class Mine(Addon):\n    def on_stepp(self, world):\n        pass\n",
+        ["bad.py, line 4", "Mine.on_stepp", "did you mean 'on_step'?"],
+    ),
+    "broken sensor": (
+        HEAD + "class Mine(Sensor):\n    def read(self, robot, world, rng):\n        return 1 / 0\n"
+        "scenario = Scenario(robots=[Robot(sensors=[Mine()])])\n",
+        ["bad.py, line 6", "sensor 'mine'", "ZeroDivisionError"],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", FILES)
+def test_a_mistake_in_the_file_is_one_line_that_names_it(tmp_path, case, capsys):
+    text, words = FILES[case]
+    (tmp_path / "bad.py").write_text(text)
+    code = cli.main(["run", str(tmp_path / "bad.py"), "--headless", "--stop-time", "1"])
+    message = capsys.readouterr().err
+    assert code == 2
+    assert message.count("\n") == 1
+    for word in words:
+        assert word in message
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["run", "missing.py", "--headless"], ["missing.py", "no such file"]),
+        (["run", "random_wlk", "--headless"], ["did you mean 'random_walk'?"]),
+        (["demo", "random_wlk"], ["did you mean 'random_walk'?"]),
+        (["rnu", "random_walk"], ["'rnu'", "did you mean 'run'?"]),
+        (["run", "random_walk", "--headles"], ["did you mean '--headless'?"]),
+        (["run", "random_walk", "--headless", "--set", "samplng_time=1"], ["'sampling_time'"]),
+        (["run", "random_walk", "--headless", "--set", "robots.0.mas=1"], ["'mass'"]),
+        (["run", "random_walk", "--headless", "--set", "robots.7.mass=1"], ["0 to 1", "'7'"]),
+        (["run", "random_walk", "--headless", "--set", "novalue"], ["NAME=VALUE"]),
+        (["run", "random_walk", "--headless", "--stop-time", "nan"], ["stop_time", "finite"]),
+        (["run", "random_walk", "--headless", "--seed", "-1"], ["seed = -1", "whole number"]),
+        (["run", "random_walk", "--headless", "--speed", "fast"], ["fast", "or max"]),
+        (["run", "random_walk", "--headless", "--record", "a.xls"], ["a.xls", ".npz"]),
+        (["run", "random_walk", "--headless", "--record", "no/where/a.npz"], ["no folder"]),
+        (["run", "random_walk", "--headless", "--figure", "a.bmp"], ["a.bmp", ".png"]),
+        (["run", "random_walk", "--headless", "--video", "a.avi"], ["a.avi", ".gif"]),
+        (["run", "random_walk", "--headless", "--at", "1,2"], ["--at", "--figure"]),
+        (["replay", "missing.npz"], ["missing.npz", "No such file"]),
+        (["check", "plan.dwg"], ["plan.dwg", ".py"]),
+        ([], ["COMMAND"]),
+    ],
+)
+def test_a_mistake_on_the_command_line_is_one_line_that_names_it(
+    tmp_path, monkeypatch, capsys, arguments, words
+):
+    monkeypatch.chdir(tmp_path)
+    code = cli.main(arguments)
+    message = capsys.readouterr().err
+    assert code == 2
+    assert message.count("\n") == 1
+    for word in words:
+        assert word in message
+
+
+def test_what_was_recorded_before_a_law_failed_is_kept(tmp_path):
+    (tmp_path / "late.py").write_text(
+        HEAD + "scenario = Scenario()\n"
+        "def control(world):\n    return 0.1, 1 / (1.05 - world.time) if world.time < 1 else 1 / 0\n"
+    )
+    done = mars("run", "late.py", "--headless", "--record", "kept.npz", cwd=tmp_path)
+    assert done.returncode == 2
+    record = mars2d.load(tmp_path / "kept.npz")
+    assert len(record) == 10
+    assert "ZeroDivisionError" in record.over_message
+    assert np.isfinite(record.pose).all()
+
+
+def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
+    import signal
+    import time
+
+    (tmp_path / "long.py").write_text(HEAD + "scenario = Scenario(stop_time=1e6)\n")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "mars2d", "run", "long.py", "--headless", "--record", "kept.npz"],
+        cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+    )  # fmt: skip
+    time.sleep(2.5)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130, errors
+    record = mars2d.load(tmp_path / "kept.npz")
+    assert len(record) > 10
+    assert "Ctrl-C" in record.over_message
+
+
+def test_a_long_run_shows_its_progress_on_a_terminal(tmp_path):
+    import pty
+
+    (tmp_path / "long.py").write_text(HEAD + "scenario = Scenario(stop_time=2000)\n")
+    theirs, ours = pty.openpty()
+    done = subprocess.run(
+        [sys.executable, "-m", "mars2d", "run", "long.py", "--headless"],
+        cwd=tmp_path, stderr=ours, stdout=subprocess.PIPE, timeout=120, check=True,
+    )  # fmt: skip
+    os.close(ours)
+    shown = os.read(theirs, 1 << 20).decode()
+    os.close(theirs)
+    assert done.returncode == 0
+    assert "%" in shown
+    assert "s left" in shown
+
+
+def test_a_pipe_or_a_file_gets_no_progress_bar(tmp_path):
+    done = mars("run", "random_walk", "--headless", "--json", cwd=tmp_path)
+    assert done.stderr == ""

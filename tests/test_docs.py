@@ -1,0 +1,353 @@
+"""The documents do what they say: every block of code runs, and prints what stands below it.
+
+How a document is read, from top to bottom, in a folder of its own:
+
+- ``python``: executed, all blocks of a document in one namespace; or, where the sentence before
+  says "Save as `NAME`", written to that file.
+- ``console``: each line is a command, run by the real command line without a display.
+- ``text``: what the block before has printed; ``...`` stands for anything. Where it is an error,
+  ``mars2d: ...`` or ``SomeError: ...``, the block before must fail with it.
+- ``matlab`` and blocks without a language are shown only.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import doctest
+import importlib.util
+import io
+import os
+import re
+import shlex
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, is_dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+import mars2d
+from mars2d import addons, bodies, cli, sensors
+from mars2d.control import RobotView
+from mars2d.view import keys
+
+ROOT = Path(__file__).parents[1]
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
+
+SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest']
+"""The set-up of the README, to the letter."""
+
+PIP = {*SET_UP, 'pip install ".[video]"'}
+"""The only commands that are not executed, but for the part of them that is mars2d."""
+
+LANGUAGES = {"python", "console", "text", "matlab", ""}
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block: its language, its text, its first line's number, the sentence before it."""
+
+    language: str
+    text: str
+    line: int
+    before: str
+
+
+def blocks(document: Path) -> Iterator[Block]:
+    language, start, before = None, 0, ""
+    inside: list[str] = []
+    for number, line in enumerate(document.read_text(encoding="utf-8").splitlines(), 1):
+        if not line.startswith("```"):
+            if language is None:
+                before = before + " " + line.strip() if line.strip() else before + "\n"
+            else:
+                inside.append(line)
+        elif language is None:
+            language, start, inside = line[3:].strip(), number + 1, []
+        else:
+            yield Block(language, "\n".join(inside), start, before.strip().split("\n")[-1])
+            language, before = None, ""
+    assert language is None, f"{document.name}: a block is not closed"
+
+
+class Reader:
+    """Does what a document says, in the present folder."""
+
+    def __init__(self, document: Path) -> None:
+        self.document = document
+        self.namespace: dict[str, Any] = {"__name__": "__main__"}
+        self.output = ""
+
+    def read(self) -> None:
+        every = list(blocks(self.document))
+        for block, following in zip(every, [*every[1:], None], strict=True):
+            place = f"{self.document.name}, line {block.line}"
+            expected = ""
+            if following is not None and following.language == "text":
+                expected = following.text
+            if block.language == "python":
+                self.python(block, expected)
+            elif block.language == "console":
+                self.output = "".join(self.command(c, expected) for c in block.text.splitlines())
+            elif block.language == "text":
+                alike = doctest.OutputChecker().check_output(
+                    block.text + "\n", self.output, doctest.ELLIPSIS
+                )
+                assert alike, f"{place}\nexpected:\n{block.text}\nfound:\n{self.output}"
+
+    def python(self, block: Block, expected: str) -> None:
+        saved = re.search(r"[Ss]ave as `([^`]+)`:$", block.before)
+        if saved:
+            Path(saved[1]).write_text(block.text + "\n", encoding="utf-8")
+            return
+        # Blank lines in front, so that a traceback shows the document's own line.
+        code = compile("\n" * (block.line - 1) + block.text, str(self.document), "exec")
+        printed = io.StringIO()
+        error = re.match(r"(\w+Error): ", expected)
+        with contextlib.redirect_stdout(printed):
+            if error is None:
+                exec(code, self.namespace)
+            else:
+                with pytest.raises(mars2d.Mars2dError) as caught:
+                    exec(code, self.namespace)
+                print(f"{type(caught.value).__name__}: {caught.value}")
+        self.output = printed.getvalue()
+
+    def command(self, line: str, expected: str) -> str:
+        """Run one command and return what it prints."""
+        if line.startswith("pip "):
+            assert line in PIP
+            parts = [part for part in line.split(" && ") if part.startswith("mars2d")]
+            return "".join(self.command(part, expected) for part in parts)
+        words = shlex.split(line)
+        assert words[0] == "mars2d", f"{self.document.name}: what is {line!r}?"
+        arguments = cli._parser().parse_args(words[1:])
+        needs_window = words[1] == "replay" or getattr(arguments, "speed", None) == 0
+        if words[1] in ("run", "demo") and not (needs_window or arguments.headless):
+            words.append("--headless")  # where it would open a window
+        if words[1] == "replay":
+            assert arguments.record.is_file(), line
+        done = subprocess.run(
+            [sys.executable, "-m", "mars2d", *words[1:]],
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            timeout=60,
+            check=False,
+            env=without_display(),
+        )
+        if needs_window:  # all that can be asked of it here
+            assert (done.returncode, "display" in done.stderr) == (2, True), line + done.stderr
+            return done.stderr
+        code = 2 if expected.startswith("mars2d: ") else 0
+        assert done.returncode == code, f"{line}: exit code {done.returncode}\n{done.stderr}"
+        return done.stdout + done.stderr
+
+
+def without_display() -> dict[str, str]:
+    gone = ("DISPLAY", "WAYLAND_DISPLAY")
+    environment = {name: value for name, value in os.environ.items() if name not in gone}
+    return environment | {"SDL_VIDEODRIVER": "dummy", "PYTHONIOENCODING": "utf-8"}
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("docs/pictures").mkdir(parents=True)
+    start = time.perf_counter()
+    Reader(document).read()
+    print(f"{document.name}: {time.perf_counter() - start:.1f} s")
+    for name in pictures(document):
+        assert (tmp_path / "docs" / "pictures" / name).is_file(), f"{name} was not made"
+
+
+def test_the_set_up_stands_in_the_readme_to_the_letter():
+    consoles = [b.text for b in blocks(ROOT / "README.md") if b.language == "console"]
+    for line in SET_UP:
+        assert line in consoles  # each a block of its own
+
+
+@pytest.mark.parametrize("document", EVERYTHING, ids=lambda path: path.name)
+def test_blocks_are_of_a_kind_that_is_tested(document):
+    allowed = LANGUAGES | ({"sh"} if document.name == "CONTRIBUTING.md" else set())
+    for block in blocks(document):
+        assert block.language in allowed, f"{document.name}, line {block.line}"
+
+
+# -- links and pictures -----------------------------------------------------------------------
+
+
+def prose(document: Path) -> str:
+    """The text of a document without its fenced blocks."""
+    return re.sub(r"^```.*?^```$", "", document.read_text(encoding="utf-8"), flags=re.M | re.S)
+
+
+def anchors(document: Path) -> set[str]:
+    """The anchors of a document's headings, as GitHub and others make them."""
+    titles = re.findall(r"^#+ (.+)$", prose(document), flags=re.M)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("document", EVERYTHING, ids=lambda path: path.name)
+def test_links_lead_somewhere(document):
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose(document)):
+        if re.match(r"https?://", target):
+            continue
+        path, _, anchor = target.partition("#")
+        goal = (document.parent / path).resolve() if path else document
+        assert goal.exists(), f"{document.name}: {target}"
+        if anchor:
+            assert anchor in anchors(goal), f"{document.name}: {target}"
+
+
+def test_each_document_is_in_the_index():
+    index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    for document in (ROOT / "docs").glob("*.md"):
+        assert document.name == "index.md" or f"({document.name})" in index
+
+
+def pictures(document: Path) -> list[str]:
+    """The names of the pictures that a document shows."""
+    shown = re.findall(r"!\[[^\]]+\]\(([^)]+\.png)\)", prose(document))
+    return [Path(name).name for name in shown]
+
+
+def test_pictures_are_small_and_each_is_shown():
+    files = list((ROOT / "docs" / "pictures").iterdir())
+    shown = {name for document in DOCUMENTS for name in pictures(document)}
+    assert {file.name for file in files} == shown
+    for file in files:
+        assert file.stat().st_size < 200_000, file.name
+
+
+# -- tables -----------------------------------------------------------------------------------
+
+
+def table(text: str) -> list[list[str]]:
+    """The cells of all rows of the tables in a text, without their rules."""
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    cells = [[c.strip() for c in re.split(r"(?<!\\)\|", row)[1:-1]] for row in rows]
+    return [row for row in cells if not all(re.fullmatch(r":?-+:?", c) for c in row)]
+
+
+def test_the_keys_in_the_readme_are_those_of_the_window():
+    rows = table((ROOT / "README.md").read_text(encoding="utf-8"))
+    start = rows.index(["Key", "What it does"]) + 1
+    wanted = [[" ".join(key.labels), key.help] for key in (*keys.KEYS, *keys.MOUSE)]
+    assert rows[start : start + len(wanted)] == wanted
+
+
+def test_the_table_of_fields_is_up_to_date():
+    path = ROOT / "docs" / "make_fields.py"
+    made = module(path).document()
+    assert made == (ROOT / "docs" / "fields.md").read_text(encoding="utf-8"), (
+        "run: python docs/make_fields.py"
+    )
+
+
+def module(path: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec is not None
+    assert spec.loader is not None
+    loaded = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    return loaded
+
+
+def verbs() -> dict[str, Any]:
+    """The sub-commands and their parsers."""
+    parser = cli._parser()
+    return dict(parser._subparsers._group_actions[0].choices)
+
+
+def test_each_command_has_a_section_and_each_section_a_command():
+    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## mars2d (\w+)$", text, flags=re.M) == list(verbs())
+
+
+@pytest.mark.parametrize("verb", list(verbs()))
+def test_the_options_in_the_commands_document_are_those_of_the_parser(verb):
+    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    section = text.partition(f"\n## mars2d {verb}\n")[2].partition("\n## ")[0]
+    stated = set()
+    for row in table(section):
+        option = re.fullmatch(r"`(.+)`", row[0])
+        if option and not row[0].strip("`").islower():
+            stated.add(option[1])
+        elif option and row[0].startswith("`--"):
+            stated.add(option[1])
+    wanted = set()
+    for action in verbs()[verb]._actions:
+        if "--help" in action.option_strings:
+            continue
+        names = action.option_strings or [""]
+        metavar = action.metavar or ("" if action.nargs == 0 else action.dest)
+        wanted |= {f"{name} {metavar}".strip() for name in names}
+    assert stated == wanted
+
+
+def test_the_exit_codes_in_the_commands_document_are_those_of_the_command_line():
+    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    section = text.partition("## Exit codes")[2].partition("\n## ")[0]
+    stated = {int(row[0]) for row in table(section)[1:]}
+    assert stated == {cli.OK, cli.FAULT, cli.BAD_INPUT, cli.INTERRUPTED}
+
+
+def test_the_columns_of_contacts_are_those_of_a_record():
+    text = (ROOT / "docs" / "record.md").read_text(encoding="utf-8")
+    section = text.partition("## Contacts")[2].partition("\n## ")[0]
+    names = [row[0].strip("`") for row in table(section)[1:]]
+    assert names == list(mars2d.contact.CONTACT.names)
+
+
+def test_options_named_anywhere_exist():
+    known = {o for sub in verbs().values() for a in sub._actions for o in a.option_strings}
+    for document in DOCUMENTS:
+        for option in re.findall(r"`(--[a-z-]+)", prose(document)):
+            assert option in {*known, "--version"}, f"{document.name}: {option}"
+
+
+# -- names ------------------------------------------------------------------------------------
+
+OWNERS: dict[str, Any] = {
+    "mars2d": mars2d,
+    "RobotView": RobotView,
+    **{name: getattr(mars2d, name) for name in mars2d.__all__ if name[0].isupper()},
+    **{kind.__name__: kind for kind in (*vars(bodies).values(), *vars(sensors).values())
+       if isinstance(kind, type)},
+    "Map": addons.Map,
+}  # fmt: skip
+
+
+def has(owner: Any, name: str) -> bool:
+    """Whether objects of a class, or a module, have an attribute."""
+    if hasattr(owner, name):
+        return True
+    if is_dataclass(owner) and name in {field.name for field in fields(owner)}:
+        return True
+    if owner is mars2d.World:
+        return name in vars(mars2d.World(mars2d.Scenario()))
+    if owner is RobotView:
+        return name in vars(mars2d.World(mars2d.Scenario()).robots[0])
+    return False
+
+
+@pytest.mark.parametrize("document", EVERYTHING, ids=lambda path: path.name)
+def test_names_in_the_text_exist(document):
+    for code in re.findall(r"`([^`\n]+)`", prose(document)):
+        named = re.match(r"(\w+)((?:\.\w+)+)", code)
+        if named is None or named[1] not in OWNERS:
+            continue
+        if (ROOT / "mars2d" / code.partition(" ")[0]).exists():
+            continue
+        owner = OWNERS[named[1]]
+        for name in named[2][1:].split("."):
+            assert has(owner, name), f"{document.name}: {code}"
+            owner = getattr(owner, name, None)
+            if owner is None or not isinstance(owner, (type, ModuleType)):
+                break

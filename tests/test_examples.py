@@ -1,0 +1,77 @@
+"""The examples: short enough to project, and the same to the last bit from run to run."""
+
+import platform
+import sys
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d.files import examples
+
+# Pinned on Linux, x86-64. Another processor or library may round the last digit differently.
+DIGESTS = {
+    "follow_the_leader": "4414125e4844f6b66dc14af9c299c563c759a1c6a15910b689a6150d21c82196",
+    "go_to_point": "5993df66e130eba797152ee608536bc86f135ab50b3ac8322b1925f2c0330c17",
+    "own_sensor_and_addon": "41accd855e37f1e961ad208478550f8479b0a4a74342484bad4afe093e008cc1",
+    "random_walk": "332532de78425b562c85409727befe00eebf8aefb62417f500fd3da9a127385c",
+}
+ON_THE_PINNED_PLATFORM = sys.platform == "linux" and platform.machine() == "x86_64"
+
+
+def test_every_example_is_pinned():
+    assert set(examples()) == set(DIGESTS)
+
+
+@pytest.mark.parametrize("name", DIGESTS)
+@pytest.mark.skipif(not ON_THE_PINNED_PLATFORM, reason="digests are pinned on Linux x86-64")
+def test_an_example_has_its_pinned_digest(name):
+    assert mars2d.run(name).digest == DIGESTS[name]
+
+
+@pytest.mark.parametrize("name", DIGESTS)
+def test_an_example_is_short_enough_to_project(name):
+    lines = examples()[name].read_text().splitlines()
+    assert len(lines) <= 60
+    assert max(map(len, lines)) <= 100
+    assert lines[0].startswith('"""')
+
+
+def test_random_walk_is_the_papers_algorithm_2():
+    record = mars2d.run("random_walk")
+    assert record.time[-1] == 1000.0
+    assert record.scenario.initial_pose.T.tolist() == [[1, 3, 0], [9, 7, np.pi]]
+    seen, command = record.sensors["proximity"], record.command
+    for robot in (0, 1):
+        for k in range(1, len(record)):
+            v, omega = command[k, :, robot]
+            if seen[k, robot]:
+                assert (v, omega) == (-0.2, 0.0)
+            elif command[k - 1, 0, robot] < 0:
+                assert v == 0.0
+                assert np.pi / 2 <= omega <= 3 * np.pi / 2
+            else:
+                assert (v, omega) == (0.2, 0.0)
+    assert seen.any(axis=0).all()
+
+
+def test_go_to_point_brings_both_robots_to_their_goals():
+    record = mars2d.run("go_to_point")
+    assert "arrived" in record.over_message
+    goals = np.array([[4, 2], [4, -2]]).T
+    assert np.hypot(*(record.pose[-1, :2] - goals)).max() < 0.02
+    assert np.all(record.pose[:, 2, 0] == 2.0)  # the holonomic robot keeps its heading
+
+
+def test_followers_keep_behind_their_leader():
+    record = mars2d.run("follow_the_leader")
+    gaps = np.hypot(*np.diff(record.pose[:, :2], axis=2).transpose(1, 0, 2))
+    assert record.collisions == 0
+    assert gaps[300:].max() < 1.0
+    assert gaps.min() > 0.3
+
+
+def test_the_lamps_are_found():
+    record = mars2d.run("own_sensor_and_addon")
+    assert record.over_message.startswith("All 3 lamps were found")
+    assert record.sensors["eyes"].shape == (len(record), 3, 2)

@@ -1,0 +1,381 @@
+"""Nothing that ends the process, hangs it or lies gets through to the engine.
+
+Each test runs its inputs in a child process, with and without Python's own asserts: an abort would
+take the tests with it. All inputs go through the public constructors, or come out of laws.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import pytest
+
+PRELUDE = """
+import json, sys, warnings
+import numpy as np
+warnings.simplefilter("error")
+from mars2d import *
+from mars2d.addons import Addon, Map
+from mars2d.sensors import Proximity, Sensor
+nan, inf, huge = float("nan"), float("inf"), 10**400
+
+def go(*robots, law=None, commands=None, steps=5, **fields):
+    '''Run an experiment in which everything meets everything.'''
+    fields = {"workspace": [(-2, -2), (2, -2), (2, 2), (-2, 2)], "on_exit": "wall",
+              "sampling_time": 0.5, "stop_time": 100} | fields
+    fields.setdefault("robots", list(robots) or 1)
+    world = World(Scenario(**fields), control=law)
+    for _ in range(steps):
+        world.step(commands)
+    assert np.isfinite(world.pose).all(), "not finite"
+    return world
+
+def own(law):
+    return go(Robot(controller=law))
+
+def attempt(code):
+    try:
+        eval(code)
+    except InputError as error:
+        assert str(error)
+        return "InputError"
+    except BaseException as error:
+        return f"{type(error).__name__}: {error}"
+    return "passed"
+"""
+
+FLAGS = [(), ("-O",)]
+
+
+def outcomes(child, cases: list[str], flags: tuple[str, ...] = (), definitions: str = "") -> dict:
+    """Return what became of each case; ends with the case at which the process died, if it did."""
+    code = (
+        PRELUDE + definitions + f"\nfor case in {cases!r}:\n"
+        "    print(json.dumps([case, attempt(case)]), flush=True)\nprint('[\"end\", \"\"]')"
+    )
+    result = child(code, *flags, timeout=50)
+    found = dict(json.loads(line) for line in result.stdout.splitlines())
+    assert result.returncode == 0, (result.returncode, [*found][-1:], result.stderr[-500:])
+    assert found.pop("end") == ""
+    return found
+
+
+def all_refused(child, cases: list[str], flags: tuple[str, ...], definitions: str = "") -> None:
+    found = outcomes(child, cases, flags, definitions)
+    assert found == dict.fromkeys(cases, "InputError")
+
+
+BAD = ["nan", "inf", "-inf", "-1.0", "'1'", "None", "True", "1j", "huge", "[1.0]", "np.array([1.])",
+       "np.float64('nan')", "np.float32('inf')"]  # fmt: skip
+
+
+def fields(pattern: str, *more: str, without: tuple[str, ...] = ()) -> list[str]:
+    """Write the bad values, and some more, into a pattern of code."""
+    return [pattern.replace("@", value) for value in [*BAD, *more] if value not in without]
+
+
+ROWS = {
+    "the mass of a body": fields("go(Robot(mass=@))", "0", "1e-7", "1e7", "-0.0", "5e-324"),
+    "the size, and so the moment": [
+        *fields("go(Robot(diameter=@))", "0", "1e-9", "1e4"),
+        *fields("go(Robot(center_offset=@))", "0.16", "-0.16", without=("-1.0",)),
+    ],
+    "friction": [
+        *fields("go(Robot(friction=@))", "-1e-9", "1e9"),
+        *fields("go(addons=[Map([[(1, 1), (1, 0)]], friction=@)])", "-1e-9"),
+    ],
+    "elasticity": [
+        *fields("go(Robot(restitution=@))", "-1e-9", "1.01"),
+        *fields("go(addons=[Map([[(1, 1), (1, 0)]], restitution=@)])", "1.01"),
+    ],
+    "force, torque and speed of a drive": [
+        *fields("go(Robot(drive=Unicycle(max_force=@)))", "0", "1e7"),
+        *fields("go(Robot(drive=Unicycle(max_torque=@)))", "0", "1e7"),
+        *fields("go(Robot(drive=Holonomic(max_force=@)))", "0"),
+        *fields("go(Robot(drive=Holonomic(max_linear_speed=@)))", "0", "1e9"),
+        *fields("go(Robot(drive=Unicycle(wheel_semiaxis=@)))", "0", "1e-300"),
+        "go(Robot(mass=1e-6, drive=Unicycle(max_force=1e6)))",
+    ],
+    "the time step": [
+        *fields("go(sampling_time=@)", "0", "-0.1", "1e-9", "1e9"),
+        *fields("go(stop_time=@)", "-1e-9", "1e300"),
+        *fields("go(command_delay=@)", "-1e-9", "1e300"),
+        *fields("go(max_overlap=@)", "0", "1e-9", "2"),
+        "go(sampling_time=1e-6, stop_time=1e12)",
+        "go(sampling_time=1e-6, command_delay=1e6)",
+    ],
+    "positions and angles": [
+        *fields("go(Robot(pose=(@, 0, 0)))", "1e7", without=("-1.0",)),
+        *fields("go(Robot(pose=(0, 0, @)))", "1e300", without=("-1.0",)),
+        "go(Robot(pose=None))",
+        "go(Robot(pose=()))",
+        "go(Robot(pose=(0, 0, 0, 0)))",
+        "go(Robot(pose='000'))",
+        "go(Robot().at(nan, 0))",
+        "go(Robot(), options=1)",
+    ],
+    "geometry": [
+        *fields("go(addons=[Map([[(1, 1), (@, 0)]])])", "1e7", without=("-1.0",)),
+        *fields("go(workspace=[(0, 0), (1, @), (0, 1)])", without=()),
+        "go(addons=[Map([[(1, 1), (1, 1)]])])",  # a wall of no length
+        "go(addons=[Map([[(1, 1), (1.5, 1), (2, 1)]])])",  # collinear
+        "go(addons=[Map([[(1, 1), (1.5, 1), (1.5, 1), (1, 2)]])])",  # repeated
+        "go(addons=[Map([[(1, 1), (2, 2), (2, 1), (1, 2)]])])",  # crossing itself
+        "go(addons=[Map([[(1, 1)]])])",
+        "go(addons=[Map([(1, 1), (2, 2)])])",
+        "go(addons=[Map(None)])",
+        "go(addons=[Map()])",
+        "go(addons=Map([[(1, 1), (1, 0)]]))",
+        "go(addons=[Map])",
+        "go(workspace=[(0, 0), (1, 1)])",
+        "go(workspace=[(-2, -2), (2, 2), (2, -2), (-2, 2)])",
+        "go(workspace=5)",
+    ],
+    "masses that contacts cannot hold": [
+        "go(Robot(mass=1), Robot(pose=(1, 0, 0), mass=10.1))",
+        "go(Robot(mass=1e-6), Robot(pose=(1, 0, 0), mass=1e6))",
+    ],
+    "starts in other bodies": [
+        "go(Robot(), Robot())",
+        "go(Robot(), Robot(pose=(0.29, 0, 0)))",
+        "go(Robot(diameter=1e-3), Robot(diameter=1e-3))",
+        "go(Robot(), Robot(), max_overlap=1.0)",
+        "go(Robot(center_offset=0.1), Robot(center_offset=-0.1, pose=(0.2, 0, 3.14159)))",
+        "go(Robot(), addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])",
+        "go(Robot(diameter=1e-3), addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])",
+        "go(Robot(), addons=[Map([[(0.1, -1), (0.1, 1)]])])",
+        "go(Robot(pose=(1.9, 0, 0)))",
+        "go(Robot(pose=(3, 0, 0)))",
+        "go(Robot(pose=(3, 0, 0)), on_exit='stop')",
+    ],
+    "thousands of bodies in one place": [
+        "go(*[Robot()] * 5000)",
+        "go(robots=5000)",
+        "go(robots=10**9)",
+        "Scenario(robots=10000)",
+    ],
+    "lists and words": [
+        "go(robots=None)", "Scenario(robots=[])", "Scenario(robots=0)", "Scenario(robots=-1)",
+        "Scenario(robots=True)", "Scenario(robots='3')", "Scenario(robots=[None])",
+        "Scenario(robots=[Robot])", "Scenario(robots=Robot())", "Scenario(robots={})",
+        "Scenario(robot=[Robot()])", "Scenario(Robot())", "Scenario(on_exit='Wall')",
+        "Scenario(physics='none')", "Scenario(title=None)", "Scenario(animation=None)",
+        "Scenario(addons=None)", "Scenario(addons=[1])", "Robot(sensors=Proximity(range=1))",
+        "Robot(sensors=[Proximity])", "Robot(sensors=[Map([])])", "Robot(drive=Unicycle)",
+        "Robot(drive=None)", "Robot(controller=5)", "Robot(controller=lambda: 0)",
+        "Robot(controller=lambda a, b: 0)", "Robot(sees='all')", "Robot(name=5)", "Robot(radius=1)",
+        "Robot(color='bleu')", "Proximity()", "Proximity(range=0)", "Proximity(range=nan)",
+        "Proximity(range=1, field_of_view=7)", "Proximity(range=1, name='a b')",
+        "Animation(playback_speed=np.array([1, 2]))", "Animation(playback_speed=nan)",
+        "Animation(playback_speed=huge)", "Animation(playback_speed=-1)",
+        "Scenario(robots=[Robot(name='a'), Robot(name='a', pose=(1, 0, 0))])",
+        "Robot(sensors=[Proximity(range=1), Proximity(range=2)])",
+        "World(None)", "World(Scenario)", "World(Scenario(), seed=-1)", "World(Scenario(), seed=1.5)",
+        "World(Scenario(), control=5)", "World(Scenario(), control=lambda: 0)",
+    ],
+    "the commands of a robot's law": [
+        *(f"own(lambda robot: {value})" for value in (
+            "(nan, 0)", "(0, inf)", "(huge, 0)", "None", "()", "(1,)", "(1, 2, 3)", "5", "'12'",
+            "('1', '2')", "b'12'", "(1j, 0)", "(None, 0)", "{0.1, 0.2}", "{1: 2, 3: 4}", "(True, False)",
+            "[[1, 2]]", "np.zeros((2, 2))", "np.array(['a', 'b'])", "object()", "(x for x in (1, 2, 3)",
+        )),
+        "own(lambda robot: 1 / 0)",
+        "own(lambda robot: robot.pos)",
+        "own(lambda robot: robot.sense.proximty)",
+        "own(lambda robot: undefined)",
+        "own(lambda robot: exit())",
+        "own(lambda robot: robot.rng.uniform('a'))",
+    ],
+    "the commands of a team's law": [
+        *(f"go(Robot(), Robot(pose=(1, 0, 0)), law=lambda world: {value})" for value in (
+            "[[nan, 0], [0, 0]]", "[[inf, 0], [0, 0]]", "[[huge, 0], [0, 0]]", "None", "0", "[]",
+            "[1, 2]", "[[1], [2]]", "[[1, 2, 3], [4, 5, 6]]", "[[1, 2], [3]]", "'1234'",
+            "[['1', '2'], ['3', '4']]", "[[1j, 0], [0, 0]]", "[[None, 0], [0, 0]]",
+            "np.zeros((2, 2, 1))", "np.zeros((3, 2))", "np.zeros((2, 2), bool)", "object()",
+        )),
+        "go(commands=[[nan], [0]])",
+        "go(commands=[1, 2, 3])",
+        "go(commands='12')",
+        "go(commands=[[10**400], [0]])",
+    ],
+}  # fmt: skip
+"""The rows of the table of what aborts, lies or hangs, with inputs that would do it."""
+
+ROWS["the commands of a robot's law"] = [
+    case.replace("(x for x in (1, 2, 3)", "(x for x in (1, 2))")
+    for case in ROWS["the commands of a robot's law"]
+]
+
+
+@pytest.mark.parametrize("flags", FLAGS, ids=["", "-O"])
+@pytest.mark.parametrize("row", ROWS)
+def test_what_would_abort_lie_or_hang_is_an_input_error(child, row, flags):
+    all_refused(child, ROWS[row], flags)
+
+
+USERS = """
+class NanMap(Addon):
+    def obstacles(self): return [[(nan, 0), (1, 1)]]
+class CrossingMap(Addon):
+    def obstacles(self): return [[(1, 1), (2, 2), (2, 1), (1, 2)]]
+class Nothing(Addon):
+    def obstacles(self): return None
+class Fails(Addon):
+    def on_start(self, world): raise KeyError("x")
+class FailsLater(Addon):
+    def on_step(self, world): 1 / (world.iteration - 2)
+class FailsAtTheEnd(Addon):
+    def on_stop(self, world): raise OSError("x")
+class Steps(Addon):
+    def on_step(self, world): world.step()
+class Broken(Sensor):
+    def read(self, robot, world, rng): raise RuntimeError("x")
+class Text(Sensor):
+    def read(self, robot, world, rng): return "near"
+class Grows(Sensor):
+    def read(self, robot, world, rng): return np.zeros(int(10 * world.time) + 1)
+class StepsInside(Sensor):
+    def read(self, robot, world, rng): return world.step()
+class NoRead(Sensor):
+    pass
+class NanDrive(Unicycle):
+    def twist(self, command): return np.full((3, command.shape[1]), nan)
+class InfDrive(Unicycle):
+    def twist(self, command): return np.full((3, command.shape[1]), inf)
+class LightDrive(Unicycle):
+    def twist(self, command): return np.full((3, command.shape[1]), 3e8)
+class ShortDrive(Unicycle):
+    def twist(self, command): return np.zeros((2, command.shape[1]))
+class NanLimit(Unicycle):
+    def saturate(self, command): return command * nan
+class BadDrive(Unicycle):
+    def saturate(self, command): raise ZeroDivisionError
+class NoDrive(Drive):
+    pass
+def stepping(world):
+    world.step()
+    return [[0], [0]]
+def stepping_once(world):
+    if world.iteration == 1:
+        world.step([[0], [0]])
+    return [[0], [0]]
+def writes_pose(world):
+    world.pose[0] = nan
+    return [[0], [0]]
+def sets_pose(world):
+    world.pose = world.pose * nan
+    return [[0], [0]]
+def writes_command(world):
+    world.command[0] = nan
+    return [[0], [0]]
+def writes_history(world):
+    world.history.pose[0] = nan
+    return [[0], [0]]
+def writes_own_pose(robot):
+    robot.pose += nan
+    return 0, 0
+def changes_scenario(world):
+    world.scenario.sampling_time = -1
+    return [[0], [0]]
+def exits(robot):
+    raise SystemExit(3)
+def recurses(robot):
+    return recurses(robot)
+def fails_later(robot):
+    yield 0, 0
+    raise ValueError("later")
+def yields_nan(robot):
+    while True:
+        yield nan, 0
+class Negative(Addon):
+    friction: float = -1.0
+    def obstacles(self): return [[(1, 1), (1, 0)]]
+class BouncyNan(Addon):
+    restitution: float = nan
+    def obstacles(self): return [[(1, 1), (1, 0)]]
+class Unannotated(Addon):
+    friction = -1.0
+    restitution = nan
+    def obstacles(self): return [[(1, 1), (1, 0)]]
+"""
+
+
+@pytest.mark.parametrize("flags", FLAGS, ids=["", "-O"])
+def test_what_users_write_themselves_cannot_break_the_engine_either(child, flags):
+    cases = [
+        *(
+            f"go(addons=[{name}()])"
+            for name in (
+                "NanMap", "CrossingMap", "Nothing", "Fails", "FailsLater", "Steps",
+                "Negative", "BouncyNan", "Unannotated",
+            )
+        ),
+        "go(addons=[FailsAtTheEnd()], stop_time=1)",
+        *(
+            f"go(Robot(sensors=[{name}()]))"
+            for name in ("Broken", "Text", "Grows", "StepsInside", "NoRead")
+        ),
+        *(
+            f"go(Robot(drive={name}()))"
+            for name in ("NanDrive", "InfDrive", "LightDrive", "ShortDrive", "NanLimit",
+                         "BadDrive", "NoDrive")
+        ),
+        *(
+            f"go(law={name})"
+            for name in ("stepping", "stepping_once", "writes_pose", "sets_pose",
+                         "writes_command", "writes_history", "changes_scenario")
+        ),
+        *(
+            f"own({name})"
+            for name in ("writes_own_pose", "exits", "recurses", "fails_later", "yields_nan")
+        ),
+    ]  # fmt: skip
+    all_refused(child, cases, flags, USERS)
+
+
+def test_extreme_but_sound_inputs_run_and_stay_finite(child):
+    cases = [
+        "go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), commands=[[1], [1]])",
+        "go(Robot(mass=1e6), commands=[[1], [1]])",
+        "go(Robot(friction=1e3, restitution=1), commands=[[1], [1]])",
+        "go(Robot(diameter=1e-3), commands=[[1], [1]])",
+        "go(Robot(drive=Unicycle(max_force=1e-300, max_torque=1e-300)), commands=[[1], [1]])",
+        "go(Robot(drive=Unicycle(max_linear_speed=1000, wheel_semiaxis=0.1)), steps=1,"
+        " commands=[[1000], [0]])",
+        "go(Robot(), sampling_time=1e4, stop_time=1e5, steps=1, commands=[[0], [9]])",
+        "go(Robot(pose=(1e6, -1e6, 1e6)), workspace=None, commands=[[1], [1]])",
+        "go(sampling_time=1e-6, stop_time=1, commands=[[1], [1]])",
+        "go(command_delay=1e3, commands=[[1], [1]])",
+        "go(max_overlap=1.0, commands=[[1], [0]])",
+        "own(lambda robot: (1e300, -1e300))",
+        "go(Robot(drive=Holonomic()), commands=[[1e300], [1e300]])",
+        "own(lambda robot: np.array([0.1, 0.2], dtype=np.float16))",
+        "own(lambda robot: [np.int8(1), np.float32(0.5)])",
+        "own(lambda robot: np.array([[0.1], [0.2]]))",
+        "go(law=lambda world: (0.1, 0.2))",
+        "go(robots=np.int64(3))",
+        "go(Robot(), addons=[Map([])])",
+    ]
+    assert outcomes(child, cases) == dict.fromkeys(cases, "passed")
+
+
+@pytest.mark.parametrize(
+    ("flags", "code"),
+    [((), "raise ValueError('in the law')"), (("-O",), "raise ValueError('in the law')")],
+)
+def test_an_error_in_a_law_is_not_swallowed(child, flags, code):
+    result = child(
+        f"import mars2d\ndef law(robot):\n    {code}\n"
+        "mars2d.run(mars2d.Scenario(robots=[mars2d.Robot(controller=law)]))",
+        *flags,
+    )
+    assert result.returncode == 1
+    assert "LawError" in result.stderr
+    assert "in the law" in result.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_the_gate_is_needed_pymunk_itself_dies_of_a_negative_mass_without_asserts(child):
+    result = child("import pymunk; pymunk.Body(-1.0, 1.0)", "-O")
+    assert result.returncode != 0
