@@ -5,6 +5,8 @@ the heading to it, the holonomic robot heads straight for it, u = k (g - p); the
 first, v = min(k d, v_max) cos(a), omega = k_a a. Both take k = 0.5 and start at rest.
 """
 
+from math import atan2, cos
+
 import numpy as np
 
 from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle
@@ -31,6 +33,6 @@ def control(world):
     if distance.max() < 0.02:
         world.stop(f"Both have arrived after {world.time:.1f} s")
 
-    angle = wrap(np.arctan2(dy[1], dx[1]) - world.pose[2, 1])
-    speed = min(GAIN * distance[1], MAX_SPEED) * np.cos(angle)
+    angle = wrap(atan2(dy[1], dx[1]) - world.pose[2, 1])
+    speed = min(GAIN * distance[1], MAX_SPEED) * cos(angle)
     return np.array([(GAIN * dx[0], GAIN * dy[0]), (speed, TURN_GAIN * angle)]).T

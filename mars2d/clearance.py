@@ -23,13 +23,26 @@ FEW = 32
 TINY = 1e-12
 
 
+# numpy's own abs and product of complex numbers round differently on different processors.
+
+
+def length(vector: Complex) -> Float:
+    """Return the lengths of vectors."""
+    return np.asarray(np.hypot(vector.real, vector.imag))
+
+
+def dot(a: Complex, b: Complex) -> Float:
+    """Return the scalar products of vectors."""
+    return np.asarray(a.real * b.real + a.imag * b.imag)
+
+
 class Walls:
     """Line segments that stand still."""
 
     def __init__(self, start: Complex, edge: Complex) -> None:
         """Take where segments start and the vectors to their ends, (S,) each."""
         self._start, self._edge = start, edge
-        self._per_length = edge / np.abs(edge) ** 2
+        self._per_length = edge / length(edge) ** 2
 
     def __len__(self) -> int:
         return len(self._start)
@@ -41,7 +54,7 @@ class Walls:
     def towards(self, point: Complex) -> Complex:
         """Return the vectors from points to the nearest points of the segments, broadcast."""
         from_start = point - self._start
-        along = np.clip((from_start * self._per_length.conj()).real, 0.0, 1.0)
+        along = np.clip(dot(from_start, self._per_length), 0.0, 1.0)
         return np.asarray(along * self._edge - from_start)
 
 
@@ -105,11 +118,11 @@ class Clearance:
 
     def _pair_gaps(self, center: Complex) -> Float:
         i, j = self._i, self._j
-        return np.asarray(np.abs(center[i] - center[j]) - self._radii[i] - self._radii[j])
+        return np.asarray(length(center[i] - center[j]) - self._radii[i] - self._radii[j])
 
     def _wall_gaps(self, center: Complex, which: Index) -> Float:
         """Return the gaps (k, S) between some discs and all segments."""
-        distance = np.abs(self._walls.towards(center[which, None]))
+        distance = length(self._walls.towards(center[which, None]))
         return np.asarray(distance - self._radii[which, None])
 
     def _list_pairs(self, center: Complex, reach: Float) -> None:
@@ -147,7 +160,7 @@ class Encounter:
         between = np.concatenate(
             [center[self._j] - center[self._i], self._walls.towards(center[self._disc])]
         )
-        distance = np.abs(between)
+        distance = length(between)
         self._gap = distance - self._radii_sum
         self._normal = between / np.maximum(distance, TINY)
         self._touch = self._gap <= 0
@@ -188,7 +201,7 @@ class Encounter:
         approach[:pairs] -= velocity[self._j]
         turn = bend[self._first]
         turn[:pairs] += bend[self._j]
-        closing = np.maximum((approach * self._normal.conj()).real, 0.0)
+        closing = np.maximum(dot(approach, self._normal), 0.0)
         # room = closing h + turn h^2 / 2, solved for h so that both may be zero
         room = np.maximum(self._gap + depth, depth / 8)
         h = 2 * room / (closing + np.sqrt(closing**2 + 2 * turn * room) + TINY)

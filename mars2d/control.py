@@ -172,7 +172,10 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
         pass
 
     def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, tb: TracebackType | None
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        tb: TracebackType | None,
     ) -> None:
         if error is None or not isinstance(error, (Exception, SystemExit)):
             return  # nothing, or Ctrl-C

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import inspect
 import math
 import numbers
 from collections.abc import Callable, Sequence
@@ -222,15 +223,14 @@ def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
 def _keep_checks(cls: type[Description]) -> None:
     """Let a subclass give an inherited field a new default without losing the field's check."""
     inherited = getattr(super(cls, cls), "__dataclass_fields__", {})
-    annotations = cls.__dict__.get("__annotations__", {})
+    annotations = inspect.get_annotations(cls)
     for name, field in inherited.items():
         default = vars(cls).get(name, dataclasses.MISSING)
         declared = name in annotations or default is not dataclasses.MISSING
         if declared and "check" in field.metadata and not isinstance(default, dataclasses.Field):
-            again = entry(default=default, kw_only=field.kw_only, **field.metadata)
-            setattr(cls, name, again)
-            cls.__annotations__ = {name: field.type, **annotations}
-            annotations = cls.__annotations__
+            setattr(cls, name, entry(default=default, kw_only=field.kw_only, **field.metadata))
+            annotations = {name: field.type} | annotations
+    cls.__annotations__ = annotations
 
 
 def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:

@@ -20,7 +20,7 @@ import pymunk
 from numpy.typing import NDArray
 from pymunk import batch
 
-from mars2d.clearance import Clearance, Complex, Encounter, Float, Index, Mask
+from mars2d.clearance import Clearance, Complex, Encounter, Float, Index, Mask, length
 from mars2d.contact import ContactLog
 from mars2d.geometry import Outline, edges_of
 from mars2d.scenario import Scenario
@@ -208,7 +208,7 @@ class Engine:
         speed = np.hypot(twist[0], twist[1]) + np.abs(self._offset * twist[2])
         near = self._slipping.copy()
         if near.any():
-            actual = np.abs(_center_velocity(self._state, self._offset))
+            actual = length(_center_velocity(self._state, self._offset))
             speed = np.where(near, np.maximum(speed, actual), speed)
         reach, count = speed * duration, -1
         while int(near.sum()) != count:

@@ -128,8 +128,12 @@ def _robot(
     offset, r = robot.center_offset, robot.radius
     center = (x - offset * c, y - offset * s)
     scene.circle(center, r, fill=fill, stroke=stroke, width=1.5)
-    front = (center[0] + r * c, center[1] + r * s)
-    scene.line([(x, y), front], stroke=stroke if fill is None else "#ffffff", width=2.5)
+    mark = stroke if fill is None else "#ffffff"
+    back, front = min(offset, 0.0), r
+    ends = [(center[0] + d * c, center[1] + d * s) for d in (back, front)]
+    scene.line(ends, stroke=mark, width=2.5)
+    if offset:
+        scene.circle((x, y), r / 6, fill=mark)  # the centre of rotation
 
 
 def sensors(frame: Frame) -> Scene:

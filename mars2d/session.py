@@ -35,8 +35,8 @@ def run(
     one step a key press. options: fields by their dotted names, as ``{"robots.*.diameter": 0.2}``,
     and parameters of a scenario function. control: the law of the team, in place of the
     experiment's. seed: of all random streams. show: whether in a window; by default, if a speed is
-    given. watchers: functions called with the world at each control step, once its sensors have
-    been read; without a window.
+    given and there is a display. watchers: functions called with the world at each control step,
+    once its sensors have been read; without a window.
 
     Raises InputError for what can't be run. When a law fails, the error carries what was recorded
     until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
@@ -46,8 +46,20 @@ def run(
         options["stop_time"] = stop_time
     speed, seed = playback_speed("speed", speed), check_seed(seed)
     opened = open_experiment(experiment, options, control)
-    if speed == 0 or (speed != "max" if show is None else show):
+    if _wants_window(speed, show):
         from mars2d.view.show import show_experiment
 
         return show_experiment(opened, speed, seed)
     return simulate(opened, seed, speed, watchers)
+
+
+def _wants_window(speed: float | str, show: bool | None) -> bool:
+    if speed == 0:
+        return True  # one step a key press: there is no other way
+    if show is not None:
+        return show
+    if speed == "max":
+        return False
+    from mars2d.view.display import display_available
+
+    return display_available()

@@ -122,7 +122,7 @@ class World:
         self._central = None if control is None else Law(control, self, self._still)
 
     def _build_addons(self) -> None:
-        live = [addon.live() for addon in self.scenario.addons]
+        live = [a.live(self.stream(f"add-on {a.key}")) for a in self.scenario.addons]
         self.addons = Addons(**{addon.key: addon for addon in live})
         # Only hooks that an add-on has of its own are called.
         self._hooks = {

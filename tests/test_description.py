@@ -178,3 +178,32 @@ def test_a_broken_repr_does_not_hide_the_message():
 
     with pytest.raises(InputError, match="<Sly whose repr raises ZeroDivisionError>"):
         Motor(power=Sly())
+
+
+def test_a_subclass_may_give_an_inherited_field_another_default_with_or_without_a_type():
+    class Strong(Motor):
+        power: float = 50.0
+        share = 0.25
+
+    assert Strong() == Strong(power=50, share=0.25)
+    assert Strong(share=1).share == 1
+
+
+def test_an_inherited_field_keeps_its_check_when_a_subclass_declares_it_anew():
+    class Wrong(Motor):
+        power: float = -1.0
+
+    class WrongToo(Motor):
+        share = 2
+
+    class Open(Motor):
+        power: float
+
+    with pytest.raises(InputError, match=r"Wrong.power = -1.0: expected a number > 0"):
+        Wrong()
+    with pytest.raises(InputError, match=r"WrongToo.share = 2"):
+        WrongToo()
+    with pytest.raises(InputError, match=r"Open.power is missing"):
+        Open()
+    with pytest.raises(InputError, match=r"Open.power = nan"):
+        Open(power=NAN)

@@ -85,11 +85,10 @@ class Reader:
 
     def read(self) -> None:
         every = list(blocks(self.document))
-        for block, following in zip(every, [*every[1:], None], strict=True):
+        for number, block in enumerate(every):
             place = f"{self.document.name}, line {block.line}"
-            expected = ""
-            if following is not None and following.language == "text":
-                expected = following.text
+            following = every[number + 1 : number + 2]
+            expected = following[0].text if following and following[0].language == "text" else ""
             if block.language == "python":
                 self.python(block, expected)
             elif block.language == "console":
@@ -277,9 +276,7 @@ def test_the_options_in_the_commands_document_are_those_of_the_parser(verb):
     stated = set()
     for row in table(section):
         option = re.fullmatch(r"`(.+)`", row[0])
-        if option and not row[0].strip("`").islower():
-            stated.add(option[1])
-        elif option and row[0].startswith("`--"):
+        if option and (option[1].startswith("--") or option[1].isupper()):
             stated.add(option[1])
     wanted = set()
     for action in verbs()[verb]._actions:
@@ -310,6 +307,60 @@ def test_options_named_anywhere_exist():
     for document in DOCUMENTS:
         for option in re.findall(r"`(--[a-z-]+)", prose(document)):
             assert option in {*known, "--version"}, f"{document.name}: {option}"
+
+
+def test_tests_named_in_the_documents_exist():
+    written = {
+        name
+        for file in (ROOT / "tests").rglob("test_*.py")
+        for name in re.findall(r"^def (test_\w+)", file.read_text(encoding="utf-8"), flags=re.M)
+    }
+    for document in EVERYTHING:
+        named = set(re.findall(r"`(test_\w+)`", prose(document)))
+        assert named <= written, f"{document.name}: {named - written}"
+
+
+def test_files_named_in_the_text_exist():
+    for document in EVERYTHING:
+        for name in re.findall(r"`((?:mars2d|docs|tests|benchmarks|examples)/[^`\s]*)`", prose(document)):
+            assert (ROOT / name).exists(), f"{document.name}: {name}"
+    commands = [b.text for b in blocks(ROOT / "CONTRIBUTING.md") if b.language == "sh"]
+    for name in re.findall(r"(?:python |^)([\w.]+/[\w./]+)", "\n".join(commands), flags=re.M):
+        assert (ROOT / name).exists(), f"CONTRIBUTING.md: {name}"
+
+
+def test_every_module_stands_in_the_picture_of_the_design():
+    picture = next(b.text for b in blocks(ROOT / "docs" / "design.md") if "__main__.py" in b.text)
+    package = ROOT / "mars2d"
+    parts = {path.name for path in package.glob("*.py")}
+    parts |= {f"{path.parent.name}/" for path in package.glob("*/__init__.py")}
+    parts.discard("examples/")
+    assert parts == set(re.findall(r"\w+\.py|\b(?:bodies|sensors|addons|view|output)/", picture)) - {
+        "base.py"
+    }
+
+
+def test_the_layers_in_the_design_are_those_of_the_code():
+    text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
+    section = text.partition("## Layers")[2].partition("\n## ")[0]
+    layers = [
+        line.split(". ", 1)[1].split(", ")
+        for line in section.splitlines()
+        if re.match(r"\d+\. ", line)
+    ]
+    level = {part: k for k, layer in enumerate(layers) for part in layer}
+    imports = module(ROOT / "tests" / "test_imports.py")
+    for path in imports.FILES:
+        part = path.relative_to(imports.PACKAGE).with_suffix("").parts[0]
+        if part == "__init__":
+            continue
+        for name, lazy in imports._own_imports(path):
+            target = imports._part(name)
+            if not name.startswith("mars2d") or target == "__init__":
+                continue
+            if lazy and (part, target) == ("record", "output"):
+                continue  # the exception that the design names
+            assert level[target] <= level[part], f"{part} imports {target}"
 
 
 # -- names ------------------------------------------------------------------------------------

@@ -5,6 +5,8 @@ from __future__ import annotations
 import copy
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
+import numpy as np
+
 from mars2d.description import Description, number, text
 from mars2d.errors import InputError, nearest
 from mars2d.geometry import Outline
@@ -43,6 +45,8 @@ class Addon(Description):
         default=1.0, low=0, high=1, doc="of its obstacles; a contact has the product of both"
     )
     _live: ClassVar[bool] = False
+    rng: ClassVar[np.random.Generator]
+    """Its own random stream, on the copy that a world works on."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         for attribute in vars(cls):
@@ -66,10 +70,10 @@ class Addon(Description):
         """The name in ``world.addons``: `name`, or that of the class in snake case."""
         return self.name or snake_case(type(self).__name__)
 
-    def live(self) -> Self:
-        """Return the copy that one world works on."""
+    def live(self, rng: np.random.Generator) -> Self:
+        """Return the copy that one world works on, with its own random stream."""
         twin = copy.copy(self)
-        twin.__dict__["_live"] = True
+        twin.__dict__.update(_live=True, rng=rng)
         return twin
 
     def obstacles(self) -> tuple[Outline, ...]:

@@ -488,7 +488,8 @@ def _add_legend(ax: Axes, scenario: Scenario) -> None:
         for color in scenario.colors
     ]
     legend = ax.legend(
-        handles, ["robot"] * len(names), loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
+        handles, ["robot"] * len(names), loc="upper left",
+        bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
         frameon=False, fontsize=9, labelcolor=INK, handletextpad=0.1, handlelength=1.5,
     )  # fmt: skip
     for text, name in zip(legend.get_texts(), names, strict=True):

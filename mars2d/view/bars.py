@@ -17,6 +17,8 @@ from mars2d.view.painter import Painter
 __all__ = ["Banner", "Layout", "Status", "draw_footer", "draw_header", "draw_help", "fitted"]
 
 BANNER_LINES = 8
+UNREADABLE = 0.2
+"""Pixels a point below which a page of text is not worth drawing."""
 FOOTER = 44.0
 """The height of the footer, and of a banner of one line in its place, points."""
 
@@ -227,6 +229,8 @@ def draw_help(
     # Smaller where the page would not fit.
     room = layout.plot.height - 16
     ui = min(layout.ui, room / (104 + 36 * len(rows)), surface.get_width() / 680)
+    if ui < UNREADABLE:
+        return
     size, line = 16 * ui, round(36 * ui)
     caps = max(sum(_cap_width(painter, text, ui) for text in labels) for labels, _ in rows)
     words = max(fonts.width(text, size) for _, text in rows)

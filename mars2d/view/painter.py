@@ -27,8 +27,12 @@ Float = NDArray[np.float64]
 Rgba = tuple[int, int, int, int]
 Draw = Callable[[pygame.Surface, float, float, float, Rgba], None]
 """Draws on a surface `factor` times too large, whose corner lies at (left, top)."""
+Layer = tuple[Rgba, Draw, int]
+"""One colour of a sprite; the number tells how many times larger to draw it, 0 leaves it open."""
 
 PHASES = 4
+BROAD = 20.0
+"""The radius in pixels from which a ring is drawn of hair lines."""
 LARGEST_SPRITE = 160.0
 LARGE = 40_000
 """The area in pixels beyond which a shape is not drawn larger and averaged, if that may be."""
@@ -99,8 +103,7 @@ class Painter:
         self, surface: pygame.Surface, shape: Circle, x: float, y: float, radius: float
     ) -> None:
         """Draw a circle as the polygon of many corners that it nearly is."""
-        angles = np.linspace(0, 2 * np.pi, int(min(max(radius, 90), 1500)))
-        ring = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
+        ring = _ring(x, y, radius)
         if shape.fill:
             self._fill(surface, ring, rgba(shape.fill))
         if shape.stroke:
@@ -168,7 +171,7 @@ class Painter:
         if sprite is None:
             points = np.array([(fx, fy), (fx + dx, fy + dy)])
             box = _extent(points, width / 2 + 1)
-            sprite = self._keep(key, box, [(color, _stroked([points], width))])
+            sprite = self._keep(key, box, [(color, _stroked([points], width), 0)])
         surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
 
     def marks(
@@ -183,7 +186,7 @@ class Painter:
             sprite = self._sprites.get(key)
             if sprite is None:
                 draw, reach = _mark(marker, fx, fy, self.ui, width)
-                sprite = self._keep(key, _box(fx, fy, reach), [(rgba(color), draw)])
+                sprite = self._keep(key, _box(fx, fy, reach), [(rgba(color), draw, 0)])
             surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
 
     # -- text ---------------------------------------------------------------------------------
@@ -217,19 +220,20 @@ class Painter:
         sprite = self._sprites.get(key)
         if sprite is None:
             box = pygame.Rect(0, 0, *rect.size)
-            layers = [(rgba(stroke or fill), _rounded(box, radius))]
+            layers = [(rgba(stroke or fill), _rounded(box, radius), 0)]
             if stroke:
-                layers.append((rgba(fill), _rounded(box.inflate(-2, -2), radius - 1)))
+                layers.append((rgba(fill), _rounded(box.inflate(-2, -2), radius - 1), 0))
             sprite = self._keep(key, box, layers)
         surface.blit(sprite[0], rect.topleft)
 
     def _keep(
-        self, key: Hashable, box: pygame.Rect, layers: Sequence[tuple[Rgba, Draw]]
+        self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]
     ) -> tuple[pygame.Surface, int, int]:
         """Draw a sprite and remember it, forgetting the oldest when there are too many."""
         image = pygame.Surface(box.size, pygame.SRCALPHA, 32)
-        for color, draw in layers:
-            _cover(image, color, image.get_rect(), draw, box.topleft, factor=_sprite_factor(box))
+        for color, draw, factor in layers:
+            larger = factor or _sprite_factor(box)
+            _cover(image, color, image.get_rect(), draw, box.topleft, larger)
         area = box.width * box.height
         while self._sprites and self._kept + area > self.KEPT_PIXELS:
             old = self._sprites.pop(next(iter(self._sprites)))[0]
@@ -305,15 +309,26 @@ def _reach(surface: pygame.Surface) -> tuple[float, float, float, float]:
     return clip.left - 50.0, clip.top - 50.0, clip.right + 50.0, clip.bottom + 50.0
 
 
-def _disc_layers(
-    shape: Circle, radius: float, width: float, x: float, y: float
-) -> list[tuple[Rgba, Draw]]:
-    layers: list[tuple[Rgba, Draw]] = []
+def _disc_layers(shape: Circle, radius: float, width: float, x: float, y: float) -> list[Layer]:
+    layers: list[Layer] = []
+    broad = radius > BROAD and shape.stroke is not None
     if shape.fill:
-        layers.append((rgba(shape.fill), _disc(x, y, radius)))
+        color = rgba(shape.fill)
+        # The ring will cover the edge.
+        factor = 0 if not broad else 1 if color[3] < FAINT else 2
+        layers.append((color, _disc(x, y, radius), factor))
     if shape.stroke:
-        layers.append((rgba(shape.stroke), _disc(x, y, radius + width / 2, width)))
+        draw = _disc(x, y, radius + width / 2, width)
+        if broad:
+            draw = _drawn_finely([_ring(x, y, radius)], width)
+        layers.append((rgba(shape.stroke), draw, 1 if broad else 0))
     return layers
+
+
+def _ring(x: float, y: float, radius: float) -> Float:
+    """Return the corners of the polygon that a circle nearly is, closed, (k, 2)."""
+    angles = np.linspace(0, 2 * np.pi, int(min(max(radius, 60), 1500)))
+    return np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
 
 
 def _disc(x: float, y: float, radius: float, width: float = 0.0) -> Draw:

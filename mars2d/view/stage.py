@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import replace
+from math import ceil, floor
+from time import perf_counter
 
 import pygame
 
@@ -19,6 +21,9 @@ from mars2d.view.theme import PAGE
 from mars2d.view.trails import Trails
 
 __all__ = ["Stage"]
+
+PATIENCE = 0.012
+"""The seconds that drawing what stands still may take without the movement of a camera jerking."""
 
 
 class Stage:
@@ -37,6 +42,8 @@ class Stage:
         self._trailed: pygame.Surface | None = None
         self._trails: Trails | None = None
         self._labels: list[tuple[pygame.Surface, tuple[int, int]]] = []
+        self._camera: Camera | None = None
+        self._seconds = 0.0
 
     def draw(
         self,
@@ -45,18 +52,27 @@ class Stage:
         camera: Camera,
         layers: Layers,
         plot: pygame.Rect | None = None,
+        *,
+        hurried: bool = False,
     ) -> None:
-        """Draw a frame on the part `plot` of a surface, all of it by default."""
+        """Draw a frame on the part `plot` of a surface, all of it by default.
+
+        hurried: while the camera moves. If drawing what stands still took long, the picture drawn
+        last is enlarged or moved instead, until there is time to draw it anew.
+        """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
         surface.set_clip(plot)
-        still = self._background(surface, frame.scenario, camera, layers, plot)
-        if layers.trails:
-            surface.blit(self._with_trails(still, frame, camera), plot, plot)
-            if self._trails is not None:
+        slow = self._seconds > PATIENCE and frame.scenario is self._scenario
+        if not (hurried and slow and self._moved(surface, camera, layers, plot)):
+            start = perf_counter()
+            still = self._background(surface, frame.scenario, camera, layers, plot)
+            picture = self._with_trails(still, frame, camera) if layers.trails else still
+            if self._camera != camera:
+                self._camera, self._seconds = camera, perf_counter() - start
+            surface.blit(picture, plot, plot)
+            if layers.trails and self._trails is not None:
                 self._trails.loose_ends(surface, frame.pose[:2])
-        else:
-            surface.blit(still, plot, plot)
         moving = Scene()
         if frame.draw_addons is not None:
             frame.draw_addons(moving)
@@ -64,8 +80,30 @@ class Stage:
             moving.extend(scenes.sensors(frame).shapes)
         moving.extend(scenes.robots(frame).shapes)
         self.painter.paint(surface, moving.shapes, camera)
-        surface.fblits(self._labels)
+        if camera == self._camera:
+            surface.fblits(self._labels)
         surface.set_clip(before)
+
+    def _moved(
+        self, surface: pygame.Surface, camera: Camera, layers: Layers, plot: pygame.Rect
+    ) -> bool:
+        """Draw the last picture as another camera sees it, roughly; return whether there is one."""
+        last = self._trailed if layers.trails and self._trails is not None else self._still
+        if last is None or self._camera is None or last.get_size() != surface.get_size():
+            return False
+        factor = camera.scale / self._camera.scale
+        corner = camera.x - factor * self._camera.x, camera.y - factor * self._camera.y
+        # Whole pixels of the last picture, as many as are seen now.
+        seen = pygame.Rect(0, 0, ceil(plot.width / factor) + 2, ceil(plot.height / factor) + 2)
+        seen.left = floor((plot.left - corner[0]) / factor)
+        seen.top = floor((plot.top - corner[1]) / factor)
+        seen = seen.clip(plot)
+        surface.fill(PAGE, plot)
+        if seen.width > 0 and seen.height > 0:
+            size = round(seen.width * factor), round(seen.height * factor)
+            place = corner[0] + factor * seen.left, corner[1] + factor * seen.top
+            surface.blit(pygame.transform.scale(last.subsurface(seen), size), place)
+        return True
 
     def _background(
         self,

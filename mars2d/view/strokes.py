@@ -79,12 +79,19 @@ def hairlines(surface: pygame.Surface, ink: tuple[int, ...], points: Float, widt
     # Farther out where the line bends, so that its sides stay parallel: a mitre, at most doubled.
     bends /= np.maximum((bends**2).sum(axis=1), 0.25)[:, None]
     normals = np.column_stack([-bends[:, 1], bends[:, 0]])
-    for shift in hair_shifts(width):
-        pygame.draw.aalines(surface, ink, False, (points + shift * normals).tolist())
+    for shift in hair_shifts(width, normals):
+        pygame.draw.aalines(surface, ink, False, (points + shift).tolist())
 
 
-def hair_shifts(width: float) -> list[float]:
-    """Return how far to the side hair lines lie that make up a line of `width` pixels."""
+def hair_shifts(width: float, normals: Float) -> list[Float]:
+    """Return how far to the side the hair lines lie that make up a line of `width` pixels.
+
+    normals: (k, 2), at right angles to the line at each point. Each shift is (k, 2) pixels.
+    """
     count = max(1, ceil(width))
-    reach = max(0.0, (width - 1) / 2)
-    return [0.0] if count == 1 else [reach * (2 * k / (count - 1) - 1) for k in range(count)]
+    if count == 1:
+        return [np.zeros_like(normals)]
+    # A hair line is one pixel wide along an axis, thus narrower where it is slanted.
+    hair = np.abs(normals).max(axis=1, keepdims=True)
+    reach = np.maximum(width - hair, 0) / 2 * normals
+    return [(2 * k / (count - 1) - 1) * reach for k in range(count)]

@@ -131,8 +131,8 @@ class Trails:
         starts, ends, steps = starts[keep], ends[keep], steps[keep] / lengths[keep, None]
         normals = np.column_stack([-steps[:, 1], steps[:, 0]])
         inks = [self.inks[i] for i in which[keep].tolist()]
-        for shift in hair_shifts(self.width * self.painter.ui):
-            a, b = (starts + shift * normals).tolist(), (ends + shift * normals).tolist()
+        for shift in hair_shifts(self.width * self.painter.ui, normals):
+            a, b = (starts + shift).tolist(), (ends + shift).tolist()
             for ink, start, end in zip(inks, a, b, strict=True):
                 pygame.draw.aaline(surface, ink, start, end)
 

@@ -35,6 +35,8 @@ __all__ = ["Window"]
 PICTURES_A_SECOND = 60
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
 WHEEL_FACTOR = 1.15
+REST = 0.12
+"""The camera moves until it has rested for so many seconds."""
 HINTS = (("Space", "pause"), ("→", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"))
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
 DEEPEST, WIDEST = 400.0, 0.05
@@ -59,6 +61,7 @@ class Window:
         self.help = False
         self._open = False
         self._fits = True
+        self._hurry = 0.0
         self._held: set[int] = set()
         self._painter = Painter()
         self._stage = Stage(self._painter)
@@ -128,7 +131,10 @@ class Window:
         banner = self._banner()
         self._arrange(surface.get_size(), banner)
         frame = self.player.frame
-        self._stage.draw(surface, frame, self.camera, self.layers, self.layout.plot)
+        hurried = time.perf_counter() < self._hurry
+        self._stage.draw(
+            surface, frame, self.camera, self.layers, self.layout.plot, hurried=hurried
+        )
         text, waiting = self.player.status()
         status = Status(text, waiting, error=self.player.error is not None)
         draw_header(surface, self.layout, self._painter, frame, status)
@@ -193,12 +199,16 @@ class Window:
     def _zoom(self, factor: float) -> None:
         fit = self._fitted().scale
         wanted = min(max(self.camera.scale * factor, WIDEST * fit), DEEPEST * fit)
-        self._fits = False
-        self.camera = self.camera.zoomed(pygame.mouse.get_pos(), wanted / self.camera.scale)
+        self._look(self.camera.zoomed(pygame.mouse.get_pos(), wanted / self.camera.scale))
 
     def _pan(self, dx: int, dy: int) -> None:
+        self._look(self.camera.panned(dx, dy))
+
+    def _look(self, camera: Camera) -> None:
+        """Look with another camera, of the person's choice."""
         self._fits = False
-        self.camera = self.camera.panned(dx, dy)
+        self.camera = camera
+        self._hurry = time.perf_counter() + REST
 
     def _toggle(self, layer: str) -> None:
         self.layers = replace(self.layers, **{layer: not getattr(self.layers, layer)})
