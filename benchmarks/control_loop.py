@@ -3,8 +3,8 @@
     python benchmarks/control_loop.py [--json OUT.json]
 
 Teams of unicycles (radius 0.15 m, 5 % of the area covered, 0.3 m/s, a new random omega each second,
-sampling time 0.05 s) in a walled square. `mars2d`: `World.step` with laws, add-ons and recording, at
-the default accuracy. `bare`: a loop over pymunk alone that drives the same robots by primed joints,
+sampling time 0.05 s) in a walled square. `mars2d`: `World.step` with a law and recording, at the
+default accuracy. `bare`: a loop over pymunk alone that drives the same robots by primed joints,
 with batch access and as many substeps as keep overlaps within the same millimetre (15), without
 laws, checks or recording. Both run in turns in one process, so that the ratio holds on a noisy
 machine.

@@ -1,6 +1,6 @@
 """Write docs/fields.md: every field of the descriptions, from what the classes say of themselves.
 
-    python docs/make_fields.py
+python docs/make_fields.py
 """
 
 from __future__ import annotations

@@ -148,7 +148,7 @@ class Encounter:
         walls: Walls,
         segment: Index,
     ) -> None:
-        """Take pairs of discs (i, j), and of a disc and a segment, which has a number of its own."""
+        """Take pairs of discs (i, j), and pairs of a disc and a segment, which has a number."""
         self._i, self._j = pairs
         self._disc, self._walls, self._segment = disc, walls, segment
         self._radii_sum = np.concatenate([radii[self._i] + radii[self._j], radii[disc]])
@@ -162,7 +162,7 @@ class Encounter:
         )
         distance = length(between)
         self._gap = distance - self._radii_sum
-        self._normal = between / np.maximum(distance, TINY)
+        self._normal: Complex = between / np.maximum(distance, TINY)
         self._touch = self._gap <= 0
         self.any_touch = bool(self._touch.any())
 

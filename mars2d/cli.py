@@ -381,9 +381,8 @@ def _check_record(path: Path) -> int:
 
     record = load(path)
     versions = ", ".join(f"{name} {version}" for name, version in record.versions.items())
-    print(
-        f"record of   {record.scenario.title} ({record.filename or 'a Scenario'}), seed {record.seed}"
-    )
+    origin = record.filename or "a Scenario"
+    print(f"record of   {record.scenario.title} ({origin}), seed {record.seed}")
     print(f"rows        {len(record)}, up to {record.time[-1] if len(record) else 0:g} s")
     print(f"ended       {record.over_message}")
     print(f"made with   {versions}")

@@ -154,7 +154,7 @@ class Law:
             return next(self._running, self._still)
 
     def refuse(self, message: str) -> NoReturn:
-        """Raise the error that the law's command can't be used, pointing at the law's definition."""
+        """Raise the error that the law's command can't be used; it points at the law."""
         error = LawError(f"{self.name} {message}")
         code = getattr(inspect.unwrap(self._function), "__code__", None)
         if code is not None:

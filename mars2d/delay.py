@@ -31,7 +31,7 @@ class DelayLine:
         self._waiting = deque([still] * (whole + 1), maxlen=whole + 2)
 
     def send(self, command: Float) -> list[tuple[float, Float]]:
-        """Issue a command (2, n) and return what is in effect until the next: (seconds, command)."""
+        """Issue a command (2, n), and return what is in effect meanwhile: (seconds, command)."""
         self._waiting.append(command)
         before, after = self._waiting[0], self._waiting[1]
         if self._rest == 0.0:

@@ -61,7 +61,7 @@ def number(
     optional: bool = False,
     doc: str = "",
 ) -> Any:
-    """Declare a field that is a finite float within bounds: ``low <= value``, ``above < value``, ``value <= high``."""
+    """Declare a field that is a finite float: ``low <= value``, ``above < value <= high``."""
     expected = _bounds(low, above, high, unit) + (", or None" if optional else "")
 
     def check(name: str, value: object) -> float | None:
@@ -234,7 +234,7 @@ def _keep_checks(cls: type[Description]) -> None:
 
 
 def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
-    """Wrap a dataclass's __init__ so that unknown, missing and positional arguments are InputErrors."""
+    """Wrap a dataclass's __init__ so that wrong names and missing ones are InputErrors."""
     known = {f.name: f for f in dataclasses.fields(cls) if f.init}
     positional = [name for name, f in known.items() if not f.kw_only]
     required = [

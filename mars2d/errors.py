@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from mars2d.record import Record
 
-__all__ = ["InputError", "LawError", "Mars2dError", "MissingExtra", "nearest"]
+__all__ = ["InputError", "LawError", "Mars2dError", "MissingExtraError", "nearest"]
 
 
 class Mars2dError(Exception):
@@ -36,7 +36,7 @@ class LawError(InputError):
     """A control law, sensor or add-on of the user's raised, or returned what can't be used."""
 
 
-class MissingExtra(InputError):
+class MissingExtraError(InputError):
     """An optional library is needed and not installed; the message holds the pip line."""
 
 

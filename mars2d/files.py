@@ -181,7 +181,7 @@ def _override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
 
 
 def _replaced(target: Any, path: list[str], value: Any, whole: str) -> Any:
-    """Return `target` with the field at the dotted `path` set; ``*`` stands for all items of a list."""
+    """Return `target` with the field at the dotted `path` set; ``*`` is all items of a list."""
     if not path:
         return value
     first, rest = path[0], path[1:]

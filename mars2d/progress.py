@@ -16,7 +16,7 @@ class Stepped(Protocol):
 
 
 class Progress:
-    """A bar on one line of a terminal: how far, how quick, how long still. Elsewhere it is silent."""
+    """A bar on one line of a terminal: how far, how quick, how long still; else silent."""
 
     def __init__(self, total: int, unit: str = "steps", stream: TextIO | None = None) -> None:
         """Take how many steps there are in all; `stream` is stderr by default."""
@@ -42,8 +42,8 @@ class Progress:
         left = (self._total - done) / rate if rate else 0.0
         filled = round(30 * done / self._total)
         bar = "#" * filled + "-" * (30 - filled)
-        line = f"\r{bar} {100 * done / self._total:3.0f} %  {rate:,.0f} {self._unit}/s  {left:.0f} s left "
-        self._stream.write(line)
+        part = 100 * done / self._total
+        self._stream.write(f"\r{bar} {part:3.0f} %  {rate:,.0f} {self._unit}/s  {left:.0f} s left ")
         self._stream.flush()
 
     def close(self) -> None:

@@ -63,8 +63,8 @@ class Record:
         return len(self.time)
 
     def __repr__(self) -> str:
-        rows, robots = len(self), len(self.scenario.robots)
-        return f"<Record of {self.scenario.title!r}: {rows} rows, {robots} robots, {self.over_message!r}>"
+        size = f"{len(self)} rows, {len(self.scenario.robots)} robots"
+        return f"<Record of {self.scenario.title!r}: {size}, {self.over_message!r}>"
 
     @cached_property
     def digest(self) -> str:
@@ -123,7 +123,7 @@ class Record:
         return plot_paths(self, ax)
 
     def save(self, path: str | Path) -> Path:
-        """Write the record to a file ``.npz`` and return its path. Raises InputError if it can't."""
+        """Write the record to a file ``.npz`` and return its path; InputError if it can't be."""
         path = Path(path)
         if path.suffix.lower() != ".npz":
             raise InputError(f"{path}: a record is saved as .npz, this ends in {path.suffix!r}")

@@ -139,28 +139,6 @@ class Obstacle(NamedTuple):
     restitution: float
 
 
-class Animation(Description):
-    """How an experiment looks when it is drawn: the Animation fields of the paper's Table 1."""
-
-    grid: bool = flag(default=True, doc="draw the grid")
-    show_initial_pose: bool = flag(default=True, doc="draw where the robots started")
-    show_real_shape: bool = flag(default=True, doc="draw robots to scale, else as points")
-    wake: bool = flag(default=True, doc="draw the paths behind the robots")
-    wake_style: str = entry(
-        default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"
-    )
-    playback_speed: float | str = entry(
-        default=1.0,
-        check=lambda name, value: playback_speed(name, value),
-        doc="1 is real time, 0 one step a key press, 'max' as fast as it goes",
-    )
-    base_colors: Sequence[str] = entry(
-        default=PALETTE,
-        check=lambda name, value: _colors(name, value),
-        doc="the robots' colours, cycled",
-    )
-
-
 def playback_speed(name: str, value: object) -> float | str:
     """Check a playback speed: a factor of real time, 0 for one step a key press, or "max"."""
     expected = "a factor of real time (1 is real time), 0 for one step a key press, or 'max'"
@@ -176,6 +154,28 @@ def _colors(name: str, value: object) -> tuple[str, ...]:
     if isinstance(value, str) or not isinstance(value, (list, tuple)) or not value:
         raise wrong(name, value, "a list of colours, as ['#0072b2', 'orange']")
     return tuple(color(f"{name}[{i}]", item) for i, item in enumerate(value))
+
+
+class Animation(Description):
+    """How an experiment looks when it is drawn: the Animation fields of the paper's Table 1."""
+
+    grid: bool = flag(default=True, doc="draw the grid")
+    show_initial_pose: bool = flag(default=True, doc="draw where the robots started")
+    show_real_shape: bool = flag(default=True, doc="draw robots to scale, else as points")
+    wake: bool = flag(default=True, doc="draw the paths behind the robots")
+    wake_style: str = entry(
+        default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"
+    )
+    playback_speed: float | str = entry(
+        default=1.0,
+        check=playback_speed,
+        doc="1 is real time, 0 one step a key press, 'max' as fast as it goes",
+    )
+    base_colors: Sequence[str] = entry(
+        default=PALETTE,
+        check=_colors,
+        doc="the robots' colours, cycled",
+    )
 
 
 def _robots(name: str, value: object) -> object:
@@ -215,7 +215,7 @@ class Scenario(Description):
     )  # fmt: skip
     on_exit: str = choice(
         default="stop", of=("stop", "wall", "ignore"),
-        doc="a robot at the workspace's edge: the experiment is over, a wall stands there, or nothing",
+        doc="at the workspace's edge: the experiment is over, a wall stands there, or nothing",
     )  # fmt: skip
     sampling_time: float = number(
         default=0.1, low=1e-6, high=1e4, unit="s", doc="time between commands"
@@ -281,7 +281,7 @@ class Scenario(Description):
             )
 
     def _check_starts(self) -> None:
-        """Refuse robots that start outside the workspace, inside an obstacle or inside each other."""
+        """Refuse robots that start outside the workspace, in an obstacle or in each other."""
         outlines = self.obstacles
         if self.workspace is not None and self.on_exit != "ignore":
             self._check_in_workspace(self.workspace)
@@ -378,7 +378,7 @@ class Scenario(Description):
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of the workspace, metres; without one, of robots and obstacles."""
+        """(xmin, xmax, ymin, ymax) of the workspace [m]; without one, of robots and obstacles."""
         if self.workspace is not None:
             return bounds_of(self.workspace)
         if isinstance(self.robots, int):

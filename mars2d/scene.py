@@ -130,7 +130,7 @@ Shape = Circle | Polygon | Line | Text
 
 @dataclass(slots=True)
 class Scene:
-    """A list of shapes, the first lying lowest. The methods take what is at hand and add a shape."""
+    """A list of shapes, the first lying lowest. Each method adds one."""
 
     shapes: list[Shape] = field(default_factory=list)
 

@@ -12,7 +12,7 @@ __all__ = ["check_seed", "stream"]
 
 
 def check_seed(seed: object) -> int:
-    """Return the seed as an int; raises InputError unless it is a whole number from 0 to 2**63 - 1."""
+    """Return the seed as an int. Raises InputError unless it is whole, 0 to 2**63 - 1."""
     expected = "a whole number from 0 to 2**63 - 1"
     if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)):
         raise wrong("seed", seed, expected)

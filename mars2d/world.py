@@ -139,7 +139,7 @@ class World:
 
     @property
     def pose(self) -> Float:
-        """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; each step makes it anew."""
+        """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; new at each step."""
         return self._pose
 
     @property
@@ -152,7 +152,7 @@ class World:
 
     @property
     def geometric_center(self) -> Float:
-        """The geometric centres (2, n): `Robot.center_offset` behind the centres of rotation [m]."""
+        """The geometric centres (2, n) [m]: `Robot.center_offset` behind those of rotation."""
         offset = np.array([robot.center_offset for robot in self.scenario.robots])
         x, y, theta = self._pose
         return np.array([x - offset * np.cos(theta), y - offset * np.sin(theta)])
@@ -164,7 +164,7 @@ class World:
 
     @property
     def contacts(self) -> NDArray[np.void]:
-        """The contacts since the last step, one row a pair; fields as in `mars2d.contact.CONTACT`."""
+        """The contacts since the last step, one row a pair, of dtype `mars2d.contact.CONTACT`."""
         return self._contacts
 
     @property

@@ -105,7 +105,7 @@ def test_every_outline_that_passes_is_a_simple_polygon(vertices):
 
 
 def test_one_outline_in_place_of_a_list_of_them_gets_a_hint():
-    with pytest.raises(InputError, match="one more pair of brackets"):
+    with pytest.raises(InputError, match=r"one more pair of brackets"):
         outlines("Map.outlines", SQUARE)
 
 
@@ -135,5 +135,5 @@ def test_a_list_may_be_any_iterable_and_is_kept_as_a_tuple():
     assert check("r", (Robot() for _ in range(2))) == (Robot(), Robot())
     assert check("r", []) == ()
     for value in [None, 3, "ab", [None], [Robot(), 1], {"a": Robot()}]:
-        with pytest.raises(InputError, match="^r"):
+        with pytest.raises(InputError, match=r"^r"):
             check("r", value)

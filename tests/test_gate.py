@@ -171,14 +171,15 @@ ROWS = {
         "Animation(playback_speed=huge)", "Animation(playback_speed=-1)",
         "Scenario(robots=[Robot(name='a'), Robot(name='a', pose=(1, 0, 0))])",
         "Robot(sensors=[Proximity(range=1), Proximity(range=2)])",
-        "World(None)", "World(Scenario)", "World(Scenario(), seed=-1)", "World(Scenario(), seed=1.5)",
-        "World(Scenario(), control=5)", "World(Scenario(), control=lambda: 0)",
+        "World(None)", "World(Scenario)", "World(Scenario(), seed=-1)",
+        "World(Scenario(), seed=1.5)", "World(Scenario(), control=5)", "World(Scenario(), control=lambda: 0)",
     ],
     "the commands of a robot's law": [
         *(f"own(lambda robot: {value})" for value in (
             "(nan, 0)", "(0, inf)", "(huge, 0)", "None", "()", "(1,)", "(1, 2, 3)", "5", "'12'",
-            "('1', '2')", "b'12'", "(1j, 0)", "(None, 0)", "{0.1, 0.2}", "{1: 2, 3: 4}", "(True, False)",
-            "[[1, 2]]", "np.zeros((2, 2))", "np.array(['a', 'b'])", "object()", "(x for x in (1, 2, 3)",
+            "('1', '2')", "b'12'", "(1j, 0)", "(None, 0)", "{0.1, 0.2}", "{1: 2, 3: 4}",
+            "(True, False)", "[[1, 2]]", "np.zeros((2, 2))", "np.array(['a', 'b'])", "object()",
+            "map(float, '12')",
         )),
         "own(lambda robot: 1 / 0)",
         "own(lambda robot: robot.pos)",
@@ -201,12 +202,6 @@ ROWS = {
     ],
 }  # fmt: skip
 """The rows of the table of what aborts, lies or hangs, with inputs that would do it."""
-
-ROWS["the commands of a robot's law"] = [
-    case.replace("(x for x in (1, 2, 3)", "(x for x in (1, 2))")
-    for case in ROWS["the commands of a robot's law"]
-]
-
 
 @pytest.mark.parametrize("flags", FLAGS, ids=["", "-O"])
 @pytest.mark.parametrize("row", ROWS)
@@ -341,8 +336,7 @@ def test_extreme_but_sound_inputs_run_and_stay_finite(child):
         "go(Robot(friction=1e3, restitution=1), commands=[[1], [1]])",
         "go(Robot(diameter=1e-3), commands=[[1], [1]])",
         "go(Robot(drive=Unicycle(max_force=1e-300, max_torque=1e-300)), commands=[[1], [1]])",
-        "go(Robot(drive=Unicycle(max_linear_speed=1000, wheel_semiaxis=0.1)), steps=1,"
-        " commands=[[1000], [0]])",
+        "go(Robot(drive=Unicycle(max_linear_speed=1000)), steps=1, commands=[[1000], [0]])",
         "go(Robot(), sampling_time=1e4, stop_time=1e5, steps=1, commands=[[0], [9]])",
         "go(Robot(pose=(1e6, -1e6, 1e6)), workspace=None, commands=[[1], [1]])",
         "go(sampling_time=1e-6, stop_time=1, commands=[[1], [1]])",

@@ -18,15 +18,42 @@ from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle, World
 
 PAGE = Path(__file__).parents[1] / "docs" / "from_mars.md"
 
-TABLE_1 = """
-    Robots Pose Initial_pose Sampling_time Iteration Time Stop_time Workspace Bounds Non-holonomic
-    Command_delay Geometric_center Exp_over Exp_over_msg Filename Version Addons Addons_suffix
-    Robot.Max_linear_speed Robot.Wheels_semiaxis_length Robot.Diameter
-    Robot.Distance_center_barycenter
-    Animation.Title Animation.Grid Animation.Show_initial_pose Animation.Show_real_shape
-    Animation.Wake Animation.Wake_style Animation.Playback_speed Animation.Base_colors
-    History.Time History.Pose History.Command History.Command_time
-""".split()
+TABLE_1 = [
+    "Robots",
+    "Pose",
+    "Initial_pose",
+    "Sampling_time",
+    "Iteration",
+    "Time",
+    "Stop_time",
+    "Workspace",
+    "Bounds",
+    "Non-holonomic",
+    "Command_delay",
+    "Geometric_center",
+    "Exp_over",
+    "Exp_over_msg",
+    "Filename",
+    "Version",
+    "Addons",
+    "Addons_suffix",
+    "Robot.Max_linear_speed",
+    "Robot.Wheels_semiaxis_length",
+    "Robot.Diameter",
+    "Robot.Distance_center_barycenter",
+    "Animation.Title",
+    "Animation.Grid",
+    "Animation.Show_initial_pose",
+    "Animation.Show_real_shape",
+    "Animation.Wake",
+    "Animation.Wake_style",
+    "Animation.Playback_speed",
+    "Animation.Base_colors",
+    "History.Time",
+    "History.Pose",
+    "History.Command",
+    "History.Command_time",
+]
 
 DESCRIPTIONS: dict[str, type] = {
     kind.__name__: kind for kind in (Scenario, Robot, Animation, Unicycle, Holonomic)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import inspect
 import pickle
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -116,7 +117,7 @@ def test_what_could_not_start_is_refused_with_the_reason(robots, fields, problem
         ([Robot(pose=(0.2, 1, 0), diameter=0.1)],
          {"addons": [Map([[(0, 0), (-1, 1), (1, 2), (0, 1)]])]}),
         # in a room that is drawn as walls
-        ([Robot()], {"addons": [Map([[a, b] for a, b in zip(SQUARE, SQUARE[1:], strict=False)])]}),
+        ([Robot()], {"addons": [Map([[a, b] for a, b in pairwise(SQUARE)])]}),
     ],
 )  # fmt: skip
 def test_what_can_start_is_accepted(robots, fields):
@@ -130,7 +131,7 @@ def test_thousands_of_robots_in_a_row_are_checked_quickly(axis):
     robots = [Robot(pose=(x, y, 0)) for x, y in places]
     assert len(Scenario(robots=robots, workspace=None).robots) == 2000
     robots[1500] = robots[1500].at(*(places[1499] + 0.1))
-    with pytest.raises(InputError, match="robot1499 .* robot1500"):
+    with pytest.raises(InputError, match=r"robot1499 .* robot1500"):
         Scenario(robots=robots, workspace=None)
 
 

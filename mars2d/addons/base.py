@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["HOOKS", "Addon"]
 
 HOOKS = ("on_start", "on_step", "on_draw", "on_stop")
-"""The hooks of an add-on, all of them: MARS's Addons_suffix Initialize, Loop and Plot, and the end."""
+"""All hooks of an add-on: MARS's Addons_suffix Initialize, Loop and Plot, and the end."""
 
 
 class Addon(Description):
@@ -72,7 +72,7 @@ class Addon(Description):
 
     def live(self, rng: np.random.Generator) -> Self:
         """Return the copy that one world works on, with its own random stream."""
-        twin = copy.copy(self)
+        twin = copy.deepcopy(self)
         twin.__dict__.update(_live=True, rng=rng)
         return twin
 

@@ -14,7 +14,7 @@ __all__ = ["Drive"]
 Float = NDArray[np.float64]
 
 ROUNDING = 1e-12
-"""By how much, relatively, a command may exceed its limit: what was saturated once stays as it is."""
+"""By how much, relatively, a command may exceed its limit: saturating twice changes nothing."""
 
 
 class Drive(Description):

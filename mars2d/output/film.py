@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.errors import InputError, MissingExtra
+from mars2d.errors import InputError, MissingExtraError
 from mars2d.frame import Frame
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def save_film(
     beside the time, as "10x". progress: called with the number of frames written so far. The file
     appears under its name when it is complete.
 
-    Raises InputError for another suffix or where it can't be written, MissingExtra when .mp4 is
+    Raises InputError for another suffix or where it can't be written, MissingExtraError when .mp4 is
     asked for and PyAV isn't installed.
     """
     target = Path(path)
@@ -236,7 +236,8 @@ def _matches(palette: Pixels) -> Pixels:
 
     codes = np.arange(1 << 18)
     channels = np.column_stack([codes >> 12, codes >> 6 & 63, codes & 63])
-    entries: Pixels = cKDTree(palette).query(4 * channels + 1.5)[1].astype(np.uint8)
+    nearest = cKDTree(palette).query(4 * channels + 1.5)[1]
+    entries = np.asarray(nearest, dtype=np.uint8)
     own = palette.astype(int) >> 2
     backwards = np.arange(len(palette))[::-1]  # of two with one code, the first
     entries[(own[:, 0] << 12 | own[:, 1] << 6 | own[:, 2])[backwards]] = backwards
@@ -274,7 +275,7 @@ def require_av(target: Path) -> None:
     try:
         import av  # noqa: F401
     except ImportError:
-        raise MissingExtra(
+        raise MissingExtraError(
             f'{target}: films in MP4 need PyAV: pip install "mars2d[video]"; a .gif needs nothing'
         ) from None
 

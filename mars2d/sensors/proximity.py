@@ -31,7 +31,7 @@ class Proximity(Sensor):
         default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about the heading"
     )
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> bool:
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> bool:  # noqa: ARG002
         """Return whether something is within range and field of view."""
         x, y, theta = robot.pose.tolist()
         me = robot.index

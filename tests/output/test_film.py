@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mars2d.errors import InputError, MissingExtra
+from mars2d.errors import InputError, MissingExtraError
 from mars2d.output.film import film_rows, save_film
 from tests.view.circling import Circling
 
@@ -104,7 +104,7 @@ def test_mp4_without_pyav_says_what_to_install(tmp_path, monkeypatch):
         return usual(name, *args, **kwargs)
 
     monkeypatch.setattr(builtins, "__import__", without_av)
-    with pytest.raises(MissingExtra) as told:
+    with pytest.raises(MissingExtraError) as told:
         save_film(frames(), tmp_path / "film.mp4")
     assert 'pip install "mars2d[video]"' in str(told.value)
     assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,296 @@
+"""Laws: functions or generators, of a robot or of the team, and what they may see."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Holonomic, LawError, Robot, Scenario, World
+from mars2d.sensors import Proximity, Sensor
+
+
+def team(*laws, **fields) -> Scenario:
+    robots = [Robot(pose=(0, i, 0), controller=law, **fields) for i, law in enumerate(laws)]
+    return Scenario(robots=robots, stop_time=0.5)
+
+
+def commands(scenario: Scenario, control=None) -> list:
+    return mars2d.run(scenario, control=control).command.tolist()
+
+
+# -- kinds of laws --------------------------------------------------------------------------
+
+
+def test_a_law_is_a_function_of_its_robot():
+    record = mars2d.run(team(lambda robot: (0.1, robot.index), lambda robot: (0.2, robot.index)))
+    assert record.command[0].tolist() == [[0.1, 0.2], [0, 1]]
+
+
+def test_a_law_can_be_a_generator_with_a_memory_of_its_own():
+    def steps(robot):
+        for speed in (0.1, 0.2, 0.3):
+            yield speed, 0
+        while True:
+            yield 0, robot.time
+
+    speeds = mars2d.run(team(steps)).command[:, :, 0]
+    assert speeds[:, 0] == pytest.approx([0.1, 0.2, 0.3, 0, 0, 0])
+    assert speeds[3:, 1] == pytest.approx([0.3, 0.4, 0.5])
+
+
+def test_when_a_generator_returns_its_robot_stands_still():
+    def brief(_robot):
+        yield 0.3, 0.1
+
+    record = mars2d.run(team(brief))
+    assert record.command[0, :, 0].tolist() == [0.3, 0.1]
+    assert not record.command[1:].any()
+    assert record.finished
+
+
+def test_when_a_teams_generator_returns_the_team_stands_still():
+    def brief(world):
+        yield np.full((2, 3), 0.1)
+        yield np.full((2, 3), 0.2)
+
+    record = mars2d.run(Scenario(robots=3, stop_time=0.5), control=brief)
+    assert record.command[:, 0, 0].tolist() == [0.1, 0.2, 0, 0, 0, 0]
+    assert not record.command[2:].any()
+
+
+def test_each_robot_runs_its_own_copy_of_a_generator():
+    def count(robot):
+        for k in range(9):
+            yield 0.01 * k * (robot.index + 1), 0
+
+    record = mars2d.run(team(count, count))
+    expected = np.array([[0, 0], [0.01, 0.02], [0.02, 0.04]])
+    assert record.command[:3, 0] == pytest.approx(expected)
+
+
+def test_a_law_can_be_any_callable():
+    class Cruise:
+        def __init__(self, speed):
+            self.speed = speed
+
+        def __call__(self, robot):
+            return self.speed, 0
+
+    assert mars2d.run(team(Cruise(0.25))).command[0, 0, 0] == 0.25
+
+
+def test_a_robots_own_law_overrides_its_column_of_the_teams():
+    scenario = Scenario(
+        robots=[Robot(), Robot(pose=(1, 0, 0), controller=lambda _robot: (0.3, 0.2))], stop_time=0
+    )
+    record = mars2d.run(scenario, control=lambda _world: [[0.1, 0.1], [0, 0]])
+    assert record.command[0].tolist() == [[0.1, 0.3], [0, 0.2]]
+
+
+def test_without_a_law_robots_stand_still():
+    record = mars2d.run(Scenario(robots=2, stop_time=1))
+    assert not record.command.any()
+
+
+@pytest.mark.parametrize(
+    "value",
+    [(0.2, 0.1), [0.2, 0.1], np.array([0.2, 0.1]), np.array([[0.2], [0.1]]),
+     (np.float64(0.2), np.float64(0.1))],
+)  # fmt: skip
+def test_a_robots_command_is_two_numbers_in_any_container(value):
+    assert mars2d.run(team(lambda _robot: value)).command[0].ravel().tolist() == [0.2, 0.1]
+
+
+def test_whole_numbers_are_numbers():
+    scenario = Scenario(robots=[Robot(drive=Holonomic(max_linear_speed=5))], stop_time=0)
+    assert commands(scenario, lambda _world: np.array([[1], [2]])) == [[[1], [2]]]
+
+
+def test_a_team_of_one_may_return_just_two_numbers():
+    assert commands(Scenario(stop_time=0), lambda _world: (0.2, 0.1)) == [[[0.2], [0.1]]]
+
+
+# -- messages -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        (None, "returned nothing: a law returns its command, as `return v, omega`"),
+        (0.2, r"returned 0.2: expected two numbers"),
+        ((1, 2, 3), r"returned \(1, 2, 3\): expected two numbers"),
+        ((float("nan"), 0), "a command must be finite"),
+        ("12", "returned '12': expected two numbers"),
+        (("0.2", "0.1"), "expected two numbers"),
+        ((10**400, 0), "expected two numbers"),
+        ((True, False), "expected two numbers"),
+        ((1j, 0), "expected two numbers"),
+        ({0.1, 0.2}, "expected two numbers"),
+    ],
+)
+def test_what_is_no_command_says_what_was_returned_and_by_which_law(value, message):
+    def wander(_robot):
+        return value
+
+    with pytest.raises(LawError, match=message) as raised:
+        mars2d.run(team(wander))
+    assert str(raised.value).startswith("test_control.py, line ")
+    assert "wander returned" in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        (None, "returned nothing: a law returns its command, an array"),
+        (np.zeros((3, 2)), r"shape \(3, 2\): .*shape \(2, 3\); transpose it"),
+        (np.zeros((2, 2)), r"shape \(2, 2\): expected two rows and a column for each robot"),
+        ([[0, np.inf, 0], [0, 0, 0]], "returned inf for robot 1"),
+        ([["a", "b", "c"]] * 2, "expected two rows"),
+        ([["1", "2", "3"]] * 2, "expected two rows"),
+        ([[1, 2, 3], [4]], "expected two rows"),
+        ([[10**400, 0, 0], [0, 0, 0]], "expected two rows"),
+        ([[1j, 0, 0], [0, 0, 0]], "expected two rows"),
+    ],
+)
+def test_what_is_no_command_of_the_team_says_so_as_well(value, message):
+    with pytest.raises(LawError, match=message) as raised:
+        mars2d.run(Scenario(robots=3), control=lambda _world: value)
+    assert str(raised.value).startswith("test_control.py, line ")
+
+
+def test_a_law_that_raises_is_shown_with_its_innermost_own_line():
+    def helper():
+        return np.linalg.inv(np.zeros((2, 2)))  # raises in numpy: this line counts
+
+    def law(_robot):
+        return helper()
+
+    with pytest.raises(LawError, match="law raised LinAlgError: Singular matrix") as raised:
+        mars2d.run(team(law))
+    line = helper.__code__.co_firstlineno + 1
+    assert raised.value.where == f"test_control.py, line {line}"
+    assert isinstance(raised.value.__cause__, np.linalg.LinAlgError)
+
+
+def test_a_generator_that_raises_is_shown_as_well():
+    def law(_robot):
+        yield 0, 0
+        raise RuntimeError("second")
+
+    with pytest.raises(LawError, match="law raised RuntimeError: second"):
+        mars2d.run(team(law))
+
+
+# -- what a law may see ---------------------------------------------------------------------
+
+
+def asking(question):
+    """A law that asks its robot something, and what it got."""
+    answers = []
+
+    def law(robot):
+        answers.append(question(robot))
+        return 0, 0
+
+    return law, answers
+
+
+def ask(question, *, sees="full", sensors=()):
+    law, answers = asking(question)
+    robots = [
+        Robot(pose=(1, 2, 3), controller=law, sees=sees, sensors=sensors, name="me"),
+        Robot(pose=(4, 3, 2), name="other"),
+    ]
+    mars2d.run(Scenario(robots=robots, stop_time=0))
+    return answers[0]
+
+
+def test_a_law_with_full_information_sees_poses_and_neighbours():
+    assert ask(lambda robot: robot.pose.tolist()) == [1, 2, 3]
+    assert ask(lambda robot: [(n.index, n.name, n.pose.tolist()) for n in robot.neighbours]) == [
+        (1, "other", [4, 3, 2])
+    ]
+    assert ask(lambda robot: (robot.index, robot.name, robot.time)) == (0, "me", 0.0)
+    assert ask(lambda robot: robot.command.tolist()) == [0, 0]
+    assert ask(lambda robot: len(robot.contacts)) == 0
+
+
+@pytest.mark.parametrize("what", ["pose", "neighbours"])
+def test_a_law_that_sees_sensors_only_may_see_neither_pose_nor_neighbours(what):
+    message = f"this law sees sensors only: robot.{what} is not available"
+    with pytest.raises(LawError, match=message) as raised:
+        ask(lambda robot: getattr(robot, what), sees="sensors")
+    assert "test_control.py, line" in str(raised.value)
+
+
+def test_a_law_that_sees_sensors_only_may_use_the_rest():
+    def question(robot):
+        assert robot.rng.random() < 1
+        robot.memory.x = 1
+        return robot.sense.proximity, robot.time, robot.index, robot.name, len(robot.contacts)
+
+    found = ask(question, sees="sensors", sensors=[Proximity(range=9)])
+    assert found == (True, 0.0, 0, "me", 0)
+
+
+def test_a_sensor_knows_the_pose_even_if_the_law_does_not():
+    class Compass(Sensor):
+        def read(self, robot, world, rng):
+            return robot.pose[2]
+
+    assert ask(lambda robot: robot.sense.compass, sees="sensors", sensors=[Compass()]) == 3
+
+
+@pytest.mark.parametrize(
+    ("question", "message"),
+    [
+        (lambda robot: robot.sense.proximty, "no sensor 'proximty'; did you mean 'proximity'?"),
+        (lambda robot: robot.sense.lidar, "no sensor 'lidar'; known: proximity"),
+        (lambda robot: robot.posee, "a robot has no 'posee'; did you mean 'pose'?"),
+        (lambda robot: robot.neighbors, "a robot has no 'neighbors'; did you mean 'neighbours'?"),
+        (lambda robot: robot.senses, "a robot has no 'senses'; did you mean 'sense'?"),
+        (lambda robot: robot.memory.lost, "no attribute 'lost'"),
+    ],
+)
+def test_a_typo_gives_the_nearest_name(question, message):
+    with pytest.raises(LawError) as raised:
+        ask(question, sensors=[Proximity(range=1)])
+    assert message in str(raised.value)
+
+
+def test_memory_is_kept_between_steps_and_belongs_to_one_robot():
+    def law(robot):
+        robot.memory.count = getattr(robot.memory, "count", 0) + 1
+        return 0.01 * robot.memory.count, 0
+
+    record = mars2d.run(team(law, law))
+    assert record.command[:, 0] == pytest.approx(0.01 * np.arange(1, 7)[:, None] * [1, 1])
+
+
+def test_the_last_command_is_the_one_issued_after_saturation():
+    seen = []
+
+    def law(robot):
+        seen.append(robot.command[0])
+        return 9, 0
+
+    mars2d.run(team(law))
+    assert seen == [0, 0.5, 0.5, 0.5, 0.5, 0.5]
+
+
+def test_the_law_of_the_team_finds_robots_and_addons_of_the_world():
+    class Flag(mars2d.Addon):
+        def on_start(self, world):
+            self.up = 7
+
+    seen = []
+
+    def control(world):
+        seen.append((len(world.robots), world.addons.flag.up, world.rng.random() < 1))
+        return np.zeros((2, 2))
+
+    mars2d.run(Scenario(robots=2, addons=[Flag()], stop_time=0), control=control)
+    assert seen == [(2, 7, True)]
+    with pytest.raises(LawError, match="no add-on 'flg'; did you mean 'flag'"):
+        World(Scenario(addons=[Flag()])).addons.flg  # noqa: B018
