@@ -162,7 +162,8 @@ class Encounter:
         )
         distance = length(between)
         self._gap = distance - self._radii_sum
-        self._normal: Complex = between / np.maximum(distance, TINY)
+        direction = between / np.maximum(distance, TINY)
+        self._normal = np.asarray(direction, dtype=np.complex128)
         self._touch = self._gap <= 0
         self.any_touch = bool(self._touch.any())
 

@@ -69,16 +69,23 @@ class ContactLog:
         for k, touching in enumerate(self._touching):
             mine = substep == k
             live[mine] = np.isin(key[mine], touching)
-        pairs, first, group = np.unique(key[live], return_index=True, return_inverse=True)
-        row = np.flatnonzero(live)[first]
+        impulse = values[:, 0:2] * sign
+        point = np.where(swap[:, None], values[:, 6:8], values[:, 4:6])
+        # The solver lists them in the order of addresses in memory: put them in one that is always
+        # the same, the strongest of a pair and substep first.
+        rows = np.flatnonzero(live)
+        strength = np.hypot(impulse[rows, 0], impulse[rows, 1])
+        x, y = point[rows].T
+        rows = rows[np.lexsort((y, x, -strength, key[rows], substep[rows]))]
+        pairs, first, group = np.unique(key[rows], return_index=True, return_inverse=True)
+        row = rows[first]
 
         result = np.zeros(len(pairs), dtype=CONTACT)
         result["time"] = np.array(self._times)[substep[row]]
         result["a"], result["b"] = a[row], b[row]
         result["normal"] = (values[:, 2:4] * sign)[row]
-        result["point"] = np.where(swap[:, None], values[:, 6:8], values[:, 4:6])[row]
-        impulse = (values[:, 0:2] * sign)[live]
-        total = [np.bincount(group.ravel(), impulse[:, k], len(pairs)) for k in (0, 1)]
+        result["point"] = point[row]
+        total = [np.bincount(group.ravel(), impulse[rows, k], len(pairs)) for k in (0, 1)]
         result["impulse"] = np.hypot(*total)
         result["began"] = ~np.isin(pairs, self._before)
         self._before = pairs

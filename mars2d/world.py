@@ -345,7 +345,7 @@ class World:
             time=self.time,
             iteration=self.iteration,
             pose=self._pose,
-            path=self.history.pose,
+            path=self.history.pose[: self.iteration],
             readings={k: list(zip(robots[k], v, strict=True)) for k, v in self._readings.items()},
             over_message=self.over_message,
             draw_addons=self._draw_addons,

@@ -38,7 +38,7 @@ def test_two_of_a_kind_need_names():
 
 
 @pytest.mark.parametrize(
-    ("hook", "meant"), [("on_setp", "on_step"), ("on_begin", ""), ("on_steps", "on_step")]
+    ("hook", "meant"), [("on_stepp", "on_step"), ("on_begin", ""), ("on_steps", "on_step")]
 )
 def test_an_unknown_hook_is_an_error_when_the_class_is_written(hook, meant):
     with pytest.raises(InputError, match=f"{hook} is no hook of an add-on.*{meant}"):

@@ -17,9 +17,7 @@ from mars2d.addons import Map
 from mars2d.sensors import Proximity
 
 def wander(robot):
-    if robot.sense.proximity:
-        return -0.3, robot.rng.normal()
-    return 0.4, robot.rng.normal()
+    return 0.5, robot.rng.normal() * (1 + robot.sense.proximity)
 
 robots = [
     Robot(pose=(x, y, x), controller=wander, drive=[Unicycle, Holonomic][(x + y) % 2](),
@@ -28,7 +26,7 @@ robots = [
 ]
 scenario = Scenario(
     robots=robots, workspace=[(-1, -1), (8, -1), (8, 7), (-1, 7)], on_exit="wall",
-    addons=[Map([[(2.5, 2.5), (3.5, 2.4), (3, 3.5)]])], stop_time=5, command_delay=0.03,
+    addons=[Map([[(2.3, 2.3), (2.7, 2.3), (2.5, 2.7)]])], stop_time=5, command_delay=0.03,
 )
 record = mars2d.run(scenario, seed=5)
 print(record.digest, record.collisions)

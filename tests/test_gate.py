@@ -172,7 +172,8 @@ ROWS = {
         "Scenario(robots=[Robot(name='a'), Robot(name='a', pose=(1, 0, 0))])",
         "Robot(sensors=[Proximity(range=1), Proximity(range=2)])",
         "World(None)", "World(Scenario)", "World(Scenario(), seed=-1)",
-        "World(Scenario(), seed=1.5)", "World(Scenario(), control=5)", "World(Scenario(), control=lambda: 0)",
+        "World(Scenario(), seed=1.5)", "World(Scenario(), control=5)",
+        "World(Scenario(), control=lambda: 0)",
     ],
     "the commands of a robot's law": [
         *(f"own(lambda robot: {value})" for value in (

@@ -416,12 +416,14 @@ def _paint_frame(ax: Axes, record: Record, row: int) -> None:
     scenario = record.scenario
     now = record.frame(row)
     _set_ticks(ax)  # again, now that the layout is known
-    # Trails end at the pose now: it is not to be there twice.
-    now = replace(now, path=now.path[:-1])
     few = len(scenario.robots) <= LEGEND_LIMIT
     radius = min(robot.radius for robot in scenario.robots) * _points_per_metre(ax)
     drawn = scenario.animation.show_real_shape
     scale = min(max(radius / 9, 0.1), 0.75) if drawn else 0.75 if few else 0.5
+    if now.draw_addons is not None:
+        added = Scene()
+        now.draw_addons(added)
+        paint(added, ax, scale=0.75)
     if scenario.animation.wake:
         trails = seen.trails(now)
         if not few:

@@ -198,7 +198,7 @@ def between(first: Frame, second: Frame, time: float) -> Frame:
         return second
     share = max(0.0, (time - first.time) / span)
     pose = first.pose + share * (second.pose - first.pose)
-    return replace(first, time=max(time, first.time), pose=pose)
+    return replace(first, time=max(time, first.time), pose=pose, path=second.path)
 
 
 def _times(factor: float) -> str:

@@ -105,13 +105,14 @@ def test_the_page_shows_white_in_a_start_and_colour_in_an_end(record):
     assert pixel(ax, (2.02, 3.5)) != "#b8c0c8", "a concave obstacle stays concave"
 
 
-def test_a_heading_points_from_the_centre_of_rotation_to_the_front():
+def test_a_heading_points_to_the_front_and_the_centre_of_rotation_is_marked():
     robot = Robot(pose=(1, 1, np.pi / 2), diameter=1.0, center_offset=0.2)
     scenario = Scenario(robots=[robot], stop_time=1)
     ax = mars2d.run(scenario, control=lambda world: [[0.0], [0.0]]).plot()
     heading = ax.lines[-1].get_xydata()
-    np.testing.assert_allclose(heading, [(1, 1), (1, 1.3)], atol=1e-12)
-    np.testing.assert_allclose(discs(ax)[-1].center, (1, 0.8))
+    np.testing.assert_allclose(heading, [(1, 0.8), (1, 1.3)], atol=1e-12)
+    np.testing.assert_allclose(discs(ax)[-2].center, (1, 0.8))
+    np.testing.assert_allclose(discs(ax)[-1].center, (1, 1))
 
 
 def test_axes_are_equal_labelled_and_titled(record):
@@ -493,3 +494,8 @@ def test_pixels_add_to_the_radius_on_the_page():
     scene.circle((70, 70), 20, fill="#000000", pixels=5)
     paint(scene, ax)
     assert ax.patches[0].get_radius() == pytest.approx(22.5)
+
+
+def test_what_an_addon_draws_is_in_the_figure():
+    lamps = [disc for disc in discs(mars2d.run("own_sensor_and_addon").plot()) if disc.radius == 0.3]
+    assert len(lamps) == 3

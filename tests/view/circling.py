@@ -43,7 +43,7 @@ class Circling:
             time=k * self.scenario.sampling_time,
             iteration=k,
             pose=self.path[k],
-            path=self.path[: k + 1],
+            path=self.path[:k],
             readings=readings,
             over_message=self.message if self.over else "",
         )

@@ -1,0 +1,360 @@
+"""Records: row k is the world at k sampling times; what is saved comes back to the last bit."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Addon, Holonomic, InputError, Record, Robot, Scenario, Sensor, World
+from mars2d.addons import Map
+from mars2d.contact import CONTACT
+from mars2d.sensors import Proximity
+
+
+class Beams(Sensor):
+    """Three readings that tell when and on whom they were taken."""
+
+    def read(self, robot, world, rng):
+        return np.array([world.time, robot.index, robot.pose[0]])
+
+
+def law(robot):
+    return 0.3, 0.1 * robot.index
+
+
+def scenario(**fields) -> Scenario:
+    robots = [
+        Robot(sensors=[Proximity(range=0.4), Beams()], controller=law),
+        Robot(pose=(1, 0, np.pi), drive=Holonomic()),
+        Robot(pose=(0, 2, 0), sensors=[Beams()], controller=law, name="last"),
+    ]
+    defaults = {"addons": [Map([[(0.5, -1), (0.5, 1)]])], "stop_time": 2, "command_delay": 0.05}
+    return Scenario(robots=robots, **(defaults | fields))
+
+
+@pytest.fixture
+def record() -> Record:
+    return mars2d.run(scenario(), seed=7)
+
+
+# -- columns --------------------------------------------------------------------------------
+
+
+def test_columns_have_time_first(record):
+    assert record.time.shape == (21,)
+    assert record.pose.shape == (21, 3, 3)
+    assert record.command.shape == (21, 2, 3)
+    assert record.command_time.shape == (21,)
+    assert record.sensors["proximity"].shape == (21, 1)
+    assert record.sensors["beams"].shape == (21, 2, 3)
+    assert record.sensor_robots == {"proximity": (0,), "beams": (0, 2)}
+    assert record.contacts.dtype == CONTACT
+    assert len(record) == 21
+
+
+def test_row_k_is_the_world_at_k_sampling_times_up_to_the_stop_time(record):
+    assert np.array_equal(record.time, np.arange(21) * 0.1)
+    assert record.pose[0].tolist() == record.scenario.initial_pose.tolist()
+    assert np.array_equal(record.sensors["beams"][:, 0, 0], record.time)
+    assert np.array_equal(record.sensors["beams"][:, 0, 2], record.pose[:, 0, 0])
+    assert record.sensors["beams"][:, :, 1].tolist() == [[0, 2]] * 21
+    assert np.array_equal(record.command_time, record.time + 0.05)
+
+
+def test_a_command_of_row_k_moves_the_robot_from_row_k_to_row_k_plus_1():
+    speeds = [0.1, 0.3, -0.2, 0.0, 0.4]
+    world = World(Scenario(robots=[Robot(drive=Holonomic())]))
+    for speed in speeds:
+        world.step([[speed], [0]])
+    record = world.record
+    assert record.command[:, 0, 0].tolist() == speeds
+    assert np.diff(record.pose[:, 0, 0]) == pytest.approx(0.1 * np.array(speeds[:-1]))
+
+
+def test_contacts_belong_to_the_interval_before_their_row(record):
+    assert len(record.contacts) > 5
+    assert np.all(np.diff(record.contacts["time"]) >= 0)
+    assert record.contacts["time"].min() > 1.0  # 0.35 m at 0.3 m/s, and the delay
+    assert record.collisions == int(record.contacts["began"].sum()) >= 1
+
+
+@pytest.mark.parametrize(("stop_time", "rows"), [(0, 1), (0.05, 1), (0.1, 2), (0.3, 4), (5, 51)])
+def test_a_record_has_a_row_for_every_sampling_time_up_to_the_stop_time(stop_time, rows):
+    assert len(mars2d.run(Scenario(stop_time=stop_time))) == rows
+
+
+def test_a_long_run_keeps_all_its_rows():
+    record = mars2d.run(Scenario(stop_time=10_000, sampling_time=1.0, robots=2))
+    assert len(record) == 10_001
+    assert np.array_equal(record.time, np.arange(10_001))
+
+
+def test_why_it_ended_is_kept(record):
+    assert record.over_message == "Time is over: 2 s"
+    assert record.finished
+    assert record.seed == 7
+    assert record.versions["mars2d"] == mars2d.__version__
+    assert {"pymunk", "numpy", "python", "platform"} <= set(record.versions)
+
+
+def test_its_columns_cannot_be_exchanged(record):
+    with pytest.raises(AttributeError):
+        record.pose = None
+
+
+# -- digest ---------------------------------------------------------------------------------
+
+
+def test_the_digest_depends_on_every_column(record):
+    digests = {record.digest}
+    for change in (
+        {"pose": record.pose + 1e-15},
+        {"command": record.command + 1e-15},
+        {"time": record.time + 1e-15},
+        {"command_time": record.command_time + 1},
+        {"over_message": "x"},
+        {"sensors": {**record.sensors, "beams": record.sensors["beams"] + 1e-9}},
+        {"sensors": {"proximity": record.sensors["proximity"]}},
+        {"contacts": record.contacts[:-1]},
+    ):
+        digests.add(_with(record, **change).digest)
+    assert len(digests) == 9
+    assert _with(record).digest == record.digest
+
+
+def _with(record: Record, **changes) -> Record:
+    kept = ("scenario", "seed", "time", "pose", "command", "command_time", "sensors",
+            "sensor_robots", "contacts", "over_message")  # fmt: skip
+    return Record(**({name: getattr(record, name) for name in kept} | changes))
+
+
+# -- frames ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("row", "same"), [(0, 0), (7, 7), (-1, 20), (-21, 0)])
+def test_a_frame_is_what_was_seen_at_a_row(record, row, same):
+    frame = record.frame(row)
+    assert frame.iteration == same
+    assert frame.time == record.time[same]
+    assert np.array_equal(frame.pose, record.pose[same])
+    assert np.array_equal(frame.path, record.pose[:same])
+    robot, values = frame.readings["beams"][1]
+    assert robot == 2
+    assert np.array_equal(values, record.sensors["beams"][same, 1])
+    assert bool(frame.over_message) is (same == 20)
+
+
+@pytest.mark.parametrize("row", [21, -22, 10**6])
+def test_there_is_no_frame_beyond_the_end(record, row):
+    with pytest.raises(IndexError):
+        record.frame(row)
+
+
+# -- files ----------------------------------------------------------------------------------
+
+
+def test_what_is_saved_comes_back_to_the_last_bit(record, tmp_path):
+    path = record.save(tmp_path / "run.npz")
+    again = mars2d.load(path)
+    assert again.digest == record.digest
+    for name in ("time", "pose", "command", "command_time", "contacts"):
+        assert np.array_equal(getattr(again, name), getattr(record, name))
+    for name, values in record.sensors.items():
+        assert np.array_equal(again.sensors[name], values)
+        assert again.sensors[name].dtype == values.dtype
+    for name in ("seed", "over_message", "finished", "filename", "versions", "sensor_robots"):
+        assert getattr(again, name) == getattr(record, name)
+    assert mars2d.load(again.save(tmp_path / "twice.npz")).digest == record.digest
+
+
+def test_the_scenario_comes_back_without_its_laws_and_own_parts(record, tmp_path):
+    again = mars2d.load(record.save(tmp_path / "run.npz")).scenario
+    assert again.obstacles == record.scenario.obstacles
+    assert again.bounds == record.scenario.bounds
+    assert [r.pose for r in again.robots] == [r.pose for r in record.scenario.robots]
+    assert [r.name for r in again.robots] == ["robot0", "robot1", "last"]
+    assert [type(r.drive) for r in again.robots] == [type(r.drive) for r in record.scenario.robots]
+    assert [len(r.sensors) for r in again.robots] == [1, 0, 0]  # Beams is not known here
+    assert all(r.controller is None for r in again.robots)
+    assert (again.stop_time, again.command_delay) == (2, 0.05)
+
+
+def test_the_obstacles_of_an_own_addon_come_back(tmp_path):
+    class Room(Addon):
+        def obstacles(self):
+            return [[(1, 1), (2, 1)], [(3, 3), (4, 3), (4, 4)]]
+
+    run = mars2d.run(Scenario(addons=[Room(name="room")], stop_time=0))
+    again = mars2d.load(run.save(tmp_path / "run.npz"))
+    assert again.scenario.obstacles == run.scenario.obstacles
+
+
+def test_the_record_so_far_of_a_world_can_be_saved(tmp_path):
+    world = World(scenario())
+    empty = mars2d.load(world.record.save(tmp_path / "empty.npz"))
+    assert len(empty) == 0
+    world.step()
+    assert len(mars2d.load(world.record.save(tmp_path / "one.npz"))) == 1
+
+
+@pytest.mark.parametrize("name", ["run", "run.npy", "run.mat.txt", "run.pkl"])
+def test_a_record_is_saved_as_npz(record, tmp_path, name):
+    with pytest.raises(InputError, match=r"saved as .npz"):
+        record.save(tmp_path / name)
+    assert not (tmp_path / name).exists()
+
+
+def test_where_nothing_can_be_written_it_says_so(record, tmp_path):
+    with pytest.raises(InputError, match="can't be written: No such file or directory"):
+        record.save(tmp_path / "missing" / "run.npz")
+
+
+def refused(path, message: str = "") -> None:
+    with pytest.raises(InputError, match=message or None) as raised:
+        mars2d.load(path)
+    assert str(path) in str(raised.value)
+
+
+def test_a_missing_file_and_a_folder_are_refused(tmp_path):
+    refused(tmp_path / "none.npz", "can't be read: No such file")
+    refused(tmp_path, "can't be read")
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"hello", b"PK\x03\x04", b"\x93NUMPY", b"\x80\x04K\x01.", bytes(1000)]
+)
+def test_a_foreign_file_is_refused(tmp_path, content):
+    path = tmp_path / "foreign.npz"
+    path.write_bytes(content)
+    refused(path, "not a record of MARS2D, or damaged")
+
+
+def test_other_numpy_files_are_refused(tmp_path):
+    np.save(tmp_path / "array.npy", np.zeros(3))
+    refused(tmp_path / "array.npy", "not a record")
+    np.savez(tmp_path / "arrays.npz", a=np.zeros(3))
+    refused(tmp_path / "arrays.npz", "not a record")
+    np.savez(tmp_path / "odd.npz", header=np.zeros(3))
+    refused(tmp_path / "odd.npz", "not a record")
+
+
+def test_pickled_objects_are_never_loaded(record, tmp_path):
+    class Trap:
+        def __reduce__(self):
+            return pytest.fail, ("it was unpickled",)
+
+    path = tmp_path / "trap.npz"
+    np.savez(path, header=np.array([Trap()], dtype=object))
+    refused(path, "not a record")
+    good = record.save(tmp_path / "good.npz")
+    _rewrite(good, path, {"sensor:beams.npy": _npy(np.array([Trap()], dtype=object))})
+    refused(path, "not a record")
+
+
+def _npy(array: np.ndarray) -> bytes:
+    buffer = io.BytesIO()
+    np.lib.format.write_array(buffer, array, allow_pickle=True)
+    return buffer.getvalue()
+
+
+def _rewrite(source, target, changes: dict[str, bytes | None]) -> None:
+    """Copy a file with some of its parts exchanged, or left out."""
+    with zipfile.ZipFile(source) as old, zipfile.ZipFile(target, "w") as new:
+        for name in {*old.namelist(), *changes}:
+            content = changes.get(name, old.read(name) if name in old.namelist() else None)
+            if content is not None:
+                new.writestr(name, content)
+
+
+def test_a_truncated_file_is_refused(record, tmp_path):
+    whole = record.save(tmp_path / "whole.npz").read_bytes()
+    path = tmp_path / "cut.npz"
+    for size in (1, 30, len(whole) // 2, len(whole) - 30, len(whole) - 1):
+        path.write_bytes(whole[:size])
+        refused(path)
+
+
+def test_a_file_with_a_flipped_bit_is_refused_or_unharmed(record, tmp_path):
+    whole = bytearray(record.save(tmp_path / "whole.npz").read_bytes())
+    path = tmp_path / "flipped.npz"
+    rng = np.random.default_rng(0)
+    harmless = 0
+    places = rng.choice(len(whole), 400, replace=False)
+    for place in places:
+        damaged = bytearray(whole)
+        damaged[place] ^= 1 << int(rng.integers(8))
+        path.write_bytes(damaged)
+        try:
+            assert mars2d.load(path).digest == record.digest
+            harmless += 1
+        except InputError as error:
+            assert str(path) in str(error)  # noqa: PT017 - both outcomes are right
+    assert harmless < len(places)
+
+
+@pytest.mark.parametrize(
+    "part", ["pose.npy", "time.npy", "header.npy", "contact:time.npy", "sensor:beams.npy"]
+)
+def test_a_file_without_a_part_is_refused(record, tmp_path, part):
+    _rewrite(record.save(tmp_path / "good.npz"), tmp_path / "bad.npz", {part: None})
+    refused(tmp_path / "bad.npz", "damaged")
+
+
+def test_a_file_whose_columns_were_changed_is_refused(record, tmp_path):
+    good = record.save(tmp_path / "good.npz")
+    _rewrite(good, tmp_path / "bad.npz", {"pose.npy": _npy(record.pose + 1e-12)})
+    refused(tmp_path / "bad.npz", "do not have the digest that it states")
+    _rewrite(good, tmp_path / "bad.npz", {"contact:a.npy": _npy(np.zeros((3, 3)))})
+    refused(tmp_path / "bad.npz", "damaged")
+
+
+def _header(path) -> dict:
+    with np.load(path) as data:
+        return json.loads(data["header"].tobytes())
+
+
+def _encoded(header) -> bytes:
+    return _npy(np.frombuffer(json.dumps(header).encode(), dtype=np.uint8))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"format": "1"}, {"format": None}, {"scenario": None}, {"scenario": {"type": "Robot"}},
+        {"scenario": {"type": ["x"]}}, {"scenario": {"type": "Scenario", "robts": 3}},
+        {"sensor_robots": []}, {"sensor_robots": {"beams": 3}}, {"digest": "0"},
+        {"over_message": 5}, {"versions": None},
+    ],
+)  # fmt: skip
+def test_a_header_that_makes_no_sense_is_refused(record, tmp_path, change):
+    good = record.save(tmp_path / "good.npz")
+    _rewrite(good, tmp_path / "bad.npz", {"header.npy": _encoded(_header(good) | change)})
+    refused(tmp_path / "bad.npz")
+
+
+@pytest.mark.parametrize("key", ["format", "scenario", "seed", "digest", "finished"])
+def test_a_header_without_an_entry_is_refused(record, tmp_path, key):
+    good = record.save(tmp_path / "good.npz")
+    header = _header(good)
+    del header[key]
+    _rewrite(good, tmp_path / "bad.npz", {"header.npy": _encoded(header)})
+    refused(tmp_path / "bad.npz", "damaged")
+
+
+@pytest.mark.parametrize("header", [[], 5, None, "x"])
+def test_a_header_of_another_kind_is_refused(record, tmp_path, header):
+    good = record.save(tmp_path / "good.npz")
+    _rewrite(good, tmp_path / "bad.npz", {"header.npy": _encoded(header)})
+    refused(tmp_path / "bad.npz", "damaged")
+
+
+def test_a_file_of_a_newer_version_says_so(record, tmp_path):
+    good = record.save(tmp_path / "good.npz")
+    header = _header(good) | {"format": 99, "versions": {"mars2d": "9.9"}}
+    _rewrite(good, tmp_path / "new.npz", {"header.npy": _encoded(header)})
+    refused(tmp_path / "new.npz", r"written by a newer version of MARS2D, 9.9")
