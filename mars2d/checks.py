@@ -117,7 +117,8 @@ def instance(kind: type, example: str) -> Check:
                 f"{name} = {value.__name__}: expected an object; write {value.__name__}(...)"
             )
         if not isinstance(value, kind):
-            raise wrong(name, value, f"a {kind.__name__}, as {example}")
+            article = "an" if kind.__name__[0] in "AEIOU" else "a"
+            raise wrong(name, value, f"{article} {kind.__name__}, as {example}")
         return value
 
     return check

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from mars2d import __version__
-from mars2d.errors import InputError, Mars2dError, nearest
+from mars2d.errors import InputError, Mars2dError, counted, nearest
 from mars2d.files import Experiment, examples, open_experiment, parse_setting
 from mars2d.loop import Interrupted, Watcher, simulate
 from mars2d.progress import Progress
@@ -69,7 +69,7 @@ def demo(arguments: argparse.Namespace) -> int:
     _make_folder(folder)
     picture, film = folder / f"{arguments.name}.png", folder / f"{arguments.name}.gif"
     footage = _footage(experiment, experiment.scenario.stop_time / DEMO_FILM_SECONDS)
-    record, last = _simulate(experiment, arguments.seed, "max", [footage])
+    record, last = _simulate(experiment, arguments.seed, [footage])
     _save_figure(record, picture, None)
     print(f"picture: {picture}", flush=True)
     _save_film(footage, last, film, DEMO_FILM_SIZE)
@@ -85,15 +85,16 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.stop_time is not None:
         options["stop_time"] = arguments.stop_time
     experiment = open_experiment(arguments.experiment, options)
-    speed = arguments.speed
+    _check_times(arguments, experiment)
     start = time.perf_counter()
     try:
         if _wants_window(arguments):
+            speed = arguments.speed
             pace = experiment.scenario.animation.playback_speed if speed is None else speed
             record = _show(experiment, pace, arguments.seed)
             _save(arguments, record)
         else:
-            record = _run_headless(arguments, experiment, "max" if speed is None else speed)
+            record = _run_headless(arguments, experiment)
     except (Mars2dError, Interrupted) as error:
         # What was recorded until then is kept.
         if error.record is not None and len(error.record):
@@ -144,7 +145,7 @@ def check(arguments: argparse.Namespace) -> int:
     trial = experiment.scenario.replace(
         stop_time=min(10 * sampling_time, experiment.scenario.stop_time)
     )
-    record, _ = _simulate(Experiment(trial, experiment.control, experiment.filename), 0, "max", [])
+    record, _ = _simulate(Experiment(trial, experiment.control, experiment.filename), 0, [])
     print(f"sound: {len(record)} control steps done")
     return OK
 
@@ -216,24 +217,21 @@ def _show(experiment: Experiment, speed: float | str, seed: int) -> Record:
     return show_experiment(experiment, speed, seed)
 
 
-def _run_headless(
-    arguments: argparse.Namespace, experiment: Experiment, speed: float | str
-) -> Record:
+def _run_headless(arguments: argparse.Namespace, experiment: Experiment) -> Record:
+    """Run as quick as can be: without a window, a speed is that of the film."""
     watchers: list[Watcher] = []
     footage = None
     if arguments.video is not None:
         footage = _footage(experiment, _film_speed(experiment, arguments.speed))
         watchers.append(footage)
-    record, last = _simulate(experiment, arguments.seed, speed, watchers)
+    record, last = _simulate(experiment, arguments.seed, watchers)
     _save(arguments, record, video=False)
     if footage is not None:
         _save_film(footage, last, arguments.video)
     return record
 
 
-def _simulate(
-    experiment: Experiment, seed: int, speed: float | str, watchers: list[Watcher]
-) -> tuple[Record, Any]:
+def _simulate(experiment: Experiment, seed: int, watchers: list[Watcher]) -> tuple[Record, Any]:
     """Run without a window, with a progress bar; return the record and the last frame."""
     progress = Progress(experiment.scenario.last_iteration)
     last: list[Any] = []
@@ -242,7 +240,7 @@ def _simulate(
         last[:] = [world]
 
     try:
-        record = simulate(experiment, seed, speed, [*watchers, progress, keep])
+        record = simulate(experiment, seed, watchers=[*watchers, progress, keep])
     finally:
         progress.close()
     return record, last[0].frame
@@ -313,6 +311,13 @@ def _check_outputs(arguments: argparse.Namespace) -> None:
         raise InputError("--at needs --figure OUT")
 
 
+def _check_times(arguments: argparse.Namespace, experiment: Experiment) -> None:
+    last = experiment.scenario.stop_time
+    for moment in arguments.at or ():
+        if not 0 <= moment <= last:
+            raise InputError(f"--at {moment:g}: the experiment goes from 0 to {last:g} s")
+
+
 def _make_folder(folder: Path) -> None:
     try:
         folder.mkdir(exist_ok=True)
@@ -321,10 +326,9 @@ def _make_folder(folder: Path) -> None:
 
 
 def _outcome(record: Record) -> str:
-    return (
-        f"{record.scenario.title}: {record.over_message}. {_ticks(record)} steps, "
-        f"{record.collisions} collisions, digest {record.digest[:16]}"
-    )
+    done = f"{counted(_ticks(record), 'step')}, {counted(record.collisions, 'collision')}"
+    message = f"{record.scenario.title}: {record.over_message}"
+    return f"{message}. {done}, digest {record.digest[:16]}"
 
 
 def _ticks(record: Record) -> int:
@@ -479,7 +483,10 @@ def _add_common(sub: argparse.ArgumentParser) -> None:
 
 def _add_speed(sub: argparse.ArgumentParser) -> None:
     sub.add_argument(
-        "--speed", type=_speed, metavar="X", help="1 is real time, 0 one step a key press, max"
+        "--speed",
+        type=_speed,
+        metavar="X",
+        help="of window or film: 1 is real time, 0 one step a key press, max",
     )
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.errors import LawError, described, nearest, shown
+from mars2d.errors import LawError, UnknownNameError, described, nearest, shown
 
 if TYPE_CHECKING:
     from mars2d.world import World
@@ -29,7 +29,7 @@ class Sense(SimpleNamespace):
     """The readings of one robot's sensors now, as attributes: ``robot.sense.proximity``."""
 
     def __getattr__(self, name: str) -> NoReturn:
-        raise LawError(f"this robot has no sensor {name!r}{nearest(name, vars(self))}")
+        raise UnknownNameError(f"this robot has no sensor {name!r}{nearest(name, vars(self))}")
 
 
 class Neighbour:
@@ -67,7 +67,7 @@ class RobotView:
 
     def __getattr__(self, name: str) -> NoReturn:
         known = [item for item in dir(type(self)) if not item.startswith("_")]
-        raise LawError(
+        raise UnknownNameError(
             f"a robot has no {name!r}{nearest(name, [*known, 'index', 'sense', 'memory'])}"
         )
 
@@ -145,7 +145,7 @@ class Law:
 
     def command(self) -> Any:
         """Return what the law commands now, unchecked. Raises LawError where the law raises."""
-        with called(self.name):
+        with called(self.name, self._function):
             if self._running is None:
                 result = self._function(self._subject)
                 if not inspect.isgenerator(result):
@@ -156,17 +156,16 @@ class Law:
     def refuse(self, message: str) -> NoReturn:
         """Raise the error that the law's command can't be used; it points at the law."""
         error = LawError(f"{self.name} {message}")
-        code = getattr(inspect.unwrap(self._function), "__code__", None)
-        if code is not None:
-            error.where = _place(code.co_filename, code.co_firstlineno)
+        error.where = _definition(self._function)
         raise error
 
 
 class called:  # noqa: N801 - used like a function, as contextlib's are
     """Run the user's code so that what it raises becomes a LawError with its file and line."""
 
-    def __init__(self, name: str) -> None:
-        self._name = name
+    def __init__(self, name: str, function: Callable[..., Any]) -> None:
+        """Take what is called, and by which name messages call it."""
+        self._name, self._function = name, function
 
     def __enter__(self) -> None:
         pass
@@ -179,7 +178,7 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
     ) -> None:
         if error is None or not isinstance(error, (Exception, SystemExit)):
             return  # nothing, or Ctrl-C
-        where = _users_line(tb)
+        where = _users_line(tb) or _definition(self._function)
         if isinstance(error, LawError):
             error.where = error.where or where
             return
@@ -199,6 +198,12 @@ def _is_users(path: Path) -> bool:
         return True
     ours = path.is_relative_to(_PACKAGE)
     return not (ours or "site-packages" in path.parts or str(path).startswith("<"))
+
+
+def _definition(function: Callable[..., Any]) -> str | None:
+    """Return where a function is defined, if it is Python's."""
+    code = getattr(inspect.unwrap(function), "__code__", None)
+    return None if code is None else _place(code.co_filename, code.co_firstlineno)
 
 
 def _place(filename: str, line: int) -> str:

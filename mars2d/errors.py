@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from mars2d.record import Record
 
-__all__ = ["InputError", "LawError", "Mars2dError", "MissingExtraError", "nearest"]
+__all__ = [
+    "InputError",
+    "LawError",
+    "Mars2dError",
+    "MissingExtraError",
+    "UnknownNameError",
+    "nearest",
+]
 
 
 class Mars2dError(Exception):
@@ -34,6 +41,10 @@ class InputError(Mars2dError, ValueError):
 
 class LawError(InputError):
     """A control law, sensor or add-on of the user's raised, or returned what can't be used."""
+
+
+class UnknownNameError(LawError, AttributeError):
+    """A law asked for something that is not there."""
 
 
 class MissingExtraError(InputError):
@@ -74,6 +85,11 @@ def described(error: BaseException) -> str:
         return text
     hint = nearest(error.name, known)
     return text + hint if hint.startswith("; did") else text
+
+
+def counted(count: int, thing: str) -> str:
+    """Return a number with its noun, as ``1 robot`` or ``2 robots``."""
+    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
 
 
 def shown(value: Any, limit: int = 60) -> str:

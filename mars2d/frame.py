@@ -35,8 +35,9 @@ TRAIL_WIDTH = 1.6
 class Frame:
     """What is seen at one instant.
 
-    pose: (3, n) now. path: (k, 3, n), the poses at all sampling times before, from the start on. readings: for each sensor's name the pairs (robot index, reading). draw_addons: adds
-    the add-ons' shapes to a scene, where they are alive.
+    pose: (3, n) now. path: (k, 3, n), the poses at all sampling times before, from the start on.
+    readings: for each sensor's name the pairs (robot index, reading). draw_addons: adds the
+    add-ons' shapes to a scene, where they are alive.
     """
 
     scenario: Scenario

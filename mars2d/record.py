@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mars2d import plain
 from mars2d.contact import CONTACT
-from mars2d.errors import InputError
+from mars2d.errors import InputError, counted
 from mars2d.frame import Frame
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
@@ -62,7 +62,7 @@ class Record:
         return len(self.time)
 
     def __repr__(self) -> str:
-        size = f"{len(self)} rows, {len(self.scenario.robots)} robots"
+        size = f"{counted(len(self), 'row')}, {counted(len(self.scenario.robots), 'robot')}"
         return f"<Record of {self.scenario.title!r}: {size}, {self.over_message!r}>"
 
     @cached_property

@@ -17,7 +17,7 @@ from mars2d.control import Law, RobotView, Sense, SensorsOnlyView, called, comma
 from mars2d.delay import DelayLine
 from mars2d.description import wrong
 from mars2d.engine import Engine
-from mars2d.errors import InputError, LawError, nearest, shown
+from mars2d.errors import InputError, LawError, UnknownNameError, nearest, shown
 from mars2d.frame import Frame
 from mars2d.geometry import Outline, inside_polygon
 from mars2d.record import Record
@@ -39,7 +39,7 @@ class Addons(SimpleNamespace):
     """The add-ons of a world by name: ``world.addons.map``."""
 
     def __getattr__(self, name: str) -> NoReturn:
-        raise LawError(f"this world has no add-on {name!r}{nearest(name, vars(self))}")
+        raise UnknownNameError(f"this world has no add-on {name!r}{nearest(name, vars(self))}")
 
 
 class World:
@@ -255,7 +255,7 @@ class World:
             return
         readings: dict[str, list[Any]] = {key: [] for key in self._recorder.sensor_robots}
         for sensor, view, rng, sense in self._sensors:
-            with called(f"sensor {sensor.key!r}"):
+            with called(f"sensor {sensor.key!r}", sensor.read):
                 reading = sensor.read(view, self, rng)
             if isinstance(reading, np.ndarray):
                 reading = _frozen(reading.copy())  # a law can't change what is recorded
@@ -266,7 +266,7 @@ class World:
 
     def _call(self, hook: str, *args: Any) -> None:
         for key, method in self._hooks[hook]:
-            with called(f"add-on {key!r}"):
+            with called(f"add-on {key!r}", method):
                 method(*args)
 
     def _ask_laws(self) -> Float:
@@ -281,7 +281,7 @@ class World:
     def _saturate(self, command: Float) -> Float:
         """Limit the commands (2, n) to what each robot's drive can do."""
         for drive, columns in self._teams:
-            with called(f"drive {type(drive).__name__}"):
+            with called(f"drive {type(drive).__name__}", drive.saturate):
                 command[:, columns] = drive.saturate(command[:, columns])
         return command
 
@@ -289,7 +289,7 @@ class World:
         """Return the twists (3, n) that the drives make of commands (2, n)."""
         twist = np.empty((3, command.shape[1]))
         for drive, columns in self._teams:
-            with called(f"drive {type(drive).__name__}"):
+            with called(f"drive {type(drive).__name__}", drive.twist):
                 twist[:, columns] = drive.twist(command[:, columns])
         if not (np.abs(twist) <= FASTEST).all():  # neither for NaN
             raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {FASTEST:g}")

@@ -90,9 +90,7 @@ def test_pressing_against_a_wall_gives_the_impulse_force_times_time(force, sampl
 
 
 def test_an_impact_gives_the_impulse_mass_times_speed():
-    world = world_of(
-        Robot(mass=2.0, drive=Unicycle(max_force=1e-6)), addons=[Map([wall_at(0.3)])]
-    )
+    world = world_of(Robot(mass=2.0, drive=Unicycle(max_force=1e-6)), addons=[Map([wall_at(0.3)])])
     contacts = drive(world, [[0.4], [0]], 10)
     assert contacts["impulse"].sum() == pytest.approx(2.0 * 0.4, rel=1e-3)
 
@@ -202,3 +200,20 @@ def test_a_log_turns_pairs_round_and_leaves_out_those_that_do_not_touch():
     assert [(int(r["a"]), int(r["b"])) for r in rows] == [(1, 2)]
     assert rows["normal"][0].tolist() == [-1, 0]
     assert rows["point"][0].tolist() == [0.3, 0.4]
+
+
+def test_the_order_in_which_the_solver_lists_contacts_does_not_matter():
+    # It depends on addresses in memory. Two edges of one obstacle touch the same robot.
+    rng = np.random.default_rng(0)
+    listed = [np.array([0.1, 0.3, *rng.normal(size=6)]), np.array([7.0, 0.2, *rng.normal(size=6)]),
+              np.array([0.7, 0.1, *rng.normal(size=6)])]  # fmt: skip
+    none = np.empty(0, dtype=np.int64)
+    results = []
+    for order in ([0, 1, 2], [2, 1, 0], [1, 2, 0]):
+        log = ContactLog(np.array([0]))
+        values = np.array([listed[k] for k in order])
+        log.add(0.5, np.full((3, 2), [0, -1]), values, (none, none, np.array([0]), np.array([0])))
+        results.append(log.take().tobytes())
+    assert len(set(results)) == 1
+    row = np.frombuffer(results[0], dtype=CONTACT)[0]
+    assert row["normal"].tolist() == listed[1][2:4].tolist()  # that of the strongest

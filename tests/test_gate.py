@@ -52,7 +52,7 @@ def outcomes(child, cases: list[str], flags: tuple[str, ...] = (), definitions: 
     """Return what became of each case; ends with the case at which the process died, if it did."""
     code = (
         PRELUDE + definitions + f"\nfor case in {cases!r}:\n"
-        "    print(json.dumps([case, attempt(case)]), flush=True)\nprint('[\"end\", \"\"]')"
+        '    print(json.dumps([case, attempt(case)]), flush=True)\nprint(\'["end", ""]\')'
     )
     result = child(code, *flags, timeout=50)
     found = dict(json.loads(line) for line in result.stdout.splitlines())
@@ -203,6 +203,7 @@ ROWS = {
     ],
 }  # fmt: skip
 """The rows of the table of what aborts, lies or hangs, with inputs that would do it."""
+
 
 @pytest.mark.parametrize("flags", FLAGS, ids=["", "-O"])
 @pytest.mark.parametrize("row", ROWS)

@@ -14,8 +14,8 @@ __all__ = ["Holonomic"]
 class Holonomic(Drive):
     """Moves in any direction and keeps its heading, commanded by (vx, vy) [m/s].
 
-    x' = vx, y' = vy, in the world's frame. `max_linear_speed` bounds the length of (vx, vy), keeping
-    its direction.
+    x' = vx, y' = vy, in the world's frame. `max_linear_speed` bounds the length of (vx, vy) and
+    keeps its direction.
     """
 
     command_names: ClassVar[tuple[str, str]] = ("vx [m/s]", "vy [m/s]")

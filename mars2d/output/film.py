@@ -67,8 +67,8 @@ def save_film(
     beside the time, as "10x". progress: called with the number of frames written so far. The file
     appears under its name when it is complete.
 
-    Raises InputError for another suffix or where it can't be written, MissingExtraError when .mp4 is
-    asked for and PyAV isn't installed.
+    Raises InputError for another suffix or where it can't be written, MissingExtraError when .mp4
+    is asked for and PyAV isn't installed.
     """
     target = Path(path)
     suffix = target.suffix.lower()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Protocol
 
 from mars2d.errors import Mars2dError
@@ -66,8 +67,11 @@ class Live:
 
     @property
     def record(self) -> Record:
-        """The record so far."""
-        return self._world.record
+        """The record so far; where it is not over, it says that the window was closed."""
+        record = self._world.record
+        if self._world.over:
+            return record
+        return replace(record, over_message=f"The window was closed at {self._world.time:g} s")
 
     def advance(self) -> None:
         """Do one control step. A Mars2dError ends the experiment and carries its record."""

@@ -497,5 +497,6 @@ def test_pixels_add_to_the_radius_on_the_page():
 
 
 def test_what_an_addon_draws_is_in_the_figure():
-    lamps = [disc for disc in discs(mars2d.run("own_sensor_and_addon").plot()) if disc.radius == 0.3]
+    ax = mars2d.run("own_sensor_and_addon").plot()
+    lamps = [disc for disc in discs(ax) if disc.radius == 0.3]
     assert len(lamps) == 3
