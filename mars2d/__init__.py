@@ -9,10 +9,12 @@
 from __future__ import annotations
 
 from mars2d.addons import Addon
+from mars2d.animation import Animation
 from mars2d.bodies import Drive, Holonomic, Unicycle
 from mars2d.errors import InputError, LawError, Mars2dError
 from mars2d.record import Record, load
-from mars2d.scenario import Animation, Robot, Scenario
+from mars2d.robot import Robot
+from mars2d.scenario import Scenario
 from mars2d.sensors import Sensor
 from mars2d.session import run
 from mars2d.world import World

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from itertools import pairwise
 from typing import Any
@@ -12,7 +13,7 @@ from mars2d.description import Check, real, wrong
 from mars2d.errors import InputError, shown
 from mars2d.geometry import Outline, Point
 
-__all__ = ["LIMIT", "instance", "listing", "outline", "outlines", "point", "pose"]
+__all__ = ["LIMIT", "instance", "listing", "outline", "outlines", "point", "pose", "unique"]
 
 LIMIT = 1e6
 """Coordinates go up to this far, metres: beyond it a double can't hold a nanometre."""
@@ -135,3 +136,10 @@ def listing(kind: type, example: str) -> Check:
         return tuple(each(f"{name}[{i}]", item) for i, item in enumerate(items))
 
     return check
+
+
+def unique(name: str, keys: list[str]) -> None:
+    """Refuse names that stand twice in a list."""
+    for key, count in Counter(keys).items():
+        if count > 1:
+            raise InputError(f"{name}: two are called {key!r}; give one another name=...")

@@ -188,8 +188,8 @@ class Encounter:
     def time_to_touch(self, velocity: Complex, bend: Float, depth: float) -> float:
         """Return for how long no pair gets deeper than `depth`, seconds.
 
-        A pair that is about as deep already may get an eighth of `depth` deeper: so the solver is
-        called again soon after an impact that it could not stop at once.
+        A pair that is as deep already may get a little deeper: so the solver is called again soon
+        after an impact that it could not stop at once.
 
         velocity: (k,) of the discs; bend: (k,) m/s^2, how quickly a velocity may turn away from it.
         Along straight lines the distance to a convex thing is a convex function of time: it falls
@@ -204,6 +204,6 @@ class Encounter:
         turn[:pairs] += bend[self._j]
         closing = np.maximum(dot(approach, self._normal), 0.0)
         # room = closing h + turn h^2 / 2, solved for h so that both may be zero
-        room = np.maximum(self._gap + depth, depth / 8)
+        room = np.maximum(self._gap + depth, depth / 64)
         h = 2 * room / (closing + np.sqrt(closing**2 + 2 * turn * room) + TINY)
         return float(h.min())

@@ -64,7 +64,8 @@ def _films() -> Finding:
 
 def _physics() -> Finding:
     """Drive one robot along an arc, and compare with the closed form."""
-    from mars2d.scenario import Robot, Scenario
+    from mars2d.robot import Robot
+    from mars2d.scenario import Scenario
     from mars2d.world import World
 
     v, omega, steps = 0.2, 0.5, 1000

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.scenario import Robot, Scenario
+from mars2d.robot import Robot
+from mars2d.scenario import Scenario
 from mars2d.scene import Scene, faded
 
 __all__ = [

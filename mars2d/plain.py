@@ -7,10 +7,12 @@ from typing import Any
 
 from mars2d.addons.base import Addon
 from mars2d.addons.map import Map
+from mars2d.animation import Animation
 from mars2d.description import Description
 from mars2d.errors import InputError
 from mars2d.registry import members
-from mars2d.scenario import Animation, Robot, Scenario
+from mars2d.robot import Robot
+from mars2d.scenario import Scenario
 
 __all__ = ["from_description", "to_scenario"]
 

@@ -2,133 +2,28 @@
 
 from __future__ import annotations
 
-import inspect
 import numbers
-from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import cos, floor, pi, sin
-from typing import Any, NamedTuple, Self
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d import checks
 from mars2d.addons.base import Addon
-from mars2d.bodies.base import Drive
-from mars2d.bodies.unicycle import Unicycle
-from mars2d.description import Description, choice, entry, flag, number, real, text, wrong
+from mars2d.animation import Animation
+from mars2d.description import Description, choice, entry, number, text, wrong
 from mars2d.errors import InputError, shown
-from mars2d.geometry import Outline, Point, bounds_of, edges_of
-from mars2d.scene import PALETTE, color, wake_style
-from mars2d.sensors.base import Sensor
+from mars2d.geometry import Outline, bounds_of, edges_of
+from mars2d.robot import Robot
 
-__all__ = ["Animation", "Robot", "Scenario"]
+__all__ = ["Obstacle", "Scenario"]
 
 MASS_RATIO = 10.0
 """The largest ratio of masses that contacts hold; at 100, crowds push robots through walls."""
 
-ACCELERATION = 1e5
-"""How strongly a drive may accelerate its robot, m/s^2; more needs ever more substeps."""
-
 ROW_LIMIT = 100_000_000
-
-
-def _controller(name: str, value: object) -> object:
-    if value is not None and not callable(value):
-        raise wrong(name, value, "a function of one argument, the robot: def law(robot): ...")
-    if value is not None:
-        try:
-            inspect.signature(value).bind(None)
-        except TypeError:
-            raise wrong(name, value, "a function of exactly one argument, the robot") from None
-        except ValueError:
-            pass  # a built-in without a signature: the first call will tell
-    return value
-
-
-def _optional_color(name: str, value: object) -> str | None:
-    return None if value is None else color(name, value)
-
-
-class Robot(Description):
-    """One robot: a disc that its drive moves, with sensors and perhaps a law of its own.
-
-    >>> Robot(diameter=0.2).at(1, 2, 0).pose
-    (1.0, 2.0, 0.0)
-    """
-
-    pose: tuple[float, float, float] = entry(
-        default=(0.0, 0.0, 0.0),
-        check=checks.pose,
-        unit="m, m, rad",
-        doc="initial pose (x, y, theta)",
-    )
-    drive: Drive = entry(
-        check=checks.instance(Drive, "Unicycle()"), factory=Unicycle, doc="how it moves"
-    )
-    diameter: float = number(
-        default=0.3, low=1e-3, high=1e3, unit="m", doc="diameter of the chassis"
-    )
-    mass: float = number(default=1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
-    friction: float = number(
-        default=0.5,
-        low=0,
-        high=1e3,
-        doc="coefficient of friction; a contact has the product of both",
-    )
-    restitution: float = number(
-        default=0.0, low=0, high=1, doc="0 stops, 1 bounces back; a contact has the product of both"
-    )
-    center_offset: float = number(
-        default=0.0, low=-1e3, high=1e3, unit="m",
-        doc="how far the centre of rotation lies ahead of the geometric centre",
-    )  # fmt: skip
-    sensors: Sequence[Sensor] = entry(
-        default=(),
-        check=checks.listing(Sensor, "Proximity(range=0.3)"),
-        doc="what it perceives with",
-    )
-    controller: Callable[[Any], Any] | None = entry(
-        default=None, check=_controller, doc="its own law, a function or generator of the robot"
-    )
-    sees: str = choice(default="full", of=("full", "sensors"), doc="what its law may see")
-    name: str | None = text(default=None, optional=True, doc="its name, else robot0, robot1, ...")
-    color: str | None = entry(
-        default=None, check=_optional_color, doc="its colour, else from base_colors"
-    )
-
-    def at(self, x: float, y: float, theta: float = 0.0) -> Self:
-        """Return a copy of this robot at pose (x [m], y [m], theta [rad])."""
-        return self.replace(pose=(x, y, theta))
-
-    @property
-    def radius(self) -> float:
-        """Half the diameter, metres."""
-        return self.diameter / 2
-
-    @property
-    def center(self) -> Point:
-        """The geometric centre at the start: `center_offset` behind the centre of rotation."""
-        x, y, theta = self.pose
-        return x - self.center_offset * cos(theta), y - self.center_offset * sin(theta)
-
-    def _validate(self) -> None:
-        if self.drive.max_force > ACCELERATION * self.mass:
-            raise wrong(
-                "Robot.drive.max_force", self.drive.max_force,
-                f"at most {ACCELERATION:g} m/s^2 times the mass, {self.mass:g} kg",
-            )  # fmt: skip
-        if abs(self.center_offset) > self.radius:
-            raise wrong(
-                "Robot.center_offset", self.center_offset, f"within the radius, {self.radius:g} m"
-            )
-        _check_unique("Robot.sensors", [sensor.key for sensor in self.sensors])
-
-
-def _check_unique(name: str, keys: list[str]) -> None:
-    for key, count in Counter(keys).items():
-        if count > 1:
-            raise InputError(f"{name}: two are called {key!r}; give one another name=...")
 
 
 class Obstacle(NamedTuple):
@@ -137,45 +32,6 @@ class Obstacle(NamedTuple):
     outline: Outline
     friction: float
     restitution: float
-
-
-def playback_speed(name: str, value: object) -> float | str:
-    """Check a playback speed: a factor of real time, 0 for one step a key press, or "max"."""
-    expected = "a factor of real time (1 is real time), 0 for one step a key press, or 'max'"
-    if isinstance(value, str) and value == "max":
-        return "max"
-    factor = real(name, value, expected)
-    if not 0 <= factor <= 1e6:
-        raise wrong(name, value, expected)
-    return factor
-
-
-def _colors(name: str, value: object) -> tuple[str, ...]:
-    if isinstance(value, str) or not isinstance(value, (list, tuple)) or not value:
-        raise wrong(name, value, "a list of colours, as ['#0072b2', 'orange']")
-    return tuple(color(f"{name}[{i}]", item) for i, item in enumerate(value))
-
-
-class Animation(Description):
-    """How an experiment looks when it is drawn: the Animation fields of the paper's Table 1."""
-
-    grid: bool = flag(default=True, doc="draw the grid")
-    show_initial_pose: bool = flag(default=True, doc="draw where the robots started")
-    show_real_shape: bool = flag(default=True, doc="draw robots to scale, else as points")
-    wake: bool = flag(default=True, doc="draw the paths behind the robots")
-    wake_style: str = entry(
-        default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"
-    )
-    playback_speed: float | str = entry(
-        default=1.0,
-        check=playback_speed,
-        doc="1 is real time, 0 one step a key press, 'max' as fast as it goes",
-    )
-    base_colors: Sequence[str] = entry(
-        default=PALETTE,
-        check=_colors,
-        doc="the robots' colours, cycled",
-    )
 
 
 def _robots(name: str, value: object) -> object:
@@ -245,8 +101,8 @@ class Scenario(Description):
             for i, robot in enumerate(self.robots)
         )
         object.__setattr__(self, "robots", named)
-        _check_unique("Scenario.robots", [str(robot.name) for robot in named])
-        _check_unique("Scenario.addons", [addon.key for addon in self.addons])
+        checks.unique("Scenario.robots", [str(robot.name) for robot in named])
+        checks.unique("Scenario.addons", [addon.key for addon in self.addons])
         if self.stop_time / self.sampling_time > ROW_LIMIT:
             raise wrong(
                 "Scenario.stop_time", self.stop_time,

@@ -7,10 +7,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from mars2d.animation import playback_speed
 from mars2d.files import open_experiment
 from mars2d.loop import Watcher, simulate
 from mars2d.record import Record
-from mars2d.scenario import Scenario, playback_speed
+from mars2d.scenario import Scenario
 from mars2d.streams import check_seed
 from mars2d.world import World
 

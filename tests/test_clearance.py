@@ -92,6 +92,14 @@ def test_pairs_are_listed_anew_only_when_discs_have_moved_by_the_skin():
     assert 1 <= listings <= 4
 
 
+def test_a_sudden_long_reach_finds_discs_that_were_not_listed():
+    n = FEW + 2
+    clearance = Clearance(np.full(n, 0.1), np.empty(0, complex), np.empty(0, complex))
+    center = 10.0 * np.arange(n) + 0j
+    assert not clearance.may_touch(center, np.full(n, 0.001)).any()
+    assert clearance.may_touch(center, np.full(n, 5.0)).all()
+
+
 @given(seed=st.integers(0, 2**32))
 def test_an_encounter_measures_every_gap_within_reach(seed):
     rng = np.random.default_rng(seed)

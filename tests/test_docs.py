@@ -125,7 +125,7 @@ class Reader:
             return "".join(self.command(part, expected) for part in parts)
         words = shlex.split(line)
         assert words[0] == "mars2d", f"{self.document.name}: what is {line!r}?"
-        arguments = cli._parser().parse_args(words[1:])
+        arguments = cli.parser().parse_args(words[1:])
         needs_window = words[1] == "replay" or getattr(arguments, "speed", None) == 0
         if words[1] in ("run", "demo") and not (needs_window or arguments.headless):
             words.append("--headless")  # where it would open a window
@@ -260,7 +260,7 @@ def module(path: Path) -> ModuleType:
 
 def verbs() -> dict[str, Any]:
     """The sub-commands and their parsers."""
-    parser = cli._parser()
+    parser = cli.parser()
     return dict(parser._subparsers._group_actions[0].choices)
 
 
@@ -337,7 +337,7 @@ def test_every_module_stands_in_the_picture_of_the_design():
     parts = {path.name for path in package.glob("*.py")}
     parts |= {f"{path.parent.name}/" for path in package.glob("*/__init__.py")}
     parts.discard("examples/")
-    named = set(re.findall(r"\w+\.py|\b(?:bodies|sensors|addons|view|output)/", picture))
+    named = set(re.findall(r"\w+\.py|\b(?:bodies|sensors|addons|commands|view|output)/", picture))
     assert named - {"base.py"} == parts
 
 

@@ -320,6 +320,20 @@ def test_a_hit_beside_the_centre_turns_a_robot():
     assert abs(world.pose[2, 1]) > 0.05
 
 
+@pytest.mark.parametrize("offset", [0.05, 0.1, 0.15])
+def test_a_hit_turns_a_robot_about_its_centre_of_rotation_by_impulse_times_lever(offset):
+    weak = Holonomic(max_force=1e-6, max_torque=1e-6)
+    hitting = Robot(pose=(0, -offset, 0), drive=weak, friction=0)
+    target = Robot(pose=(0.35, 0, np.pi / 2), center_offset=offset, drive=weak, mass=2, friction=0)
+    world = World(free(hitting, target, sampling_time=0.01))
+    drive(world, [[0.4, 0], [0, 0]], 0.13)
+    assert len(world.record.contacts) > 0
+    impulse = 2 * world.velocity[0, 1]
+    moment = 2 * (0.15**2 / 2 + offset**2)
+    assert impulse > 0.1
+    assert world.velocity[2, 1] == pytest.approx(impulse * offset / moment, rel=0.01)
+
+
 def test_a_spinning_robot_turns_the_one_it_leans_on():
     leaning = Robot(pose=(0, 0, 0), friction=1, drive=Unicycle(max_torque=5))
     target = Robot(pose=(0.31, 0, 0), friction=1, drive=Unicycle(max_torque=0.01))

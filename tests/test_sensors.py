@@ -96,6 +96,18 @@ def test_what_stands_behind_is_not_seen_but_by_an_all_round_view():
     assert reading(Proximity(range=1), behind) is True
 
 
+@pytest.mark.parametrize("angle", [0.3, 1.5, np.pi, 4.5, 6.1])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_the_field_of_view_ends_half_its_angle_to_either_side(angle, side):
+    def sees(bearing: float) -> bool:
+        pose = (0.9 * np.cos(0.7 + bearing), 0.9 * np.sin(0.7 + bearing), 0)
+        thing = [Robot(pose=pose, diameter=1e-3)]
+        return reading(Proximity(range=1, field_of_view=angle), thing, pose=(0, 0, 0.7))
+
+    assert sees(side * (angle / 2 - 0.005))
+    assert not sees(side * (angle / 2 + 0.005))
+
+
 def test_a_long_wall_whose_nearest_point_is_out_of_view_is_seen_where_it_enters():
     wall = [[(-0.2, 0.3), (5, 0.3)]]  # its nearest point is straight to the left
     assert reading(Proximity(range=1, field_of_view=1.0), [], wall) is True

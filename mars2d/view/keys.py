@@ -31,7 +31,7 @@ KEYS = (
     Key("sensors", ("s",), ("S",), "sensors on and off"),
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
     Key("restart", ("r",), ("R",), "restart from time 0"),
-    Key("help", ("f1",), ("F1",), "this page"),
+    Key("help", ("f1",), ("F1",), "all keys, on and off"),
     Key("leave", ("escape",), ("Esc",), "leave"),
 )
 

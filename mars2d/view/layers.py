@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Self
 
-from mars2d.scenario import Animation
+from mars2d.animation import Animation
 
 __all__ = ["Layers"]
 

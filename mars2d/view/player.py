@@ -7,9 +7,9 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
+from mars2d.animation import playback_speed
 from mars2d.errors import Mars2dError
 from mars2d.frame import Frame
-from mars2d.scenario import playback_speed
 from mars2d.view.source import Source
 
 __all__ = ["SPEEDS", "Player", "between"]

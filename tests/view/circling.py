@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from mars2d.animation import Animation
 from mars2d.errors import LawError
 from mars2d.frame import Frame
-from mars2d.scenario import Animation, Robot, Scenario
+from mars2d.robot import Robot
+from mars2d.scenario import Scenario
 from mars2d.sensors import Proximity
 
 

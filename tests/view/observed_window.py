@@ -7,8 +7,8 @@ import dataclasses
 import json
 import sys
 
+from mars2d.animation import Animation
 from mars2d.errors import LawError
-from mars2d.scenario import Animation
 from mars2d.view.window import Window
 from tests.view.circling import Circling, circling_scenario
 

@@ -8,9 +8,9 @@ import numpy as np
 import pygame
 import pytest
 
+from mars2d.animation import Animation
 from mars2d.errors import InputError
 from mars2d.frame import Frame
-from mars2d.scenario import Animation
 from mars2d.scene import Scene, wake_style
 from mars2d.view.camera import Camera
 from mars2d.view.layers import Layers

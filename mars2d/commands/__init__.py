@@ -1,0 +1,12 @@
+"""The sub-commands of ``mars2d``, one module each.
+
+A module has the verb's `NAME`, an `add_arguments(parser)`, and an `execute(arguments)` whose
+docstring is the verb's help.
+"""
+
+from mars2d.commands import check, demo, doctor, parts, replay, run
+
+__all__ = ["VERBS"]
+
+VERBS = (demo, run, replay, parts, check, doctor)
+"""In the order in which the help lists them."""

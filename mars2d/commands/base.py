@@ -1,0 +1,114 @@
+"""What several sub-commands share: arguments, runs with a progress bar, pictures and films."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mars2d.animation import playback_speed
+from mars2d.files import Experiment, examples
+from mars2d.frame import Frame
+from mars2d.loop import Watcher, simulate
+from mars2d.progress import Progress
+from mars2d.record import Record
+from mars2d.world import World
+
+if TYPE_CHECKING:
+    from mars2d.output.footage import Footage
+
+FILM_FPS = 25
+SHORT_FILM = 12.0
+"""How long a film is whose speed nobody gave, seconds."""
+
+
+def add_run_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what every verb has that runs an experiment."""
+    parser.add_argument("--headless", action="store_true", help="without a window")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of all random streams")
+
+
+def add_speed(parser: argparse.ArgumentParser) -> None:
+    """Add the speed of playback."""
+    parser.add_argument(
+        "--speed",
+        type=_speed,
+        metavar="X",
+        help="of window or film: 1 is real time, 0 one step a key press, max",
+    )
+
+
+def _speed(text: str) -> float | str:
+    if text == "max":
+        return text
+    try:
+        return playback_speed("--speed", float(text))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a number >= 0, or max") from error
+
+
+def has_display() -> bool:
+    """Return whether a window could be opened."""
+    from mars2d.view.display import display_available
+
+    return display_available()
+
+
+def show(experiment: Experiment, speed: float | str | None, seed: int) -> Record:
+    """Run in a window, at the experiment's own speed unless one is given."""
+    from mars2d.view.show import show_experiment
+
+    pace = experiment.scenario.animation.playback_speed if speed is None else speed
+    return show_experiment(experiment, pace, seed)
+
+
+def run_headless(
+    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()
+) -> tuple[Record, Frame]:
+    """Run without a window, with a progress bar; return the record and the last frame."""
+    progress = Progress(experiment.scenario.last_iteration)
+    worlds: list[World] = []
+    try:
+        record = simulate(experiment, seed, watchers=[*watchers, progress, worlds.append])
+    finally:
+        progress.close()
+    return record, worlds[-1].frame
+
+
+def film_speed(experiment: Experiment, speed: float | str | None) -> float:
+    """Return a film's speed: the one given, else the animation's, else that of a short film."""
+    for choice in (speed, experiment.scenario.animation.playback_speed):
+        if isinstance(choice, float) and choice > 0:
+            return choice
+    return max(experiment.scenario.stop_time / SHORT_FILM, 1e-9)
+
+
+def save_footage(
+    footage: Footage, last: Frame, path: Path, size: tuple[int, int] = (1280, 720)
+) -> None:
+    """Make a film of a run that was watched, with a progress bar."""
+    from mars2d.output.film import save_film
+
+    progress = Progress(footage.count(last), "frames")
+    try:
+        save_film(footage.frames(last), path, fps=FILM_FPS, size=size, progress=progress.update)
+    finally:
+        progress.close()
+
+
+def print_table(title: str, lines: Mapping[str, str]) -> None:
+    """Print names and what they are, in two columns."""
+    print(f"{title}:")
+    width = max((len(name) for name in lines), default=0)
+    for name, line in lines.items():
+        print(f"  {name:<{width}}  {line}")
+
+
+def print_examples() -> None:
+    """Print the examples with the first line of each."""
+    lines = {}
+    for name, path in examples().items():
+        first = path.read_text(encoding="utf-8").partition("\n")[0]
+        lines[name] = first.strip('" ')
+    print_table("Examples", lines)

@@ -1,0 +1,65 @@
+"""The verb ``demo``."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from mars2d.commands.base import (
+    FILM_FPS,
+    SHORT_FILM,
+    add_run_arguments,
+    has_display,
+    print_examples,
+    run_headless,
+    save_footage,
+    show,
+)
+from mars2d.errors import InputError, nearest
+from mars2d.files import Experiment, examples, open_experiment
+
+NAME = "demo"
+
+FOLDER = Path("mars2d_demo")
+FILM_SIZE = (640, 480)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument("name", nargs="?", metavar="NAME", help="an example; else all are listed")
+    add_run_arguments(parser)
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """List the examples, or play one."""
+    name = arguments.name
+    if name is None:
+        print_examples()
+        print("\nPlay one:  mars2d demo random_walk")
+        return
+    known = examples()
+    if name not in known:
+        raise InputError(f"{name}: there is no such example{nearest(name, known)}")
+    experiment = open_experiment(known[name])
+    if not arguments.headless and has_display():
+        show(experiment, None, arguments.seed)
+    else:
+        _make_pictures(experiment, name, arguments.seed)
+
+
+def _make_pictures(experiment: Experiment, name: str, seed: int) -> None:
+    """Make a picture and a short film, and say where they are."""
+    from mars2d.output.figure import save_figure
+    from mars2d.output.footage import Footage
+
+    try:
+        FOLDER.mkdir(exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{FOLDER.absolute()}: can't be made: {error.strerror}") from error
+    footage = Footage(experiment.scenario, experiment.scenario.stop_time / SHORT_FILM, FILM_FPS)
+    record, last = run_headless(experiment, seed, [footage])
+    print(f"{record.scenario.title}: {record.over_message}")
+    print(f"picture: {save_figure(record, FOLDER / f'{name}.png')}", flush=True)
+    film = FOLDER / f"{name}.gif"
+    save_footage(footage, last, film, FILM_SIZE)
+    print(f"film:    {film}")

@@ -1,0 +1,178 @@
+"""The verb ``run``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+from mars2d.commands.base import (
+    FILM_FPS,
+    add_run_arguments,
+    add_speed,
+    film_speed,
+    has_display,
+    run_headless,
+    save_footage,
+    show,
+)
+from mars2d.errors import InputError, Mars2dError, counted
+from mars2d.files import Experiment, open_experiment, parse_setting
+from mars2d.loop import Interrupted
+from mars2d.record import Record
+
+NAME = "run"
+
+OUTPUTS = {"record": (".npz",), "figure": (".png", ".pdf", ".svg"), "video": (".gif", ".mp4")}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    add = parser.add_argument
+    add("experiment", metavar="EXPERIMENT", help="a .py file, or the name of an example")
+    add_run_arguments(parser)
+    add_speed(parser)
+    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", help="override a field")
+    add("--record", type=Path, metavar="OUT.npz", help="save all data")
+    add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
+    add("--at", type=_times, metavar="T1,T2,...", help="snapshots at these times in the figure")
+    add("--video", type=Path, metavar="OUT", help="make a film: .gif, .mp4")
+    add("--json", action="store_true", help="print the outcome as one line of JSON")
+
+
+def _times(text: str) -> list[float]:
+    try:
+        return [float(item) for item in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected times, as 1,30,60") from None
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Run an experiment, in a window where there is one, and save what is asked for."""
+    _check_outputs(arguments)
+    options = dict(parse_setting(setting) for setting in arguments.set)
+    if arguments.stop_time is not None:
+        options["stop_time"] = arguments.stop_time
+    experiment = open_experiment(arguments.experiment, options)
+    _check_times(arguments, experiment)
+    start = time.perf_counter()
+    try:
+        run = _run_in_window if _wants_window(arguments) else _run_headless
+        record = run(arguments, experiment)
+    except (Mars2dError, Interrupted) as error:
+        if error.record is not None and len(error.record):
+            _save_all(arguments, error.record)  # what was recorded until then is kept
+        raise
+    if arguments.json:
+        print(_as_json(record, time.perf_counter() - start))
+    else:
+        print(_as_text(record))
+
+
+def _check_outputs(arguments: argparse.Namespace) -> None:
+    """Refuse a file that can't be written before the run, not after it."""
+    for name, suffixes in OUTPUTS.items():
+        path: Path | None = getattr(arguments, name)
+        if path is None:
+            continue
+        if path.suffix.lower() not in suffixes:
+            wanted = " or ".join(suffixes)
+            raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
+        if not path.parent.is_dir():
+            raise InputError(f"--{name} {path}: there is no folder {path.parent}")
+        if path.is_dir():
+            raise InputError(f"--{name} {path}: this is a folder")
+    if arguments.video is not None and arguments.video.suffix.lower() == ".mp4":
+        from mars2d.output.film import require_av
+
+        require_av(arguments.video)
+    if arguments.at is not None and arguments.figure is None:
+        raise InputError("--at needs --figure OUT")
+
+
+def _check_times(arguments: argparse.Namespace, experiment: Experiment) -> None:
+    last = experiment.scenario.stop_time
+    for moment in arguments.at or ():
+        if not 0 <= moment <= last:
+            raise InputError(f"--at {moment:g}: the experiment goes from 0 to {last:g} s")
+
+
+def _wants_window(arguments: argparse.Namespace) -> bool:
+    if not arguments.headless and has_display():
+        return True
+    if arguments.speed == 0:
+        why = "it needs a window, not --headless" if arguments.headless else "there is no display"
+        raise InputError(f"--speed 0 makes one step a key press: {why}")
+    if not arguments.headless:
+        print("mars2d: there is no display, so this runs without a window", file=sys.stderr)
+    return False
+
+
+def _run_in_window(arguments: argparse.Namespace, experiment: Experiment) -> Record:
+    record = show(experiment, arguments.speed, arguments.seed)
+    _save_all(arguments, record)
+    return record
+
+
+def _run_headless(arguments: argparse.Namespace, experiment: Experiment) -> Record:
+    """Run as quick as can be: without a window, a speed is that of the film."""
+    if arguments.video is None:
+        record, _ = run_headless(experiment, arguments.seed)
+        _save_data(arguments, record)
+        return record
+    from mars2d.output.footage import Footage
+
+    footage = Footage(experiment.scenario, film_speed(experiment, arguments.speed), FILM_FPS)
+    record, last = run_headless(experiment, arguments.seed, [footage])
+    _save_data(arguments, record)
+    save_footage(footage, last, arguments.video)
+    return record
+
+
+def _save_data(arguments: argparse.Namespace, record: Record) -> None:
+    """Save the record and the figure, where they are asked for."""
+    if arguments.record is not None:
+        record.save(arguments.record)
+    if arguments.figure is not None:
+        from mars2d.output.figure import save_figure
+
+        save_figure(record, arguments.figure, arguments.at)
+
+
+def _save_all(arguments: argparse.Namespace, record: Record) -> None:
+    """Save what is asked for, the film made of the record."""
+    _save_data(arguments, record)
+    if arguments.video is not None:
+        from mars2d.output.film import film_rows, save_film
+
+        speed = film_speed(Experiment(record.scenario), arguments.speed)
+        rows = film_rows(record.time, speed, FILM_FPS)
+        save_film((record.frame(row) for row in rows), arguments.video, fps=FILM_FPS)
+
+
+def _as_text(record: Record) -> str:
+    done = f"{counted(_ticks(record), 'step')}, {counted(record.collisions, 'collision')}"
+    message = f"{record.scenario.title}: {record.over_message}"
+    return f"{message}. {done}, digest {record.digest[:16]}"
+
+
+def _as_json(record: Record, wall: float) -> str:
+    outcome = {
+        "ticks": _ticks(record),
+        "time": float(record.time[-1]) if len(record) else 0.0,
+        "over": record.finished,
+        "message": record.over_message,
+        "digest": record.digest,
+        "collisions": record.collisions,
+        "seed": record.seed,
+        "wall_s": round(wall, 6),
+    }
+    return json.dumps(outcome)
+
+
+def _ticks(record: Record) -> int:
+    """Return how many sampling times passed: one less than there are rows."""
+    return max(len(record) - 1, 0)
