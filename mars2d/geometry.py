@@ -54,8 +54,9 @@ def inside_polygon(x: Float, y: Float, polygon: Float) -> NDArray[np.bool_]:
     x2, y2 = np.roll(polygon, -1, axis=0).T
     px, py = x[:, None], y[:, None]
     spans = (y1 > py) != (y2 > py)
-    rise = np.where(y2 == y1, 1.0, y2 - y1)
-    crosses = spans & (px < x1 + (py - y1) * (x2 - x1) / rise)
+    # The edge lies to the right of the point; multiplied out, so that no division can overflow.
+    left_of_edge = (px - x1) * (y2 - y1) < (py - y1) * (x2 - x1)
+    crosses = spans & (left_of_edge == (y2 > y1))
     return np.asarray(crosses.sum(axis=1) % 2 == 1)
 
 

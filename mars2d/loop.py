@@ -55,10 +55,10 @@ def simulate(
         while not world.over:
             world.step()
     except Mars2dError as error:
-        world.stop(f"Error: {error}")
+        world.break_off(f"Error: {error}")
         error.record = world.record
         raise
     except KeyboardInterrupt:
-        world.stop("Interrupted by Ctrl-C")
+        world.break_off("Interrupted by Ctrl-C")
         raise Interrupted(world.record) from None
     return world.record

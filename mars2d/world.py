@@ -194,7 +194,13 @@ class World:
         return stream(self.seed, name)
 
     def stop(self, why: str) -> None:
-        """End the experiment with this step, and say why."""
+        """End the experiment, with the present step if there is one, and say why."""
+        self.break_off(why)
+        if not self._stepping:
+            self._finish()
+
+    def break_off(self, why: str) -> None:
+        """End the experiment without the add-ons' last hook, as after an error."""
         if not self.over:
             self.over, self.over_message = True, str(why)
 

@@ -80,7 +80,7 @@ class Live:
         try:
             self._world.step()
         except Mars2dError as error:
-            self._world.stop(f"Error: {error}")
+            self._world.break_off(f"Error: {error}")
             error.record = self._world.record
             raise
 
