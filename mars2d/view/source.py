@@ -71,7 +71,7 @@ class Live:
         record = self._world.record
         if self._world.over:
             return record
-        return replace(record, over_message=f"The window was closed at {self._world.time:g} s")
+        return replace(record, over_message="The window was closed")
 
     def advance(self) -> None:
         """Do one control step. A Mars2dError ends the experiment and carries its record."""
