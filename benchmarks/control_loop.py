@@ -1,6 +1,6 @@
 """How much the whole control step costs, against a bare pymunk loop that does the same physics.
 
-    python benchmarks/control_loop.py [--json OUT.json]
+    python benchmarks/control_loop.py [--json OUT.json] [--sizes N ...] [--rounds N]
 
 Teams of unicycles (radius 0.15 m, 5 % of the area covered, 0.3 m/s, a new random omega each second,
 sampling time 0.05 s) in a walled square. `mars2d`: `World.step` with a law and recording, at the
@@ -158,12 +158,12 @@ def seconds(step: Callable[[], None], steps: int) -> float:
     return time.perf_counter() - start
 
 
-def compare(n: int) -> dict[str, Any]:
+def compare(n: int, rounds: int) -> dict[str, Any]:
     """Run both loops in turns and return steps per second and the ratio of their times."""
     ours, bare = mars2d_step(n), Bare(n)
     steps = max(20, min(2000, 40_000 // n))
     seconds(ours, steps), seconds(bare, steps)  # robots leave their grid, caches fill
-    pairs = [(seconds(ours, steps), seconds(bare, steps)) for _ in range(ROUNDS)]
+    pairs = [(seconds(ours, steps), seconds(bare, steps)) for _ in range(rounds)]
     return {
         "n": n,
         "mars2d_steps_per_s": round(steps / statistics.median(a for a, _ in pairs)),
@@ -173,11 +173,11 @@ def compare(n: int) -> dict[str, Any]:
     }
 
 
-def random_walk() -> dict[str, Any]:
+def random_walk(rounds: int) -> dict[str, Any]:
     """Return how long the paper's Algorithm 2 takes, 1000 control steps."""
     mars2d.run("random_walk", stop_time=10)
     times = []
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         start = time.perf_counter()
         mars2d.run("random_walk")
         times.append(time.perf_counter() - start)
@@ -189,18 +189,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="The control step against bare pymunk.")
     parser.add_argument("--json", type=Path, metavar="OUT.json", help="write the figures")
     parser.add_argument("--sizes", type=int, nargs="*", default=SIZES, help="numbers of robots")
+    parser.add_argument("--rounds", type=int, default=ROUNDS, help="how often both are timed")
     arguments = parser.parse_args()
     print(f"{'n':>5} {'mars2d':>10} {'bare':>10}  steps/s;  time ratio mars2d / bare")
     rows = []
     for n in arguments.sizes:
-        row = compare(n)
+        row = compare(n, arguments.rounds)
         low, high = row["time_ratio_range"]
         print(
             f"{n:>5} {row['mars2d_steps_per_s']:>10,} {row['bare_steps_per_s']:>10,}"
             f"  {row['time_ratio']:.2f} ({low:.2f} to {high:.2f})"
         )
         rows.append(row)
-    walk = random_walk()
+    walk = random_walk(arguments.rounds)
     print(f"random_walk: {walk['ticks']} ticks in {walk['seconds']:.3f} s")
     result = {"substeps_of_bare": SUBSTEPS, "teams": rows, "random_walk": walk}
     if arguments.json is not None:

@@ -1,6 +1,6 @@
 """How long a start takes: importing the package, and a whole run from shell to shell.
 
-    python benchmarks/start.py [--json OUT.json]
+    python benchmarks/start.py [--json OUT.json] [--rounds N]
 
 Each figure is the median of several new processes.
 """
@@ -38,9 +38,10 @@ def main() -> None:
     """Run the commands in turns, print the medians, and write JSON where it is asked for."""
     parser = argparse.ArgumentParser(description="How long a start takes.")
     parser.add_argument("--json", type=Path, metavar="OUT.json", help="write the figures")
+    parser.add_argument("--rounds", type=int, default=ROUNDS, help="how often all are timed")
     arguments = parser.parse_args()
     times: dict[str, list[float]] = {name: [] for name in COMMANDS}
-    for round_ in range(ROUNDS + 1):
+    for round_ in range(arguments.rounds + 1):
         for name, command in COMMANDS.items():
             taken = seconds(command)
             if round_ > 0:  # the first fills the disk's cache

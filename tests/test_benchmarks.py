@@ -1,0 +1,28 @@
+"""The benchmarks run, and write the figures that they promise."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+FOLDER = Path(__file__).parents[1] / "benchmarks"
+
+
+def run(name, *arguments, cwd):
+    command = [sys.executable, str(FOLDER / name), "--json", "out.json", *arguments]
+    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads((cwd / "out.json").read_text())
+
+
+def test_the_control_loop_is_compared_with_bare_pymunk(tmp_path):
+    result = run("control_loop.py", "--sizes", "4", "--rounds", "1", cwd=tmp_path)
+    [team] = result["teams"]
+    assert team["n"] == 4
+    assert team["time_ratio"] > 0
+    assert result["random_walk"]["ticks"] == 1000
+
+
+def test_the_start_is_timed(tmp_path):
+    result = run("start.py", "--rounds", "1", cwd=tmp_path)
+    assert result["import mars2d"] > result["bare python"]
