@@ -20,7 +20,7 @@ import pymunk
 from numpy.typing import NDArray
 from pymunk import batch
 
-from mars2d.clearance import Clearance, Complex, Encounter, Float, Index, Mask, length
+from mars2d.clearance import Clearance, Complex, Encounter, Float, Index, Mask
 from mars2d.contact import ContactLog
 from mars2d.geometry import Outline, edges_of
 from mars2d.scenario import Scenario
@@ -32,6 +32,9 @@ SLOP = 1e-4
 
 ITERATIONS = 15
 ITERATIONS_UNEQUAL = 20  # with masses more than three times apart
+
+SLACK = 1.25
+"""How much further than at its present speed a robot may be thrown before gaps are asked anew."""
 
 GROWTH = 2.0
 """How much longer a substep may be than the one before, while impulses are carried over from it.
@@ -96,7 +99,6 @@ class Engine:
         named = [(body.id, i) for i, body in enumerate(self._bodies)]
         named += [(body.id, -1 - k) for k, body in enumerate(self._statics)]
         self._address, self._name = np.array(sorted(named), dtype=np.int64).T
-        self._restitution = max(robot.restitution for robot in robots)
         self._set_accuracy(scenario)
         self._last_step = inf
         self._impact = False  # in the last step
@@ -185,40 +187,61 @@ class Engine:
 
         time: that of the start, seconds, for the contacts.
         """
+        elapsed = 0.0
+        while elapsed < duration:
+            left = duration - elapsed
+            gone = self._advance(twist, left, time + elapsed)
+            elapsed = duration if gone == left else elapsed + gone
+
+    def _advance(self, twist: Float, duration: float, time: float) -> float:
+        """Go on by at most `duration` seconds, and return by how much.
+
+        It is less when a robot has been thrown further than was thought possible: then it is to be
+        asked anew what it may touch.
+        """
         center = _center(self._state, self._offset)
-        near, reach = self._find_near(twist, center, duration)
+        near, path = self._find_near(twist, center, duration)
         self._engage(near)
-        self._velocity[: self.n] = chord_velocity(
-            twist, self._state[:, 2], duration, self._in_robot_frame
-        )
+        carried = chord_velocity(twist, self._state[:, 2], duration, self._in_robot_frame)
+        self._velocity[: self.n] = carried
         if near.any():
             who = np.flatnonzero(near)
-            encounter = self._clearance.encounter(center, who, reach)
-            self._substeps(twist[:, who], duration, time, who, encounter)
+            encounter = self._clearance.encounter(center, who, path + self._max_overlap)
+            gone = self._substeps(twist[:, who], duration, time, who, encounter, path)
+            if gone < duration:
+                self._put_on_arc(twist, np.flatnonzero(~near), gone)
         else:
+            gone = duration
             self._step(duration)
             self._impact = False
         self._state = self._read().copy()
+        return gone
 
     def _find_near(self, twist: Float, center: Complex, duration: float) -> tuple[Mask, float]:
-        """Return which robots may touch something, and how far one of them may move.
+        """Return which robots may touch something, and the longest path that one may take.
 
         One that is near may be pushed by the quickest of them, and so be near to others.
         """
         speed = np.hypot(twist[0], twist[1]) + np.abs(self._offset * twist[2])
         near = self._slipping.copy()
         if near.any():
-            actual = length(_center_velocity(self._state, self._offset))
-            speed = np.where(near, np.maximum(speed, actual), speed)
-        reach, count = speed * duration, -1
+            speed = np.where(near, np.maximum(speed, _top_speed(self._state, self._offset)), speed)
+        path, reach, count = 0.0, speed * duration, -1
         while int(near.sum()) != count:
             count = int(near.sum())
             near |= self._clearance.may_touch(center, reach)
             if near.any():
-                pushed = speed[near].max() * (1 + self._restitution) * duration + self._max_overlap
-                reach = np.where(near, pushed, speed * duration)
+                path = SLACK * float(speed[near].max()) * duration
+                reach = np.where(near, path + self._max_overlap, speed * duration)
         self._clearance.moved(reach)
-        return near, float(reach[near].max()) if count else 0.0
+        return near, path
+
+    def _put_on_arc(self, twist: Float, who: Index, h: float) -> None:
+        """Put robots, which were on the chord of a longer time, where their arcs lead in h."""
+        theta, turns = self._state[who, 2], self._in_robot_frame[who]
+        moved = h * chord_velocity(twist[:, who], theta, h, turns)
+        for i, (x, y) in zip(who, (self._state[who, :2] + moved[:, :2]).tolist(), strict=True):
+            self._bodies[i].position = x, y
 
     def _engage(self, near: Mask) -> None:
         """Add the joints of those that are near, remove those of the others."""
@@ -235,14 +258,22 @@ class Engine:
         self._last_step = h
 
     def _substeps(
-        self, twist: Float, duration: float, time: float, who: Index, encounter: Encounter
-    ) -> None:
+        self,
+        twist: Float,
+        duration: float,
+        time: float,
+        who: Index,
+        encounter: Encounter,
+        path: float,
+    ) -> float:
         """Step through `duration` as finely as those need that are near something.
 
-        twist: (3, k) of the robots `who`, (k,) indices.
+        twist: (3, k) of the robots `who`, (k,) indices. path: metres; before one of them has gone
+        further, this returns. Returns the seconds gone.
         """
         offset, slipping = self._offset[who], self._slipping[who]
         state = self._state[who]
+        gone = np.zeros(len(who))  # paths, metres
         elapsed = 0.0
         while True:
             encounter.measure(_center(state, offset))
@@ -251,7 +282,7 @@ class Engine:
                 self._note_contacts(time + elapsed, who, encounter)
             if elapsed >= duration:
                 self._slipping[who] = slipping
-                return
+                return elapsed
             left = h = duration - elapsed
             slipping |= touching
             some_slip = bool(slipping.any())
@@ -259,10 +290,14 @@ class Engine:
                 growth = 1.0 if self._impact else GROWTH
                 h = min(h, self._contact_step, growth * self._last_step)
                 slipping &= touching | self._out_of_reach(twist, state, h, who)
-            velocity, bend = self._motion(twist, state, slipping, who)
+            velocity, bend, speed = self._motion(twist, state, slipping, who)
             h = min(h, encounter.time_to_touch(velocity, bend, self._entry))
             if h < left < 2 * h:
                 h = left / 2  # rather than a sliver at the end
+            gone += h * speed
+            if elapsed > 0 and gone.max() > path:
+                self._slipping[who] = slipping
+                return elapsed
             self._aim(twist, state, slipping, who, h)
             self._step(h)
             elapsed = duration if h == left else elapsed + h
@@ -271,15 +306,15 @@ class Engine:
 
     def _motion(
         self, twist: Float, state: Float, slipping: Mask, who: Index
-    ) -> tuple[Complex, Float]:
-        """Return how the discs' centres move now, and how quickly that may turn [m/s^2]."""
+    ) -> tuple[Complex, Float, Float]:
+        """Return how discs' centres move now, how quickly that may turn [m/s^2], and top speeds."""
         offset, turns = self._offset[who], self._in_robot_frame[who]
         tangent = chord_velocity(twist, state[:, 2], 0.0, turns)
-        moving = np.where(slipping[:, None], state[:, 3:], tangent)
-        bend = np.abs(offset) * moving[:, 2] ** 2
+        moving = np.hstack([state[:, :3], np.where(slipping[:, None], state[:, 3:], tangent)])
+        bend = np.abs(offset) * moving[:, 5] ** 2
         follows = turns & ~slipping
         bend[follows] += np.abs(np.hypot(twist[0], twist[1]) * twist[2])[follows]
-        return _center_velocity(np.hstack([state[:, :3], moving]), offset), bend
+        return _center_velocity(moving, offset), bend, _top_speed(moving, offset)
 
     def _was_hit(self, state: Float, who: Index, h: float) -> bool:
         """Return whether the last substep changed a velocity by more than a drive can."""
@@ -380,3 +415,8 @@ def _center_velocity(state: Float, offset: Float) -> Complex:
     if offset.any():
         velocity -= 1j * offset * state[:, 5] * np.exp(1j * state[:, 2])
     return velocity
+
+
+def _top_speed(state: Float, offset: Float) -> Float:
+    """Return how fast the geometric centres may be while bodies go on as they do, m/s."""
+    return np.asarray(np.hypot(state[:, 3], state[:, 4]) + np.abs(offset * state[:, 5]))

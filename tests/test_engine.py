@@ -667,3 +667,42 @@ def test_robots_that_start_overlapping_by_less_than_is_allowed_part_again():
 def test_a_thousand_robots_in_one_place_are_refused_at_once():
     with pytest.raises(InputError, match="inside each other"):
         Scenario(robots=[Robot()] * 5000)
+
+
+def test_a_light_robot_thrown_by_a_heavy_one_does_not_pass_the_wall():
+    """It leaves at more than (1 + e) times the quickest speed there was: 2.64 v."""
+    heavy = Robot(pose=(-2.3, 0, 0), mass=10, restitution=1, drive=Holonomic())
+    light = Robot(pose=(0, 0, 0), restitution=1, drive=Holonomic())
+    scenario = Scenario(
+        robots=[heavy, light],
+        workspace=[(-6, -6), (-6, 6), (2.3, 6), (2.3, -6)],
+        on_exit="wall",
+        sampling_time=2.0,
+        stop_time=8.0,
+    )
+    record = mars2d.run(scenario, control=lambda world: [[0.5, -0.5], [0, 0]])
+    assert record.pose[:, 0, 1].max() < 2.3 - 0.15 + 1e-3
+    assert (1, -1) in record.contacts[["a", "b"]].tolist()
+
+
+@pytest.mark.parametrize("gap", [0.05, 0.3, 0.8])
+def test_a_robot_pinched_out_between_two_stops_at_the_wall(gap):
+    strong = Holonomic(max_force=50)
+    jaws = [Robot(pose=(-0.55, 0, 0), drive=strong), Robot(pose=(0.55, 0, 0), drive=strong)]
+    pip = Robot(pose=(0, 0.03, 0), drive=Holonomic(max_force=0.01))
+    wall = Map([[(-9, 0.18 + gap), (9, 0.18 + gap)]])
+    scenario = Scenario(robots=[*jaws, pip], addons=[wall], sampling_time=1.0, stop_time=4.0)
+    record = mars2d.run(scenario, control=lambda world: [[0.5, -0.5, 0], [0, 0, 0]])
+    assert record.pose[:, 1, 2].max() < 0.18 + gap - 0.15 + 1e-3
+
+
+def test_robots_far_off_stay_on_their_arcs_when_others_are_thrown_about():
+    heavy = Robot(pose=(-2.3, 0, 0), mass=10, restitution=1, drive=Holonomic())
+    light = Robot(pose=(0, 0, 0), restitution=1, drive=Holonomic())
+    far = Robot(pose=(0, 20, 0))
+    scenario = Scenario(robots=[heavy, light, far], workspace=None, sampling_time=2.0, stop_time=8)
+    v, omega = 0.3, 0.7
+    record = mars2d.run(scenario, control=lambda world: [[0.5, -0.5, v], [0, 0, omega]])
+    angle = omega * record.time
+    exact = v / omega * np.array([np.sin(angle), 1 - np.cos(angle)])
+    assert np.abs(record.pose[:, :2, 2].T - exact - [[0], [20]]).max() < 1e-9
