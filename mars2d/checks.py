@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections import Counter
 from collections.abc import Iterable
 from itertools import pairwise
@@ -13,7 +14,7 @@ from mars2d.description import Check, real, wrong
 from mars2d.errors import InputError, shown
 from mars2d.geometry import Outline, Point
 
-__all__ = ["LIMIT", "instance", "listing", "outline", "outlines", "point", "pose", "unique"]
+__all__ = ["LIMIT", "instance", "law", "listing", "outline", "outlines", "point", "pose", "unique"]
 
 LIMIT = 1e6
 """Coordinates go up to this far, metres: beyond it a double can't hold a nanometre."""
@@ -143,3 +144,16 @@ def unique(name: str, keys: list[str]) -> None:
     for key, count in Counter(keys).items():
         if count > 1:
             raise InputError(f"{name}: two are called {key!r}; give one another name=...")
+
+
+def law(name: str, value: object, subject: str) -> object:
+    """Check a control law: something to be called with one argument, the `subject`."""
+    if not callable(value):
+        raise wrong(name, value, f"a function of one argument, {subject}")
+    try:
+        inspect.signature(value).bind(None)
+    except TypeError:
+        raise wrong(name, value, f"a function of exactly one argument, {subject}") from None
+    except ValueError:
+        pass  # a built-in without a signature: the first call will tell
+    return value

@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 import inspect
-import traceback
 from collections.abc import Callable, Iterator, Sequence
-from math import isfinite
-from pathlib import Path
-from types import SimpleNamespace, TracebackType
+from functools import cached_property
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.errors import LawError, UnknownNameError, described, nearest, shown
+from mars2d.errors import LawError, UnknownNameError, nearest, shown
+from mars2d.usercode import called, definition
 
 if TYPE_CHECKING:
     from mars2d.world import World
 
-__all__ = ["Law", "Neighbour", "RobotView", "Sense", "SensorsOnlyView", "called"]
+__all__ = ["Law", "Mind", "Neighbour", "RobotView", "Sense", "SensorsOnlyView"]
 
 Float = NDArray[np.float64]
 
-_PACKAGE = Path(__file__).parent
+LARGEST = 1e300
+"""No entry of a command is larger, in whatever unit: what drives make of it stays a float."""
+
+BOUNDED = "a command must be finite"
 
 
 class Sense(SimpleNamespace):
@@ -30,6 +32,20 @@ class Sense(SimpleNamespace):
 
     def __getattr__(self, name: str) -> NoReturn:
         raise UnknownNameError(f"this robot has no sensor {name!r}{nearest(name, vars(self))}")
+
+
+class Mind:
+    """What a robot keeps for itself: its readings, its memory between steps, its random stream."""
+
+    def __init__(self, world: World, name: str) -> None:
+        self.sense = Sense()
+        self.memory = SimpleNamespace()
+        self._world, self._name = world, name
+
+    @cached_property
+    def rng(self) -> np.random.Generator:
+        """The robot's own random stream."""
+        return self._world.stream(f"robot {self._name}")
 
 
 class Neighbour:
@@ -57,12 +73,12 @@ class RobotView:
     keep things between steps. rng: its own random stream.
     """
 
-    def __init__(self, world: World, index: int, sense: Sense) -> None:
+    def __init__(self, world: World, index: int, mind: Mind) -> None:
         self._world = world
+        self._mind = mind
         self.index = index
-        self.sense = sense
-        self.memory = SimpleNamespace()
-        self._rng: np.random.Generator | None = None
+        self.sense = mind.sense
+        self.memory = mind.memory
         self._neighbours: tuple[Neighbour, ...] | None = None
 
     def __getattr__(self, name: str) -> NoReturn:
@@ -108,13 +124,11 @@ class RobotView:
     @property
     def rng(self) -> np.random.Generator:
         """The robot's own random stream."""
-        if self._rng is None:
-            self._rng = self._world.stream(f"robot {self.name}")
-        return self._rng
+        return self._mind.rng
 
 
 class SensorsOnlyView(RobotView):
-    """What a law may use that sees sensors only: neither its pose nor other robots."""
+    """What a law may use that sees sensors only: no pose, no other robots, no points of contact."""
 
     @property
     def pose(self) -> Float:
@@ -125,6 +139,11 @@ class SensorsOnlyView(RobotView):
     def neighbours(self) -> tuple[Neighbour, ...]:
         """Refuse: neighbours are not sensed."""
         raise LawError("this law sees sensors only: robot.neighbours is not available")
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """Refuse: where a contact is would tell the pose."""
+        raise LawError("this law sees sensors only: robot.contacts is not available")
 
 
 class Law:
@@ -156,58 +175,8 @@ class Law:
     def refuse(self, message: str) -> NoReturn:
         """Raise the error that the law's command can't be used; it points at the law."""
         error = LawError(f"{self.name} {message}")
-        error.where = _definition(self._function)
+        error.where = definition(self._function)
         raise error
-
-
-class called:  # noqa: N801 - used like a function, as contextlib's are
-    """Run the user's code so that what it raises becomes a LawError with its file and line."""
-
-    def __init__(self, name: str, function: Callable[..., Any]) -> None:
-        """Take what is called, and by which name messages call it."""
-        self._name, self._function = name, function
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        tb: TracebackType | None,
-    ) -> None:
-        if error is None or not isinstance(error, (Exception, SystemExit)):
-            return  # nothing, or Ctrl-C
-        where = _users_line(tb) or _definition(self._function)
-        if isinstance(error, LawError):
-            error.where = error.where or where
-            return
-        wrapped = LawError(f"{self._name} raised {described(error)}")
-        wrapped.where = where
-        raise wrapped from error
-
-
-def _users_line(tb: TracebackType | None) -> str | None:
-    """Return the innermost place of a traceback that lies in the user's own code."""
-    steps = [step for step in traceback.extract_tb(tb) if _is_users(Path(step.filename))]
-    return _place(steps[-1].filename, steps[-1].lineno or 0) if steps else None
-
-
-def _is_users(path: Path) -> bool:
-    if path.is_relative_to(_PACKAGE / "examples"):
-        return True
-    ours = path.is_relative_to(_PACKAGE)
-    return not (ours or "site-packages" in path.parts or str(path).startswith("<"))
-
-
-def _definition(function: Callable[..., Any]) -> str | None:
-    """Return where a function is defined, if it is Python's."""
-    code = getattr(inspect.unwrap(function), "__code__", None)
-    return None if code is None else _place(code.co_filename, code.co_firstlineno)
-
-
-def _place(filename: str, line: int) -> str:
-    return f"{Path(filename).name}, line {line}"
 
 
 def robot_command(law: Law, value: Any) -> tuple[float, float]:
@@ -218,8 +187,8 @@ def robot_command(law: Law, value: Any) -> tuple[float, float]:
     if command is None or command.shape not in ((2,), (2, 1)):
         law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
     first, second = command.ravel().tolist()
-    if not (isfinite(first) and isfinite(second)):
-        law.refuse(f"returned {shown((first, second))}: a command must be finite")
+    if not (abs(first) <= LARGEST and abs(second) <= LARGEST):  # neither for NaN
+        law.refuse(f"returned {shown((first, second))}: {BOUNDED}")
     return first, second
 
 
@@ -236,9 +205,10 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     if command.shape != (2, robots):
         turned = "; transpose it" if command.shape == (robots, 2) else ""
         refuse(f"returned an array of shape {command.shape}: {expected}{turned}")
-    if not np.isfinite(command).all():
-        row, column = np.argwhere(~np.isfinite(command))[0]
-        refuse(f"returned {command[row, column]} for robot {column}: a command must be finite")
+    within = np.abs(command) <= LARGEST  # false for NaN
+    if not within.all():
+        row, column = np.argwhere(~within)[0]
+        refuse(f"returned {command[row, column]} for robot {column}: {BOUNDED}")
     return command
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene, faded
+from mars2d.usercode import called
 
 __all__ = [
     "Frame",
@@ -144,5 +145,8 @@ def sensors(frame: Frame) -> Scene:
     carried = [{sensor.key: sensor for sensor in r.sensors} for r in frame.scenario.robots]
     for key, readings in frame.readings.items():
         for i, reading in readings:
-            carried[i][key].draw(scene, frame.pose[:, i], reading, colors[i])
+            sensor = carried[i].get(key)  # a loaded record lacks sensors of the user's own
+            if sensor is not None:
+                with called(f"sensor {key!r}", sensor.draw):
+                    sensor.draw(scene, frame.pose[:, i], reading, colors[i])
     return scene

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
-from mars2d.errors import Mars2dError
 from mars2d.files import Experiment
 from mars2d.pace import RealTime
 from mars2d.record import Record
-from mars2d.world import World
+from mars2d.world import Watcher, World
 
-__all__ = ["Interrupted", "simulate"]
-
-Watcher = Callable[[World], None]
+__all__ = ["Interrupted", "open_world", "simulate"]
 
 
 class Interrupted(KeyboardInterrupt):
@@ -28,37 +25,38 @@ def simulate(
     seed: int = 0,
     speed: float | str = "max",
     watchers: Sequence[Watcher] = (),
-) -> Record:
-    """Run an opened experiment to its end and return the record.
+) -> World:
+    """Run an opened experiment to its end and return the world, which is over.
 
     speed: simulated seconds per second, > 0, or "max". watchers: called with the world at each
-    control step, once its sensors have been read: to draw, to count, to wait. A Mars2dError that
-    ends the run carries what was recorded until then as its `record`; Ctrl-C raises Interrupted,
-    which does as well.
+    control step, once its sensors have been read: to draw, to count, to wait. A LawError that ends
+    the run carries what was recorded until then as its `record`; Ctrl-C raises Interrupted, which
+    does as well.
     """
     every: list[Watcher] = [*watchers]
     if speed != "max":
         every.append(RealTime(float(speed)))
+    world = open_world(experiment, seed, every)
+    try:
+        while not world.over:
+            world.step()
+    except KeyboardInterrupt:
+        world.break_off("Interrupted by Ctrl-C")
+        raise Interrupted(world.record) from None
+    return world
 
-    def pace(world: World) -> None:
-        for watcher in every:
+
+def open_world(experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()) -> World:
+    """Return the world of an experiment, which calls the watchers at each control step."""
+
+    def watch(world: World) -> None:
+        for watcher in watchers:
             watcher(world)
 
-    world = World(
+    return World(
         experiment.scenario,
         experiment.control,
         seed,
         filename=experiment.filename,
-        pace=pace if every else None,
+        watch=watch if watchers else None,
     )
-    try:
-        while not world.over:
-            world.step()
-    except Mars2dError as error:
-        world.break_off(f"Error: {error}")
-        error.record = world.record
-        raise
-    except KeyboardInterrupt:
-        world.break_off("Interrupted by Ctrl-C")
-        raise Interrupted(world.record) from None
-    return world.record

@@ -40,7 +40,7 @@ class Record:
     name an array (T, m, ...) of readings, of the m robots in ``sensor_robots[name]``. contacts:
     one row a pair and control step, with the fields of `mars2d.contact.CONTACT`. over_message: why
     the run ended. finished: whether it is over. drawn: what the add-ons drew at its end, which a
-    file does not keep.
+    file does not keep. missing: parts of the user's own that a file did not hold.
     """
 
     scenario: Scenario
@@ -57,6 +57,13 @@ class Record:
     filename: str = ""
     versions: Mapping[str, str] = field(default_factory=dict)
     drawn: Scene = field(default_factory=Scene, repr=False)
+    missing: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("time", "pose", "command", "command_time", "contacts"):
+            object.__setattr__(self, name, _unwritable(getattr(self, name)))
+        sensors = {name: _unwritable(values) for name, values in self.sensors.items()}
+        object.__setattr__(self, "sensors", sensors)
 
     def __len__(self) -> int:
         return len(self.time)
@@ -152,7 +159,7 @@ def load(path: str | Path) -> Record:
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
             header = json.loads(data["header"].tobytes())
-            columns = {name: data[name] for name in data.files if name != "header"}
+            columns = {name: data[name] for name in _names(header)}
         newer = header["versions"]["mars2d"] if header["format"] > FORMAT else ""
         record = None if newer else _assemble(header, columns)
         damaged = record is not None and record.digest != header["digest"]
@@ -167,28 +174,48 @@ def load(path: str | Path) -> Record:
     return record
 
 
+_COLUMNS = ("time", "pose", "command", "command_time")
+
+
+def _names(header: Any) -> list[str]:
+    """Return the names of the columns that a file with this header holds."""
+    contacts = [f"contact:{name}" for name in CONTACT.names or ()]
+    return [*_COLUMNS, *contacts, *(f"sensor:{name}" for name in header["sensor_robots"])]
+
+
 def _assemble(header: Any, columns: dict[str, NDArray[Any]]) -> Record:
     """Put a record together from what a file held; raises what it may if that is not a record."""
     contacts = np.zeros(len(columns["contact:time"]), dtype=CONTACT)
     for name in CONTACT.names or ():
         contacts[name] = columns[f"contact:{name}"]
-    sensors = {
-        name.removeprefix("sensor:"): values
-        for name, values in columns.items()
-        if name.startswith("sensor:")
-    }
+    robots = {name: tuple(indices) for name, indices in header["sensor_robots"].items()}
+    scenario, missing = plain.to_scenario(header["scenario"])
+    rows, n = len(columns["time"]), len(scenario.robots)
+    shapes = dict(zip(_COLUMNS, [(rows,), (rows, 3, n), (rows, 2, n), (rows,)], strict=True))
+    shapes |= {f"sensor:{name}": (rows, len(robots[name])) for name in robots}
+    for name, shape in shapes.items():
+        if columns[name].shape[: len(shape)] != shape:
+            raise ValueError(f"column {name} has the shape {columns[name].shape}")
     return Record(
-        scenario=plain.to_scenario(header["scenario"]),
+        scenario=scenario,
         seed=header["seed"],
         time=columns["time"],
         pose=columns["pose"],
         command=columns["command"],
         command_time=columns["command_time"],
-        sensors=sensors,
-        sensor_robots={name: tuple(header["sensor_robots"][name]) for name in sensors},
+        sensors={name: columns[f"sensor:{name}"] for name in robots},
+        sensor_robots=robots,
         contacts=contacts,
         over_message=header["over_message"],
         finished=header["finished"],
         filename=header["filename"],
         versions=dict(header["versions"]),
+        missing=missing,
     )
+
+
+def _unwritable(array: NDArray[Any]) -> NDArray[Any]:
+    """Return a view that can't be written: a digest holds for what it was made of."""
+    view = array.view()
+    view.flags.writeable = False
+    return view

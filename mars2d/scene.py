@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -52,6 +53,16 @@ def color(name: str, value: object) -> str:
                 return "#" + "".join(2 * c for c in digits)
     hint = nearest(value, [k for k in _NAMED if len(k) > 1]) if isinstance(value, str) else ""
     raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
+
+
+@lru_cache(maxsize=1024)
+def _checked(name: str, value: str) -> str:
+    return color(name, value)
+
+
+def _paint(value: str | None, field: str = "fill") -> str | None:
+    """Check a colour that may be None, which paints nothing."""
+    return None if value is None else _checked(field, value)
 
 
 def faded(value: str, opacity: float) -> str:
@@ -146,6 +157,7 @@ class Scene:
     ) -> None:
         """Add a disc (`fill`), a ring (`stroke`), or both."""
         x, y = np.asarray(center, dtype=float)[:2].tolist()
+        fill, stroke = _paint(fill), _paint(stroke, "stroke")
         self.shapes.append(Circle((x, y), float(radius), fill, stroke, width, pixels))
 
     def polygon(
@@ -157,12 +169,14 @@ class Scene:
         width: float = 1.0,
     ) -> None:
         """Add a closed outline through points (k, 2)."""
+        fill, stroke = _paint(fill), _paint(stroke, "stroke")
         self.shapes.append(Polygon(_points(points), fill, stroke, width))
 
     def line(
         self, points: ArrayLike | Outline, *, stroke: str, width: float = 1.0, style: str = "-"
     ) -> None:
         """Add a polyline through points (k, 2)."""
+        stroke, style = _checked("stroke", stroke), wake_style("style", style)
         self.shapes.append(Line(_points(points), stroke, width, style))
 
     def text(
@@ -176,6 +190,7 @@ class Scene:
     ) -> None:
         """Add a label."""
         x, y = np.asarray(position, dtype=float)[:2].tolist()
+        color = _checked("color", color)
         self.shapes.append(Text((x, y), str(text), color, size, anchor))
 
     def sector(

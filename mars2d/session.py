@@ -9,11 +9,11 @@ from typing import Any
 
 from mars2d.animation import playback_speed
 from mars2d.files import open_experiment
-from mars2d.loop import Watcher, simulate
+from mars2d.loop import simulate
 from mars2d.record import Record
 from mars2d.scenario import Scenario
 from mars2d.streams import check_seed
-from mars2d.world import World
+from mars2d.world import Watcher, World
 
 __all__ = ["run"]
 
@@ -37,7 +37,7 @@ def run(
     and parameters of a scenario function. control: the law of the team, in place of the
     experiment's. seed: of all random streams. show: whether in a window; by default, if a speed is
     given and there is a display. watchers: functions called with the world at each control step,
-    once its sensors have been read; without a window.
+    once its sensors have been read.
 
     Raises InputError for what can't be run. When a law fails, the error carries what was recorded
     until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
@@ -50,8 +50,8 @@ def run(
     if _wants_window(speed, show):
         from mars2d.view.show import show_experiment
 
-        return show_experiment(opened, speed, seed)
-    return simulate(opened, seed, speed, watchers)
+        return show_experiment(opened, speed, seed, watchers)
+    return simulate(opened, seed, speed, watchers).record
 
 
 def _wants_window(speed: float | str, show: bool | None) -> bool:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d import checks
 from mars2d.addons.base import HOOKS, Addon
 from mars2d.bodies.base import Drive
 from mars2d.contact import CONTACT
-from mars2d.control import Law, RobotView, Sense, SensorsOnlyView, called, commands, team_command
+from mars2d.control import Law, Mind, RobotView, SensorsOnlyView, commands, team_command
 from mars2d.delay import DelayLine
 from mars2d.description import wrong
 from mars2d.engine import Engine
@@ -25,6 +26,7 @@ from mars2d.recorder import History, Recorder
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
 from mars2d.streams import check_seed, stream
+from mars2d.usercode import called
 
 __all__ = ["World"]
 
@@ -32,7 +34,7 @@ FASTEST = 1e6
 """What a drive may ask for at most, m/s and rad/s."""
 
 Float = NDArray[np.float64]
-Pace = Callable[["World"], None]
+Watcher = Callable[["World"], None]
 
 
 class Addons(SimpleNamespace):
@@ -53,8 +55,8 @@ class World:
 
     scenario: what is simulated. control: the law of the whole team, a function or generator of the
     world; a robot's own controller overrides its column. seed: of all random streams. filename:
-    the experiment's file, for the record. pace: called once a control step, between sensing and
-    control, by whoever wants to draw or to wait.
+    the experiment's file, for the record. watch: called with the world once a control step, between
+    sensing and control: to draw, to wait, to count.
 
     over: whether the experiment is over, and over_message why.
     """
@@ -66,20 +68,20 @@ class World:
         seed: int = 0,
         *,
         filename: str = "",
-        pace: Pace | None = None,
+        watch: Watcher | None = None,
     ) -> None:
         if not isinstance(scenario, Scenario):
             raise wrong("World.scenario", scenario, "a Scenario")
         self.scenario = scenario
         self.seed = check_seed(seed)
         self.filename = filename
-        self.pace = pace
+        self._watch = watch
         self.iteration = 0
         self.over = False
         self.over_message = ""
         self._drawn = Scene()  # by the add-ons, at the end
-        self._stepping = False
-        self._finished = False
+        self._stepping = True  # until all is built
+        self._observed = -1  # the iteration that add-ons and sensors were last called for
         self._engine = Engine(scenario)
         self._recorder = Recorder(scenario)
         self.history = History(self._recorder)
@@ -95,30 +97,31 @@ class World:
         self._build_sensors()
         self._build_laws(control)
         self._build_addons()
+        self._stepping = False
+        if self.over:  # an add-on has stopped it at once
+            self._close()
 
     def _build_sensors(self) -> None:
-        self._senses = [Sense() for _ in self.scenario.robots]
-        self._views = [RobotView(self, i, sense) for i, sense in enumerate(self._senses)]
+        self._minds = [Mind(self, str(robot.name)) for robot in self.scenario.robots]
+        views = [RobotView(self, i, mind) for i, mind in enumerate(self._minds)]
         self._sensors = [
             (sensor, view, self.stream(f"sensor {robot.name} {sensor.key}"), vars(view.sense))
-            for robot, view in zip(self.scenario.robots, self._views, strict=True)
+            for robot, view in zip(self.scenario.robots, views, strict=True)
             for sensor in robot.sensors
         ]
         self._readings: dict[str, list[Any]] = {}
-        self._sensed = -1  # the iteration of the readings
 
     def _build_laws(self, control: Callable[[World], Any] | None) -> None:
         self.robots: list[RobotView] = []
         own: list[Law | None] = []
         for i, robot in enumerate(self.scenario.robots):
-            view = self._views[i]
-            if robot.sees == "sensors":
-                view = SensorsOnlyView(self, i, self._senses[i])
+            kind = SensorsOnlyView if robot.sees == "sensors" else RobotView
+            view = kind(self, i, self._minds[i])
             self.robots.append(view)
             own.append(None if robot.controller is None else Law(robot.controller, view))
         self._own = own
         if control is not None:
-            _check_control(control)
+            checks.law("control", control, "the world")
         self._central = None if control is None else Law(control, self, self._still)
 
     def _build_addons(self) -> None:
@@ -194,13 +197,13 @@ class World:
         return stream(self.seed, name)
 
     def stop(self, why: str) -> None:
-        """End the experiment, with the present step if there is one, and say why."""
+        """End the experiment, with the present control step, and say why."""
         self.break_off(why)
         if not self._stepping:
-            self._finish()
+            self._close()
 
     def break_off(self, why: str) -> None:
-        """End the experiment without the add-ons' last hook, as after an error."""
+        """End the experiment at once, without a last control step, as after an error."""
         if not self.over:
             self.over, self.over_message = True, str(why)
 
@@ -228,22 +231,47 @@ class World:
         """
         if self.over:
             raise InputError(f"the experiment is over: {self.over_message}")
+        with self._busy():
+            self._control_step(command)
+
+    def observe(self) -> None:
+        """Call the add-ons and read the sensors for the present instant, as the next step would.
+
+        All robots are sensed before any is commanded. To be called again does nothing.
+        """
+        if self._observed != self.iteration:
+            with self._busy():
+                self._observe()
+            if self.over:  # an add-on has stopped it
+                self._close()
+
+    @contextmanager
+    def _busy(self) -> Iterator[None]:
+        """Refuse to be entered from within; an error of the user's code ends the experiment."""
         if self._stepping:
             raise InputError(
                 "world.step() was called from within a step: by a law, sensor or add-on"
             )
         self._stepping = True
         try:
-            self._control_step(command)
+            yield
+        except LawError as error:
+            self.break_off(f"Error: {error}")
+            error.record = self.record
+            raise
         finally:
             self._stepping = False
 
+    def _close(self) -> None:
+        """Do the control step that ends the experiment."""
+        with self._busy():
+            self._control_step(None)
+
     def _control_step(self, command: Any) -> None:
         """Do what MARS's Algorithm 1 does in one pass of its loop."""
-        self._call("on_step", self)
-        self.sense()
-        if self.pace is not None:
-            self.pace(self)
+        self._observe()
+        if self._watch is not None:
+            self._watch(self)
         wanted = self._ask_laws() if command is None else self._given(command)
         self._command = _frozen(self._saturate(wanted))
         self._write_row()
@@ -251,24 +279,27 @@ class World:
         if self.iteration >= self.scenario.last_iteration:
             self.stop(f"Time is over: {self.time:g} s")
         if self.over:
-            self._finish()
-            return
-        self._drive()
+            self._call("on_stop", self)
+            self._draw_addons(self._drawn)
+        else:
+            self._drive()
 
-    def sense(self) -> None:
-        """Read all sensors, once a control step: all robots before any is commanded."""
-        if self._sensed == self.iteration:
-            return
+    def _observe(self) -> None:
+        if self._observed != self.iteration:
+            self._observed = self.iteration
+            self._call("on_step", self)
+            self._read_sensors()
+
+    def _read_sensors(self) -> None:
         readings: dict[str, list[Any]] = {key: [] for key in self._recorder.sensor_robots}
         for sensor, view, rng, sense in self._sensors:
             with called(f"sensor {sensor.key!r}", sensor.read):
                 reading = sensor.read(view, self, rng)
-            if isinstance(reading, np.ndarray):
-                reading = _frozen(reading.copy())  # a law can't change what is recorded
+            if isinstance(reading, (np.ndarray, list, tuple)):
+                reading = _copied(reading)  # a law can't change what is recorded
             sense[sensor.key] = reading
             readings[sensor.key].append(reading)
         self._readings = readings
-        self._sensed = self.iteration
 
     def _call(self, hook: str, *args: Any) -> None:
         for key, method in self._hooks[hook]:
@@ -289,6 +320,8 @@ class World:
         for drive, columns in self._teams:
             with called(f"drive {type(drive).__name__}", drive.saturate):
                 command[:, columns] = drive.saturate(command[:, columns])
+        if not np.isfinite(command).all():
+            raise LawError(f"a drive saturates a command to {shown(command.tolist())}")
         return command
 
     def _twist(self, command: Float) -> Float:
@@ -327,24 +360,19 @@ class World:
         self._pose = _frozen(self._engine.pose)
         self.iteration += 1
 
-    def _finish(self) -> None:
-        if not self._finished:
-            self._finished = True
-            self._call("on_stop", self)
-            self._draw_addons(self._drawn)
-
     # -- what comes out ------------------------------------------------------------------------
 
     @property
     def record(self) -> Record:
         """The record so far."""
         message = self.over_message if self.over else "not over"
-        return self._recorder.record(self.seed, message, self.over, self.filename, self._drawn)
+        return self._recorder.record(
+            self.seed, message, self.over, self.filename, Scene([*self._drawn.shapes])
+        )
 
     @property
     def frame(self) -> Frame:
-        """What is seen now. Reads the sensors, if they have not been read at this instant."""
-        self.sense()
+        """What is seen now; the readings are the last ones, see `observe`."""
         robots = self._recorder.sensor_robots
         return Frame(
             scenario=self.scenario,
@@ -368,6 +396,14 @@ def _frozen(array: NDArray[Any]) -> NDArray[Any]:
     return view
 
 
+def _copied(reading: Any) -> Any:
+    """Return a reading as an array that can't be written, if it is one at all."""
+    try:
+        return _frozen(np.array(reading))
+    except ValueError:  # rows of different lengths: the recorder refuses it
+        return reading
+
+
 def _overrides(addon: Addon, hook: str) -> bool:
     return getattr(type(addon), hook) is not getattr(Addon, hook)
 
@@ -385,14 +421,3 @@ def _teams(scenario: Scenario) -> list[tuple[Drive, Any]]:
     if len(groups) == 1:
         return [(groups[0][0], slice(None))]
     return [(drive, np.array(columns)) for drive, columns in groups]
-
-
-def _check_control(control: object) -> None:
-    if not callable(control):
-        raise wrong("control", control, "a function of one argument, the world")
-    try:
-        inspect.signature(control).bind(None)
-    except TypeError:
-        raise wrong("control", control, "a function of exactly one argument, the world") from None
-    except ValueError:
-        pass  # a built-in without a signature: the first call will tell

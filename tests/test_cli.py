@@ -127,8 +127,8 @@ def test_check_says_where_a_record_departs(tmp_path, capsys):
     columns = {k: getattr(record, k) for k in ("scenario", "seed", "time", "command")}
     forged = mars2d.Record(pose=pose, command_time=record.command_time, **columns)
     forged.save(tmp_path / "a.npz")
-    assert cli.main(["check", str(tmp_path / "a.npz")]) == 0
-    assert "departs at row 30, by 0.25 m" in capsys.readouterr().out
+    assert cli.main(["check", str(tmp_path / "a.npz")]) == 1
+    assert "departs at row 30, by 0.25 m" in capsys.readouterr().err
 
 
 def test_check_describes_an_experiment_and_tries_its_laws(tmp_path):

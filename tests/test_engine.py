@@ -12,6 +12,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 

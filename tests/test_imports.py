@@ -15,7 +15,7 @@ PACKAGE = Path(mars2d.__file__).parent
 LAYERS = [
     {"errors"},
     {"geometry", "description"},
-    {"registry", "scene", "streams", "contact", "delay", "checks", "progress"},
+    {"registry", "scene", "streams", "contact", "delay", "checks", "progress", "usercode"},
     {"bodies", "sensors", "addons", "animation"},
     {"robot"},
     {"robot", "animation"},

@@ -21,7 +21,7 @@ def reading(sensor: Sensor, robots: list[Robot], outlines=(), pose=(0, 0, 0)):
         robots=[carrier, *robots], addons=[Map(list(outlines))], workspace=None, stop_time=1
     )
     world = World(scenario)
-    world.sense()
+    world.observe()
     return getattr(world.robots[0].sense, sensor.key)
 
 
@@ -74,7 +74,7 @@ def test_proximity_never_sees_its_own_robot(angle):
         sensor = Proximity(range=5, field_of_view=angle)
         robot = Robot(diameter=1.0, center_offset=offset, sensors=[sensor])
         world = World(Scenario(robots=[robot]))
-        world.sense()
+        world.observe()
         assert world.robots[0].sense.proximity is False
 
 
@@ -119,7 +119,7 @@ def test_the_walls_of_the_workspace_are_seen_where_they_are_walls():
     for on_exit in ("wall", "stop"):
         robot = Robot(pose=(4.5, 0, 0), sensors=[Proximity(range=0.6)])
         world = World(Scenario(robots=[robot], on_exit=on_exit))
-        world.sense()
+        world.observe()
         found[on_exit] = world.robots[0].sense.proximity
     assert found == {"wall": True, "stop": False}
 

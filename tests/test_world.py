@@ -41,10 +41,10 @@ def test_a_control_step_goes_in_the_order_of_algorithm_1():
 
     robots = [Robot(sensors=[Nose()]), Robot(pose=(1, 0, 0), sensors=[Nose()], controller=own)]
     scenario = Scenario(robots=robots, addons=[Diary()], stop_time=0.1)
-    world = World(scenario, control, pace=lambda _world: log.append("pace"))
+    world = World(scenario, control, watch=lambda _world: log.append("watch"))
     while not world.over:
         world.step()
-    once = ["sense 0", "sense 1", "pace", "control", "own 1"]
+    once = ["sense 0", "sense 1", "watch", "control", "own 1"]
     assert log == ["start", "add-on 0", *once, "add-on 1", *once, "stop"]
 
 
@@ -276,15 +276,16 @@ def test_a_law_that_steps_the_world_is_an_error_and_nothing_is_recorded_twice():
     assert world.iteration == 2
 
 
-def test_a_world_whose_law_failed_can_be_stepped_on_by_hand():
+def test_a_world_whose_law_failed_is_over():
     def control(world):
         raise KeyError("oops")
 
     world = World(Scenario(), control)
     with pytest.raises(LawError, match="control raised KeyError: 'oops'"):
         world.step()
-    world.step([[0.1], [0]])
-    assert len(world.record) == 1
+    assert "KeyError" in world.over_message
+    with pytest.raises(InputError, match="the experiment is over: Error"):
+        world.step([[0.1], [0]])
 
 
 # -- errors keep the record -----------------------------------------------------------------
@@ -360,14 +361,17 @@ def test_velocity_is_that_of_the_chord():
     assert world.velocity.ravel() == pytest.approx([0.3 * np.cos(0.5), 0.3 * np.sin(0.5), 0])
 
 
-def test_the_frame_shows_the_readings_of_this_instant():
+def test_the_frame_shows_the_readings_of_this_instant_once_it_is_observed():
     class Clock(Sensor):
         def read(self, robot, world, rng):
             return world.time
 
     world = World(Scenario(robots=[Robot(sensors=[Clock()])]))
+    assert world.frame.readings == {}
+    world.observe()
     assert world.frame.readings == {"clock": [(0, 0.0)]}
     world.step()
+    world.observe()
     frame = world.frame
     assert frame.readings == {"clock": [(0, 0.1)]}
     assert frame.iteration == 1

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from mars2d.animation import playback_speed
 from mars2d.files import Experiment, examples
 from mars2d.frame import Frame
-from mars2d.loop import Watcher, simulate
+from mars2d.loop import simulate
 from mars2d.progress import Progress
 from mars2d.record import Record
-from mars2d.world import World
+from mars2d.world import Watcher, World
 
 if TYPE_CHECKING:
     from mars2d.output.footage import Footage
@@ -63,17 +63,13 @@ def show(experiment: Experiment, speed: float | str | None, seed: int) -> Record
     return show_experiment(experiment, pace, seed)
 
 
-def run_headless(
-    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()
-) -> tuple[Record, Frame]:
-    """Run without a window, with a progress bar; return the record and the last frame."""
+def run_headless(experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()) -> World:
+    """Run without a window, with a progress bar, and return the world, which is over."""
     progress = Progress(experiment.scenario.last_iteration)
-    worlds: list[World] = []
     try:
-        record = simulate(experiment, seed, watchers=[*watchers, progress, worlds.append])
+        return simulate(experiment, seed, watchers=[*watchers, progress])
     finally:
         progress.close()
-    return record, worlds[-1].frame
 
 
 def film_speed(experiment: Experiment, speed: float | str | None) -> float:
@@ -92,7 +88,14 @@ def save_footage(
 
     progress = Progress(footage.count(last), "frames")
     try:
-        save_film(footage.frames(last), path, fps=FILM_FPS, size=size, progress=progress.update)
+        save_film(
+            footage.frames(last),
+            path,
+            fps=FILM_FPS,
+            size=size,
+            status=f"{footage.speed:.3g}x",
+            progress=progress.update,
+        )
     finally:
         progress.close()
 

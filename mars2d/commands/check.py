@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from mars2d.commands.base import run_headless
-from mars2d.errors import InputError, counted
+from mars2d.errors import InputError, Mars2dError, counted
 from mars2d.files import Experiment, open_experiment
 from mars2d.record import load
 from mars2d.rerun import rerun
@@ -45,8 +45,8 @@ def _check_experiment(source: str) -> None:
     scenario = experiment.scenario
     stop_time = min(TRIAL * scenario.sampling_time, scenario.stop_time)
     trial = Experiment(scenario.replace(stop_time=stop_time), experiment.control)
-    record, _ = run_headless(trial, seed=0)
-    print(f"sound: {counted(len(record), 'control step')} done")
+    world = run_headless(trial, seed=0)
+    print(f"sound: {counted(len(world.history), 'control step')} done")
 
 
 def _description(experiment: Experiment) -> list[tuple[str, str]]:
@@ -91,8 +91,10 @@ def _check_record(path: Path) -> None:
     print(f"ended       {record.over_message}")
     print(f"made with   {versions}")
     print(f"digest      {record.digest}")
-    result = rerun(record)
-    if result.identical:
-        print("run again   bit-identical")
-    else:
-        print(f"run again   departs at row {result.row}, by {result.distance:.3g} m or rad")
+    if record.missing:
+        print(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
+    departure = rerun(record)
+    if departure is not None:
+        where = f"row {departure.row}, by {departure.distance:.3g} m or rad"
+        raise Mars2dError(f"{path}: run again, it departs at {where}")
+    print("run again   bit-identical")

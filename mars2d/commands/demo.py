@@ -57,9 +57,10 @@ def _make_pictures(experiment: Experiment, name: str, seed: int) -> None:
     except OSError as error:
         raise InputError(f"{FOLDER.absolute()}: can't be made: {error.strerror}") from error
     footage = Footage(experiment.scenario, experiment.scenario.stop_time / SHORT_FILM, FILM_FPS)
-    record, last = run_headless(experiment, seed, [footage])
+    world = run_headless(experiment, seed, [footage])
+    record = world.record
     print(f"{record.scenario.title}: {record.over_message}")
     print(f"picture: {save_figure(record, FOLDER / f'{name}.png')}", flush=True)
     film = FOLDER / f"{name}.gif"
-    save_footage(footage, last, film, FILM_SIZE)
+    save_footage(footage, world.frame, film, FILM_SIZE)
     print(f"film:    {film}")

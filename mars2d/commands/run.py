@@ -21,11 +21,12 @@ from mars2d.commands.base import (
 from mars2d.errors import InputError, Mars2dError, counted
 from mars2d.files import Experiment, open_experiment, parse_setting
 from mars2d.loop import Interrupted
+from mars2d.output import figure, film
 from mars2d.record import Record
 
 NAME = "run"
 
-OUTPUTS = {"record": (".npz",), "figure": (".png", ".pdf", ".svg"), "video": (".gif", ".mp4")}
+OUTPUTS = {"record": (".npz",), "figure": figure.SUFFIXES, "video": film.SUFFIXES}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -64,7 +65,7 @@ def execute(arguments: argparse.Namespace) -> None:
         record = run(arguments, experiment)
     except (Mars2dError, Interrupted) as error:
         if error.record is not None and len(error.record):
-            _save_all(arguments, error.record)  # what was recorded until then is kept
+            _keep(arguments, error.record)
         raise
     if arguments.json:
         print(_as_json(record, time.perf_counter() - start))
@@ -86,9 +87,7 @@ def _check_outputs(arguments: argparse.Namespace) -> None:
         if path.is_dir():
             raise InputError(f"--{name} {path}: this is a folder")
     if arguments.video is not None and arguments.video.suffix.lower() == ".mp4":
-        from mars2d.output.film import require_av
-
-        require_av(arguments.video)
+        film.require_av(arguments.video)
     if arguments.at is not None and arguments.figure is None:
         raise InputError("--at needs --figure OUT")
 
@@ -120,16 +119,25 @@ def _run_in_window(arguments: argparse.Namespace, experiment: Experiment) -> Rec
 def _run_headless(arguments: argparse.Namespace, experiment: Experiment) -> Record:
     """Run as quick as can be: without a window, a speed is that of the film."""
     if arguments.video is None:
-        record, _ = run_headless(experiment, arguments.seed)
+        record = run_headless(experiment, arguments.seed).record
         _save_data(arguments, record)
         return record
     from mars2d.output.footage import Footage
 
     footage = Footage(experiment.scenario, film_speed(experiment, arguments.speed), FILM_FPS)
-    record, last = run_headless(experiment, arguments.seed, [footage])
+    world = run_headless(experiment, arguments.seed, [footage])
+    record = world.record
     _save_data(arguments, record)
-    save_footage(footage, last, arguments.video)
+    save_footage(footage, world.frame, arguments.video)
     return record
+
+
+def _keep(arguments: argparse.Namespace, record: Record) -> None:
+    """Save what was recorded until an error, which is the one that counts."""
+    try:
+        _save_all(arguments, record)
+    except Mars2dError as error:
+        print(f"mars2d: {error}", file=sys.stderr)
 
 
 def _save_data(arguments: argparse.Namespace, record: Record) -> None:
@@ -137,20 +145,27 @@ def _save_data(arguments: argparse.Namespace, record: Record) -> None:
     if arguments.record is not None:
         record.save(arguments.record)
     if arguments.figure is not None:
-        from mars2d.output.figure import save_figure
+        figure.save_figure(record, arguments.figure, _times_within(arguments.at, record))
 
-        save_figure(record, arguments.figure, arguments.at)
+
+def _times_within(times: list[float] | None, record: Record) -> list[float] | None:
+    """Return those times that a run lasted for; it may have ended early."""
+    if times is None:
+        return None
+    end = float(record.time[-1])
+    within = [moment for moment in times if moment <= end]
+    if len(within) < len(times):
+        print(f"mars2d: the run ended at {end:g} s: no snapshots after it", file=sys.stderr)
+    return within or None
 
 
 def _save_all(arguments: argparse.Namespace, record: Record) -> None:
     """Save what is asked for, the film made of the record."""
     _save_data(arguments, record)
     if arguments.video is not None:
-        from mars2d.output.film import film_rows, save_film
-
         speed = film_speed(Experiment(record.scenario), arguments.speed)
-        rows = film_rows(record.time, speed, FILM_FPS)
-        save_film((record.frame(row) for row in rows), arguments.video, fps=FILM_FPS)
+        rows = film.film_rows(record.time, speed, FILM_FPS)
+        film.save_film((record.frame(row) for row in rows), arguments.video, fps=FILM_FPS)
 
 
 def _as_text(record: Record) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mars2d.errors import InputError
 from mars2d.frame import Frame
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
@@ -14,6 +15,10 @@ from mars2d.view.player import between
 from mars2d.world import World
 
 __all__ = ["Footage"]
+
+
+LONGEST = 100_000
+"""The most frames of a film: over an hour."""
 
 
 class Footage:
@@ -24,10 +29,17 @@ class Footage:
 
     def __init__(self, scenario: Scenario, speed: float, fps: float) -> None:
         """Take simulated seconds per second of the film, and frames per second."""
+        self.speed = speed
         self._sampling_time = scenario.sampling_time
         self._step = speed / fps
         self._frames: dict[int, Frame] = {}
         last = scenario.last_iteration
+        count = last * self._sampling_time / self._step
+        if not count <= LONGEST:
+            raise InputError(
+                f"a film at {speed:g} times real time would have {count:.3g} frames: "
+                f"expected a speed that makes at most {LONGEST:,}"
+            )
         moments = np.arange(0, last * self._sampling_time + self._step / 2, self._step)
         rows = np.floor(moments / self._sampling_time + 1e-9).astype(int)
         # Each moment lies between two rows, and both are needed.

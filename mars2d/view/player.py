@@ -155,6 +155,12 @@ class Player:
             text += f"  reaches {_times(factor)}"
         return text, False
 
+    def fail(self, error: Mars2dError) -> None:
+        """Stop at the present frame, without what add-ons and sensors draw: one of them raised."""
+        self.error = error
+        self._settle()
+        self._present = replace(self._present, readings={}, draw_addons=None)
+
     def _settle(self) -> None:
         """Show the source's present frame."""
         self._present = self.source.frame

@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
-from mars2d.errors import InputError
+from collections.abc import Sequence
+
+from mars2d.errors import InputError, Mars2dError
 from mars2d.files import Experiment
 from mars2d.record import Record
 from mars2d.view.source import Live, Playback
 from mars2d.view.window import Window
+from mars2d.world import Watcher
 
 __all__ = ["show_experiment", "show_record"]
 
 
-def show_experiment(experiment: Experiment, speed: float | str, seed: int = 0) -> Record:
+def show_experiment(
+    experiment: Experiment, speed: float | str, seed: int = 0, watchers: Sequence[Watcher] = ()
+) -> Record:
     """Run an experiment in a window until it is closed, and return what was recorded until then.
 
     speed: simulated seconds per second, "max", or 0 for one step a key press. Raises InputError
     without a display, and what a law raised, once the window is closed.
     """
-    source = Live(experiment, seed)
-    Window(source, speed).run()
+    source = Live(experiment, seed, watchers)
+    try:
+        Window(source, speed).run()
+    except Mars2dError as error:
+        error.record = error.record or source.record
+        raise
     return source.record
 
 

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Protocol
 
-from mars2d.errors import Mars2dError
 from mars2d.files import Experiment
 from mars2d.frame import Frame
+from mars2d.loop import open_world
 from mars2d.record import Record
 from mars2d.scenario import Scenario
-from mars2d.world import World
+from mars2d.world import Watcher
 
 __all__ = ["Live", "Playback", "Source"]
 
@@ -40,15 +41,18 @@ class Source(Protocol):
 class Live:
     """A live experiment: each advance is one control step of its world."""
 
-    def __init__(self, experiment: Experiment, seed: int = 0) -> None:
+    def __init__(
+        self, experiment: Experiment, seed: int = 0, watchers: Sequence[Watcher] = ()
+    ) -> None:
         self._experiment = experiment
         self._seed = seed
+        self._watchers = watchers
         self.restart()
 
     def restart(self) -> None:
         """Build the world anew."""
-        e = self._experiment
-        self._world = World(e.scenario, e.control, self._seed, filename=e.filename)
+        self._world = open_world(self._experiment, self._seed, self._watchers)
+        self._observe()
 
     @property
     def scenario(self) -> Scenario:
@@ -74,15 +78,15 @@ class Live:
         return replace(record, over_message="The window was closed")
 
     def advance(self) -> None:
-        """Do one control step. A Mars2dError ends the experiment and carries its record."""
-        if self._world.over:
-            return
-        try:
+        """Do one control step. A LawError ends the experiment and carries its record."""
+        if not self._world.over:
             self._world.step()
-        except Mars2dError as error:
-            self._world.break_off(f"Error: {error}")
-            error.record = self._world.record
-            raise
+            self._observe()
+
+    def _observe(self) -> None:
+        """Read the sensors of what is seen next."""
+        if not self._world.over:
+            self._world.observe()
 
 
 class Playback:

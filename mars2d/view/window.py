@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pygame
 
-from mars2d.errors import InputError
+from mars2d.errors import InputError, Mars2dError
 from mars2d.scene import PALETTE, Scene
 from mars2d.view import keys
 from mars2d.view.bars import (
@@ -128,6 +128,13 @@ class Window:
 
     def draw(self, surface: pygame.Surface) -> None:
         """Draw everything on a surface; the layout follows its size."""
+        try:
+            self._draw(surface)
+        except Mars2dError as error:  # of what a user's add-on or sensor draws
+            self.player.fail(error)
+            self._draw(surface)
+
+    def _draw(self, surface: pygame.Surface) -> None:
         banner = self._banner()
         self._arrange(surface.get_size(), banner)
         frame = self.player.frame

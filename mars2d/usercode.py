@@ -1,0 +1,68 @@
+"""Calls of the user's code: what it raises becomes an error that points at its line."""
+
+from __future__ import annotations
+
+import inspect
+import sysconfig
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from mars2d.errors import LawError, described
+
+__all__ = ["called", "definition"]
+
+_PACKAGE = Path(__file__).parent
+_STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
+
+
+class called:  # noqa: N801 - used like a function, as contextlib's are
+    """Run the user's code so that what it raises becomes a LawError with its file and line."""
+
+    def __init__(self, name: str, function: Callable[..., Any]) -> None:
+        """Take what is called, and by which name messages call it."""
+        self._name, self._function = name, function
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        tb: TracebackType | None,
+    ) -> None:
+        if error is None or not isinstance(error, (Exception, SystemExit)):
+            return  # nothing, or Ctrl-C
+        where = _users_line(tb) or definition(self._function)
+        if isinstance(error, LawError):
+            error.where = error.where or where
+            return
+        wrapped = LawError(f"{self._name} raised {described(error)}")
+        wrapped.where = where
+        raise wrapped from error
+
+
+def _users_line(tb: TracebackType | None) -> str | None:
+    """Return the innermost place of a traceback that lies in the user's own code."""
+    steps = [step for step in traceback.extract_tb(tb) if _is_users(Path(step.filename))]
+    return _place(steps[-1].filename, steps[-1].lineno or 0) if steps else None
+
+
+def _is_users(path: Path) -> bool:
+    if path.is_relative_to(_PACKAGE / "examples"):
+        return True
+    others = path.is_relative_to(_PACKAGE) or path.is_relative_to(_STANDARD_LIBRARY)
+    return not (others or "site-packages" in path.parts or str(path).startswith("<"))
+
+
+def definition(function: Callable[..., Any]) -> str | None:
+    """Return where a function is defined, if it is Python's."""
+    code = getattr(inspect.unwrap(function), "__code__", None)
+    return None if code is None else _place(code.co_filename, code.co_firstlineno)
+
+
+def _place(filename: str, line: int) -> str:
+    return f"{Path(filename).name}, line {line}"
