@@ -14,7 +14,18 @@ from mars2d.description import Check, real, wrong
 from mars2d.errors import InputError, shown
 from mars2d.geometry import Outline, Point
 
-__all__ = ["LIMIT", "instance", "law", "listing", "outline", "outlines", "point", "pose", "unique"]
+__all__ = [
+    "LIMIT",
+    "identifier",
+    "instance",
+    "law",
+    "listing",
+    "outline",
+    "outlines",
+    "point",
+    "pose",
+    "unique",
+]
 
 LIMIT = 1e6
 """Coordinates go up to this far, metres: beyond it a double can't hold a nanometre."""
@@ -153,7 +164,17 @@ def law(name: str, value: object, subject: str) -> object:
     try:
         inspect.signature(value).bind(None)
     except TypeError:
-        raise wrong(name, value, f"a function of exactly one argument, {subject}") from None
+        given = inspect.signature(value)
+        called = getattr(value, "__name__", type(value).__name__)
+        raise InputError(
+            f"{name} = {called}{given}: expected a function of exactly one argument, {subject}"
+        ) from None
     except ValueError:
         pass  # a built-in without a signature: the first call will tell
     return value
+
+
+def identifier(name: str, value: str | None, prefix: str) -> None:
+    """Refuse a part's name that can't follow the `prefix` under which a law finds it."""
+    if value is not None and not value.isidentifier():
+        raise wrong(name, value, f"letters, digits and _, as it follows {prefix}")

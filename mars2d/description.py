@@ -16,6 +16,8 @@ import numbers
 from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, Self, dataclass_transform
 
+import numpy as np
+
 from mars2d.errors import InputError, nearest, shown
 
 __all__ = ["Description", "choice", "entry", "flag", "integer", "number", "text"]
@@ -142,7 +144,7 @@ def entry(
 
 
 def _check_bool(name: str, value: object) -> bool:
-    if isinstance(value, bool) or type(value).__name__ == "bool_" or type(value).__name__ == "bool":
+    if isinstance(value, (bool, np.bool_)):
         return bool(value)
     raise wrong(name, value, "True or False")
 

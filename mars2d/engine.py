@@ -101,7 +101,7 @@ class Engine:
         self._address, self._name = np.array(sorted(named), dtype=np.int64).T
         self._set_accuracy(scenario)
         self._last_step = inf
-        self._impact = False  # in the last step
+        self._hit = np.zeros(self.n, dtype=bool)  # in the last step
         self._state = self._read().copy()
 
     def _add_robot(self, scenario: Scenario, i: int) -> pymunk.Body:
@@ -213,7 +213,7 @@ class Engine:
         else:
             gone = duration
             self._step(duration)
-            self._impact = False
+            self._hit[:] = False
         self._state = self._read().copy()
         return gone
 
@@ -287,8 +287,7 @@ class Engine:
             slipping |= touching
             some_slip = bool(slipping.any())
             if some_slip:
-                growth = 1.0 if self._impact else GROWTH
-                h = min(h, self._contact_step, growth * self._last_step)
+                h = min(h, self._contact_step, GROWTH * self._last_step)
                 slipping &= touching | self._out_of_reach(twist, state, h, who)
             velocity, bend, speed = self._motion(twist, state, slipping, who)
             h = min(h, encounter.time_to_touch(velocity, bend, self._entry))
@@ -299,10 +298,12 @@ class Engine:
                 self._slipping[who] = slipping
                 return elapsed
             self._aim(twist, state, slipping, who, h)
+            if h != self._last_step:
+                self._forget_impacts()
             self._step(h)
             elapsed = duration if h == left else elapsed + h
             state = self._read()[who]
-            self._impact = self._was_hit(state, who, h)
+            self._hit[who] = self._were_hit(state, who, h)
 
     def _motion(
         self, twist: Float, state: Float, slipping: Mask, who: Index
@@ -316,10 +317,21 @@ class Engine:
         bend[follows] += np.abs(np.hypot(twist[0], twist[1]) * twist[2])[follows]
         return _center_velocity(moving, offset), bend, _top_speed(moving, offset)
 
-    def _was_hit(self, state: Float, who: Index, h: float) -> bool:
-        """Return whether the last substep changed a velocity by more than a drive can."""
+    def _were_hit(self, state: Float, who: Index, h: float) -> Mask:
+        """Return whose velocities the last substep changed by more than their drives can."""
         change = np.hypot(*(state[:, 3:5] - self._velocity[who, :2]).T)
-        return bool((change * self._mass[who] > 1.01 * self._max_force[who] * h).any())
+        return np.asarray(change * self._mass[who] > 1.01 * self._max_force[who] * h)
+
+    def _forget_impacts(self) -> None:
+        """Make the solver forget the impulses of an impact in the last substep.
+
+        It would begin with them again, scaled by the ratio of the substeps' lengths, and could take
+        back only the unscaled part: robots would bounce, or stick, for no reason.
+        """
+        for i in np.flatnonzero(self._hit):
+            for disc in self._bodies[i].shapes:
+                self.space.remove(disc)
+                self.space.add(disc)
 
     def _out_of_reach(self, twist: Float, state: Float, h: float, who: Index) -> Mask:
         """Return which robots their drives can't bring back to their commands within h."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import dataclasses
+import difflib
 import importlib.util
 import inspect
 import itertools
@@ -15,7 +16,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mars2d.description import Description
+from mars2d import checks
+from mars2d.description import Description, wrong
 from mars2d.errors import InputError, Mars2dError, described, nearest, shown
 from mars2d.scenario import Scenario
 
@@ -54,6 +56,8 @@ def open_experiment(
     of fields, or keyword parameters of a scenario function, with their values. control: the law of
     the team, in place of the experiment's own. Raises InputError, which points at file and line.
     """
+    if options is not None and not isinstance(options, Mapping):
+        raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
     options = dict(options or {})
     if isinstance(source, Scenario):
         return Experiment(_override(source, options), control)
@@ -69,8 +73,8 @@ def open_experiment(
     try:
         scenario = _scenario_of(module, options)
         own = getattr(module, "control", None)
-        if own is not None and not callable(own):
-            raise InputError(f"control = {shown(own)}: expected a function of the world")
+        if own is not None:
+            checks.law("control", own, "the world")
     except Mars2dError as error:
         error.where = error.where or Path(name).name
         raise
@@ -100,7 +104,10 @@ def _load(path: Path) -> ModuleType:
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module  # dataclasses and pickles look a class's module up by its name
+    before = set(sys.modules)
+    sys.modules[name] = module  # dataclasses look a class's module up by its name
+    folder = str(path.parent.absolute())
+    sys.path.insert(0, folder)  # an experiment may import what lies beside it
     try:
         spec.loader.exec_module(module)
     except SyntaxError as error:
@@ -113,8 +120,17 @@ def _load(path: Path) -> ModuleType:
         problem.where = _line_in(error, path)
         raise problem from error
     finally:
-        sys.modules.pop(name, None)
+        sys.path.remove(folder)
+        _forget_modules(before, folder)
     return module
+
+
+def _forget_modules(before: set[str], folder: str) -> None:
+    """Forget the modules that came from a folder, so that another one's are not taken for them."""
+    for name in set(sys.modules) - before:
+        file = getattr(sys.modules[name], "__file__", None)
+        if file is not None and str(Path(file).parent) == folder:
+            del sys.modules[name]
 
 
 def _line_in(error: BaseException, path: Path) -> str:
@@ -131,10 +147,10 @@ def _scenario_of(module: ModuleType, options: dict[str, Any]) -> Scenario:
     """Return a module's scenario, made by its scenario function if it has one."""
     names = [name for name in vars(module) if not name.startswith("__")]
     if not hasattr(module, "scenario"):
-        close = nearest("scenario", names)
+        close = difflib.get_close_matches("scenario", set(names) - {"Scenario"}, n=1)
+        hint = f"; it has a {close[0]!r}" if close else ""
         raise InputError(
-            "has no `scenario`: an experiment's file needs `scenario = Scenario(...)`"
-            + (close if "did you" in close else "")
+            f"has no `scenario`: an experiment's file needs `scenario = Scenario(...)`{hint}"
         )
     scenario = module.scenario
     if callable(scenario) and not isinstance(scenario, Scenario):
@@ -175,37 +191,59 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
 
 
 def _override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
+    """Return the scenario with all options set at once: they are only checked together."""
+    tree: dict[str, Any] = {}
     for name, value in options.items():
-        scenario = _replaced(scenario, str(name).split("."), value, str(name))
-    return scenario
+        *path, last = str(name).split(".")
+        branch = tree
+        for part in path:
+            branch = branch.setdefault(part, {})
+            if not isinstance(branch, dict):
+                raise InputError(f"the options set {part!r} and a field of it, in {name!r}")
+        branch[last] = _Leaf(value)
+    return scenario if not tree else _replaced(scenario, tree, ())
 
 
-def _replaced(target: Any, path: list[str], value: Any, whole: str) -> Any:
-    """Return `target` with the field at the dotted `path` set; ``*`` is all items of a list."""
-    if not path:
-        return value
-    first, rest = path[0], path[1:]
+class _Leaf:
+    """A value that an option sets, at the end of its path."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
+
+
+def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
+    """Return `target` with its fields set as the tree says; ``*`` is all items of a list."""
+    if isinstance(tree, _Leaf):
+        return tree.value
     if isinstance(target, tuple):
-        chosen = range(len(target)) if first == "*" else [_index(first, len(target), whole)]
-        return tuple(
-            _replaced(item, rest, value, whole) if i in chosen else item
-            for i, item in enumerate(target)
-        )
+        items = list(target)
+        for part, branch in tree.items():
+            chosen = range(len(items)) if part == "*" else [_index(part, len(items), path)]
+            for i in chosen:
+                items[i] = _replaced(items[i], branch, (*path, part))
+        return tuple(items)
     if isinstance(target, Description):
         fields = [f.name for f in dataclasses.fields(target)]
-        if first not in fields:
-            raise InputError(
-                f"there is no option {whole!r}: {type(target).__name__} has no field {first!r}"
-                f"{nearest(first, fields)}"
-            )
-        return target.replace(**{first: _replaced(getattr(target, first), rest, value, whole)})
-    raise InputError(f"there is no option {whole!r}: {shown(target)} has no fields")
+        for part in tree:
+            if part not in fields:
+                raise InputError(
+                    f"there is no option {'.'.join((*path, part))!r}: {type(target).__name__} has "
+                    f"no field {part!r}{nearest(part, fields)}"
+                )
+        changes = {
+            part: _replaced(getattr(target, part), branch, (*path, part))
+            for part, branch in tree.items()
+        }
+        return target.replace(**changes)
+    option = ".".join((*path, next(iter(tree))))
+    raise InputError(f"there is no option {option!r}: {shown(target)} has no fields")
 
 
-def _index(text: str, length: int, whole: str) -> int:
+def _index(text: str, length: int, path: tuple[str, ...]) -> int:
     if not text.isdigit() or int(text) >= length:
+        option = ".".join((*path, text))
         raise InputError(
-            f"there is no option {whole!r}: expected * or 0 to {length - 1}, not {text!r}"
+            f"there is no option {option!r}: expected * or 0 to {length - 1}, not {text!r}"
         )
     return int(text)
 

@@ -17,6 +17,10 @@ Point = tuple[float, float]
 Outline = Sequence[Point]
 
 
+ON_THE_EDGE = 1e-9
+"""A point as near as this to a polygon's boundary lies on it, metres."""
+
+
 def wrap(angle: ArrayLike) -> Float:
     """Return the angle(s) in (-pi, pi].
 
@@ -77,3 +81,13 @@ def edges_of(outline: Outline) -> list[tuple[Point, Point]]:
     if len(outline) == 2:
         return [(outline[0], outline[1])]
     return list(zip(outline, (*outline[1:], outline[0]), strict=True))
+
+
+def outside_polygon(x: Float, y: Float, polygon: Float) -> NDArray[np.bool_]:
+    """Return which points (n,) lie outside a closed polygon (k, 2); its boundary is inside."""
+    outside = ~inside_polygon(x, y, polygon)
+    if outside.any():
+        edges = np.hstack([polygon, np.roll(polygon, -1, axis=0)])
+        gap = point_segment_distance(x[outside, None], y[outside, None], edges).min(axis=1)
+        outside[outside] = gap > ON_THE_EDGE
+    return outside

@@ -39,7 +39,8 @@ class Record:
     ``time``, after saturation; it takes effect at command_time (T,). sensors: for each sensor's
     name an array (T, m, ...) of readings, of the m robots in ``sensor_robots[name]``. contacts:
     one row a pair and control step, with the fields of `mars2d.contact.CONTACT`. over_message: why
-    the run ended. finished: whether it is over. drawn: what the add-ons drew at its end, which a
+    the run ended. finished: False when an error or
+    Ctrl-C ended it, or while it is not over. drawn: what the add-ons drew at its end, which a
     file does not keep. missing: parts of the user's own that a file did not hold.
     """
 

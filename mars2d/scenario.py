@@ -15,8 +15,9 @@ from mars2d.addons.base import Addon
 from mars2d.animation import Animation
 from mars2d.description import Description, choice, entry, number, text, wrong
 from mars2d.errors import InputError, shown
-from mars2d.geometry import Outline, bounds_of, edges_of
+from mars2d.geometry import Outline, bounds_of, outside_polygon, point_segment_distance
 from mars2d.robot import Robot
+from mars2d.usercode import called
 
 __all__ = ["Obstacle", "Scenario"]
 
@@ -24,6 +25,13 @@ MASS_RATIO = 10.0
 """The largest ratio of masses that contacts hold; at 100, crowds push robots through walls."""
 
 ROW_LIMIT = 100_000_000
+
+
+def _outlines(addon: Addon) -> tuple[Outline, ...]:
+    """Return an add-on's obstacles, checked: it may be of the user's own."""
+    with called(f"add-on {addon.key!r}", addon.obstacles):
+        found = addon.obstacles()
+    return checks.outlines(f"{type(addon).__name__}.obstacles()", found)
 
 
 class Obstacle(NamedTuple):
@@ -76,7 +84,13 @@ class Scenario(Description):
     sampling_time: float = number(
         default=0.1, low=1e-6, high=1e4, unit="s", doc="time between commands"
     )
-    stop_time: float = number(default=100.0, low=0, high=1e12, unit="s", doc="the longest duration")
+    stop_time: float = number(
+        default=100.0,
+        low=0,
+        high=1e12,
+        unit="s",
+        doc="the longest duration; the last step is the last multiple of the sampling time",
+    )
     command_delay: float = number(
         default=0.0, low=0, high=1e6, unit="s", doc="from a command's issue to its effect"
     )
@@ -146,20 +160,21 @@ class Scenario(Description):
         self._check_apart()
 
     def _check_in_workspace(self, workspace: Outline) -> None:
-        from mars2d.geometry import inside_polygon, point_segment_distance
-
-        edges = np.array([[*a, *b] for a, b in edges_of(workspace)])
         corners = np.array(workspace)
-        for robot in self.robots:
-            x, y = np.array([robot.center[0]]), np.array([robot.center[1]])
-            gap = float(point_segment_distance(x[:, None], y[:, None], edges).min())
-            inside = bool(inside_polygon(x, y, corners)[0])
-            if not inside and gap > 1e-9:
-                raise InputError(
-                    f"Robot.pose of {robot.name} = {robot.pose}: starts outside the workspace"
-                    " (Scenario.workspace, or on_exit='ignore' to let it)"
-                )
-            if self.on_exit == "wall" and gap < robot.radius - self._overlap(robot):
+        x, y, _ = self.initial_pose
+        for i in np.flatnonzero(outside_polygon(x, y, corners)).tolist():
+            robot = self.robots[i]
+            raise InputError(
+                f"Robot.pose of {robot.name} = {robot.pose}: starts outside the workspace"
+                " (Scenario.workspace, or on_exit='ignore' to let it)"
+            )
+        if self.on_exit != "wall":
+            return
+        edges = np.hstack([corners, np.roll(corners, -1, axis=0)])
+        x, y = np.array([robot.center for robot in self.robots]).T
+        gaps = point_segment_distance(x[:, None], y[:, None], edges).min(axis=1)
+        for robot, gap in zip(self.robots, gaps.tolist(), strict=True):
+            if gap < robot.radius - self._overlap(robot):
                 raise InputError(
                     f"Robot.pose of {robot.name} = {robot.pose}: starts in the workspace's wall, "
                     f"{gap:.3g} m from its centre; its radius is {robot.radius:g} m"
@@ -214,7 +229,7 @@ class Scenario(Description):
         found = [
             Obstacle(outline, addon.friction, addon.restitution)
             for addon in self.addons
-            for outline in checks.outlines(f"{type(addon).__name__}.obstacles()", addon.obstacles())
+            for outline in _outlines(addon)
         ]
         if self.on_exit == "wall" and self.workspace is not None:
             found.append(Obstacle(self.workspace, 1.0, 1.0))

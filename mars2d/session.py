@@ -42,9 +42,8 @@ def run(
     Raises InputError for what can't be run. When a law fails, the error carries what was recorded
     until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
     """
-    options = dict(options or {})
     if stop_time is not None:
-        options["stop_time"] = stop_time
+        options = {**(options or {}), "stop_time": stop_time}
     speed, seed = playback_speed("speed", speed), check_seed(seed)
     opened = open_experiment(experiment, options, control)
     if _wants_window(speed, show):

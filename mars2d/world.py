@@ -20,7 +20,7 @@ from mars2d.description import wrong
 from mars2d.engine import Engine
 from mars2d.errors import InputError, LawError, UnknownNameError, nearest, shown
 from mars2d.frame import Frame
-from mars2d.geometry import Outline, inside_polygon
+from mars2d.geometry import Outline, outside_polygon
 from mars2d.record import Record
 from mars2d.recorder import History, Recorder
 from mars2d.scenario import Scenario
@@ -79,6 +79,7 @@ class World:
         self.iteration = 0
         self.over = False
         self.over_message = ""
+        self._finished = True  # unless broken off
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until all is built
         self._observed = -1  # the iteration that add-ons and sensors were last called for
@@ -198,14 +199,15 @@ class World:
 
     def stop(self, why: str) -> None:
         """End the experiment, with the present control step, and say why."""
-        self.break_off(why)
-        if not self._stepping:
-            self._close()
+        if not self.over:
+            self.over, self.over_message = True, str(why)
+            if not self._stepping:
+                self._close()
 
     def break_off(self, why: str) -> None:
         """End the experiment at once, without a last control step, as after an error."""
         if not self.over:
-            self.over, self.over_message = True, str(why)
+            self.over, self.over_message, self._finished = True, str(why), False
 
     def distance(self, point: tuple[float, float], limit: float, ignore: int) -> float:
         """Return the distance to the nearest surface, metres; inf beyond `limit`."""
@@ -343,7 +345,7 @@ class World:
         if self._workspace is None or self.scenario.on_exit != "stop":
             return
         x, y = self._pose[:2]
-        outside = np.flatnonzero(~inside_polygon(x, y, self._workspace))
+        outside = np.flatnonzero(outside_polygon(x, y, self._workspace))
         if len(outside):
             i = int(outside[0])
             name = self.scenario.robots[i].name
@@ -365,9 +367,12 @@ class World:
     @property
     def record(self) -> Record:
         """The record so far."""
-        message = self.over_message if self.over else "not over"
         return self._recorder.record(
-            self.seed, message, self.over, self.filename, Scene([*self._drawn.shapes])
+            self.seed,
+            self.over_message if self.over else "not over",
+            self.over and self._finished,
+            self.filename,
+            Scene([*self._drawn.shapes]),
         )
 
     @property

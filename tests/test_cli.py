@@ -291,12 +291,19 @@ def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
     import signal
     import time
 
-    (tmp_path / "long.py").write_text(HEAD + "scenario = Scenario(stop_time=1e6)\n")
+    (tmp_path / "long.py").write_text(
+        HEAD + "scenario = Scenario(stop_time=1e6)\n"
+        "def control(world):\n"
+        "    if world.iteration == 20:\n        open('going', 'w').close()\n"
+        "    return 0, 0\n"
+    )
     process = subprocess.Popen(
         [sys.executable, "-m", "mars2d", "run", "long.py", "--headless", "--record", "kept.npz"],
         cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
     )  # fmt: skip
-    time.sleep(2.5)
+    while not (tmp_path / "going").exists():
+        assert process.poll() is None
+        time.sleep(0.05)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 130, errors
@@ -325,3 +332,116 @@ def test_a_long_run_shows_its_progress_on_a_terminal(tmp_path):
 def test_a_pipe_or_a_file_gets_no_progress_bar(tmp_path):
     done = mars("run", "random_walk", "--headless", "--json", cwd=tmp_path)
     assert done.stderr == ""
+
+
+def test_what_add_ons_and_sensors_do_is_the_same_with_frames_taken_as_a_window_does(tmp_path):
+    """A window reads sensors before it draws: the order of add-ons and sensors must not change."""
+    from mars2d.files import open_experiment
+    from mars2d.view.source import Live
+
+    (tmp_path / "counting.py").write_text(
+        HEAD + "class Counter(Addon):\n"
+        "    def on_start(self, world):\n        self.steps = 0\n"
+        "    def on_step(self, world):\n        self.steps += 1\n"
+        "        if self.steps == 8:\n            world.stop('enough')\n"
+        "class Steps(Sensor):\n"
+        "    def read(self, robot, world, rng):\n"
+        "        return world.addons.counter.steps + rng.random()\n"
+        "scenario = Scenario(robots=[Robot(sensors=[Steps()])], addons=[Counter()])\n"
+    )
+    live = Live(open_experiment(tmp_path / "counting.py"))
+    while not live.over:
+        assert live.frame.readings["steps"][0][1] >= live.frame.iteration + 1
+        live.advance()
+    headless = mars2d.run(tmp_path / "counting.py")
+    assert live.record.digest == headless.digest
+    assert len(headless) == 8
+
+
+def test_a_record_with_parts_of_the_users_own_can_be_drawn_and_run_again(tmp_path, capsys):
+    from mars2d.view.picture import paint_frame
+
+    path = mars2d.run("own_sensor_and_addon").save(tmp_path / "own.npz")
+    record = mars2d.load(path)
+    assert record.missing == ("sensor Eyes", "add-on Lamps")
+    paint_frame(record.frame(-1), (320, 240), sensors=True)
+    assert cli.main(["check", str(path)]) == 0
+    shown = capsys.readouterr().out
+    assert "sensor Eyes" in shown
+    assert "bit-identical" in shown
+
+
+def test_a_record_with_a_drive_of_the_users_own_loads_and_says_that_it_can_not_be_rerun(
+    tmp_path, capsys
+):
+    class Sideways(mars2d.Drive):
+        def saturate(self, command):
+            return command
+
+        def twist(self, command):
+            return np.array([0 * command[0], command[0], command[1]])
+
+    scenario = mars2d.Scenario(robots=[mars2d.Robot(drive=Sideways())], stop_time=1)
+    record = mars2d.run(scenario, control=lambda world: [[0.1], [0.2]])
+    assert record.pose[-1, 1, 0] > 0.09
+    path = record.save(tmp_path / "own.npz")
+    assert np.array_equal(mars2d.load(path).pose, record.pose)
+    assert cli.main(["check", str(path)]) == 2
+    assert "drive Sideways" in capsys.readouterr().err
+
+
+def test_options_that_only_fit_together_are_set_together():
+    poses = {"robots.0.pose": (9, 7, 0), "robots.1.pose": (1, 3, 0)}
+    record = mars2d.run("random_walk", 1, options=poses)
+    assert record.pose[0, :2].T.tolist() == [[9, 7], [1, 3]]
+
+
+def test_an_experiment_may_import_what_lies_beside_it_and_two_do_not_meet(tmp_path):
+    for k in (1, 2):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        (folder / "helper.py").write_text(f"END = {k}\n")
+        (folder / "main.py").write_text(
+            "from helper import END\nfrom mars2d import Scenario\n"
+            "scenario = Scenario(stop_time=END)\n"
+        )
+    ends = [mars2d.run(tmp_path / str(k) / "main.py").time[-1] for k in (1, 2)]
+    assert ends == [1.0, 2.0]
+    assert "helper" not in sys.modules
+
+
+def test_a_laws_error_is_not_hidden_by_what_can_not_be_drawn(tmp_path):
+    (tmp_path / "late.py").write_text(
+        HEAD
+        + "scenario = Scenario()\ndef control(world):\n    return 0, 1 / (5 - world.iteration)\n"
+    )
+    done = mars("run", "late.py", "--headless", "--figure", "a.png", "--at", "0.1,50", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "ZeroDivisionError" in done.stderr
+    assert "no snapshots after it" in done.stderr
+    assert (tmp_path / "a.png").exists()
+
+
+def test_a_film_of_too_many_frames_is_refused(tmp_path):
+    done = mars(
+        "run", "random_walk", "--headless", "--video", "a.gif", "--speed", "1e-9", cwd=tmp_path
+    )
+    assert done.returncode == 2
+    assert "frames" in done.stderr
+
+
+def test_a_colour_that_is_none_is_refused_where_it_is_drawn(tmp_path):
+    (tmp_path / "red.py").write_text(
+        HEAD + "class Spot(Addon):\n"
+        "    colour: str = 'red'\n"
+        "    def on_draw(self, world, scene):\n"
+        "        scene.circle((0, 0), 1, fill=self.colour)\n"
+        "scenario = Scenario(addons=[Spot()], stop_time=0.2)\n"
+    )
+    done = mars("run", "red.py", "--headless", "--video", "a.gif", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    (tmp_path / "bad.py").write_text((tmp_path / "red.py").read_text().replace("'red'", "'redd'"))
+    done = mars("run", "bad.py", "--headless", "--video", "a.gif", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "bad.py, line 7" in done.stderr
+    assert "did you mean 'red'?" in done.stderr

@@ -707,3 +707,33 @@ def test_robots_far_off_stay_on_their_arcs_when_others_are_thrown_about():
     angle = omega * record.time
     exact = v / omega * np.array([np.sin(angle), 1 - np.cos(angle)])
     assert np.abs(record.pose[:, :2, 2].T - exact - [[0], [20]]).max() < 1e-9
+
+
+@pytest.mark.parametrize("restitution", [0.25, 0.5, 0.75, 0.9])
+@pytest.mark.parametrize("start", [-1.0, -1.01, -0.93])
+@pytest.mark.parametrize("offset", [0.1, -0.2])
+def test_robots_that_meet_obliquely_part_at_their_restitution(restitution, start, offset):
+    weak = Holonomic(max_force=1e-6)
+    moving = Robot(pose=(start, offset, 0), drive=weak, restitution=restitution, friction=0)
+    resting = Robot(drive=weak, restitution=1, friction=0)
+    world = World(free(moving, resting, sampling_time=0.01))
+    while world.time < 4:
+        world.step([[0.4, 0], [0, 0]])
+    normal = world.record.contacts[0]["normal"]
+    parting = (world.velocity[:2, 1] - world.velocity[:2, 0]) @ normal
+    assert parting / (0.4 * normal[0]) == pytest.approx(restitution, abs=1e-3)
+    assert len(world.record.contacts) == 1
+
+
+def test_dense_crowds_of_unequal_masses_need_few_substeps():
+    robots = [
+        Robot(pose=(i * 0.32 - 0.9, j * 0.32 - 0.9, 0), mass=1 if (i + j) % 2 else 10)
+        for i, j in product(range(6), repeat=2)
+    ]
+    box = [(-1.1, -1.1), (-1.1, 1.1), (1.1, 1.1), (1.1, -1.1)]
+    world = World(free(*robots, workspace=box, on_exit="wall"))
+    rng = np.random.default_rng(0)
+    for _ in range(30):
+        with counted_steps() as steps:
+            world.step(rng.uniform(-1, 1, (2, 36)) * [[0.5], [3]])
+        assert len(steps) < 100

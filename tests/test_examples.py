@@ -16,7 +16,7 @@ from mars2d.files import examples
 DIGESTS = {
     "follow_the_leader": "32df3379b40f872b4711737dc09a7f8b20175fe3662a7418c401ce53c2f97ca6",
     "go_to_point": "5993df66e130eba797152ee608536bc86f135ab50b3ac8322b1925f2c0330c17",
-    "own_sensor_and_addon": "41accd855e37f1e961ad208478550f8479b0a4a74342484bad4afe093e008cc1",
+    "own_sensor_and_addon": "9a7420ea70f7164023f522f4cf16f27c9ff609db5ac5a0ad93a081702b5ccc85",
     "random_walk": "332532de78425b562c85409727befe00eebf8aefb62417f500fd3da9a127385c",
 }
 PINNED_ON = "Linux x86_64 with pymunk 7.3"

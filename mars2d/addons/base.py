@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
+from mars2d import checks
 from mars2d.description import Description, number, text
 from mars2d.errors import InputError, nearest
 from mars2d.geometry import Outline
@@ -69,6 +70,9 @@ class Addon(Description):
     def key(self) -> str:
         """The name in ``world.addons``: `name`, or that of the class in snake case."""
         return self.name or snake_case(type(self).__name__)
+
+    def _validate(self) -> None:
+        checks.identifier(f"{type(self).__name__}.name", self.name, "world.addons.")
 
     def live(self, rng: np.random.Generator) -> Self:
         """Return the copy that one world works on, with its own random stream."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d import checks
 from mars2d.description import Description, text
-from mars2d.errors import InputError
 from mars2d.registry import snake_case
 from mars2d.scene import Scene
 
@@ -73,11 +73,7 @@ class Sensor(Description):
         return self.name or snake_case(type(self).__name__)
 
     def _validate(self) -> None:
-        if self.name is not None and not self.name.isidentifier():
-            raise InputError(
-                f"{type(self).__name__}.name = {self.name!r}: expected a name of letters, "
-                "digits and _, as it follows robot.sense."
-            )
+        checks.identifier(f"{type(self).__name__}.name", self.name, "robot.sense.")
 
     def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Any:
         """Return the reading now: a number, a bool, or an array whose shape never changes.

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from mars2d.errors import InputError, Mars2dError
 from mars2d.files import Experiment
+from mars2d.loop import Interrupted
 from mars2d.record import Record
 from mars2d.view.source import Live, Playback
 from mars2d.view.window import Window
@@ -28,6 +29,8 @@ def show_experiment(
     except Mars2dError as error:
         error.record = error.record or source.record
         raise
+    except KeyboardInterrupt:
+        raise Interrupted(source.record) from None
     return source.record
 
 

@@ -84,15 +84,13 @@ class Window:
     def run(self) -> None:
         """Open the window and play until it is closed; then raise the error of a law that failed.
 
-        Ctrl+C in the terminal closes it as Esc does.
+        Ctrl+C in the terminal closes it, and KeyboardInterrupt is raised.
         """
         ours = not pygame.display.get_init()
         open_display()
         try:
             screen = self._show()
             self._loop(screen)
-        except KeyboardInterrupt:
-            pass
         finally:
             if ours:
                 pygame.display.quit()
