@@ -11,7 +11,7 @@ from typing import NoReturn
 
 from mars2d import __version__
 from mars2d.commands import VERBS
-from mars2d.errors import InputError, Mars2dError, nearest
+from mars2d.errors import InputError, Mars2dError, likely
 
 __all__ = ["main", "parser"]
 
@@ -70,9 +70,7 @@ class _Parser(argparse.ArgumentParser):
             if isinstance(action, argparse._SubParsersAction):
                 known += [*action.choices]
                 known += [o for sub in action.choices.values() for o in sub._option_string_actions]
-        hints = [
-            nearest(word, known) for word in re.split(r"[\s'=:]+", message) if word not in known
-        ]
-        hint = next((hint for hint in hints if hint.startswith("; did")), "")
+        words = [word for word in re.split(r"[\s'=:]+", message) if word not in known]
+        hint = next(filter(None, (likely(word, known) for word in words)), "")
         message = message.partition(" (choose from")[0]
         raise InputError(f"{message}{hint} (see {self.prog} --help)")

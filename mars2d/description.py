@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 
-from mars2d.errors import InputError, nearest, shown
+from mars2d.errors import InputError, likely, nearest, shown
 
 __all__ = ["Description", "choice", "entry", "flag", "integer", "number", "text"]
 
@@ -101,8 +101,7 @@ def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = 
 
     def check(name: str, value: object) -> str:
         if not isinstance(value, str) or value not in of:
-            hint = nearest(value, of) if isinstance(value, str) else ""
-            hint = hint if hint.startswith("; did") else ""
+            hint = likely(value, of) if isinstance(value, str) else ""
             raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
         return value
 

@@ -51,10 +51,17 @@ class MissingExtraError(InputError):
     """An optional library is needed and not installed; the message holds the pip line."""
 
 
-def nearest(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
-    """Return ``"; did you mean 'known'?"`` for the known name nearest to `name`, or a list of all.
+def likely(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
+    """Return ``"; did you mean 'known'?"`` for the known name that is nearest, or ``""``.
 
-    likeness: how near it must be, from 0 to 1. More than a dozen are not listed.
+    likeness: how near it must be, from 0 to 1.
+    """
+    close = difflib.get_close_matches(str(name), sorted(known), n=1, cutoff=likeness)
+    return f"; did you mean {close[0]!r}?" if close else ""
+
+
+def nearest(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
+    """Return the nearest known name as `likely` does, or else a list of all, up to a dozen.
 
     >>> nearest("diametr", ["diameter", "mass"])
     "; did you mean 'diameter'?"
@@ -62,10 +69,8 @@ def nearest(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
     '; known: diameter, mass'
     """
     names = sorted(known)
-    close = difflib.get_close_matches(str(name), names, n=1, cutoff=likeness)
-    if close:
-        return f"; did you mean {close[0]!r}?"
-    return f"; known: {', '.join(names)}" if 0 < len(names) <= 12 else ""
+    listed = f"; known: {', '.join(names)}" if 0 < len(names) <= 12 else ""
+    return likely(name, names, likeness) or listed
 
 
 def described(error: BaseException) -> str:
@@ -83,8 +88,7 @@ def described(error: BaseException) -> str:
         known = {name for name in dir(error.obj) if not name.startswith("_")}
     else:
         return text
-    hint = nearest(error.name, known)
-    return text + hint if hint.startswith("; did") else text
+    return text + likely(error.name, known)
 
 
 def counted(count: int, thing: str) -> str:

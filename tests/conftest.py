@@ -25,13 +25,16 @@ Child = Callable[..., subprocess.CompletedProcess[str]]
 
 @pytest.fixture
 def child() -> Child:
-    """Run code in a Python process of its own: what aborts it is seen, what hangs is ended."""
+    """Run code in a Python process of its own: what aborts it is seen, what hangs is ended.
+
+    It imports what is installed, not what lies in the folder (-P).
+    """
 
     def run(
         code: str, *flags: str, timeout: float = 60, **environment: str
     ) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
-            [sys.executable, *flags, "-c", code],
+            [sys.executable, "-P", *flags, "-c", code],
             capture_output=True,
             text=True,
             timeout=timeout,

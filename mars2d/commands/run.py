@@ -67,6 +67,8 @@ def execute(arguments: argparse.Namespace) -> None:
         if error.record is not None and len(error.record):
             _keep(arguments, error.record)
         raise
+    if experiment.control is None and not any(r.controller for r in experiment.scenario.robots):
+        print("mars2d: there is no law, so all robots stood still", file=sys.stderr)
     if arguments.json:
         print(_as_json(record, time.perf_counter() - start))
     else:
