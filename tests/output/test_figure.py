@@ -20,7 +20,8 @@ from matplotlib.patches import Circle, Polygon
 import mars2d
 from mars2d import Animation, InputError, Record, Robot, Scenario
 from mars2d.addons import Map
-from mars2d.output.figure import paint, plot_paths, plot_snapshots, save_figure
+from mars2d.output.artists import paint
+from mars2d.output.figure import plot_paths, plot_snapshots, save_figure
 from mars2d.scene import Scene
 
 BLUE, RED = "#0072b2", "#d55e00"
