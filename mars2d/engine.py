@@ -202,6 +202,7 @@ class Engine:
         center = _center(self._state, self._offset)
         near, path = self._find_near(twist, center, duration)
         self._engage(near)
+        self._hit &= near
         carried = chord_velocity(twist, self._state[:, 2], duration, self._in_robot_frame)
         self._velocity[: self.n] = carried
         if near.any():
