@@ -35,9 +35,6 @@ class Drive(Description):
         default=0.5, above=0, high=1e6, unit="N m", doc="what it can turn with"
     )
 
-    command_names: ClassVar[tuple[str, str]] = ("u1", "u2")
-    """The names and units of the two rows of a command."""
-
     frame: ClassVar[Literal["robot", "world"]] = "robot"
     """The frame that `twist` gives linear velocities in."""
 

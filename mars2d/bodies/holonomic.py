@@ -18,7 +18,6 @@ class Holonomic(Drive):
     keeps its direction.
     """
 
-    command_names: ClassVar[tuple[str, str]] = ("vx [m/s]", "vy [m/s]")
     frame: ClassVar[Literal["robot", "world"]] = "world"
 
     def saturate(self, command: Float) -> Float:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 import numpy as np
 
 from mars2d.bodies.base import ROUNDING, Drive, Float
@@ -22,7 +20,6 @@ class Unicycle(Drive):
     wheel_semiaxis: float = number(
         default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
     )
-    command_names: ClassVar[tuple[str, str]] = ("v [m/s]", "omega [rad/s]")
 
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) with each wheel's speed clipped to +-max_linear_speed."""

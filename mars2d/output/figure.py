@@ -43,8 +43,8 @@ INK = "#1f2933"
 MUTED = "#616e7c"
 GRID = "#e6e9ed"
 
-WORKSPACE, GRID_LINES = 1.0, 1.5
-"""Levels in matplotlib's order of drawing, below the shapes; a grid lies at 0.5, 1.5 or 2.5."""
+WORKSPACE = 1.0
+"""Its level in matplotlib's order of drawing: the grid lies above it, at 1.5, the shapes at 2."""
 
 TICK_SPACING = 28.0  # points between ticks, at least
 
