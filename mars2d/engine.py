@@ -70,8 +70,8 @@ class Engine:
         self.space = pymunk.Space()
         smallest = min(robot.radius for robot in robots)
         self.space.collision_slop = min(SLOP, scenario.max_overlap / 4, smallest / 16)
-        masses = np.array([robot.mass for robot in robots])
-        unequal = masses.max() > 3 * masses.min()
+        self._mass = np.array([robot.mass for robot in robots])
+        unequal = self._mass.max() > 3 * self._mass.min()
         self.space.iterations = ITERATIONS_UNEQUAL if unequal else ITERATIONS
 
         self._radius = np.array([robot.radius for robot in robots])
@@ -149,7 +149,6 @@ class Engine:
         self._max_overlap = scenario.max_overlap
         # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
         self._entry = min(0.75 * scenario.max_overlap, 0.25 * float(self._radius.min()))
-        self._mass = np.array([robot.mass for robot in robots])
         self._moment = np.array([body.moment for body in self._bodies])
         self._max_force = np.array([robot.drive.max_force for robot in robots])
         self._max_torque = np.array([robot.drive.max_torque for robot in robots])
@@ -401,6 +400,8 @@ def chord_velocity(twist: Float, theta: Float, h: float, in_robot_frame: Mask) -
     """Return (k, 3): the velocities that bring robots at headings (k,) along their arcs in h.
 
     twist: (3, k), of which the first two are along the robot's axes or the world's.
+    Source: the arc of radius v / omega seen as its chord, of length v h sinc(omega h / 2) in the
+    direction theta + omega h / 2.
     """
     forward, left, spin = twist
     half = np.where(in_robot_frame, spin * (h / 2), 0.0)

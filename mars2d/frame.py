@@ -16,7 +16,6 @@ from mars2d.usercode import called
 
 __all__ = [
     "Frame",
-    "background",
     "initial_poses",
     "obstacles",
     "robots",
@@ -50,13 +49,6 @@ class Frame:
     readings: Mapping[str, Sequence[tuple[int, Any]]] = field(default_factory=dict)
     over_message: str = ""
     draw_addons: Callable[[Scene], None] | None = None
-
-
-def background(scenario: Scenario) -> Scene:
-    """Return what never moves: the workspace and the obstacles."""
-    scene = workspace(scenario)
-    scene.extend(obstacles(scenario).shapes)
-    return scene
 
 
 def workspace(scenario: Scenario) -> Scene:

@@ -1,4 +1,4 @@
-"""Plane geometry and the kinematics of the drives, in numpy alone.
+"""Plane geometry, in numpy alone.
 
 Lengths in metres, angles in radians, counter-clockwise from +x.
 """
@@ -10,7 +10,15 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["bounds_of", "chord", "inside_polygon", "point_segment_distance", "wrap"]
+__all__ = [
+    "bounds_of",
+    "distance_to_ring",
+    "edges_of",
+    "inside_polygon",
+    "outside_polygon",
+    "point_segment_distance",
+    "wrap",
+]
 
 Float = NDArray[np.float64]
 Point = tuple[float, float]
@@ -28,18 +36,6 @@ def wrap(angle: ArrayLike) -> Float:
     3.141592653589793
     """
     return np.asarray(-((np.pi - np.asarray(angle, dtype=float)) % (2 * np.pi) - np.pi))
-
-
-def chord(v: ArrayLike, omega: ArrayLike, h: ArrayLike) -> Float:
-    """Return the exact displacement of a unicycle over h seconds, in its own frame.
-
-    v: m/s, omega: rad/s, h: s; scalars or arrays (n,). Returns (2, n) metres, or (2,).
-    Source: the arc of radius v/omega seen as its chord, of length v h sinc(omega h / 2) in the
-    direction omega h / 2.
-    """
-    half = np.asarray(omega, dtype=float) * h / 2
-    length = np.asarray(v, dtype=float) * h * np.sinc(half / np.pi)
-    return np.array([length * np.cos(half), length * np.sin(half)])
 
 
 def bounds_of(points: Sequence[Point] | Float) -> tuple[float, float, float, float]:
@@ -83,11 +79,16 @@ def edges_of(outline: Outline) -> list[tuple[Point, Point]]:
     return list(zip(outline, (*outline[1:], outline[0]), strict=True))
 
 
+def distance_to_ring(x: Float, y: Float, polygon: Float) -> Float:
+    """Return the distances of points (n,) to the boundary of a closed polygon (k, 2), metres."""
+    edges = np.hstack([polygon, np.roll(polygon, -1, axis=0)])
+    return np.asarray(point_segment_distance(x[:, None], y[:, None], edges).min(axis=1))
+
+
 def outside_polygon(x: Float, y: Float, polygon: Float) -> NDArray[np.bool_]:
     """Return which points (n,) lie outside a closed polygon (k, 2); its boundary is inside."""
     outside = ~inside_polygon(x, y, polygon)
     if outside.any():
-        edges = np.hstack([polygon, np.roll(polygon, -1, axis=0)])
-        gap = point_segment_distance(x[outside, None], y[outside, None], edges).min(axis=1)
+        gap = distance_to_ring(x[outside], y[outside], polygon)
         outside[outside] = gap > ON_THE_EDGE
     return outside

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numbers
 from collections.abc import Sequence
+from functools import cached_property
 from math import cos, floor, pi, sin
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ from mars2d.addons.base import Addon
 from mars2d.animation import Animation
 from mars2d.description import Description, choice, entry, number, text, wrong
 from mars2d.errors import InputError, shown
-from mars2d.geometry import Outline, bounds_of, outside_polygon, point_segment_distance
+from mars2d.geometry import Outline, bounds_of, distance_to_ring, outside_polygon
 from mars2d.robot import Robot
 from mars2d.usercode import called
 
@@ -106,7 +107,6 @@ class Scenario(Description):
     )
 
     def _validate(self) -> None:
-        object.__setattr__(self, "_obstacles", self._check_obstacles())
         if isinstance(self.robots, int):
             object.__setattr__(self, "robots", self._circle_of_robots(self.robots))
         taken = {robot.name for robot in self.robots}
@@ -170,9 +170,8 @@ class Scenario(Description):
             )
         if self.on_exit != "wall":
             return
-        edges = np.hstack([corners, np.roll(corners, -1, axis=0)])
         x, y = np.array([robot.center for robot in self.robots]).T
-        gaps = point_segment_distance(x[:, None], y[:, None], edges).min(axis=1)
+        gaps = distance_to_ring(x, y, corners)
         for robot, gap in zip(self.robots, gaps.tolist(), strict=True):
             if gap < robot.radius - self._overlap(robot):
                 raise InputError(
@@ -224,8 +223,9 @@ class Scenario(Description):
         """Return how deep a robot may start in something, metres."""
         return min(self.max_overlap, robot.radius / 4)
 
-    def _check_obstacles(self) -> tuple[Obstacle, ...]:
-        """Return all obstacles, those of the user's own add-ons checked as well."""
+    @cached_property
+    def surfaces(self) -> tuple[Obstacle, ...]:
+        """What stands in the way: the add-ons' obstacles, then the workspace where it is a wall."""
         found = [
             Obstacle(outline, addon.friction, addon.restitution)
             for addon in self.addons
@@ -234,11 +234,6 @@ class Scenario(Description):
         if self.on_exit == "wall" and self.workspace is not None:
             found.append(Obstacle(self.workspace, 1.0, 1.0))
         return tuple(found)
-
-    @property
-    def surfaces(self) -> tuple[Obstacle, ...]:
-        """What stands in the way: the add-ons' obstacles, then the workspace where it is a wall."""
-        return self.__dict__["_obstacles"]  # type: ignore[no-any-return]
 
     @property
     def obstacles(self) -> tuple[Outline, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cached_property
 from types import SimpleNamespace
 from typing import Any, NoReturn
 
@@ -94,7 +95,6 @@ class World:
         self._command = _frozen(self._still)
         self._pose = _frozen(self._engine.pose)
         self._contacts = np.empty(0, dtype=CONTACT)
-        self._rng: np.random.Generator | None = None
         self._build_sensors()
         self._build_laws(control)
         self._build_addons()
@@ -186,12 +186,10 @@ class World:
         """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
         return self._engine.obstacles
 
-    @property
+    @cached_property
     def rng(self) -> np.random.Generator:
         """The random stream of the team's law."""
-        if self._rng is None:
-            self._rng = self.stream("control")
-        return self._rng
+        return self.stream("control")
 
     def stream(self, name: str) -> np.random.Generator:
         """Return a new random stream that depends on the seed and `name` alone."""

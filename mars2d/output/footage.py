@@ -63,7 +63,7 @@ class Footage:
     def frames(self, last: Frame) -> Iterator[Frame]:
         """Yield the film's frames, between the sampling times as well; `last` is the end."""
         self.take(last)
-        for k in range(int(last.time / self._step + 1e-9) + 1):
+        for k in range(self.count(last) - 1):
             time = k * self._step
             row = min(int(time / self._sampling_time + 1e-9), last.iteration)
             now, then = self._frames[row], self._frames.get(row + 1)
