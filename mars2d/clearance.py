@@ -5,12 +5,14 @@ Points are complex numbers x + i y, in metres.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Clearance", "Encounter"]
+__all__ = ["Clearance", "Close", "DiscPairs", "Walls"]
 
 Float = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -58,6 +60,15 @@ class Walls:
         return np.asarray(along * self._edge - from_start)
 
 
+class Close(NamedTuple):
+    """Pairs that may touch, by local indices: discs i and j, and a disc and a segment."""
+
+    i: Index
+    j: Index
+    disc: Index
+    segment: Index
+
+
 class Clearance:
     """Which of n discs may touch each other, or one of S segments, within the next while.
 
@@ -68,15 +79,18 @@ class Clearance:
     Source of the list: L. Verlet, Physical Review 159, 98 (1967).
     """
 
-    def __init__(self, radii: Float, start: Complex, edge: Complex) -> None:
-        """Take the discs' radii (n,), metres, and where segments start and lead to, (S,) each."""
+    def __init__(
+        self, radii: Float, walls: Walls, passing: Collection[tuple[int, int]] = ()
+    ) -> None:
+        """Take the discs' radii (n,), metres, the walls, and pairs that pass through each other."""
         n = len(radii)
         self._radii = radii
-        self._walls = Walls(start, edge)
+        self._walls = walls
+        self._passing = np.array([i * n + j for i, j in sorted(passing)], dtype=np.intp)
         self._wall_gap = np.full(n, -inf if len(self._walls) else inf)  # a bound from below
         self._moved = np.zeros(n)  # since the pairs were listed
         self._skin = inf if n <= FEW else -1.0  # negative: list them at the first question
-        self._i, self._j = np.triu_indices(n if n <= FEW else 0, 1)
+        self._keep_pairs(*np.triu_indices(n if n <= FEW else 0, 1))
 
     def may_touch(self, center: Complex, reach: Float) -> Mask:
         """Return which discs may touch something while each moves by at most `reach` (n,), metres.
@@ -102,8 +116,11 @@ class Clearance:
         self._moved += distance
         self._wall_gap -= distance
 
-    def encounter(self, center: Complex, who: Index, reach: float) -> Encounter:
-        """Return what may touch among the discs `who`, each moving by at most `reach`."""
+    def close(self, center: Complex, who: Index, reach: float) -> Close:
+        """Return what may touch among the discs `who`, each moving by at most `reach`.
+
+        Discs in the result are numbered as they stand in `who`.
+        """
         local = np.full(len(self._radii), -1)
         local[who] = np.arange(len(who))
         i, j = local[self._i], local[self._j]
@@ -112,9 +129,7 @@ class Clearance:
         # `moved` has been told already: what is within reach has a bound of zero or less.
         some = np.flatnonzero(self._wall_gap[who] <= 0)
         row, segment = np.nonzero(self._wall_gaps(center, who[some]) <= reach)
-        return Encounter(
-            self._radii[who], (i[pair], j[pair]), some[row], self._walls.take(segment), segment
-        )
+        return Close(i[pair], j[pair], some[row], segment)
 
     def _pair_gaps(self, center: Complex) -> Float:
         i, j = self._i, self._j
@@ -133,30 +148,33 @@ class Clearance:
         cutoff = 2 * self._radii.max() + 2 * self._skin
         tree = cKDTree(np.column_stack([center.real, center.imag]))
         pairs = tree.query_pairs(cutoff, output_type="ndarray")
-        self._i, self._j = np.ascontiguousarray(pairs.T.astype(np.intp))
+        self._keep_pairs(*np.ascontiguousarray(pairs.T.astype(np.intp)))
         self._moved[:] = 0.0
 
+    def _keep_pairs(self, i: Index, j: Index) -> None:
+        """Keep a list of pairs, i < j, without those that pass through each other."""
+        if len(self._passing):
+            kept = ~np.isin(i * len(self._radii) + j, self._passing)
+            i, j = i[kept], j[kept]
+        self._i, self._j = i, j
 
-class Encounter:
+
+class DiscPairs:
     """Discs that are close to each other, or to segments: their gaps as they move."""
 
-    def __init__(
-        self,
-        radii: Float,
-        pairs: tuple[Index, Index],
-        disc: Index,
-        walls: Walls,
-        segment: Index,
-    ) -> None:
-        """Take pairs of discs (i, j), and pairs of a disc and a segment, which has a number."""
-        self._i, self._j = pairs
-        self._disc, self._walls, self._segment = disc, walls, segment
+    def __init__(self, radii: Float, pairs: Close, walls: Walls) -> None:
+        """Take the discs' radii (k,), the pairs, and the walls that the segments are numbers of."""
+        self._i, self._j, self._disc, self._segment = pairs
+        self._walls = walls.take(self._segment)
+        self._radii = radii
+        disc = self._disc
         self._radii_sum = np.concatenate([radii[self._i] + radii[self._j], radii[disc]])
         self._count = len(radii)
         self._first = np.concatenate([self._i, disc])
 
     def measure(self, center: Complex) -> None:
         """Take the discs' centres (k,) and measure all gaps."""
+        self._center = center
         between = np.concatenate(
             [center[self._j] - center[self._i], self._walls.towards(center[self._disc])]
         )
@@ -175,21 +193,37 @@ class Encounter:
             touching[self._j[self._touch[: len(self._j)]]] = True
         return touching
 
-    def touching_pairs(self, who: Index) -> tuple[Index, Index, Index, Index]:
-        """Return the pairs that touch: discs (i, j), and disc and segment, by the numbers `who`."""
+    def touching_pairs(self) -> Close:
+        """Return the pairs that touch."""
         discs, walls = self._touch[: len(self._i)], self._touch[len(self._i) :]
-        return (
-            who[self._i[discs]],
-            who[self._j[discs]],
-            who[self._disc[walls]],
-            self._segment[walls],
-        )
+        return Close(self._i[discs], self._j[discs], self._disc[walls], self._segment[walls])
 
-    def time_to_touch(self, velocity: Complex, bend: Float, depth: float) -> float:
+    def touching_points(self) -> tuple[Complex, Complex]:
+        """Return of the pairs that touch points on the first disc, and the normals from it."""
+        normal = self._normal[self._touch]
+        first = self._first[self._touch]
+        return self._center[first] + self._radii[first] * normal, normal
+
+    def inwards(self, velocity: Complex) -> tuple[Float, Float]:
+        """Return how fast each of the pairs that touch moves into the other, (m,) m/s each.
+
+        velocity: (k,) of the discs. What is no disc does not move.
+        """
+        normal = self._normal[self._touch]
+        first = dot(velocity[self._first[self._touch]], normal)
+        discs = self._touch[: len(self._j)]
+        second = np.zeros(len(first))
+        second[: int(discs.sum())] = -dot(velocity[self._j[discs]], normal[: int(discs.sum())])
+        return first, second
+
+    def time_to_touch(
+        self, velocity: Complex, bend: Float, depth: float, *, again: bool = True
+    ) -> float:
         """Return for how long no pair gets deeper than `depth`, seconds.
 
         A pair that is as deep already may get a little deeper: so the solver is called again soon
-        after an impact that it could not stop at once.
+        after an impact that it could not stop at once. Without `again`, pairs that touch are left
+        out.
 
         velocity: (k,) of the discs; bend: (k,) m/s^2, how quickly a velocity may turn away from it.
         Along straight lines the distance to a convex thing is a convex function of time: it falls
@@ -206,4 +240,4 @@ class Encounter:
         # room = closing h + turn h^2 / 2, solved for h so that both may be zero
         room = np.maximum(self._gap + depth, depth / 64)
         h = 2 * room / (closing + np.sqrt(closing**2 + 2 * turn * room) + TINY)
-        return float(h.min())
+        return float(h.min() if again else h[~self._touch].min(initial=inf))

@@ -17,7 +17,7 @@ from mars2d.usercode import called, definition
 if TYPE_CHECKING:
     from mars2d.world import World
 
-__all__ = ["Law", "Mind", "Neighbour", "RobotView", "Sense", "SensorsOnlyView"]
+__all__ = ["Law", "Mind", "Neighbour", "PropView", "RobotView", "Sense", "SensorsOnlyView"]
 
 Float = NDArray[np.float64]
 
@@ -64,6 +64,29 @@ class Neighbour:
     def pose(self) -> Float:
         """The other robot's pose (3,): x, y [m], theta [rad]."""
         return self._world.pose[:, self.index]
+
+
+class PropView:
+    """A prop as laws and add-ons see it: its index in ``scenario.props``, name, pose, velocity."""
+
+    def __init__(self, world: World, index: int) -> None:
+        self._world = world
+        self.index = index
+
+    @property
+    def name(self) -> str:
+        """The prop's name."""
+        return str(self._world.scenario.props[self.index].name)
+
+    @property
+    def pose(self) -> Float:
+        """The pose (3,) of its centre of mass: x, y [m], theta [rad, not wrapped]."""
+        return self._world.prop_pose[:, self.index]
+
+    @property
+    def velocity(self) -> Float:
+        """Its velocity (3,): x', y' [m/s], theta' [rad/s]."""
+        return self._world.prop_velocity[:, self.index]
 
 
 class RobotView:

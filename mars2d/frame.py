@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.contact import CONTACT
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene, faded
@@ -32,13 +33,19 @@ OBSTACLE = "#b8c0c8"
 TRAIL_WIDTH = 1.6
 
 
+def _no_contacts() -> NDArray[np.void]:
+    return np.empty(0, dtype=CONTACT)
+
+
 @dataclass(frozen=True, slots=True)
 class Frame:
     """What is seen at one instant.
 
     pose: (3, n) now. path: (k, 3, n), the poses at all sampling times before, from the start on.
     readings: for each sensor's name the pairs (robot index, reading). draw_addons: adds the
-    add-ons' shapes to a scene, where they are alive.
+    add-ons' shapes to a scene, where they are alive. prop_pose: (3, p). contacts: those of the
+    control step that led here, and effort (n,) of the drives in it. contact_log: returns all
+    contacts so far.
     """
 
     scenario: Scenario
@@ -49,6 +56,10 @@ class Frame:
     readings: Mapping[str, Sequence[tuple[int, Any]]] = field(default_factory=dict)
     over_message: str = ""
     draw_addons: Callable[[Scene], None] | None = None
+    prop_pose: Float = field(default_factory=lambda: np.empty((3, 0)))
+    contacts: NDArray[np.void] = field(default_factory=_no_contacts)
+    effort: Float = field(default_factory=lambda: np.empty(0))
+    contact_log: Callable[[], NDArray[np.void]] = _no_contacts
 
 
 def workspace(scenario: Scenario) -> Scene:

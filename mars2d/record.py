@@ -27,8 +27,10 @@ __all__ = ["FORMAT", "Record", "load"]
 
 Float = NDArray[np.float64]
 
-FORMAT = 1
-"""The version of the file format; files of a higher one are refused."""
+FORMAT = 2
+"""The version of the file format; files of another one are refused."""
+
+_COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +38,8 @@ class Record:
     """All data of a run. Row k of a column is the world at ``time[k]`` = k sampling times.
 
     time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, 2, n), issued at
-    ``time``, after saturation; it takes effect at command_time (T,). sensors: for each sensor's
+    ``time``, after saturation; it takes effect at command_time (T,). prop_pose: (T, 3, p). effort:
+    (T, n), the largest share of its bounds that a drive used in the control step before. sensors: for each sensor's
     name an array (T, m, ...) of readings, of the m robots in ``sensor_robots[name]``. contacts:
     one row a pair and control step, with the fields of `mars2d.contact.CONTACT`. over_message: why
     the run ended. finished: False when an error or
@@ -50,6 +53,8 @@ class Record:
     pose: Float
     command: Float
     command_time: Float
+    prop_pose: Float
+    effort: Float
     sensors: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     sensor_robots: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     contacts: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=CONTACT))
@@ -61,7 +66,7 @@ class Record:
     missing: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        for name in ("time", "pose", "command", "command_time", "contacts"):
+        for name in (*_COLUMNS, "contacts"):
             object.__setattr__(self, name, _unwritable(getattr(self, name)))
         sensors = {name: _unwritable(values) for name, values in self.sensors.items()}
         object.__setattr__(self, "sensors", sensors)
@@ -90,12 +95,7 @@ class Record:
 
     def _columns(self) -> dict[str, NDArray[Any]]:
         """Return all columns under the names that they have in a file."""
-        columns: dict[str, NDArray[Any]] = {
-            "time": self.time,
-            "pose": self.pose,
-            "command": self.command,
-            "command_time": self.command_time,
-        }
+        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in _COLUMNS}
         columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
         # Field by field, since a structured array holds undefined bytes between its fields.
         columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
@@ -117,8 +117,22 @@ class Record:
             path=self.pose[:row],
             readings=readings,
             over_message=self.over_message if last else "",
+            prop_pose=self.prop_pose[row],
+            contacts=self._contacts_before(row),
+            effort=self.effort[row],
+            contact_log=lambda: self.contacts[: np.searchsorted(self._contact_rows, row, "right")],
             draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
         )
+
+    @cached_property
+    def _contact_rows(self) -> NDArray[np.intp]:
+        """The row that each contact's control step led to."""
+        return np.searchsorted(self.time, self.contacts["time"] - 1e-9, side="left")
+
+    def _contacts_before(self, row: int) -> NDArray[np.void]:
+        """Return the contacts of the control step that led to a row."""
+        ends = np.searchsorted(self._contact_rows, [row, row + 1])
+        return self.contacts[ends[0] : ends[1]]
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the paths: initial poses hollow, final poses filled, obstacles and grid.
@@ -160,22 +174,30 @@ def load(path: str | Path) -> Record:
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
             header = json.loads(data["header"].tobytes())
-            columns = {name: data[name] for name in _names(header)}
-        newer = header["versions"]["mars2d"] if header["format"] > FORMAT else ""
-        record = None if newer else _assemble(header, columns)
+            other = _of_another_format(header)
+            columns = {} if other else {name: data[name] for name in _names(header)}
+        record = None if other else _assemble(header, columns)
         damaged = record is not None and record.digest != header["digest"]
     except OSError as error:
         raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
     except Exception as error:  # zip, zlib, numpy and json have their own each
         raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
     if record is None:
-        raise InputError(f"{path}: written by a newer version of MARS2D, {newer}")
+        raise InputError(f"{path}: {other}")
     if damaged:
         raise InputError(f"{path}: damaged: its columns do not have the digest that it states")
     return record
 
 
-_COLUMNS = ("time", "pose", "command", "command_time")
+
+def _of_another_format(header: Any) -> str:
+    """Return what is to be said of a file of another format than this one's."""
+    made = header["versions"]["mars2d"]
+    if header["format"] > FORMAT:
+        return f"written by a newer version of MARS2D, {made}"
+    if header["format"] < FORMAT:
+        return f"written by an older version of MARS2D, {made}: run the experiment again"
+    return ""
 
 
 def _names(header: Any) -> list[str]:
@@ -191,8 +213,9 @@ def _assemble(header: Any, columns: dict[str, NDArray[Any]]) -> Record:
         contacts[name] = columns[f"contact:{name}"]
     robots = {name: tuple(indices) for name, indices in header["sensor_robots"].items()}
     scenario, missing = plain.to_scenario(header["scenario"])
-    rows, n = len(columns["time"]), len(scenario.robots)
-    shapes = dict(zip(_COLUMNS, [(rows,), (rows, 3, n), (rows, 2, n), (rows,)], strict=True))
+    rows, n, props = len(columns["time"]), len(scenario.robots), len(scenario.props)
+    wanted = [(rows,), (rows, 3, n), (rows, 2, n), (rows,), (rows, 3, props), (rows, n)]
+    shapes: dict[str, tuple[int, ...]] = dict(zip(_COLUMNS, wanted, strict=True))
     shapes |= {f"sensor:{name}": (rows, len(robots[name])) for name in robots}
     for name, shape in shapes.items():
         if columns[name].shape[: len(shape)] != shape:
@@ -204,6 +227,8 @@ def _assemble(header: Any, columns: dict[str, NDArray[Any]]) -> Record:
         pose=columns["pose"],
         command=columns["command"],
         command_time=columns["command_time"],
+        prop_pose=columns["prop_pose"],
+        effort=columns["effort"],
         sensors={name: columns[f"sensor:{name}"] for name in robots},
         sensor_robots=robots,
         contacts=contacts,

@@ -67,6 +67,16 @@ class History:
         """When each command takes effect, (k,) seconds."""
         return self._recorder.column("command_time")
 
+    @property
+    def prop_pose(self) -> Float:
+        """Poses of the props, (k, 3, p)."""
+        return self._recorder.column("prop_pose")
+
+    @property
+    def effort(self) -> Float:
+        """The drives' efforts, (k, n); see `World.effort`."""
+        return self._recorder.column("effort")
+
     def __len__(self) -> int:
         return self._recorder.rows
 
@@ -76,13 +86,15 @@ class Recorder:
 
     def __init__(self, scenario: Scenario) -> None:
         """Take the scenario, which says how many robots and sensors there are."""
-        n = len(scenario.robots)
+        n, props = len(scenario.robots), len(scenario.props)
         capacity = min(scenario.last_iteration + 1, 4096)
         self._columns = {
             "time": _Column((), float, capacity),
             "pose": _Column((3, n), float, capacity),
             "command": _Column((2, n), float, capacity),
             "command_time": _Column((), float, capacity),
+            "prop_pose": _Column((3, props), float, capacity),
+            "effort": _Column((n,), float, capacity),
         }
         self._capacity = capacity
         self._scenario = scenario
@@ -95,19 +107,13 @@ class Recorder:
                 self.sensor_robots[sensor.key] = (*self.sensor_robots.get(sensor.key, ()), i)
 
     def write(
-        self,
-        time: float,
-        pose: Float,
-        command: Float,
-        command_time: float,
-        readings: Mapping[str, Sequence[Any]],
+        self, time: float, *, readings: Mapping[str, Sequence[Any]], **columns: Float | float
     ) -> None:
-        """Write one row: the world at `time`."""
+        """Write one row: the world at `time`. columns: the rows of the other columns, by name."""
         row = self.rows
         self._columns["time"].write(row, time)
-        self._columns["pose"].write(row, pose)
-        self._columns["command"].write(row, command)
-        self._columns["command_time"].write(row, command_time)
+        for name, value in columns.items():
+            self._columns[name].write(row, value)
         for name, values in readings.items():
             self._write_readings(row, name, values)
         self.rows += 1
@@ -132,6 +138,12 @@ class Recorder:
         if len(contacts):
             self._contacts.append(contacts)
 
+    def contacts(self) -> NDArray[np.void]:
+        """Return all contacts so far."""
+        if len(self._contacts) > 1:
+            self._contacts = [np.concatenate(self._contacts)]
+        return self._contacts[0] if self._contacts else np.empty(0, dtype=CONTACT)
+
     def column(self, name: str) -> NDArray[Any]:
         """Return a column so far, as a view that can't be written."""
         return self._columns[name].upto(self.rows)
@@ -140,7 +152,6 @@ class Recorder:
         self, seed: int, over_message: str, finished: bool, filename: str, drawn: Scene
     ) -> Record:
         """Return the record so far; what is written later does not change it."""
-        contacts = [np.empty(0, dtype=CONTACT), *self._contacts]
         return Record(
             scenario=self._scenario,
             seed=seed,
@@ -148,9 +159,11 @@ class Recorder:
             pose=self.column("pose").copy(),
             command=self.column("command").copy(),
             command_time=self.column("command_time").copy(),
+            prop_pose=self.column("prop_pose").copy(),
+            effort=self.column("effort").copy(),
             sensors={k: column.upto(self.rows).copy() for k, column in self._sensors.items()},
             sensor_robots={k: v for k, v in self.sensor_robots.items() if k in self._sensors},
-            contacts=np.concatenate(contacts),
+            contacts=self.contacts(),
             over_message=over_message,
             finished=finished,
             filename=filename,

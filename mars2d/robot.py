@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import cos, sin
+from functools import cached_property
+from math import cos, hypot, sin
 from typing import Any, Self
 
 from mars2d import checks
@@ -11,10 +12,16 @@ from mars2d.bodies.base import Drive
 from mars2d.bodies.unicycle import Unicycle
 from mars2d.description import Description, choice, entry, number, text, wrong
 from mars2d.geometry import Point
-from mars2d.scene import color
+from mars2d.materials import surface_friction, surface_restitution
+from mars2d.rigid import Inertia, Surface, inertia_of
+from mars2d.scene import optional_color
 from mars2d.sensors.base import Sensor
+from mars2d.shapes import Disc, Shape
 
 __all__ = ["Robot"]
+
+DIAMETER = 0.3
+"""That of a robot of which nothing else is said, metres."""
 
 ACCELERATION = 1e5
 """How strongly a drive may accelerate its robot, m/s^2; more needs ever more substeps."""
@@ -24,12 +31,13 @@ def _controller(name: str, value: object) -> object:
     return None if value is None else checks.law(name, value, "the robot")
 
 
-def _optional_color(name: str, value: object) -> str | None:
-    return None if value is None else color(name, value)
+def _optional_shape(name: str, value: object) -> object:
+    check = checks.instance(Shape, "Polygon([(-0.2, -0.1), (0.2, 0), (-0.2, 0.1)])")
+    return None if value is None else check(name, value)
 
 
 class Robot(Description):
-    """One robot: a disc that its drive moves, with sensors and perhaps a law of its own.
+    """One robot: a body that its drive moves, with sensors and perhaps a law of its own.
 
     >>> Robot(diameter=0.2).at(1, 2, 0).pose
     (1.0, 2.0, 0.0)
@@ -45,18 +53,25 @@ class Robot(Description):
         check=checks.instance(Drive, "Unicycle()"), factory=Unicycle, doc="how it moves"
     )
     diameter: float = number(
-        default=0.3, low=1e-3, high=1e3, unit="m", doc="diameter of the chassis"
+        default=DIAMETER, low=1e-3, high=1e3, unit="m", doc="diameter of the chassis, a disc"
     )
+    shape: Shape | None = entry(
+        default=None, check=_optional_shape,
+        doc="its chassis if that is no disc, about the geometric centre, x ahead",
+    )  # fmt: skip
     mass: float = number(default=1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
-    friction: float = number(
-        default=0.5,
-        low=0,
-        high=1e3,
-        doc="coefficient of friction; a contact has the product of both",
-    )
-    restitution: float = number(
-        default=0.0, low=0, high=1, doc="0 stops, 1 bounces back; a contact has the product of both"
-    )
+    moment: float | None = number(
+        default=None, above=0, high=1e12, unit="kg m^2", optional=True,
+        doc="moment of inertia about the centre of rotation; None: that of a plate",
+    )  # fmt: skip
+    friction: float = entry(
+        default=0.5, check=surface_friction,
+        doc="coefficient of friction, or a material's name; a contact has the product of both",
+    )  # fmt: skip
+    restitution: float = entry(
+        default=0.0, check=surface_restitution,
+        doc="0 stops, 1 bounces back; or a material's name; a contact has the product of both",
+    )  # fmt: skip
     center_offset: float = number(
         default=0.0, low=-1e3, high=1e3, unit="m",
         doc="how far the centre of rotation lies ahead of the geometric centre",
@@ -72,7 +87,7 @@ class Robot(Description):
     sees: str = choice(default="full", of=("full", "sensors"), doc="what its law may see")
     name: str | None = text(default=None, optional=True, doc="its name, else robot0, robot1, ...")
     color: str | None = entry(
-        default=None, check=_optional_color, doc="its colour, else from base_colors"
+        default=None, check=optional_color, doc="its colour, else from base_colors"
     )
 
     def at(self, x: float, y: float, theta: float = 0.0) -> Self:
@@ -81,8 +96,8 @@ class Robot(Description):
 
     @property
     def radius(self) -> float:
-        """Half the diameter, metres."""
-        return self.diameter / 2
+        """Of a disc half the diameter, else that of a circle round the shape, metres."""
+        return self.diameter / 2 if self.shape is None else self.shape.bound[1]
 
     @property
     def center(self) -> Point:
@@ -90,14 +105,33 @@ class Robot(Description):
         x, y, theta = self.pose
         return x - self.center_offset * cos(theta), y - self.center_offset * sin(theta)
 
+    @cached_property
+    def chassis(self) -> Shape:
+        """Its shape about the centre of rotation, which is its centre of mass, too."""
+        shape = Disc(self.diameter) if self.shape is None else self.shape
+        return shape.moved(-self.center_offset, 0.0) if self.center_offset else shape
+
+    @property
+    def inertia(self) -> Inertia:
+        """Its mass [kg], and its moment of inertia about the centre of rotation [kg m^2]."""
+        return inertia_of(self.chassis, self.mass, self.moment)
+
+    @property
+    def surface(self) -> Surface:
+        """The friction and restitution of its sides."""
+        return Surface(self.friction, self.restitution)
+
     def _validate(self) -> None:
         if self.drive.max_force > ACCELERATION * self.mass:
             raise wrong(
                 "Robot.drive.max_force", self.drive.max_force,
                 f"at most {ACCELERATION:g} m/s^2 times the mass, {self.mass:g} kg",
             )  # fmt: skip
-        if abs(self.center_offset) > self.radius:
+        if self.shape is not None and self.diameter != DIAMETER:
+            raise wrong("Robot.diameter", self.diameter, "no diameter, as a shape is given")
+        reach = self.radius if self.shape is None else hypot(*self.shape.bound[0]) + self.radius
+        if abs(self.center_offset) > reach:
             raise wrong(
-                "Robot.center_offset", self.center_offset, f"within the radius, {self.radius:g} m"
+                "Robot.center_offset", self.center_offset, f"within the radius, {reach:g} m"
             )
         checks.unique("Robot.sensors", [sensor.key for sensor in self.sensors])

@@ -5,25 +5,38 @@ from __future__ import annotations
 import numbers
 from collections.abc import Sequence
 from functools import cached_property
-from math import cos, floor, pi, sin
-from typing import NamedTuple
+from math import cos, floor, hypot, pi, sin
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import checks
+from mars2d import checks, starts
 from mars2d.addons.base import Addon
 from mars2d.animation import Animation
 from mars2d.description import Description, choice, entry, number, text, wrong
-from mars2d.errors import InputError, shown
-from mars2d.geometry import Outline, bounds_of, distance_to_ring, outside_polygon
+from mars2d.errors import InputError, nearest
+from mars2d.geometry import Outline, bounds_of
+from mars2d.joints.base import Joint
+from mars2d.joints.hinge import Hinge
+from mars2d.joints.rod import Rod
+from mars2d.joints.rope import Rope
+from mars2d.props.base import Prop
+from mars2d.registry import snake_case
+from mars2d.rigid import Rigid
 from mars2d.robot import Robot
+from mars2d.tie import Tie
 from mars2d.usercode import called
 
 __all__ = ["Obstacle", "Scenario"]
 
 MASS_RATIO = 10.0
 """The largest ratio of masses that contacts hold; at 100, crowds push robots through walls."""
+
+SIZE_RATIO = 1e4
+"""The largest ratio of a body's length to another one's thickness."""
+
+PHYSICS = ("contact", "stop", "ideal")
 
 ROW_LIMIT = 100_000_000
 
@@ -74,6 +87,13 @@ class Scenario(Description):
     robots: Sequence[Robot] = entry(
         default=1, check=_robots, doc="the team, or how many default robots"
     )
+    props: Sequence[Prop] = entry(
+        default=(), check=checks.listing(Prop, "Box(pose=(1, 0, 0))"), doc="what can be moved"
+    )
+    joints: Sequence[Joint] = entry(
+        default=(), check=checks.listing(Joint, "Rope(a='robot0', b='box0')"),
+        doc="what ties robots and props together",
+    )  # fmt: skip
     workspace: Outline | None = entry(
         default=((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)),
         check=_workspace, unit="m", doc="the polygon in which the robots move; None: no limits",
@@ -95,7 +115,10 @@ class Scenario(Description):
     command_delay: float = number(
         default=0.0, low=0, high=1e6, unit="s", doc="from a command's issue to its effect"
     )
-    physics: str = choice(default="contact", of=("contact",), doc="what happens when things touch")
+    physics: str = choice(
+        default="contact", of=PHYSICS,
+        doc="when things touch: forces act, a robot stops, or nothing happens",
+    )  # fmt: skip
     max_overlap: float = number(
         default=1e-3, low=1e-5, high=1.0, unit="m", doc="how deep bodies may overlap for an instant"
     )
@@ -109,13 +132,17 @@ class Scenario(Description):
     def _validate(self) -> None:
         if isinstance(self.robots, int):
             object.__setattr__(self, "robots", self._circle_of_robots(self.robots))
-        taken = {robot.name for robot in self.robots}
-        named = tuple(
-            robot if robot.name is not None else robot.replace(name=_free_name(i, taken))
-            for i, robot in enumerate(self.robots)
+        taken = {robot.name for robot in self.robots} | {prop.name for prop in self.props}
+        robots = tuple(_named(robot, "robot", i, taken) for i, robot in enumerate(self.robots))
+        props = tuple(
+            _named(prop, snake_case(type(prop).__name__), i, taken)
+            for i, prop in enumerate(self.props)
         )
-        object.__setattr__(self, "robots", named)
-        checks.unique("Scenario.robots", [str(robot.name) for robot in named])
+        object.__setattr__(self, "robots", robots)
+        object.__setattr__(self, "props", props)
+        checks.unique("Scenario.robots", [str(robot.name) for robot in robots])
+        names = [str(robot.name) for robot in robots] + [str(prop.name) for prop in props]
+        checks.unique("Scenario.robots and props", names)
         checks.unique("Scenario.addons", [addon.key for addon in self.addons])
         if self.stop_time / self.sampling_time > ROW_LIMIT:
             raise wrong(
@@ -127,7 +154,8 @@ class Scenario(Description):
                 "Scenario.command_delay", self.command_delay,
                 f"at most a million sampling times of {self.sampling_time:g} s",
             )  # fmt: skip
-        self._check_masses()
+        self._check_bodies()
+        self._check_joints()
         self._check_starts()
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
@@ -141,87 +169,110 @@ class Scenario(Description):
             for a in angles
         )
 
-    def _check_masses(self) -> None:
-        lightest = min(self.robots, key=lambda robot: robot.mass)
-        heaviest = max(self.robots, key=lambda robot: robot.mass)
-        if heaviest.mass > MASS_RATIO * lightest.mass:
+    def _check_bodies(self) -> None:
+        """Refuse bodies that contacts can't hold."""
+        lightest = min(self.bodies, key=lambda body: body.inertia.mass)
+        heaviest = max(self.bodies, key=lambda body: body.inertia.mass)
+        if heaviest.inertia.mass > MASS_RATIO * lightest.inertia.mass * (1 + 1e-12):
             raise InputError(
-                f"Robot.mass: {heaviest.name} has {heaviest.mass:g} kg and {lightest.name} "
-                f"{lightest.mass:g} kg; contacts hold a ratio of at most {MASS_RATIO:g}"
+                f"{heaviest.kind}.mass: {heaviest.name} has {heaviest.inertia.mass:g} kg and "
+                f"{lightest.name} {lightest.inertia.mass:g} kg; "
+                f"contacts hold a ratio of at most {MASS_RATIO:g}"
             )
+        thinnest = min(self.bodies, key=lambda body: body.shape.thickness)
+        largest = max(self.bodies, key=lambda body: body.shape.bound[1])
+        if 2 * largest.shape.bound[1] > SIZE_RATIO * thinnest.shape.thickness:
+            raise InputError(
+                f"{largest.kind} {largest.name} is {2 * largest.shape.bound[1]:g} m long and "
+                f"{thinnest.kind} {thinnest.name} {thinnest.shape.thickness:g} m thin; "
+                f"contacts hold a ratio of at most {SIZE_RATIO:g}"
+            )
+        for body in self.bodies:
+            (x, y), radius = body.shape.bound
+            most = body.inertia.mass * (hypot(x, y) + radius) ** 2
+            if not 1e-3 * most <= body.inertia.moment <= most * (1 + 1e-9):
+                raise wrong(
+                    f"{body.kind}.moment of {body.name}", body.inertia.moment,
+                    f"at least {1e-3 * most:.3g} and at most mass x (greatest distance)^2, "
+                    f"{most:.3g} kg m^2",
+                )  # fmt: skip
+
+    def _check_joints(self) -> None:
+        """Refuse joints of bodies that are not there, or that would pull them at once."""
+        for i, joint in enumerate(self.joints):
+            where = f"Scenario.joints[{i}]"
+            for field in ("a", "b"):
+                name = getattr(joint, field)
+                if name is not None and name not in self._indices:
+                    hint = nearest(name, self._indices)
+                    raise wrong(f"{where}.{field}", name, f"the name of a robot or prop{hint}")
+            if joint.a == joint.b:
+                raise wrong(f"{where}.b", joint.b, f"another body than a, {joint.a!r}")
+        for tie in self.ties:
+            where = f"{type(tie.joint).__name__} of {tie.joint.a}"
+            apart = tie.apart(self.bodies)
+            if isinstance(tie.joint, Hinge) and apart > 1e-6:
+                raise InputError(
+                    f"{where}: its anchors lie {apart:.3g} m apart; a hinge is one point"
+                )
+            stretched = apart > tie.length * (1 + 1e-9) + 1e-9
+            if isinstance(tie.joint, (Rope, Rod)) and (
+                stretched or (isinstance(tie.joint, Rod) and apart < tie.length * (1 - 1e-9) - 1e-9)
+            ):
+                raise InputError(
+                    f"{where}.length = {tie.length:g}: its ends start {apart:.6g} m apart"
+                )
+            if isinstance(tie.joint, (Rope, Rod)) and tie.length < 1e-3:
+                raise InputError(f"{where}: its ends start at one point; use a Hinge")
 
     def _check_starts(self) -> None:
-        """Refuse robots that start outside the workspace, in an obstacle or in each other."""
-        outlines = self.obstacles
+        """Refuse bodies that start outside the workspace, in an obstacle or in each other."""
+        obstacles = self.obstacles
         if self.workspace is not None and self.on_exit != "ignore":
-            self._check_in_workspace(self.workspace)
-        if outlines:
-            self._check_off_obstacles(outlines)
-        self._check_apart()
+            starts.check_in_workspace(self.bodies[: len(self.robots)], self.workspace)
+        if self.workspace is not None and self.on_exit == "wall":
+            starts.check_off_walls(self.bodies, self.workspace, self.max_overlap)
+        if obstacles:
+            starts.check_off_obstacles(self.bodies, obstacles, self.max_overlap)
+        starts.check_apart(self.bodies, self.max_overlap, self.joined)
 
-    def _check_in_workspace(self, workspace: Outline) -> None:
-        corners = np.array(workspace)
-        x, y, _ = self.initial_pose
-        for i in np.flatnonzero(outside_polygon(x, y, corners)).tolist():
-            robot = self.robots[i]
-            raise InputError(
-                f"Robot.pose of {robot.name} = {robot.pose}: starts outside the workspace"
-                " (Scenario.workspace, or on_exit='ignore' to let it)"
-            )
-        if self.on_exit != "wall":
-            return
-        x, y = np.array([robot.center for robot in self.robots]).T
-        gaps = distance_to_ring(x, y, corners)
-        for robot, gap in zip(self.robots, gaps.tolist(), strict=True):
-            if gap < robot.radius - self._overlap(robot):
-                raise InputError(
-                    f"Robot.pose of {robot.name} = {robot.pose}: starts in the workspace's wall, "
-                    f"{gap:.3g} m from its centre; its radius is {robot.radius:g} m"
-                )
+    @cached_property
+    def bodies(self) -> tuple[Rigid, ...]:
+        """All bodies that move, as the physics takes them: the robots, then the props."""
+        still = (0.0, 0.0, 0.0)
+        robots = [
+            Rigid("Robot", str(r.name), r.pose, still, r.chassis, r.inertia, r.surface)
+            for r in self.robots
+        ]
+        props = [
+            Rigid(type(p).__name__, str(p.name), p.pose, p.velocity, p.shape, p.inertia, p.surface)
+            for p in self.props
+        ]
+        return (*robots, *props)
 
-    def _check_off_obstacles(self, outlines: Sequence[Outline]) -> None:
-        import shapely
+    @cached_property
+    def _indices(self) -> dict[str, int]:
+        return {body.name: i for i, body in enumerate(self.bodies)}
 
-        shapes = [shapely.LineString(o) if len(o) == 2 else shapely.Polygon(o) for o in outlines]
-        tree = shapely.STRtree(shapes)
-        for robot in self.robots:
-            center = shapely.Point(robot.center)
-            reach = robot.radius - self._overlap(robot)
-            for k in sorted(tree.query(center, "dwithin", reach)):
-                where = "inside" if shapes[k].contains(center) else "in contact with"
-                hint = (
-                    " (if it is a room, draw it as walls of two points)"
-                    if where == "inside"
-                    else ""
-                )
-                raise InputError(
-                    f"Robot.pose of {robot.name} = {robot.pose}: starts {where} obstacle {k}, "
-                    f"{shown(outlines[k], 80)}{hint}"
-                )
+    @cached_property
+    def ties(self) -> tuple[Tie, ...]:
+        """All joints, those that props bring included, with the bodies that they hold."""
+        joints = [*self.joints, *(joint for prop in self.props for joint in prop.joints())]
+        result = []
+        for joint in joints:
+            a = self._indices[joint.a]
+            b = -1 if joint.b is None else self._indices[joint.b]
+            result.append(Tie.of(joint, a, b, self.bodies))
+        return tuple(result)
 
-    def _check_apart(self) -> None:
-        centers = np.array([robot.center for robot in self.robots])
-        radii = np.array([robot.radius for robot in self.robots])
-        allowed = min(self._overlap(robot) for robot in self.robots)
-        # Sweep along the longer side: who comes later than the reach is too far away.
-        along = centers[:, np.argmax(np.ptp(centers, axis=0))]
-        order = np.argsort(along, kind="stable")
-        ends = np.searchsorted(along[order], along[order] + 2 * radii.max(), side="right")
-        for place, i in enumerate(order):
-            others = order[place + 1 : ends[place]]
-            gaps = np.hypot(*(centers[others] - centers[i]).T) - radii[others] - radii[i]
-            if (gaps < -allowed).any():
-                k = int(np.argmin(gaps))
-                a, b = sorted((int(i), int(others[k])))
-                raise InputError(
-                    f"Robot.pose of {self.robots[a].name} = {self.robots[a].pose} and of "
-                    f"{self.robots[b].name} = {self.robots[b].pose}: they start {-gaps[k]:.3g} m "
-                    "inside each other"
-                )
-
-    def _overlap(self, robot: Robot) -> float:
-        """Return how deep a robot may start in something, metres."""
-        return min(self.max_overlap, robot.radius / 4)
+    @cached_property
+    def joined(self) -> frozenset[tuple[int, int]]:
+        """Pairs (i, j), i < j, of bodies that share a hinge, and so don't collide."""
+        return frozenset(
+            (min(tie.a, tie.b), max(tie.a, tie.b))
+            for tie in self.ties
+            if isinstance(tie.joint, Hinge) and tie.b >= 0
+        )
 
     @cached_property
     def surfaces(self) -> tuple[Obstacle, ...]:
@@ -249,7 +300,7 @@ class Scenario(Description):
             return bounds_of(self.workspace)
         if isinstance(self.robots, int):
             return -5.0, 5.0, -5.0, 5.0
-        points = [robot.center for robot in self.robots]
+        points = [body.bound[0] for body in self.bodies]
         points += [vertex for outline in self.obstacles for vertex in outline]
         xmin, xmax, ymin, ymax = bounds_of(points)
         return xmin - 1, xmax + 1, ymin - 1, ymax + 1
@@ -271,8 +322,11 @@ class Scenario(Description):
         return tuple(robot.color or base[i % len(base)] for i, robot in enumerate(self.robots))
 
 
-def _free_name(index: int, taken: set[str | None]) -> str:
-    name = f"robot{index}"
+def _named(part: Any, kind: str, index: int, taken: set[str | None]) -> Any:
+    """Return a robot or prop with a name that no other has, unless it has one."""
+    if part.name is not None:
+        return part
+    name = f"{kind}{index}"
     while name in taken:
         name += "_"
-    return name
+    return part.replace(name=name)

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.errors import InputError, nearest
 from mars2d.geometry import Outline
 
-__all__ = ["PALETTE", "Circle", "Line", "Polygon", "Scene", "Text", "color", "faded", "wake_style"]
+__all__ = ["PALETTE", "Circle", "Line", "Polygon", "Scene", "Text", "color", "faded", "optional_color", "wake_style"]
 
 Anchor = Literal["center", "left", "right", "above", "below"]
 
@@ -53,6 +53,11 @@ def color(name: str, value: object) -> str:
                 return "#" + "".join(2 * c for c in digits)
     hint = nearest(value, [k for k in _NAMED if len(k) > 1]) if isinstance(value, str) else ""
     raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
+
+
+def optional_color(name: str, value: object) -> str | None:
+    """Check a colour that may be None."""
+    return None if value is None else color(name, value)
 
 
 @lru_cache(maxsize=1024)

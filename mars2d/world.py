@@ -15,13 +15,22 @@ from mars2d import checks
 from mars2d.addons.base import HOOKS, Addon
 from mars2d.bodies.base import Drive
 from mars2d.contact import CONTACT
-from mars2d.control import Law, Mind, RobotView, SensorsOnlyView, commands, team_command
+from mars2d.control import (
+    Law,
+    Mind,
+    PropView,
+    RobotView,
+    SensorsOnlyView,
+    commands,
+    team_command,
+)
 from mars2d.delay import DelayLine
 from mars2d.description import wrong
 from mars2d.engine import Engine
 from mars2d.errors import InputError, LawError, UnknownNameError, nearest, shown
 from mars2d.frame import Frame
 from mars2d.geometry import Outline, outside_polygon
+from mars2d.kinematics import Kinematics
 from mars2d.record import Record
 from mars2d.recorder import History, Recorder
 from mars2d.scenario import Scenario
@@ -33,6 +42,9 @@ __all__ = ["World"]
 
 FASTEST = 1e6
 """What a drive may ask for at most, m/s and rad/s."""
+
+ENGINES: dict[str, type[Engine | Kinematics]] = {"contact": Engine, "stop": Kinematics, "ideal": Kinematics}
+"""What moves the bodies, by Scenario.physics."""
 
 Float = NDArray[np.float64]
 Watcher = Callable[["World"], None]
@@ -84,7 +96,7 @@ class World:
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until all is built
         self._observed = -1  # the iteration that add-ons and sensors were last called for
-        self._engine = Engine(scenario)
+        self._engine = ENGINES[scenario.physics](scenario)
         self._recorder = Recorder(scenario)
         self.history = History(self._recorder)
         self._workspace = None if scenario.workspace is None else np.array(scenario.workspace)
@@ -93,8 +105,10 @@ class World:
         self._teams = _teams(scenario)
         self._still = np.zeros((2, n))
         self._command = _frozen(self._still)
-        self._pose = _frozen(self._engine.pose)
+        self._take_state()
         self._contacts = np.empty(0, dtype=CONTACT)
+        self._effort = _frozen(np.zeros(n))
+        self.props = tuple(PropView(self, i) for i in range(len(scenario.props)))
         self._build_sensors()
         self._build_laws(control)
         self._build_addons()
@@ -152,7 +166,25 @@ class World:
 
         In free motion those of the last step's chords, in contact what the solver has left.
         """
-        return self._engine.velocity
+        return self._engine.velocity[:, : len(self.robots)]
+
+    @property
+    def prop_pose(self) -> Float:
+        """The poses of the props' centres of mass (3, p): x, y [m], theta [rad]. Read only."""
+        return self._prop_pose
+
+    @property
+    def prop_velocity(self) -> Float:
+        """The velocities of the props (3, p): x', y' [m/s], theta' [rad/s]."""
+        return self._engine.velocity[:, len(self.robots) :]
+
+    @property
+    def effort(self) -> Float:
+        """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1.
+
+        Of a robot that nothing holds or pushes it is 0. At 1 the wheels slip.
+        """
+        return self._effort
 
     @property
     def geometric_center(self) -> Float:
@@ -184,7 +216,7 @@ class World:
     @property
     def obstacles(self) -> tuple[Outline, ...]:
         """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
-        return self._engine.obstacles
+        return self._engine.space.obstacles
 
     @cached_property
     def rng(self) -> np.random.Generator:
@@ -209,17 +241,17 @@ class World:
 
     def distance(self, point: tuple[float, float], limit: float, ignore: int) -> float:
         """Return the distance to the nearest surface, metres; inf beyond `limit`."""
-        return self._engine.distance(point, limit, ignore)
+        return self._engine.space.distance(point, limit, ignore)
 
     def nearby(
         self, point: tuple[float, float], limit: float, ignore: int
     ) -> Iterator[tuple[float, float]]:
         """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
-        return self._engine.nearby(point, limit, ignore)
+        return self._engine.space.nearby(point, limit, ignore)
 
     def ray(self, start: tuple[float, float], angle: float, length: float, ignore: int) -> float:
         """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
-        return self._engine.ray(start, angle, length, ignore)
+        return self._engine.space.ray(start, angle, length, ignore)
 
     # -- the control step ----------------------------------------------------------------------
 
@@ -336,7 +368,15 @@ class World:
 
     def _write_row(self) -> None:
         takes_effect = self.time + self.scenario.command_delay
-        self._recorder.write(self.time, self._pose, self._command, takes_effect, self._readings)
+        self._recorder.write(
+            self.time,
+            pose=self._pose,
+            command=self._command,
+            command_time=takes_effect,
+            prop_pose=self._prop_pose,
+            effort=self._effort,
+            readings=self._readings,
+        )
 
     def _check_workspace(self) -> None:
         """End the experiment when a robot's centre has left the workspace, if that is asked for."""
@@ -355,10 +395,17 @@ class World:
         for duration, command in self._delay.send(self._command):
             self._engine.drive(self._twist(command), duration, time)
             time += duration
-        self._contacts = _frozen(self._engine.take_contacts())
+        self._contacts = _frozen(self._engine.contacts.take())
         self._recorder.write_contacts(self._contacts)
-        self._pose = _frozen(self._engine.pose)
+        self._take_state()
+        self._effort = _frozen(self._engine.take_effort())
         self.iteration += 1
+
+    def _take_state(self) -> None:
+        """Take the poses of robots and props from the engine."""
+        n = len(self.scenario.robots)
+        pose = _frozen(self._engine.pose)
+        self._pose, self._prop_pose = pose[:, :n], pose[:, n:]
 
     # -- what comes out ------------------------------------------------------------------------
 
@@ -386,6 +433,10 @@ class World:
             readings={k: list(zip(robots[k], v, strict=True)) for k, v in self._readings.items()},
             over_message=self.over_message,
             draw_addons=self._draw_addons,
+            prop_pose=self._prop_pose,
+            contacts=self._contacts,
+            effort=self._effort,
+            contact_log=self._recorder.contacts,
         )
 
     def _draw_addons(self, scene: Scene) -> None:

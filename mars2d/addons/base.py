@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 
 from mars2d import checks
-from mars2d.description import Description, number, text
+from mars2d.description import Description, entry, text
 from mars2d.errors import InputError, nearest
 from mars2d.geometry import Outline
+from mars2d.materials import surface_friction, surface_restitution
 from mars2d.registry import snake_case
 from mars2d.scene import Scene
 
@@ -39,12 +40,14 @@ class Addon(Description):
 
     name: str | None = text(default=None, optional=True, doc="the name in world.addons")
 
-    friction: float = number(
-        default=1.0, low=0, high=1e3, doc="of its obstacles; a contact has the product of both"
-    )
-    restitution: float = number(
-        default=1.0, low=0, high=1, doc="of its obstacles; a contact has the product of both"
-    )
+    friction: float = entry(
+        default=1.0, check=surface_friction,
+        doc="of its obstacles, a number or a material's name; a contact has the product of both",
+    )  # fmt: skip
+    restitution: float = entry(
+        default=1.0, check=surface_restitution,
+        doc="of its obstacles, a number or a material's name; a contact has the product of both",
+    )  # fmt: skip
     _live: ClassVar[bool] = False
     rng: ClassVar[np.random.Generator]
     """Its own random stream, on the copy that a world works on."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from io import BytesIO
@@ -26,7 +27,17 @@ if TYPE_CHECKING:
     from mars2d.record import Record
     from mars2d.scenario import Scenario
 
-__all__ = ["SUFFIXES", "plot_paths", "plot_snapshots", "save_figure"]
+__all__ = [
+    "SUFFIXES",
+    "View",
+    "dress",
+    "label",
+    "paint_row",
+    "plot_paths",
+    "plot_snapshots",
+    "save_drawing",
+    "save_figure",
+]
 
 Float = NDArray[np.float64]
 
@@ -60,7 +71,7 @@ def plot_paths(record: Record, ax: Axes | None = None) -> Axes:
     >>> ax.get_xlabel(), ax.get_title()
     ('x [m]', 'Random movements, t = 10 s')
     """
-    view = _View.of(record, len(record) - 1)
+    view = View.of(record, len(record) - 1)
     own = ax is None
     if ax is None:
         legend_width = _legend_width(record.scenario)
@@ -71,15 +82,15 @@ def plot_paths(record: Record, ax: Axes | None = None) -> Axes:
         _check_axes(ax)
         if ax.has_data():  # a second record over a first one
             view = view.union((*ax.get_xlim(), *ax.get_ylim()))
-    _dress(ax, record.scenario, view)
-    _label(ax)
+    dress(ax, record.scenario, view)
+    label(ax)
     title = f"{record.scenario.title}, {_time(float(record.time[-1]))}"
     _set_title(ax, title)
     _add_legend(ax, record.scenario)
     if own:
         ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
         _show_in_notebooks(ax)
-    _paint_frame(ax, record, len(record) - 1)
+    paint_row(ax, record, len(record) - 1)
     return ax
 
 
@@ -92,7 +103,7 @@ def plot_snapshots(record: Record, times: ArrayLike, figure: Figure | None = Non
     """
     rows = _rows_at(record, times)
     scenario = record.scenario
-    view = _View.of(record, max(rows))
+    view = View.of(record, max(rows))
     cols = _columns(len(rows), view.width / view.height)
     lines = ceil(len(rows) / cols)
     own = figure is None
@@ -106,8 +117,8 @@ def plot_snapshots(record: Record, times: ArrayLike, figure: Figure | None = Non
     for unused in panels[len(rows) :]:
         unused.remove()
     for k, (ax, row) in enumerate(zip(panels, rows, strict=False)):
-        _dress(ax, scenario, view)
-        _label(ax, below=k + cols >= len(rows), beside=k % cols == 0)
+        dress(ax, scenario, view)
+        label(ax, below=k + cols >= len(rows), beside=k % cols == 0)
         ax.set_title(_time(float(record.time[row])), fontsize=10, color=INK)
     _add_legend(panels[min(cols, len(rows)) - 1], scenario)
     heading = _wrapped(scenario.title, figure.bbox.width / figure.dpi)
@@ -116,7 +127,7 @@ def plot_snapshots(record: Record, times: ArrayLike, figure: Figure | None = Non
         figure.draw_without_rendering()
         figure.__dict__["_repr_png_"] = partial(_png, figure)
     for ax, row in zip(panels, rows, strict=False):
-        _paint_frame(ax, record, row)
+        paint_row(ax, record, row)
     return figure
 
 
@@ -126,6 +137,18 @@ def save_figure(record: Record, path: str | Path, times: ArrayLike | None = None
     times: seconds; when given, snapshots at these times, else the paths of the whole run. The same
     record gives the same bytes. Raises InputError for another suffix, a path that can't be
     written, a record without rows, or a time outside of it.
+    """
+
+    def draw() -> Any:
+        return plot_paths(record).get_figure() if times is None else plot_snapshots(record, times)
+
+    return save_drawing(draw, path)
+
+
+def save_drawing(draw: Callable[[], Figure], path: str | Path, *, trim: bool = True) -> Path:
+    """Save the figure that `draw` returns as ``.png``, ``.pdf`` or ``.svg`` and return its path.
+
+    trim: cut off what is blank around the drawing. Raises InputError as `save_figure`.
     """
     import matplotlib as mpl
 
@@ -139,14 +162,10 @@ def save_figure(record: Record, path: str | Path, times: ArrayLike | None = None
     # Without the date, and with ids that do not depend on chance.
     dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "pdf.fonttype": 42}):
-        if times is None:
-            figure: Any = plot_paths(record).get_figure()
-        else:
-            figure = plot_snapshots(record, times)
         file = BytesIO()  # so that nothing half written stays behind
-        figure.savefig(
-            file, format=suffix[1:], dpi=200, bbox_inches="tight", pad_inches=0.1,
-            metadata=dates.get(suffix),
+        draw().savefig(
+            file, format=suffix[1:], dpi=200, bbox_inches="tight" if trim else None,
+            pad_inches=0.1, metadata=dates.get(suffix),
         )  # fmt: skip
     try:
         path.write_bytes(file.getvalue())
@@ -156,7 +175,7 @@ def save_figure(record: Record, path: str | Path, times: ArrayLike | None = None
 
 
 @dataclass(frozen=True)
-class _View:
+class View:
     """What part of the plane is drawn, metres."""
 
     xmin: float
@@ -190,13 +209,16 @@ class _View:
 
     @property
     def width(self) -> float:
+        """From left to right, metres."""
         return self.xmax - self.xmin
 
     @property
     def height(self) -> float:
+        """From bottom to top, metres."""
         return self.ymax - self.ymin
 
     def union(self, limits: tuple[float, float, float, float]) -> Self:
+        """Return the view that also holds (xmin, xmax, ymin, ymax), metres."""
         xmin, xmax, ymin, ymax = limits
         return replace(
             self,
@@ -229,7 +251,7 @@ def _check_axes(ax: object) -> None:
         )
 
 
-def _dress(ax: Axes, scenario: Scenario, view: _View) -> None:
+def dress(ax: Axes, scenario: Scenario, view: View) -> None:
     """Set limits, grid and ticks, and paint what never moves."""
     ax.set_aspect("equal")
     ax.set_xlim(view.xmin, view.xmax)
@@ -265,7 +287,7 @@ def _set_ticks(ax: Axes) -> None:
     ax.yaxis.set_major_locator(MultipleLocator(step))
 
 
-def _label(ax: Axes, *, below: bool = True, beside: bool = True) -> None:
+def label(ax: Axes, *, below: bool = True, beside: bool = True) -> None:
     """Label the axes below and beside the drawing, where there is no other panel."""
     ax.tick_params(labelbottom=below, labelleft=beside)
     if below:
@@ -274,7 +296,7 @@ def _label(ax: Axes, *, below: bool = True, beside: bool = True) -> None:
         ax.set_ylabel("y [m]", color=INK, fontsize=10)
 
 
-def _paint_frame(ax: Axes, record: Record, row: int) -> None:
+def paint_row(ax: Axes, record: Record, row: int) -> None:
     """Paint the paths until a row, the initial poses, and the robots as they are then."""
     scenario = record.scenario
     now = record.frame(row)

@@ -18,7 +18,7 @@ from mars2d.frame import Frame
 if TYPE_CHECKING:
     import pygame
 
-__all__ = ["SUFFIXES", "film_rows", "save_film"]
+__all__ = ["SUFFIXES", "film_rows", "save_film", "save_pictures"]
 
 SUFFIXES = (".gif", ".mp4")
 ENCODERS = ("libx264", "libopenh264", "mpeg4")
@@ -70,6 +70,20 @@ def save_film(
     Raises InputError for another suffix or where it can't be written, MissingExtraError when .mp4
     is asked for and PyAV isn't installed.
     """
+    if Path(path).suffix.lower() == ".mp4":
+        size = (size[0] + size[0] % 2, size[1] + size[1] % 2)
+    pictures = _pictures(frames, size, sensors=sensors, status=status, progress=progress)
+    save_pictures(pictures, path, fps)
+
+
+def save_pictures(
+    pictures: Iterator[pygame.Surface], path: str | os.PathLike[str], fps: float = 25
+) -> None:
+    """Write pictures, all of one size, as .gif or .mp4; for .mp4 both sides must be even.
+
+    Each is taken when the one before is written, so all may be drawn on the same surface. Raises
+    InputError and MissingExtraError as `save_film`.
+    """
     target = Path(path)
     suffix = target.suffix.lower()
     if suffix not in SUFFIXES:
@@ -79,9 +93,7 @@ def save_film(
         raise InputError(f"fps = {fps:g}: expected at most 50, more a GIF can't show")
     if suffix == ".mp4":
         require_av(target)
-        size = (size[0] + size[0] % 2, size[1] + size[1] % 2)
     with _replacing(target) as file:
-        pictures = _pictures(frames, size, sensors=sensors, status=status, progress=progress)
         count = (_write_gif if suffix == ".gif" else _write_mp4)(file, pictures, fps)
         if count == 0:
             raise InputError(f"{target}: a film needs at least one frame")

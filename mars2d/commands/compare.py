@@ -1,0 +1,208 @@
+"""The verb ``compare``."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mars2d.animation import playback_speed
+from mars2d.commands.base import FILM_FPS, SHORT_FILM, film_speed, run_headless
+from mars2d.errors import InputError, Mars2dError
+from mars2d.files import Experiment, open_experiment, parse_setting
+from mars2d.output import figure, film
+from mars2d.output.comparison import MODES, Comparison
+from mars2d.progress import Progress
+from mars2d.record import Record
+from mars2d.streams import check_seed
+
+if TYPE_CHECKING:
+    from mars2d.output.footage import Footage
+    from mars2d.output.triptych import Reel
+
+NAME = "compare"
+
+FOLDER = Path("mars2d_compare")
+
+OUTPUTS = {"figure": figure.SUFFIXES, "video": film.SUFFIXES}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    add = parser.add_argument
+    add("experiment", metavar="EXPERIMENT", help="a .py file, or the name of an example")
+    add("--seed", type=int, default=0, metavar="N", help="of all random streams")
+    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", help="override a field")
+    add("--figure", type=Path, metavar="OUT", help="the picture: .png, .pdf, .svg")
+    add("--video", type=Path, metavar="OUT", help="the film: .gif, .mp4")
+    add("--speed", type=_speed, metavar="X", help="of the film: 1 is real time")
+    add("--json", action="store_true", help="print the outcome as one line of JSON")
+
+
+def _speed(text: str) -> float:
+    try:
+        speed = playback_speed("--speed", float(text))
+    except ValueError:
+        speed = 0.0
+    if not isinstance(speed, float) or speed <= 0:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a number > 0")
+    return speed
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Run an experiment with each physics, and show the runs side by side."""
+    start = time.perf_counter()
+    _check_outputs(arguments)
+    options, seed = _options(arguments), check_seed(arguments.seed)
+    # Opened anew for each run: laws keep state in generators and in their module's globals.
+    experiments = {mode: open_experiment(arguments.experiment, options) for mode in MODES}
+    paths = _paths(arguments)
+    records: dict[str, Record] = {}
+    reels: dict[str, Reel] = {}
+    for mode, opened in experiments.items():
+        with _saying(mode):
+            scenario = opened.scenario.replace(physics=mode)
+            experiment = dataclasses.replace(opened, scenario=scenario)
+            footage = _footage(arguments, experiment) if "video" in paths else None
+            world = run_headless(experiment, seed, [footage] if footage else [])
+        records[mode] = world.record
+        if footage is not None:
+            reels[mode] = footage, world.frame
+    comparison = Comparison(**records)
+    if not arguments.json:
+        print(_as_table(comparison), flush=True)
+    _save(comparison, reels, paths, say=not arguments.json)
+    if arguments.json:
+        print(_as_json(comparison, paths, time.perf_counter() - start))
+
+
+def _check_outputs(arguments: argparse.Namespace) -> None:
+    """Refuse a file that can't be written before the runs, not after them."""
+    for name, suffixes in OUTPUTS.items():
+        path: Path | None = getattr(arguments, name)
+        if path is None:
+            continue
+        if path.suffix.lower() not in suffixes:
+            wanted = " or ".join(suffixes)
+            raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
+        if not path.parent.is_dir():
+            raise InputError(f"--{name} {path}: there is no folder {path.parent}")
+        if path.is_dir():
+            raise InputError(f"--{name} {path}: this is a folder")
+    if arguments.video is not None and arguments.video.suffix.lower() == ".mp4":
+        film.require_av(arguments.video)
+
+
+def _options(arguments: argparse.Namespace) -> dict[str, Any]:
+    options = dict(parse_setting(setting) for setting in arguments.set)
+    if "physics" in options:
+        raise InputError("--set physics: compare runs each physics by itself")
+    if arguments.stop_time is not None:
+        options["stop_time"] = arguments.stop_time
+    return options
+
+
+def _paths(arguments: argparse.Namespace) -> dict[str, Path]:
+    """Return where the figure and the film go: into a folder, if neither they nor JSON is asked."""
+    wanted = {name: path for name in OUTPUTS if (path := getattr(arguments, name)) is not None}
+    if wanted or arguments.json:
+        return wanted
+    try:
+        FOLDER.mkdir(exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{FOLDER.absolute()}: can't be made: {error.strerror}") from error
+    name = Path(arguments.experiment).stem
+    return {"figure": FOLDER / f"{name}.png", "video": FOLDER / f"{name}.gif"}
+
+
+@contextmanager
+def _saying(mode: str) -> Iterator[None]:
+    """Say in an error with which physics it came."""
+    try:
+        yield
+    except Mars2dError as error:
+        error.where = ": ".join(filter(None, [f"physics = {mode!r}", error.where]))
+        raise
+
+
+def _footage(arguments: argparse.Namespace, experiment: Experiment) -> Footage:
+    from mars2d.output.footage import Footage
+
+    speed = arguments.speed
+    if speed is None and arguments.video is None:
+        speed = experiment.scenario.stop_time / SHORT_FILM
+    return Footage(experiment.scenario, film_speed(experiment, speed), FILM_FPS)
+
+
+def _save(
+    comparison: Comparison, reels: dict[str, Reel], paths: dict[str, Path], *, say: bool
+) -> None:
+    """Save the figure and the film, where they are wanted, and say where they are."""
+    if "figure" in paths:
+        comparison.save_figure(paths["figure"])
+        if say:
+            print(f"picture: {paths['figure']}", flush=True)
+    if "video" in paths:
+        from mars2d.output.triptych import save_triptych
+
+        progress = Progress(max(footage.count(last) for footage, last in reels.values()), "frames")
+        try:
+            save_triptych(comparison, reels, paths["video"], fps=FILM_FPS, progress=progress.update)
+        finally:
+            progress.close()
+        if say:
+            print(f"film:    {paths['video']}")
+
+
+def _rows(comparison: Comparison) -> list[dict[str, Any]]:
+    """Return what there is to say of each run; the drift is that at the last time of both."""
+    rows = []
+    for mode, record in comparison.records.items():
+        drift = comparison.drifts.get(mode)
+        rows.append(
+            {
+                "physics": mode,
+                "ticks": len(record) - 1,
+                "time": float(record.time[-1]),
+                "collisions": record.collisions,
+                "drift_max": 0.0 if drift is None else float(drift.max[-1]),
+                "drift_mean": 0.0 if drift is None else float(drift.mean[-1]),
+                "message": record.over_message,
+                "digest": record.digest,
+            }
+        )
+    return rows
+
+
+def _as_table(comparison: Comparison) -> str:
+    """Return the outcome as a table, with the final drift from the run with contact."""
+    lines = [
+        f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}",
+        "physics     steps  collisions  drift max  drift mean  ended",
+    ]
+    for row in _rows(comparison):
+        drifts = f"{row['drift_max']:>7.3g} m  {row['drift_mean']:>8.3g} m"
+        if row["physics"] == "contact":
+            drifts = f"{'-':>9}  {'-':>10}"
+        lines.append(
+            f"{row['physics']:<8}{row['ticks']:>9}{row['collisions']:>12}  {drifts}  "
+            f"{row['message']}"
+        )
+    return "\n".join(lines)
+
+
+def _as_json(comparison: Comparison, paths: dict[str, Path], seconds: float) -> str:
+    outcome = {
+        "title": comparison.contact.scenario.title,
+        "seed": comparison.contact.seed,
+        "runs": _rows(comparison),
+        **{name: str(path) for name, path in paths.items()},
+        "wall_s": round(seconds, 6),
+    }
+    return json.dumps(outcome)

@@ -1,0 +1,147 @@
+"""Motion without forces: where things touch, a robot stops, or nothing happens at all."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.contact import ContactLog, Solved
+from mars2d.encounter import Bounds, Encounter
+from mars2d.engine import SLOP
+from mars2d.motion import GRAVITY, chord_velocity, glide
+from mars2d.scenario import Scenario
+from mars2d.space import Space
+
+__all__ = ["Kinematics"]
+
+Float = NDArray[np.float64]
+Index = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+INWARDS = 1e-9
+"""From this speed towards what it touches a body is stopped, m/s."""
+
+
+class Kinematics:
+    """The motion of one world's bodies where ``Scenario.physics`` is "stop" or "ideal".
+
+    All follow their commands exactly, props glide on their own. With "stop", what would go into
+    another body or an obstacle stands still for the rest of the control step; a prop for good. With
+    "ideal" it goes through. Contacts are noted either way, without impulses. Joints do not act.
+    """
+
+    def __init__(self, scenario: Scenario) -> None:
+        """Take robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls."""
+        bodies = scenario.bodies
+        self.n = len(scenario.robots)
+        self._stops = scenario.physics == "stop"
+        self.space = Space(scenario, SLOP, 1)  # for rays; it is never stepped
+        self.bounds = Bounds(bodies, [s.outline for s in scenario.surfaces], ())
+        self.contacts = ContactLog()
+        self._in_robot_frame = np.array([robot.drive.frame == "robot" for robot in scenario.robots])
+        slowing = [
+            (mu_g, mu_g * body.inertia.mass * body.shape.lever / body.inertia.moment)
+            for prop, body in zip(scenario.props, bodies[self.n :], strict=True)
+            for mu_g in [prop.ground_friction * GRAVITY]
+        ]
+        self._slowing = np.array(slowing).reshape(-1, 2)
+        self._depth = min(SLOP, min(body.shape.thickness for body in bodies) / 32)
+        self._state = self.space.read().copy()
+
+    @property
+    def pose(self) -> Float:
+        """The poses (3, N): x, y [m], theta [rad], as a new array."""
+        return self._state[:, :3].T.copy()
+
+    @property
+    def velocity(self) -> Float:
+        """The velocities (3, N): x', y' [m/s], theta' [rad/s], as a new array."""
+        return self._state[:, 3:].T.copy()
+
+    def take_effort(self) -> Float:
+        """Return zeros (n,): no drive has to make an effort."""
+        return np.zeros(self.n)
+
+    def drive(self, twist: Float, duration: float, time: float) -> None:
+        """Move everything for `duration` seconds, the robots driven by constant twists (3, n).
+
+        time: that of the start, seconds, for the contacts.
+        """
+        speed = self.bounds.top_speed(self._state[:, 3:])
+        speed[: self.n] = self.bounds.top_speed(twist.T, slice(self.n))
+        reach = speed * duration
+        center = self.bounds.center(self._state)
+        near = self.bounds.clearance.may_touch(center, reach)
+        self.bounds.clearance.moved(reach)
+        who = np.flatnonzero(near)
+        start = self._state
+        self._state, _ = self._moved(twist, start, duration)
+        if len(who):
+            encounter = self.bounds.encounter(center, who, float(reach[who].max()))
+            self._state[who] = self._substeps(twist, start, duration, time, who, encounter)[who]
+        self.space.place_all(self._state[:, :3])
+
+    def _moved(self, twist: Float, state: Float, h: float) -> tuple[Float, Float]:
+        """Return the states (N, 6) after h seconds, and their velocities (N, 3) now."""
+        n = self.n
+        after, now = state.copy(), state[:, 3:].copy()
+        now[:n] = chord_velocity(twist, state[:n, 2], 0.0, self._in_robot_frame)
+        chord = chord_velocity(twist, state[:n, 2], h, self._in_robot_frame)
+        after[:n, :3] += h * chord
+        after[:n, 3:] = chord
+        moved, end = glide(state[n:, 3:], self._slowing, h)
+        after[n:, :3] += moved
+        after[n:, 3:] = end
+        return after, now
+
+    def _substeps(
+        self,
+        twist: Float,
+        state: Float,
+        duration: float,
+        time: float,
+        who: Index,
+        encounter: Encounter,
+    ) -> Float:
+        """Return the states (N, 6) after `duration`, having looked at each touch of `who`."""
+        twist, n = twist.copy(), self.n
+        elapsed = h = 0.0
+        while True:
+            encounter.measure(state[who])
+            _, now = self._moved(twist, state, 0.0)
+            if elapsed > 0 and encounter.any_touch:
+                self._note(time + elapsed, h, state, now, encounter)
+            if elapsed >= duration:
+                return state
+            if self._stops and encounter.any_touch:
+                stopped = who[encounter.inwards(now[who]) > INWARDS]
+                twist[:, stopped[stopped < n]] = 0.0
+                state[stopped[stopped >= n], 3:] = 0.0
+                _, now = self._moved(twist, state, 0.0)
+            bend = np.zeros(len(state))
+            arcs = np.abs(np.hypot(twist[0], twist[1]) * twist[2])
+            bend[:n] = np.where(self._in_robot_frame, arcs, 0.0)
+            left = h = duration - elapsed
+            h = min(
+                h,
+                encounter.time_to_touch(now[who], bend[who], self._depth, again=self._stops),
+            )
+            state, _ = self._moved(twist, state, h)
+            elapsed = duration if h == left else elapsed + h
+
+    def _note(
+        self, time: float, h: float, state: Float, velocity: Float, encounter: Encounter
+    ) -> None:
+        """Note who touches whom after a step of h seconds."""
+        a, b, point, normal = encounter.touches()
+        points, normals = (np.column_stack([z.real, z.imag]) for z in (point, normal))
+        approach = np.zeros((len(a), 2))
+        for body, sign in ((a, -1.0), (b, 1.0)):
+            moves = body >= 0
+            who = body[moves]
+            arm = points[moves] - state[who, :2]
+            vx, vy, spin = velocity[who].T
+            approach[moves] += sign * np.column_stack([vx - spin * arm[:, 1], vy + spin * arm[:, 0]])
+        nothing = np.zeros((len(a), 2))
+        solved = Solved(np.column_stack([a, b]), nothing, normals, points, points, approach)
+        self.contacts.add(time, h, solved, (a, b))

@@ -1,0 +1,320 @@
+"""The bodies of one world in pymunk. No other module knows the engine's objects.
+
+Bodies are numbered robots first, then props; obstacles are -1, -2, ... The engine walks them in one
+order: robots, props, the robots' control bodies, then the static ones, the floor first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import cos, inf, sin
+
+import numpy as np
+import pymunk
+from numpy.typing import NDArray
+from pymunk import batch
+
+from mars2d.contact import Solved
+from mars2d.geometry import Outline, edges_of
+from mars2d.joints.base import Joint
+from mars2d.joints.hinge import Hinge
+from mars2d.joints.rod import Rod
+from mars2d.joints.rope import Rope
+from mars2d.joints.spring import Spring
+from mars2d.rigid import Rigid
+from mars2d.scenario import Scenario
+from mars2d.tie import Tie
+
+__all__ = ["Space"]
+
+Float = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+Index = NDArray[np.intp]
+
+_STATE = (
+    batch.BodyFields.POSITION
+    | batch.BodyFields.ANGLE
+    | batch.BodyFields.VELOCITY
+    | batch.BodyFields.ANGULAR_VELOCITY
+)
+_POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
+_VELOCITY = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
+_ARBITER = (
+    batch.ArbiterFields.BODY_A_ID
+    | batch.ArbiterFields.BODY_B_ID
+    | batch.ArbiterFields.TOTAL_IMPULSE
+    | batch.ArbiterFields.NORMAL
+    | batch.ArbiterFields.CONTACT_COUNT
+    | batch.ArbiterFields.POINT_A_1
+    | batch.ArbiterFields.POINT_B_1
+    | batch.ArbiterFields.POINT_A_2
+    | batch.ArbiterFields.POINT_B_2
+)
+
+
+class Space:
+    """Robots, props, obstacles and joints as pymunk objects, read and written in batches."""
+
+    def __init__(self, scenario: Scenario, slop: float, iterations: int) -> None:
+        """Build all of it.
+
+        slop: the overlap that the solver leaves in steady contact, metres. iterations: of the
+        solver.
+        """
+        self._space = pymunk.Space()
+        self._space.collision_slop = slop
+        self._space.iterations = iterations
+        self.robots = len(scenario.robots)
+        self._bodies = [self._add_body(rigid, i) for i, rigid in enumerate(scenario.bodies)]
+        self._controls = [self._add(_kinematic()) for _ in scenario.robots]
+        self._floor = self._add(_static())
+        self.obstacles = tuple(s.outline for s in scenario.surfaces)
+        self._statics = [self._add_obstacle(*surface) for surface in scenario.surfaces]
+        self._clutches = [
+            _clutch(control, body, robot.drive.max_force, robot.drive.max_torque)
+            for control, body, robot in zip(
+                self._controls, self._bodies[: self.robots], scenario.robots, strict=True
+            )
+        ]
+        self._grips: dict[int, list[pymunk.Constraint]] = {}
+        self._ties = scenario.ties
+        self._joints = [self._add_joint(tie) for tie in self._ties]
+
+        count = len(self._bodies) + len(self._controls) + 1 + len(self._statics)
+        self._state_buffer = batch.Buffer()
+        self._arbiter_buffer = batch.Buffer()
+        self.velocity = np.zeros((count, 3))
+        """What `step` sets: (x', y', theta') of bodies, then of the robots' control bodies."""
+        self._velocity_buffer = batch.Buffer()
+        self._velocity_buffer.set_float_buf(self.velocity)
+        self._pose_buffer = batch.Buffer()
+        # The engine names bodies by their addresses.
+        named = [(body.id, i) for i, body in enumerate(self._bodies)]
+        named += [(body.id, -1 - k) for k, body in enumerate(self._statics)]
+        self._address, self._name = np.array(sorted(named), dtype=np.int64).T
+
+    # -- building ---------------------------------------------------------------------------
+
+    def _add(self, body: pymunk.Body) -> pymunk.Body:
+        self._space.add(body)
+        return body
+
+    def _add_body(self, rigid: Rigid, i: int) -> pymunk.Body:
+        body = self._add(pymunk.Body(rigid.inertia.mass, rigid.inertia.moment))
+        x, y, theta = rigid.pose
+        body.position, body.angle = (x, y), theta
+        body.velocity, body.angular_velocity = rigid.velocity[:2], rigid.velocity[2]
+        for vertices, radius in rigid.shape.pieces:
+            shape: pymunk.Shape
+            if len(vertices) == 1:
+                shape = pymunk.Circle(body, radius, vertices[0])
+            else:
+                shape = pymunk.Poly(body, vertices)
+            shape.friction, shape.elasticity = rigid.surface
+            if i < self.robots:
+                shape.filter = _own(i)  # a robot's rays do not see itself
+            self._space.add(shape)
+        return body
+
+    def _add_obstacle(self, outline: Outline, friction: float, restitution: float) -> pymunk.Body:
+        body = self._add(_static())
+        for a, b in edges_of(outline):
+            segment = pymunk.Segment(body, a, b, 0.0)
+            segment.friction, segment.elasticity = friction, restitution
+            self._space.add(segment)
+        return body
+
+    def _add_joint(self, tie: Tie) -> list[pymunk.Constraint]:
+        a, b = (self._floor if i < 0 else self._bodies[i] for i in (tie.a, tie.b))
+        constraints = _MAKERS[type(tie.joint)](tie, a, b)
+        for constraint in constraints:
+            constraint.collide_bodies = not isinstance(tie.joint, Hinge)
+        self._space.add(*constraints)
+        return constraints
+
+    # -- state ------------------------------------------------------------------------------
+
+    def read(self) -> Float:
+        """Read (N, 6): x, y, theta, x', y', theta' of robots and props, in one call.
+
+        The array is the engine's own memory, and changes with the next call.
+        """
+        buffer = self._state_buffer
+        buffer.clear()
+        batch.get_space_bodies(self._space, _STATE, buffer)
+        count = len(self._bodies)
+        return np.frombuffer(buffer.float_buf(), dtype=np.float64, count=6 * count).reshape(-1, 6)
+
+    def step(self, h: float) -> None:
+        """Set the velocities of all bodies to `velocity`, and go on by h seconds."""
+        batch.set_space_bodies(self._space, _VELOCITY, self._velocity_buffer)
+        self._space.step(h)
+
+    def place(self, i: int, x: float, y: float, theta: float | None = None) -> None:
+        """Put a body somewhere; the next step finds it there."""
+        self._bodies[i].position = x, y
+        if theta is not None:
+            self._bodies[i].angle = theta
+
+    def place_all(self, pose: Float) -> None:
+        """Put all bodies at poses (N, 3), where rays meet them at once."""
+        everything = np.zeros((len(self.velocity), 3))
+        everything[: len(pose)] = pose
+        self._pose_buffer.set_float_buf(everything)
+        batch.set_space_bodies(self._space, _POSE, self._pose_buffer)
+        for body in self._bodies:
+            self._space.reindex_shapes_for_body(body)
+
+    # -- what holds bodies ------------------------------------------------------------------
+
+    def engage(self, i: int) -> None:
+        """Let a robot's drive act through its joints."""
+        self._space.add(*self._clutches[i])
+
+    def disengage(self, i: int) -> None:
+        """Take a robot's joints out again."""
+        self._space.remove(*self._clutches[i])
+
+    def effort(self, i: int, h: float) -> float:
+        """Return the share of its bounds that an engaged drive used in the last step of h."""
+        pivot, gear = self._clutches[i]
+        push, turn = pivot.max_force, gear.max_force
+        return max(pivot.impulse / (push * h), gear.impulse / (turn * h))
+
+    def grip(self, i: int, force: float, torque: float) -> None:
+        """Let the floor hold a body with a force [N] and a torque [N m] of friction."""
+        if i not in self._grips:
+            self._grips[i] = _clutch(self._floor, self._bodies[i], force, torque)
+            self._space.add(*self._grips[i])
+        pivot, gear = self._grips[i]
+        pivot.max_force, gear.max_force = force, torque
+
+    def forget_impacts(self, hit: Mask) -> None:
+        """Make the solver forget what it pressed some bodies with; hit: (N,).
+
+        It would begin with that again, scaled by the ratio of two steps' lengths, and could take
+        back only the unscaled part: bodies would bounce, or stick, for no reason.
+        """
+        for i in np.flatnonzero(hit):
+            for shape in self._bodies[i].shapes:
+                self._space.remove(shape)
+                self._space.add(shape)
+        for k, tie in enumerate(self._ties):
+            if hit[tie.a] or (tie.b >= 0 and hit[tie.b]):
+                self._space.remove(*self._joints[k])
+                self._joints[k] = self._add_joint(tie)
+
+    # -- contacts ---------------------------------------------------------------------------
+
+    def solved(self, state: Float) -> Solved:
+        """Return the contacts of the last step, those included that parted shortly before.
+
+        state: (N, 6) after it.
+        """
+        buffer = self._arbiter_buffer
+        buffer.clear()
+        batch.get_space_arbiters(self._space, _ARBITER, buffer)
+        whole = np.frombuffer(buffer.int_buf(), dtype=np.int64).reshape(-1, 3)
+        values = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, 12)
+        bodies = self._name[np.searchsorted(self._address, whole[:, :2])]
+        two = whole[:, 2:] > 1
+        first = np.where(two, (values[:, 4:6] + values[:, 8:10]) / 2, values[:, 4:6])
+        second = np.where(two, (values[:, 6:8] + values[:, 10:12]) / 2, values[:, 6:8])
+        impulse, normal = values[:, 0:2].copy(), values[:, 2:4].copy()
+        velocity = self._point_velocity(state, bodies[:, 1], second)
+        velocity -= self._point_velocity(state, bodies[:, 0], first)
+        return Solved(bodies, impulse, normal, first, second, velocity)
+
+    def _point_velocity(self, state: Float, body: NDArray[np.int64], point: Float) -> Float:
+        """Return the velocities (k, 2) that points of bodies (k,) had before the last step."""
+        pose = np.zeros((len(body), 2))
+        moves = body >= 0
+        velocity = np.where(moves[:, None], self.velocity[np.maximum(body, 0)], 0.0)
+        pose[moves] = state[body[moves], :2]
+        arm = point - pose
+        result = velocity[:, :2].copy()
+        result[:, 0] -= velocity[:, 2] * arm[:, 1]
+        result[:, 1] += velocity[:, 2] * arm[:, 0]
+        return result
+
+    # -- what sensors ask -------------------------------------------------------------------
+
+    def distance(self, point: tuple[float, float], limit: float, ignore: int) -> float:
+        """Return the distance to the nearest surface, inf beyond `limit`; see Surroundings."""
+        info = self._space.point_query_nearest(point, limit, _own(ignore))
+        return inf if info is None else info.distance
+
+    def nearby(
+        self, point: tuple[float, float], limit: float, ignore: int
+    ) -> Iterator[tuple[float, float]]:
+        """Yield the nearest point of each surface within `limit`; see Surroundings."""
+        for info in self._space.point_query(point, limit, _own(ignore)):
+            yield info.point.x, info.point.y
+
+    def ray(self, start: tuple[float, float], angle: float, length: float, ignore: int) -> float:
+        """Return how far a ray goes, inf when nothing is hit; see Surroundings."""
+        end = start[0] + length * cos(angle), start[1] + length * sin(angle)
+        info = self._space.segment_query_first(start, end, 0.0, _own(ignore))
+        return inf if info is None else info.alpha * length
+
+
+def _own(robot: int) -> pymunk.ShapeFilter:
+    return pymunk.ShapeFilter(group=robot + 1)
+
+
+def _kinematic() -> pymunk.Body:
+    return pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+
+
+def _static() -> pymunk.Body:
+    return pymunk.Body(body_type=pymunk.Body.STATIC)
+
+
+def _clutch(
+    holder: pymunk.Body, body: pymunk.Body, force: float, torque: float
+) -> list[pymunk.Constraint]:
+    """Return the joints that make a body move as its holder does, with bounded force and torque."""
+    pivot = pymunk.PivotJoint(holder, body, (0.0, 0.0), (0.0, 0.0))
+    gear = pymunk.GearJoint(holder, body, 0.0, 1.0)
+    pivot.max_bias = gear.max_bias = 0.0
+    pivot.max_force, gear.max_force = force, torque
+    return [pivot, gear]
+
+
+def _rope(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
+    return [pymunk.SlideJoint(a, b, tie.joint.anchor_a, tie.joint.anchor_b, 0.0, tie.length)]
+
+
+def _rod(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
+    rod = pymunk.PinJoint(a, b, tie.joint.anchor_a, tie.joint.anchor_b)
+    rod.distance = tie.length
+    return [rod]
+
+
+def _spring(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
+    joint = tie.joint
+    assert isinstance(joint, Spring)
+    ends = joint.anchor_a, joint.anchor_b
+    return [pymunk.DampedSpring(a, b, *ends, tie.length, joint.stiffness, joint.damping)]
+
+
+def _hinge(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
+    joint, turned = tie.joint, tie.turned
+    assert isinstance(joint, Hinge)
+    made: list[pymunk.Constraint] = [pymunk.PivotJoint(a, b, joint.anchor_a, joint.anchor_b)]
+    if tie.b < 0:  # it is a that turns against the world
+        a, b, turned = b, a, -turned
+    if joint.limits is not None:
+        least, largest = joint.limits
+        made.append(pymunk.RotaryLimitJoint(a, b, turned + least, turned + largest))
+    if joint.stiffness or joint.damping:
+        made.append(pymunk.DampedRotarySpring(a, b, -turned, joint.stiffness, joint.damping))
+    return made
+
+
+_MAKERS: dict[type[Joint], Callable[..., list[pymunk.Constraint]]] = {
+    Rope: _rope,
+    Rod: _rod,
+    Spring: _spring,
+    Hinge: _hinge,
+}

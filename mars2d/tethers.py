@@ -1,0 +1,128 @@
+"""Bodies that joints hold: when a rope will be taut, and how long a substep may be.
+
+Points are complex numbers x + i y, in metres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.joints.hinge import Hinge
+from mars2d.joints.rope import Rope
+from mars2d.joints.spring import Spring
+from mars2d.rigid import Rigid
+from mars2d.tie import Tie
+
+__all__ = ["Tethers"]
+
+Float = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Index = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+SWING = 0.05
+"""The longest substep, in periods of a spring over 2 pi."""
+
+TINY = 1e-12
+
+
+class Tethers:
+    """The joints of a scenario: which bodies they hold now.
+
+    A rope holds its bodies while it is taut; other joints always do.
+    """
+
+    def __init__(self, ties: Sequence[Tie], bodies: Sequence[Rigid]) -> None:
+        """Take the joints and the bodies at the start."""
+        self._count = len(bodies)
+        self.tied = np.zeros(self._count, dtype=bool)
+        """Which bodies have a joint, (N,)."""
+        self._held = np.zeros(self._count, dtype=bool)  # by joints other than ropes
+        for tie in ties:
+            ends = [i for i in (tie.a, tie.b) if i >= 0]
+            self.tied[ends] = True
+            if not isinstance(tie.joint, Rope):
+                self._held[ends] = True
+        ropes = [tie for tie in ties if isinstance(tie.joint, Rope)]
+        self._a = np.array([tie.a for tie in ropes], dtype=np.intp)
+        self._b = np.array([tie.b for tie in ropes], dtype=np.intp)
+        self._anchor_a = np.array([complex(*tie.joint.anchor_a) for tie in ropes], dtype=complex)
+        self._anchor_b = np.array([complex(*tie.joint.anchor_b) for tie in ropes], dtype=complex)
+        self._length = np.array([tie.length for tie in ropes])
+        self.longest_step = min((_swing(tie, bodies) for tie in ties), default=inf)
+        """The longest substep that the springs allow, seconds."""
+
+    def measure(self, state: Float) -> None:
+        """Take the states (N, 6) of all bodies."""
+        a, arm_a = self._ends(state, self._a, self._anchor_a)
+        b, arm_b = self._ends(state, self._b, self._anchor_b)
+        between = b - a
+        apart = np.hypot(between.real, between.imag)
+        self._normal = between / np.maximum(apart, TINY)
+        self._slack = self._length - apart
+        self._arms = arm_a, arm_b
+
+    def held(self) -> Mask:
+        """Return which bodies a joint holds, (N,)."""
+        held = self._held.copy()
+        taut = self._slack <= 0
+        held[self._a[taut]] = True
+        ends = self._b[taut]
+        held[ends[ends >= 0]] = True
+        return held
+
+    def time_to_jerk(self, velocity: Float, bend: Float, stretch: float) -> float:
+        """Return for how long no rope gets longer by more than `stretch` metres, seconds.
+
+        velocity: (N, 3) of all bodies; bend: (N,) m/s^2, how quickly one may turn away from it.
+        """
+        if not len(self._a):
+            return inf
+        speed_a, turn_a = _at_the_end(velocity, bend, self._a, self._arms[0])
+        speed_b, turn_b = _at_the_end(velocity, bend, self._b, self._arms[1])
+        parting = speed_b - speed_a
+        rate = np.maximum(parting.real * self._normal.real + parting.imag * self._normal.imag, 0.0)
+        # What moves across a rope lengthens it too.
+        across = parting.real * self._normal.imag - parting.imag * self._normal.real
+        turn = turn_a + turn_b + across**2 / np.maximum(self._length - self._slack, TINY)
+        room = np.maximum(self._slack + stretch, stretch / 64)
+        h = 2 * room / (rate + np.sqrt(rate**2 + 2 * turn * room) + TINY)
+        return float(h.min())
+
+    def _ends(self, state: Float, body: Index, anchor: Complex) -> tuple[Complex, Complex]:
+        """Return where the ropes' ends are, and the arms from the bodies' poses to them."""
+        fixed = body < 0
+        position = np.where(fixed, 0.0, state[body, 0] + 1j * state[body, 1])
+        heading = np.where(fixed, 0.0, state[body, 2])
+        c, s = np.cos(heading), np.sin(heading)
+        arm = c * anchor.real - s * anchor.imag + 1j * (s * anchor.real + c * anchor.imag)
+        return position + arm, arm
+
+
+def _at_the_end(
+    velocity: Float, bend: Float, body: Index, arm: Complex
+) -> tuple[Complex, Float]:
+    """Return the velocities of ropes' ends, and how quickly they may turn [m/s^2]."""
+    moves = body >= 0
+    x, y, spin = np.where(moves, velocity[body].T, 0.0)
+    length = np.hypot(arm.real, arm.imag)
+    ends = x - spin * arm.imag + 1j * (y + spin * arm.real)
+    return ends, np.where(moves, bend[body] + spin**2 * length, 0.0)
+
+
+def _swing(tie: Tie, bodies: Sequence[Rigid]) -> float:
+    """Return the longest substep that resolves how a joint's spring swings, seconds."""
+    ends = [bodies[i].inertia for i in (tie.a, tie.b) if i >= 0]
+    if isinstance(tie.joint, Spring):
+        stiffness = tie.joint.stiffness
+        lightness = sum(1 / end.mass for end in ends)
+    elif isinstance(tie.joint, Hinge) and tie.joint.stiffness:
+        stiffness = tie.joint.stiffness
+        lightness = sum(1 / end.moment for end in ends)
+    else:
+        return inf
+    return SWING / sqrt(stiffness * lightness)

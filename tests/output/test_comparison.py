@@ -1,0 +1,343 @@
+"""Comparisons: the drift in numbers, the picture and the film."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import mars2d
+from mars2d import InputError, Record, Robot, Scenario
+from mars2d.files import Experiment
+from mars2d.loop import simulate
+from mars2d.output.comparison import COLORS, MODES, Comparison, Drift, plot_comparison, plot_drift
+from mars2d.output.footage import Footage
+from mars2d.output.triptych import Triptych, save_triptych
+
+COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
+SIZE = (640, 360)
+
+
+def scenario(**changes):
+    robots = [Robot(pose=(-3, 2, 0), diameter=0.4), Robot(pose=(-3, -2, 0), diameter=0.4)]
+    return Scenario(**({"robots": robots, "sampling_time": 0.5, "stop_time": 4.0} | changes))
+
+
+def straight(speed):
+    return lambda world: [[speed, speed], [0.0, 0.0]]
+
+
+def run(speed, **changes):
+    return mars2d.run(scenario(**changes), control=straight(speed))
+
+
+def cut(record: Record, rows: int, message: str = "It ended early") -> Record:
+    """Return the first rows of a record, as of a run that ended early."""
+    columns = {name: getattr(record, name)[:rows] for name in COLUMNS}
+    return dataclasses.replace(record, **columns, over_message=message)
+
+
+def moved(record: Record, shift) -> Record:
+    """Return a record whose robots are shifted by (T, 2, n) metres."""
+    pose = record.pose.copy()
+    pose[:, :2] += shift
+    return dataclasses.replace(record, pose=pose)
+
+
+@pytest.fixture(scope="module")
+def comparison() -> Comparison:
+    return Comparison(run(0.5), run(0.25), cut(run(1.0), 5))
+
+
+# -- the drift --------------------------------------------------------------------------------
+
+
+def test_the_drift_is_the_distance_of_each_robot_from_itself():
+    first = run(0.5)
+    shift = np.zeros((len(first), 2, 2))
+    shift[:, 0, 0] = 0.75 * first.time
+    shift[:, 0, 1], shift[:, 1, 1] = 3.0, 4.0
+    drift = Drift.between(first, moved(first, shift))
+    np.testing.assert_array_equal(drift.time, np.arange(9) * 0.5)
+    np.testing.assert_allclose(drift.distance[:, 0], 0.75 * first.time, atol=1e-12)
+    np.testing.assert_allclose(drift.distance[:, 1], 5.0, atol=1e-12)
+    np.testing.assert_allclose(drift.max, 5.0, atol=1e-12)
+    np.testing.assert_allclose(drift.mean, 2.5 + 0.375 * first.time, atol=1e-12)
+
+
+def test_the_drift_of_robots_at_two_speeds_grows_by_the_difference(comparison):
+    drift = comparison.drifts["stop"]
+    np.testing.assert_allclose(drift.max, 0.25 * drift.time, atol=1e-9)
+    np.testing.assert_allclose(drift.mean, 0.25 * drift.time, atol=1e-9)
+
+
+def test_the_drift_ends_with_the_run_that_ends_first(comparison):
+    assert comparison.drifts["ideal"].time.tolist() == [0.0, 0.5, 1.0, 1.5, 2.0]
+    assert comparison.drifts["ideal"].distance.shape == (5, 2)
+    assert len(comparison.drifts["stop"].time) == 9
+    assert comparison.end == 4.0
+
+
+def test_headings_do_not_count():
+    first = run(0.5)
+    pose = first.pose.copy()
+    pose[:, 2] += 1.0
+    drift = Drift.between(first, dataclasses.replace(first, pose=pose))
+    assert drift.max.max() == 0.0
+
+
+def test_the_drift_counts_props_after_the_robots():
+    first = run(0.5)
+    prop = np.zeros((len(first), 3, 1))
+    here = dataclasses.replace(first, prop_pose=prop)
+    there = dataclasses.replace(first, prop_pose=np.add(prop, [[3.0], [4.0], [0.0]]))
+    drift = Drift.between(here, there)
+    assert drift.distance.shape == (9, 3)
+    np.testing.assert_array_equal(drift.distance, [[0.0, 0.0, 5.0]] * 9)
+    np.testing.assert_allclose(drift.mean, 5 / 3)
+
+
+def test_what_can_not_be_compared_is_told():
+    first = run(0.5)
+    other = mars2d.run(scenario(robots=1), control=lambda world: [[0.5], [0.0]])
+    with pytest.raises(InputError, match="stop: expected the same bodies"):
+        Comparison(first, other, first)
+    with pytest.raises(InputError, match="ideal: expected the sampling time"):
+        Comparison(first, first, run(0.5, sampling_time=0.25))
+    with pytest.raises(InputError, match="stop: the record has no rows"):
+        Comparison(first, cut(first, 0), first)
+
+
+# -- the picture ------------------------------------------------------------------------------
+
+
+def texts(figure):
+    return [text.get_text() for text in figure.texts]
+
+
+def test_three_panels_show_the_same_part_of_the_plane_at_the_same_size(comparison):
+    *panels, below = plot_comparison(comparison).axes
+    assert len(panels) == 3
+    assert len({(*ax.get_xlim(), *ax.get_ylim()) for ax in panels}) == 1
+    places = np.array([ax.get_position().bounds for ax in panels])
+    np.testing.assert_allclose(places[:, 1:], places[[0, 0, 0], 1:], atol=1e-9)
+    assert (np.diff(places[:, 0]) > places[0, 2]).all()
+    assert below.get_position().y1 < places[0, 1]
+    assert (below.get_xlabel(), below.get_ylabel()) == ("time [s]", "drift [m]")
+
+
+def test_a_panel_that_leaves_the_workspace_widens_all(comparison):
+    far = run(3.0, on_exit="ignore", stop_time=4.0)
+    near = run(0.5, on_exit="ignore", stop_time=4.0)
+    *panels, _ = plot_comparison(Comparison(near, near, far)).axes
+    assert {ax.get_xlim()[1] for ax in panels} == {panels[0].get_xlim()[1]}
+    assert panels[0].get_xlim()[1] > far.pose[-1, 0].max()
+
+
+def test_titles_say_which_physics_how_many_collisions_and_how_it_ended(comparison):
+    words = texts(plot_comparison(comparison))
+    for mode in MODES:
+        assert mode in words
+    assert words.count("0 collisions, 8 steps") == 2
+    assert "0 collisions, 4 steps" in words
+    assert "Time is over: 4 s" in words
+    assert "It ended early" in words
+    assert "seed 0" in words
+
+
+def test_texts_neither_overlap_nor_leave_the_page():
+    long = "Out of bounds: a robot of a very long name left the workspace at (12.345, -67.89)"
+    message = cut(run(0.5), 5, " and ".join([long] * 3))
+    figure = plot_comparison(Comparison(message, message, message))
+    figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in figure.texts]
+    page = figure.bbox
+    for k, box in enumerate(boxes):
+        assert box.x0 >= page.x0
+        assert box.x1 <= page.x1
+        for other in boxes[k + 1 :]:
+            assert not box.overlaps(other), (figure.texts[k].get_text(), other)
+        for ax in figure.axes:
+            assert not box.overlaps(ax.get_window_extent()), figure.texts[k].get_text()
+
+
+def test_the_curves_are_the_drift_in_the_colours_of_the_titles(comparison):
+    figure = plot_comparison(comparison)
+    colors = {text.get_text(): text.get_color() for text in figure.texts}
+    lines = {line.get_label(): line for line in figure.axes[-1].lines}
+    assert list(lines) == ["stop, max", "stop, mean", "ideal, max", "ideal, mean"]
+    for name, line in lines.items():
+        mode, _, kind = name.partition(", ")
+        drift = comparison.drifts[mode]
+        np.testing.assert_array_equal(line.get_xdata(), drift.time)
+        np.testing.assert_array_equal(line.get_ydata(), getattr(drift, kind))
+        assert line.get_color() == colors[mode] == COLORS[mode]
+    assert figure.axes[-1].get_xlim() == (0, 4)
+
+
+def axes():
+    from matplotlib.figure import Figure
+
+    return Figure().add_subplot()
+
+
+def test_the_scale_is_logarithmic_only_where_a_curve_would_lie_flat():
+    first = run(0.5)
+    slowly = np.broadcast_to(first.time[:, None, None], (9, 2, 2))
+    near, far = moved(first, 0.1 * slowly), moved(first, 10 * slowly)
+    for stop, ideal, scale in ((near, near, "linear"), (near, far, "log"), (first, far, "linear")):
+        ax = axes()
+        plot_drift(Comparison(first, stop, ideal), ax)
+        assert ax.get_yscale() == scale
+
+
+def test_runs_that_are_the_same_say_so():
+    first, ax = run(0.5), axes()
+    plot_drift(Comparison(first, first, first), ax)
+    assert [text.get_text() for text in ax.texts] == ["no drift: all three runs are the same"]
+    assert ax.get_ylim() == (0, 1)
+
+
+def test_a_run_of_no_step_is_drawn_too(tmp_path):
+    start = cut(run(0.5), 1)
+    path = Comparison(start, start, start).save_figure(tmp_path / "a.png")
+    assert path.stat().st_size > 10_000
+
+
+def test_the_file_has_the_size_of_the_page_and_always_the_same_bytes(comparison, tmp_path):
+    path = comparison.save_figure(tmp_path / "a.png")
+    with Image.open(path) as picture:
+        width, height = picture.size
+    page = plot_comparison(comparison).get_size_inches()
+    assert width == 2200
+    assert height == pytest.approx(200 * page[1], abs=1)
+    comparison.save_figure(tmp_path / "b.png")
+    assert path.read_bytes() == (tmp_path / "b.png").read_bytes()
+    assert comparison.save_figure(tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
+    assert b"<svg" in comparison.save_figure(tmp_path / "a.svg").read_bytes()
+    with pytest.raises(InputError, match=r"a\.jpg.*\.png, \.pdf or \.svg"):
+        comparison.save_figure(tmp_path / "a.jpg")
+
+
+def test_titles_are_no_formulas(tmp_path):
+    first = run(0.5, title="Cost: $5 and $x_")
+    comparison = Comparison(first, first, cut(first, 3, "$^ is no formula"))
+    assert comparison.save_figure(tmp_path / "a.png").exists()
+
+
+# -- the film ---------------------------------------------------------------------------------
+
+
+def takes(*, speed=2.0, fps=10, steps=(8, 8, 4)):
+    """Return a comparison of three live runs and what a film of it needs."""
+    records, reels = [], {}
+    for mode, last in zip(MODES, steps, strict=True):
+        experiment = Experiment(scenario(stop_time=last * 0.5), straight(0.1 * last))
+        footage = Footage(experiment.scenario, speed, fps)
+        world = simulate(experiment, watchers=[footage])
+        records.append(world.record)
+        reels[mode] = footage, world.frame
+    return Comparison(*records), reels
+
+
+def test_a_film_lasts_as_long_as_the_longest_run(tmp_path):
+    comparison, reels = takes()
+    counts = []
+    save_triptych(comparison, reels, tmp_path / "a.gif", fps=10, size=SIZE, progress=counts.append)
+    frames = 1 + math.ceil(4.0 / 2.0 * 10) + 1  # the first, those after, and the end
+    assert counts == list(range(1, frames + 1))
+    with Image.open(tmp_path / "a.gif") as film:
+        assert film.size == SIZE
+        duration = 0
+        for k in range(film.n_frames):
+            film.seek(k)
+            duration += film.info["duration"]
+    assert duration == 100 * frames
+
+
+def test_a_film_can_be_an_mp4(tmp_path):
+    av = pytest.importorskip("av")
+    comparison, reels = takes()
+    save_triptych(comparison, reels, tmp_path / "a.mp4", fps=10, size=SIZE)
+    with av.open(str(tmp_path / "a.mp4")) as film:
+        pictures = [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
+    assert len(pictures) == 22
+    assert pictures[0].shape == (360, 640, 3)
+
+
+def pixels(surface):
+    from pygame.surfarray import array3d
+
+    return array3d(surface).astype(int)
+
+
+def near(picture, color, part):
+    """Return in which columns of a part of a picture a colour is seen."""
+    wanted = np.array(list(bytes.fromhex(color[1:])))
+    return np.flatnonzero((np.abs(picture[part] - wanted).max(axis=2) < 24).any(axis=1))
+
+
+def test_the_curves_grow_with_time():
+    comparison, reels = takes()
+    triptych = Triptych(comparison, (1280, 720))
+    shown = [list(footage.frames(last)) for footage, last in reels.values()]
+    reach = []
+    for k in (0, 7, 14):
+        frames = [film[min(k, len(film) - 1)] for film in shown]
+        picture = pixels(triptych.paint(frames))
+        below = np.s_[:, triptych._plot.place.top + 40 :]
+        reach.append(near(picture, COLORS["stop"], below).max())
+    left, right = triptych._plot._span
+    wanted = [left + (right - left) * k * 0.2 / 4.0 for k in (0, 7, 14)]
+    np.testing.assert_allclose(reach, wanted, atol=7)
+
+
+def test_a_run_that_ended_earlier_stands_still_and_says_why(tmp_path):
+    comparison, reels = takes()
+    triptych = Triptych(comparison, (1280, 720))
+    films = [list(footage.frames(last)) for footage, last in reels.values()]
+    assert [len(film) for film in films] == [22, 22, 12]
+    assert films[2][-1].over_message == "Time is over: 2 s"
+    early = pixels(triptych.paint([films[0][12], films[1][12], films[2][-1]]))
+    late = pixels(triptych.paint([films[0][18], films[1][18], films[2][-1]]))
+    bottom = triptych._plot.place.top
+    third = np.s_[2 * 1280 // 3 + 1 :, 60:bottom]
+    first = np.s_[: 1280 // 3, 60:bottom]
+    assert (early[third] == late[third]).all()
+    assert (early[first] != late[first]).any()
+
+
+def test_collisions_are_counted_as_they_happen():
+    head_on = [Robot(pose=(-1, 0, 0), diameter=0.4), Robot(pose=(1, 0, math.pi), diameter=0.4)]
+    record = mars2d.run(scenario(robots=head_on), control=straight(0.5))
+    assert record.collisions == 1
+    (panel, *_) = Triptych(Comparison(record, record, record), SIZE)._panels
+    assert 1.4 < panel._collisions[0] < 1.8
+
+
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720), (1920, 1080)])
+@pytest.mark.parametrize("corners", [(10, 1), (1, 10), (10, 10)])
+def test_panels_and_drift_share_the_height(size, corners):
+    width, height = corners
+    outline = [(0, 0), (width, 0), (width, height), (0, height)]
+    still = scenario(robots=[Robot(pose=(0.5, 0.5, 0))], workspace=outline, stop_time=1.0)
+    record = mars2d.run(still, control=lambda world: [[0.0], [0.0]])
+    triptych = Triptych(Comparison(record, record, record), size)
+    place = triptych._plot.place
+    assert place.bottom == size[1]
+    assert place.height >= 0.29 * size[1]
+    frame = record.frame(0)
+    for panel in triptych._panels:
+        (left, top), (right, bottom) = panel._camera.to_pixels([(0, height), (width, 0)])
+        assert panel.plot.left <= left < right <= panel.plot.right
+        assert panel.plot.top <= top < bottom <= place.top
+    assert triptych.paint([frame] * 3).get_size() == size
+
+
+def test_a_film_of_no_step_has_the_start_and_the_end(tmp_path):
+    comparison, reels = takes(steps=(1, 1, 1), speed=100.0)
+    save_triptych(comparison, reels, tmp_path / "a.gif", fps=10, size=SIZE)
+    assert (tmp_path / "a.gif").read_bytes().startswith(b"GIF89a")
