@@ -34,6 +34,7 @@ class Animation(Description):
     show_initial_pose: bool = flag(default=True, doc="draw where the robots started")
     show_real_shape: bool = flag(default=True, doc="draw robots to scale, else as points")
     wake: bool = flag(default=True, doc="draw the paths behind the robots")
+    forces: bool = flag(default=False, doc="draw the forces of contacts, and which drives slip")
     wake_style: str = entry(
         default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"
     )

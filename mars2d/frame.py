@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.contact import CONTACT
+from mars2d.looks import INK, draw_prop, draw_robot, draw_tie, prop_colors, prop_edge
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene, faded
@@ -18,7 +19,10 @@ from mars2d.usercode import called
 __all__ = [
     "Frame",
     "initial_poses",
+    "joints",
     "obstacles",
+    "prop_trail_colors",
+    "props",
     "robots",
     "sensors",
     "trail_colors",
@@ -28,9 +32,9 @@ __all__ = [
 
 Float = NDArray[np.float64]
 
-INK = "#3d4852"
 OBSTACLE = "#b8c0c8"
 TRAIL_WIDTH = 1.6
+PROP_TRAIL_WIDTH = 1.0
 
 
 def _no_contacts() -> NDArray[np.void]:
@@ -45,7 +49,7 @@ class Frame:
     readings: for each sensor's name the pairs (robot index, reading). draw_addons: adds the
     add-ons' shapes to a scene, where they are alive. prop_pose: (3, p). contacts: those of the
     control step that led here, and effort (n,) of the drives in it. contact_log: returns all
-    contacts so far.
+    contacts so far. prop_path: (k, 3, p) and effort_path: (k, n), as path; both may be left empty.
     """
 
     scenario: Scenario
@@ -60,6 +64,8 @@ class Frame:
     contacts: NDArray[np.void] = field(default_factory=_no_contacts)
     effort: Float = field(default_factory=lambda: np.empty(0))
     contact_log: Callable[[], NDArray[np.void]] = _no_contacts
+    prop_path: Float = field(default_factory=lambda: np.empty((0, 3, 0)))
+    effort_path: Float = field(default_factory=lambda: np.empty((0, 0)))
 
 
 def workspace(scenario: Scenario) -> Scene:
@@ -88,8 +94,13 @@ def obstacles(scenario: Scenario) -> Scene:
 
 
 def trails(frame: Frame) -> Scene:
-    """Return the paths of the robots so far, as the animation's wake style says."""
+    """Return the paths so far: the robots' as the animation's wake style says, the props' thin."""
     scene = Scene()
+    if len(frame.prop_path):
+        for i, color in enumerate(prop_trail_colors(frame.scenario)):
+            path = np.vstack([frame.prop_path[:, :2, i], frame.prop_pose[None, :2, i]])
+            if np.ptp(path, axis=0).max() > 0:
+                scene.line(path, stroke=color, width=PROP_TRAIL_WIDTH)
     style = frame.scenario.animation.wake_style
     for i, color in enumerate(trail_colors(frame.scenario)):
         path = np.vstack([frame.path[:, :2, i], frame.pose[None, :2, i]])
@@ -102,9 +113,16 @@ def trail_colors(scenario: Scenario) -> tuple[str, ...]:
     return tuple(faded(color, 0.85) for color in scenario.colors)
 
 
+def prop_trail_colors(scenario: Scenario) -> tuple[str, ...]:
+    """Return the colours of the props' paths."""
+    return tuple(faded(prop_edge(color), 0.6) for color in prop_colors(scenario.props))
+
+
 def initial_poses(scenario: Scenario) -> Scene:
-    """Return the robots at their starts, hollow."""
+    """Return the props and robots at their starts, hollow."""
     scene = Scene()
+    for prop, color in zip(scenario.props, prop_colors(scenario.props), strict=True):
+        draw_prop(scene, prop, np.array(prop.pose), color, hollow=True)
     for robot, pose, color in zip(
         scenario.robots, scenario.initial_pose.T, scenario.colors, strict=True
     ):
@@ -124,21 +142,30 @@ def robots(frame: Frame) -> Scene:
 def _robot(
     scene: Scene, scenario: Scenario, robot: Robot, pose: Float, fill: str | None, stroke: str
 ) -> None:
-    """Draw a robot: its disc with a line from the centre of rotation to the front, or a point."""
-    x, y, theta = pose.tolist()
-    if not scenario.animation.show_real_shape:
-        scene.circle((x, y), 0.0, fill=fill, stroke=stroke, pixels=5.0)
-        return
-    c, s = np.cos(theta), np.sin(theta)
-    offset, r = robot.center_offset, robot.radius
-    center = (x - offset * c, y - offset * s)
-    scene.circle(center, r, fill=fill, stroke=stroke, width=1.5)
-    mark = stroke if fill is None else "#ffffff"
-    back, front = min(offset, 0.0), r
-    ends = [(center[0] + d * c, center[1] + d * s) for d in (back, front)]
-    scene.line(ends, stroke=mark, width=2.5)
-    if offset:
-        scene.circle((x, y), r / 6, fill=mark)  # the centre of rotation
+    """Draw a robot to scale or as a point."""
+    if scenario.animation.show_real_shape:
+        draw_robot(scene, robot, pose, fill, stroke)
+    else:
+        scene.circle(pose[:2], 0.0, fill=fill, stroke=stroke, pixels=5.0)
+
+
+def props(frame: Frame) -> Scene:
+    """Return the props where they are, filled."""
+    scene = Scene()
+    listed = frame.scenario.props
+    for prop, pose, color in zip(listed, frame.prop_pose.T, prop_colors(listed), strict=True):
+        draw_prop(scene, prop, pose, color)
+    return scene
+
+
+def joints(frame: Frame) -> Scene:
+    """Return what ties bodies together: ropes, rods, springs and the pins of hinges."""
+    scene = Scene()
+    if frame.scenario.ties:
+        poses = np.hstack([frame.pose, frame.prop_pose])
+        for tie in frame.scenario.ties:
+            draw_tie(scene, tie, poses)
+    return scene
 
 
 def sensors(frame: Frame) -> Scene:

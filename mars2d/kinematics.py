@@ -36,7 +36,7 @@ class Kinematics:
         self.n = len(scenario.robots)
         self._stops = scenario.physics == "stop"
         self.space = Space(scenario, SLOP, 1)  # for rays; it is never stepped
-        self.bounds = Bounds(bodies, [s.outline for s in scenario.surfaces], ())
+        self.bounds = Bounds(bodies, [s.outline for s in scenario.surfaces], scenario.joined)
         self.contacts = ContactLog()
         self._in_robot_frame = np.array([robot.drive.frame == "robot" for robot in scenario.robots])
         slowing = [

@@ -18,7 +18,20 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.errors import InputError, nearest
 from mars2d.geometry import Outline
 
-__all__ = ["PALETTE", "Circle", "Line", "Polygon", "Scene", "Text", "color", "faded", "optional_color", "wake_style"]
+__all__ = [
+    "PALETTE",
+    "Arrow",
+    "Circle",
+    "Line",
+    "Polygon",
+    "Scene",
+    "Text",
+    "arrow_outline",
+    "color",
+    "faded",
+    "optional_color",
+    "wake_style",
+]
 
 Anchor = Literal["center", "left", "right", "above", "below"]
 
@@ -141,7 +154,22 @@ class Text:
     anchor: Anchor = "center"
 
 
-Shape = Circle | Polygon | Line | Text
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """An arrow from `tail` to `tip`, (x, y) in metres; `width` is that of its shaft, in points.
+
+    A short one is drawn smaller as a whole, so that it stays an arrow. stroke: a thin edge round
+    it, which sets it off from what it lies on.
+    """
+
+    tail: tuple[float, float]
+    tip: tuple[float, float]
+    fill: str
+    stroke: str | None = None
+    width: float = 3.0
+
+
+Shape = Circle | Polygon | Line | Text | Arrow
 
 
 @dataclass(slots=True)
@@ -198,6 +226,20 @@ class Scene:
         color = _checked("color", color)
         self.shapes.append(Text((x, y), str(text), color, size, anchor))
 
+    def arrow(
+        self,
+        tail: ArrayLike,
+        tip: ArrayLike,
+        *,
+        fill: str,
+        stroke: str | None = None,
+        width: float = 3.0,
+    ) -> None:
+        """Add an arrow."""
+        (ax, ay), (bx, by) = (np.asarray(end, dtype=float)[:2].tolist() for end in (tail, tip))
+        fill, stroke = _checked("fill", fill), _paint(stroke, "stroke")
+        self.shapes.append(Arrow((ax, ay), (bx, by), fill, stroke, width))
+
     def sector(
         self,
         pose: ArrayLike,
@@ -220,6 +262,30 @@ class Scene:
     def extend(self, shapes: Iterable[Shape]) -> None:
         """Add the shapes of another scene."""
         self.shapes.extend(shapes)
+
+
+HEAD_LENGTH, HEAD_WIDTH = 4.0, 3.4
+"""Of an arrow's head, in widths of its shaft."""
+
+SHORTEST = 1.6
+"""Shorter arrows, in lengths of their head, are drawn smaller as a whole."""
+
+
+def arrow_outline(
+    tail: tuple[float, float], tip: tuple[float, float], width: float
+) -> NDArray[np.float64]:
+    """Return the corners (7, 2) of an arrow whose shaft is `width` wide, all in one unit."""
+    dx, dy = tip[0] - tail[0], tip[1] - tail[1]
+    length = float(np.hypot(dx, dy))
+    if length == 0.0:
+        return np.tile(np.array([tail], dtype=float), (7, 1))
+    width = min(width, length / (SHORTEST * HEAD_LENGTH))
+    axes = np.array([[dx, dy], [-dy, dx]]) / length
+    neck = length - HEAD_LENGTH * width
+    half, head = width / 2, HEAD_WIDTH * width / 2
+    places = [(0, half), (neck, half), (neck, head), (length, 0)]
+    places += [(at, -off) for at, off in places[2::-1]]
+    return np.array(places) @ axes + tail
 
 
 def _points(points: ArrayLike | Outline) -> NDArray[np.float64]:

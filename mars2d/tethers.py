@@ -27,32 +27,32 @@ Mask = NDArray[np.bool_]
 SWING = 0.05
 """The longest substep, in periods of a spring over 2 pi."""
 
+BENT = 0.05
+"""What part of the stretch allowed a joint may be pulled apart in one substep."""
+
 TINY = 1e-12
 
 
 class Tethers:
     """The joints of a scenario: which bodies they hold now.
 
-    A rope holds its bodies while it is taut; other joints always do.
+    A rope holds its bodies while it is taut; other joints always do. There is at least one joint.
     """
 
     def __init__(self, ties: Sequence[Tie], bodies: Sequence[Rigid]) -> None:
         """Take the joints and the bodies at the start."""
         self._count = len(bodies)
+        self._ropes = np.array([isinstance(tie.joint, Rope) for tie in ties], dtype=bool)
         self.tied = np.zeros(self._count, dtype=bool)
         """Which bodies have a joint, (N,)."""
-        self._held = np.zeros(self._count, dtype=bool)  # by joints other than ropes
         for tie in ties:
-            ends = [i for i in (tie.a, tie.b) if i >= 0]
-            self.tied[ends] = True
-            if not isinstance(tie.joint, Rope):
-                self._held[ends] = True
-        ropes = [tie for tie in ties if isinstance(tie.joint, Rope)]
-        self._a = np.array([tie.a for tie in ropes], dtype=np.intp)
-        self._b = np.array([tie.b for tie in ropes], dtype=np.intp)
-        self._anchor_a = np.array([complex(*tie.joint.anchor_a) for tie in ropes], dtype=complex)
-        self._anchor_b = np.array([complex(*tie.joint.anchor_b) for tie in ropes], dtype=complex)
-        self._length = np.array([tie.length for tie in ropes])
+            self.tied[[i for i in (tie.a, tie.b) if i >= 0]] = True
+        self._a = np.array([tie.a for tie in ties], dtype=np.intp)
+        self._b = np.array([tie.b for tie in ties], dtype=np.intp)
+        self._anchor_a = np.array([complex(*tie.joint.anchor_a) for tie in ties], dtype=complex)
+        self._anchor_b = np.array([complex(*tie.joint.anchor_b) for tie in ties], dtype=complex)
+        self._length = np.array([tie.length for tie in ties])
+        self._springs = np.array([isinstance(tie.joint, Spring) for tie in ties], dtype=bool)
         self.longest_step = min((_swing(tie, bodies) for tie in ties), default=inf)
         """The longest substep that the springs allow, seconds."""
 
@@ -63,35 +63,41 @@ class Tethers:
         between = b - a
         apart = np.hypot(between.real, between.imag)
         self._normal = between / np.maximum(apart, TINY)
-        self._slack = self._length - apart
+        self._apart = apart
+        self._slack = np.where(self._ropes, self._length - apart, 0.0)
         self._arms = arm_a, arm_b
 
     def held(self) -> Mask:
-        """Return which bodies a joint holds, (N,)."""
-        held = self._held.copy()
-        taut = self._slack <= 0
-        held[self._a[taut]] = True
-        ends = self._b[taut]
+        """Return which bodies a joint holds, (N,): a rope does while it is taut."""
+        held = np.zeros(self._count, dtype=bool)
+        tight = self._slack <= 0
+        held[self._a[tight]] = True
+        ends = self._b[tight]
         held[ends[ends >= 0]] = True
         return held
 
     def time_to_jerk(self, velocity: Float, bend: Float, stretch: float) -> float:
-        """Return for how long no rope gets longer by more than `stretch` metres, seconds.
+        """Return how long a substep may be, seconds.
+
+        Until then no rope gets longer by more than `stretch` metres, and no joint is pulled apart
+        by more than a part of that, as its ends go straight on where they should go round.
 
         velocity: (N, 3) of all bodies; bend: (N,) m/s^2, how quickly one may turn away from it.
         """
-        if not len(self._a):
-            return inf
         speed_a, turn_a = _at_the_end(velocity, bend, self._a, self._arms[0])
         speed_b, turn_b = _at_the_end(velocity, bend, self._b, self._arms[1])
         parting = speed_b - speed_a
         rate = np.maximum(parting.real * self._normal.real + parting.imag * self._normal.imag, 0.0)
-        # What moves across a rope lengthens it too.
+        # What moves across a rope or rod lengthens it too.
         across = parting.real * self._normal.imag - parting.imag * self._normal.real
-        turn = turn_a + turn_b + across**2 / np.maximum(self._length - self._slack, TINY)
+        swing = np.where(self._length > 0, across**2 / np.maximum(self._apart, TINY), 0.0)
+        turn = turn_a + turn_b + swing
         room = np.maximum(self._slack + stretch, stretch / 64)
         h = 2 * room / (rate + np.sqrt(rate**2 + 2 * turn * room) + TINY)
-        return float(h.min())
+        jerk = np.where(self._ropes, h, inf)
+        tight = (self._slack <= 0) & ~self._springs
+        pulled_apart = np.sqrt(2 * BENT * stretch / np.maximum(turn, TINY))
+        return float(np.minimum(jerk, np.where(tight, pulled_apart, inf)).min())
 
     def _ends(self, state: Float, body: Index, anchor: Complex) -> tuple[Complex, Complex]:
         """Return where the ropes' ends are, and the arms from the bodies' poses to them."""

@@ -18,7 +18,7 @@ from mars2d import Robot, Scenario
 
 scenario = Scenario(
     title="Head on",
-    robots=[Robot(pose=(-1, 0.05, 0)), Robot(pose=(1, -0.05, pi))],
+    robots=[Robot(pose=(-1, 0, 0)), Robot(pose=(1, 0, pi))],
     sampling_time=0.1,
     stop_time=4.0,
 )

@@ -182,19 +182,24 @@ def _rows(comparison: Comparison) -> list[dict[str, Any]]:
 
 def _as_table(comparison: Comparison) -> str:
     """Return the outcome as a table, with the final drift from the run with contact."""
-    lines = [
-        f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}",
-        "physics     steps  collisions  drift max  drift mean  ended",
-    ]
+    lines = [("physics", "steps", "collisions", "drift max", "drift mean", "ended")]
     for row in _rows(comparison):
-        drifts = f"{row['drift_max']:>7.3g} m  {row['drift_mean']:>8.3g} m"
-        if row["physics"] == "contact":
-            drifts = f"{'-':>9}  {'-':>10}"
-        lines.append(
-            f"{row['physics']:<8}{row['ticks']:>9}{row['collisions']:>12}  {drifts}  "
-            f"{row['message']}"
-        )
-    return "\n".join(lines)
+        drifts = ("-", "-")
+        if row["physics"] != "contact":
+            drifts = _metres(row["drift_max"]), _metres(row["drift_mean"])
+        counts = str(row["ticks"]), str(row["collisions"])
+        lines.append((row["physics"], *counts, *drifts, row["message"]))
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    table = [f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}"]
+    for first, *middle, last in lines:
+        cells = [cell.rjust(width) for cell, width in zip(middle, widths[1:-1], strict=True)]
+        table.append("  ".join([first.ljust(widths[0]), *cells, last]))
+    return "\n".join(table)
+
+
+def _metres(distance: float) -> str:
+    """Return a distance as it is read; below a micrometre it is rounding."""
+    return f"{round(distance, 6):.3g} m"
 
 
 def _as_json(comparison: Comparison, paths: dict[str, Path], seconds: float) -> str:

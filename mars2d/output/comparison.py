@@ -36,14 +36,14 @@ MEANINGS = {
 COLORS = {"contact": INK, "stop": "#b45309", "ideal": "#6d28d9"}
 """Of titles and curves; dark, so that they are not taken for those of robots."""
 
-NOTHING = 1e-9
-"""A drift below which two runs count as the same, metres."""
+NOTHING = 1e-6
+"""A drift below which two runs agree, metres."""
 
 FLAT = 30.0
 """How many times larger one drift must be for the other to lie flat on a linear axis."""
 
-DECADES = 1e-4
-"""The share of the largest drift at which a logarithmic axis begins."""
+FOOT_ROOM = 0.01
+"""The share of the smaller one of the largest drifts at which a logarithmic axis begins."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,7 +235,7 @@ def plot_drift(comparison: Comparison, ax: Axes) -> list[Float]:
         line.set_marker("")
     if max(peaks.values()) < NOTHING:
         ax.text(
-            0.5, 0.5, "no drift: all three runs are the same", transform=ax.transAxes,
+            0.5, 0.5, "no drift: the three runs agree", transform=ax.transAxes,
             ha="center", va="center", fontsize=11, color=MUTED,
         )  # fmt: skip
     return curves
@@ -251,7 +251,7 @@ def _dress_drift(ax: Axes, end: float, peaks: list[float]) -> None:
     elif low > NOTHING and high > FLAT * low:
         ax.set_yscale("log")
         ax.yaxis.set_major_formatter("{x:g}")
-        ax.set_ylim(high * DECADES, high * 2)
+        ax.set_ylim(low * FOOT_ROOM, high * 2)
     else:
         ax.set_ylim(0, high * 1.06)
     ax.grid(visible=True, color="#e6e9ed", linewidth=0.6)

@@ -187,17 +187,22 @@ def axes():
 def test_the_scale_is_logarithmic_only_where_a_curve_would_lie_flat():
     first = run(0.5)
     slowly = np.broadcast_to(first.time[:, None, None], (9, 2, 2))
-    near, far = moved(first, 0.1 * slowly), moved(first, 10 * slowly)
-    for stop, ideal, scale in ((near, near, "linear"), (near, far, "log"), (first, far, "linear")):
+    tiny, near, far = (moved(first, size * slowly) for size in (1e-5, 0.1, 10))
+    for stop, ideal, scale in (
+        (near, near, "linear"), (near, far, "log"), (tiny, far, "log"), (first, far, "linear")
+    ):  # fmt: skip
         ax = axes()
         plot_drift(Comparison(first, stop, ideal), ax)
         assert ax.get_yscale() == scale
+        low, high = ax.get_ylim()
+        for line in ax.lines:
+            assert low <= line.get_ydata()[-1] < high
 
 
-def test_runs_that_are_the_same_say_so():
+def test_runs_that_agree_say_so():
     first, ax = run(0.5), axes()
     plot_drift(Comparison(first, first, first), ax)
-    assert [text.get_text() for text in ax.texts] == ["no drift: all three runs are the same"]
+    assert [text.get_text() for text in ax.texts] == ["no drift: the three runs agree"]
     assert ax.get_ylim() == (0, 1)
 
 

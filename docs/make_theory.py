@@ -1,0 +1,320 @@
+"""Write docs/theory.md: what the physics predicts, and what is measured, in one table.
+
+python docs/make_theory.py
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from math import cos, inf, pi, sin, sqrt, tan
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, World
+from mars2d.addons import Map
+from mars2d.contact import episodes
+from mars2d.files import examples, open_experiment
+from mars2d.joints import Joint, Rope, Spring
+from mars2d.loop import simulate
+from mars2d.motion import GRAVITY
+from mars2d.prediction import Prediction
+from mars2d.props import Ball, Box, Prop, Puck
+from mars2d.record import Record
+
+Float = NDArray[np.float64]
+
+CROWD_SEEDS = range(8)
+
+HEAD = """\
+# Theory and measurement
+
+What a textbook predicts, and what the simulator measures. The first table holds single facts of the
+physics, the second what the examples say of themselves. This page is written by
+
+    python docs/make_theory.py
+
+which runs all of it anew; so do the tests, which fail when a number leaves its tolerance. Tolerances
+are absolute, in the unit given. "0" in the last digits differs from processor to processor.
+"""
+
+
+def run(
+    robots: Sequence[Robot],
+    command: Sequence[Sequence[float]],
+    seconds: float,
+    *,
+    props: Sequence[Prop] = (),
+    joints: Sequence[Joint] = (),
+    walls: Sequence[Sequence[tuple[float, float]]] = (),
+    friction: float = 1.0,
+    sampling_time: float = 0.1,
+) -> Record:
+    """Run robots under a constant command, in a plane without limits."""
+    scenario = Scenario(
+        robots=robots, props=props, joints=joints, workspace=None, stop_time=seconds,
+        addons=[Map(walls, friction=friction)], sampling_time=sampling_time,
+    )  # fmt: skip
+    world = World(scenario)
+    while not world.over:
+        world.step(command)
+    return world.record
+
+
+def velocity(record: Record) -> Float:
+    """Return the props' mean velocities (T - 1, 3, p) between rows."""
+    return np.diff(record.prop_pose, axis=0) / record.scenario.sampling_time
+
+
+# -- single facts ---------------------------------------------------------------------------------
+
+
+def free_arcs() -> Iterator[Prediction]:
+    """Compare drives that nothing touches with the circles that they command."""
+    seconds = 100.0
+    turning = {
+        "unicycle": (Unicycle(), (0.2, 0.5), (0.2, 0.5)),
+        "differential drive by wheel speeds": (
+            Differential(command="wheels", wheel_radius=0.05, wheel_semiaxis=0.1),
+            (3.0, 5.0), (0.2, 0.5),
+        ),
+        "car": (Car(wheelbase=0.3), (0.3, 0.4), (0.3, 0.3 * tan(0.4) / 0.3)),
+    }  # fmt: skip
+    for name, (drive, command, (v, omega)) in turning.items():
+        pose = run([Robot(drive=drive)], [[c] for c in command], seconds).pose[-1, :, 0]
+        angle = omega * seconds
+        exact = v / omega * np.array([sin(angle), 1 - cos(angle)])
+        error = float(np.hypot(*(pose[:2] - exact)))
+        yield Prediction(f"{name}: off its arc after 100 s", 0.0, error, 1e-9, "m")
+
+
+def stalemate() -> Iterator[Prediction]:
+    """Let two equal robots push each other for a minute."""
+    pair = [Robot(pose=(-0.3, 0, 0)), Robot(pose=(0.3, 0, pi))]
+    pose = run(pair, [[0.2, 0.2], [0, 0]], 60).pose
+    drift = float(np.abs(pose[:, :2].mean(axis=2)).max())
+    yield Prediction("two equal robots head-on: drift of the middle", 0.0, drift, 1e-6, "m")
+
+
+def acceleration() -> Iterator[Prediction]:
+    """Push a box without friction by a drive that is far from its speed."""
+    force, mass, load = 4.0, 1.0, 3.0
+    robot = Robot(mass=mass, drive=Unicycle(max_force=force, max_linear_speed=50.0))
+    box = Box(pose=(0.3501, 0, 0), mass=load, ground_friction=0.0)
+    v = velocity(run([robot], [[50.0], [0]], 2, props=[box]))[:, 0, 0]
+    predicted = force / (mass + load)
+    measured = (v[-1] - v[-11]) / 1.0
+    yield Prediction("pushed box: acceleration F / m", predicted, measured, 0.005 * predicted, "m/s^2")
+
+
+def friction_threshold() -> Iterator[Prediction]:
+    """Find the largest coefficient of friction at which a robot still moves a box."""
+    force, mass = 5.0, 1.5
+    low, high = 0.2, 0.6
+    while high - low > 1e-3:
+        mu = (low + high) / 2
+        box = Box(pose=(0.36, 0, 0), mass=mass, ground_friction=mu)
+        x = run([Robot()], [[0.2], [0]], 4, props=[box]).prop_pose[:, 0, 0]
+        low, high = (mu, high) if x[-1] - x[-11] > 0.01 else (low, mu)
+    predicted = force / (mass * GRAVITY)
+    yield Prediction("box that just moves: mu = F / (m g)", predicted, low, 0.02 * predicted)
+
+
+def wall_slide() -> Iterator[Prediction]:
+    """Slide along a frictionless wall, at an angle."""
+    for degrees in (20, 45, 70):
+        a, v = degrees * pi / 180, 0.2
+        robot = Robot(pose=(0, 0.1501, -a), drive=Holonomic(), friction=0.0)
+        command = [[v * cos(a)], [-v * sin(a)]]
+        x = run([robot], command, 10, walls=[[(-5, 0), (9, 0)]]).pose[:, 0, 0]
+        measured = (x[-1] - x[-51]) / 5.0
+        predicted = v * cos(a)
+        yield Prediction(
+            f"frictionless wall at {degrees} degrees: v cos a", predicted, measured,
+            0.001 * predicted, "m/s",
+        )  # fmt: skip
+
+
+def billiard_table(seed: int, restitution: float) -> Record:
+    """Let balls and boxes without friction on the floor meet each other at random."""
+    rng = np.random.default_rng(seed)
+    props: list[Prop] = []
+    for k in range(12):
+        place = (0.6 * (k % 4) + 1, 0.6 * (k // 4), float(rng.uniform(-pi, pi)))
+        v = (*rng.uniform(-1, 1, 2).tolist(), float(rng.uniform(-2, 2)))
+        kind = Ball if k % 2 else Box
+        size = {"diameter": 0.2} if k % 2 else {"length": 0.25, "width": 0.15}
+        props.append(kind(
+            pose=place, velocity=v, mass=float(rng.uniform(1, 3)), friction=0.5,
+            restitution=sqrt(restitution), ground_friction=0.0, **size,
+        ))  # fmt: skip
+    return run([Robot(pose=(-50, 0, 0))], [[0], [0]], 4, props=props, sampling_time=0.05)
+
+
+def momentum_and_energy() -> Iterator[Prediction]:
+    """Add up the momentum and the energy of what collides with motors off."""
+    most_momentum = most_energy = 0.0
+    for restitution in (0.0, 0.5, 1.0):
+        for seed in range(3):
+            record = billiard_table(seed, restitution)
+            inertia = [prop.inertia for prop in record.scenario.props]
+            mass, moment = (np.array(column) for column in zip(*inertia, strict=True))
+            still = touching_rows(record)
+            v = velocity(record)[~still]
+            momentum = (v[:, :2] * mass).sum(axis=2)
+            drift = np.abs(momentum - momentum[0]).max() / np.abs(v[:, :2] * mass).sum()
+            energy = (mass * (v[:, :2] ** 2).sum(axis=1) + moment * v[:, 2] ** 2).sum(axis=1) / 2
+            most_momentum = max(most_momentum, float(drift))
+            most_energy = max(most_energy, float((energy / energy[0] - 1).max()))
+    yield Prediction("motors off: change of momentum, relative", 0.0, most_momentum, 1e-9)
+    yield Prediction(
+        "motors off: growth of energy, relative", 0.0, max(most_energy, 0.0), 1e-9
+    )
+
+
+def touching_rows(record: Record) -> NDArray[np.bool_]:
+    """Return in which control steps something touched, (T - 1,)."""
+    rows = np.floor(record.contacts["time"] / record.scenario.sampling_time - 1e-9).astype(int)
+    return np.isin(np.arange(len(record) - 1), rows)
+
+
+def restitution() -> Iterator[Prediction]:
+    """Let pucks hit a wall."""
+    for e in (0.0, 0.5, 1.0):
+        puck = Puck(velocity=(1, 0, 0), ground_friction=0.0, restitution=e)
+        walls = [[(0.5, -1), (0.5, 1)]]
+        v = velocity(run([Robot(pose=(-50, 0, 0))], [[0], [0]], 2, props=[puck], walls=walls))
+        yield Prediction(f"restitution {e:g}: speed after / before", e, -v[-1, 0, 0], 0.02)
+
+
+def sliding() -> Iterator[Prediction]:
+    """Let a puck slide to rest, and spin to rest."""
+    mu, v, omega = 0.1, 1.0, 3.0
+    puck = Puck(velocity=(v, 0, omega), ground_friction=mu)
+    pose = run([Robot(pose=(-50, 0, 0))], [[0], [0]], 10, props=[puck]).prop_pose[-1, :, 0]
+    yield Prediction(
+        "sliding puck: v^2 / (2 mu g)", v**2 / (2 * mu * GRAVITY), pose[0], 1e-9, "m"
+    )
+    moment, lever = puck.inertia.moment, puck.shape.lever
+    turned = omega**2 * moment / (2 * mu * puck.inertia.mass * GRAVITY * lever)
+    yield Prediction("spinning puck: angle until it rests", turned, pose[2], 1e-9, "rad")
+
+
+def joints() -> Iterator[Prediction]:
+    """Tow by a rope; let a spring swing."""
+    rope = Rope(a="robot0", b="box0", length=1.2)
+    box = Box(pose=(-1, 0, 0), ground_friction=0.3)
+    record = run([Robot()], [[0.2], [0]], 20, props=[box], joints=[rope])
+    apart = record.pose[:, 0, 0] - record.prop_pose[:, 0, 0]
+    yield Prediction("rope of 1.2 m: its longest", 1.2, float(apart.max()), 1e-3, "m")
+    share = 0.3 * GRAVITY / 5.0
+    yield Prediction("towing: share of the drive's force, mu m g / F", share,
+                     float(record.effort[-1, 0]), 0.01 * share)  # fmt: skip
+    k, m = 20.0, 1.0
+    spring = Spring(a="puck0", anchor_b=(0, 0), rest_length=0.0, stiffness=k)
+    puck = Puck(velocity=(1, 0, 0), mass=m, ground_friction=0.0)
+    x = run([Robot(pose=(-50, 0, 0))], [[0], [0]], 20, props=[puck], joints=[spring],
+            sampling_time=0.01).prop_pose[:, 0, 0]  # fmt: skip
+    crossings = np.flatnonzero((x[:-1] < 0) & (x[1:] >= 0))
+    times = 0.01 * (crossings - x[crossings] / (x[crossings + 1] - x[crossings]))
+    period = 2 * pi * sqrt(m / k)
+    measured = float(np.diff(times).mean())
+    yield Prediction("spring: period 2 pi sqrt(m / k)", period, measured, 0.01 * period, "s")
+
+
+def impulse() -> Iterator[Prediction]:
+    """Read off the impulse with which a ball bounces off a wall, and a robot's push."""
+    ball = Ball(velocity=(2, 0, 0), mass=1.5, restitution=0.5)
+    walls = [[(0.5, -1), (0.5, 1)]]
+    record = run([Robot(pose=(-50, 0, 0))], [[0], [0]], 1, props=[ball], walls=walls)
+    hit = float(episodes(record.contacts)["normal_impulse"][0])
+    predicted = 1.5 * 2 * (1 + 0.5)
+    yield Prediction("bounce: impulse m v (1 + e)", predicted, hit, 0.005 * predicted, "N s")
+    record = run([Robot()], [[0.2], [0]], 5, walls=[[(0.3, -1), (0.3, 1)]])
+    force = float(record.contacts["normal_impulse"][-1]) / 0.1
+    yield Prediction("robot against a wall: its drive's force", 5.0, force, 0.05, "N")
+
+
+def crowds() -> Iterator[Prediction]:
+    """Let ten robots push each other about in a box, and look how deep they overlap."""
+    deepest = out = 0.0
+    for seed in CROWD_SEEDS:
+        rng = np.random.default_rng(seed)
+        places = rng.permutation(16)[:10]
+        robots = [
+            Robot(pose=(0.36 * (k % 4), 0.36 * (k // 4), float(rng.uniform(-pi, pi))))
+            for k in places
+        ]
+        room = [(-0.2, -0.2), (1.3, -0.2), (1.3, 1.3), (-0.2, 1.3)]
+        scenario = Scenario(
+            robots=robots, workspace=room, on_exit="wall", sampling_time=0.05, stop_time=10
+        )
+        world = World(scenario)
+        while not world.over:
+            world.step(np.array([rng.uniform(-0.5, 0.5, 10), rng.uniform(-3, 3, 10)]))
+        x, y = world.record.pose[:, 0], world.record.pose[:, 1]
+        i, j = np.triu_indices(10, 1)
+        gaps = np.hypot(x[:, i] - x[:, j], y[:, i] - y[:, j]) - 0.3
+        walls = np.minimum.reduce([x + 0.2, 1.3 - x, y + 0.2, 1.3 - y]) - 0.15
+        deepest = max(deepest, float(-gaps.min()), float(-walls.min()))
+        out += float((walls < -0.15).sum())
+    runs = f"{len(CROWD_SEEDS)} crowds of 10 robots"
+    yield Prediction(f"{runs}: deepest overlap", 0.0, deepest, 1e-3, "m")
+    yield Prediction(f"{runs}: robots that left the box", 0.0, out, 0.0)
+
+
+FACTS: tuple[Callable[[], Iterator[Prediction]], ...] = (
+    free_arcs, stalemate, acceleration, friction_threshold, wall_slide, momentum_and_energy,
+    restitution, sliding, joints, impulse, crowds,
+)  # fmt: skip
+
+
+# -- the page -------------------------------------------------------------------------------------
+
+
+def facts() -> list[Prediction]:
+    """Return what is predicted and measured of single facts."""
+    return [prediction for fact in FACTS for prediction in fact()]
+
+
+def of_examples() -> dict[str, list[Prediction]]:
+    """Return what the examples predict and measure, by their names."""
+    found = {}
+    for name, path in examples().items():
+        experiment = open_experiment(path)
+        if experiment.checks is not None:
+            found[name] = list(experiment.checks(simulate(experiment).record))
+    return found
+
+
+def document() -> str:
+    """Return the text of docs/theory.md."""
+    rows = [("", prediction) for prediction in facts()]
+    page = HEAD + "\n## The physics\n\n" + table(rows, "fact")
+    rows = [(name, prediction) for name, list_ in of_examples().items() for prediction in list_]
+    return page + "\n## The examples\n\n" + table(rows, "example")
+
+
+def table(rows: Sequence[tuple[str, Prediction]], first: str) -> str:
+    """Return predictions as a table of Markdown."""
+    lines = [f"| {first} | predicted | measured | tolerance | |", "|---|---|---|---|---|"]
+    for name, p in rows:
+        what = f"`{name}`: {p.name}" if name else p.name
+        unit = f" {p.unit}" if p.unit else ""
+        mark = "ok" if p.ok else "**NOT OK**"
+        lines.append(
+            f"| {what} | {p.predicted:.5g}{unit} | {measured(p)}{unit} | {p.tolerance:.2g} | {mark} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def measured(p: Prediction) -> str:
+    """Return a measured number; of one that ought to be 0 its size alone is of interest."""
+    if p.predicted == 0 and 0 < abs(p.measured) < inf:
+        return f"{p.measured:.0e}"
+    return f"{p.measured:.5g}"
+
+
+if __name__ == "__main__":
+    Path(__file__).with_name("theory.md").write_text(document(), encoding="utf-8")
