@@ -18,7 +18,7 @@ from mars2d.contact import episodes
 from mars2d.files import examples, open_experiment
 from mars2d.joints import Joint, Rope, Spring
 from mars2d.loop import simulate
-from mars2d.motion import GRAVITY
+from mars2d.floor import GRAVITY
 from mars2d.prediction import Prediction
 from mars2d.props import Ball, Box, Prop, Puck
 from mars2d.record import Record

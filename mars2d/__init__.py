@@ -12,6 +12,8 @@ from mars2d.addons import Addon
 from mars2d.animation import Animation
 from mars2d.bodies import Drive, Holonomic, Unicycle
 from mars2d.errors import InputError, LawError, Mars2dError
+from mars2d.files import load_law
+from mars2d.prediction import Prediction
 from mars2d.record import Record, load
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
@@ -29,6 +31,7 @@ __all__ = [
     "InputError",
     "LawError",
     "Mars2dError",
+    "Prediction",
     "Record",
     "Robot",
     "Scenario",
@@ -37,5 +40,6 @@ __all__ = [
     "World",
     "__version__",
     "load",
+    "load_law",
     "run",
 ]

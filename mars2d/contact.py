@@ -70,7 +70,8 @@ class ContactLog:
         self._lengths: list[float] = []
         self._solved: list[Solved] = []
         self._touching: list[Int] = []
-        self._before: Int = np.empty(0, dtype=np.int64)
+        self._held: list[Int] = []  # those that touched after the substep before, too
+        self._latest = self._before = _NOBODY
 
     def add(self, time: float, h: float, solved: Solved, touching: tuple[Int, Int]) -> None:
         """Note what the solver lists after a substep of h seconds, and which pairs do touch.
@@ -78,24 +79,31 @@ class ContactLog:
         touching: bodies (a, b), b negative for obstacles.
         """
         a, b = touching
-        swap = (a < 0) | ((b >= 0) & (b < a))
+        keys = np.unique(_key(*_ordered(a, b)))
+        keys = keys[np.isin(keys, _key(*_ordered(*solved.bodies.T)))]
         self._times.append(time)
         self._lengths.append(h)
         self._solved.append(solved)
-        self._touching.append(_key(np.where(swap, b, a), np.where(swap, a, b)))
+        self._touching.append(keys)
+        self._held.append(keys[np.isin(keys, self._latest)])
+        self._latest = keys
+
+    def add_nothing(self) -> None:
+        """Note that nothing touches after a substep."""
+        self._latest = _NOBODY
 
     def take(self) -> NDArray[np.void]:
         """Return the contacts since the last call, one row (dtype CONTACT) a pair."""
         if not self._times:
-            self._before = self._before[:0]
+            self._before = self._latest
             return np.empty(0, dtype=CONTACT)
         count = [len(solved.bodies) for solved in self._solved]
         substep = np.repeat(np.arange(len(count)), count)
         bodies, impulse, normal, first, second, velocity = (
             np.concatenate(parts) for parts in zip(*self._solved, strict=True)
         )
-        swap = (bodies[:, 0] < 0) | ((bodies[:, 1] >= 0) & (bodies[:, 1] < bodies[:, 0]))
-        a, b = np.where(swap, bodies[:, ::-1].T, bodies.T)
+        a, b = _ordered(*bodies.T)
+        swap = a != bodies[:, 0]
         normal = np.where(swap[:, None], -normal, normal)
         velocity = np.where(swap[:, None], -velocity, velocity)
         point = np.where(swap[:, None], second, first)
@@ -132,12 +140,12 @@ class ContactLog:
         fresh = result["began"]
         result["speed"] = np.where(fresh, -(velocity * normal)[row].sum(axis=1), 0.0)
         result["slip"] = velocity[row, 1] * normal[row, 0] - velocity[row, 0] * normal[row, 1]
-        once = np.unique(np.stack([group, substep[rows]]), axis=1)  # a pair may touch at two points
-        result["duration"] = np.bincount(once[0], np.array(self._lengths)[once[1]], len(pairs))
-        last = pairs[np.unique(group[substep[rows] == len(count) - 1])]
-        result["ended"] = ~np.isin(pairs, last)
-        self._before = last
-        for notes in (self._times, self._lengths, self._solved, self._touching):
+        lengths = np.repeat(self._lengths, [len(held) for held in self._held])
+        held = np.searchsorted(pairs, np.concatenate(self._held))
+        result["duration"] = np.bincount(held, lengths, len(pairs))
+        result["ended"] = ~np.isin(pairs, self._latest)
+        self._before = self._latest
+        for notes in (self._times, self._lengths, self._solved, self._touching, self._held):
             notes.clear()
         return result
 
@@ -162,6 +170,15 @@ def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:
     for name in ("normal_impulse", "tangential_impulse"):
         result[name] = np.bincount(group, rows[name], count)
     return result[np.argsort(result["began"], kind="stable")]
+
+
+_NOBODY: Int = np.empty(0, dtype=np.int64)
+
+
+def _ordered(a: Int, b: Int) -> tuple[Int, Int]:
+    """Return pairs with the lower body first, an obstacle last."""
+    swap = (a < 0) | ((b >= 0) & (b < a))
+    return np.where(swap, b, a), np.where(swap, a, b)
 
 
 def _key(a: Int, b: Int) -> Int:

@@ -1,9 +1,6 @@
-"""The transmission delay between the controllers and the robots."""
+"""The delay between the controllers and the robots' motion."""
 
 from __future__ import annotations
-
-from collections import deque
-from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,29 +8,65 @@ from numpy.typing import NDArray
 __all__ = ["DelayLine"]
 
 Float = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+ROUNDING = 1e-9
+"""Times that differ by less are the same, in sampling times."""
 
 
 class DelayLine:
     """Commands on their way: what is issued at time t takes effect at t + delay.
 
-    The delay need not be a multiple of the sampling time: then the command in effect changes
-    within each sampling time. Before the first one arrives, robots stand still.
+    The delay need not be a multiple of the sampling time, nor the same for all robots: then the
+    commands in effect change within each sampling time. Before the first one arrives, robots stand
+    still.
     """
 
-    def __init__(self, delay: float, sampling_time: float, robots: int) -> None:
-        """Take the delay and the sampling time, seconds."""
-        whole = floor(delay / sampling_time + 1e-9)
-        self._rest = max(delay - whole * sampling_time, 0.0)
-        if self._rest < 1e-9 * sampling_time:
-            self._rest = 0.0
-        self._sampling_time = sampling_time
+    def __init__(self, delay: float | Float, sampling_time: float, robots: int) -> None:
+        """Take the delay, one for all or (n,), and the sampling time, both in seconds."""
+        delays = np.broadcast_to(np.asarray(delay, dtype=float), (robots,))
+        whole = np.floor(delays / sampling_time + ROUNDING).astype(int)
+        rest = _rounded(delays - whole * sampling_time, ROUNDING * sampling_time)
+        starts = np.unique([0.0, *rest]).tolist()
+        ends = [*starts[1:], sampling_time]
+        self._segments = [
+            (end - start, _groups(whole + (rest > start)))
+            for start, end in zip(starts, ends, strict=True)
+        ]
+        oldest = max(age for _, groups in self._segments for age, _ in groups)
         still = np.zeros((2, robots))
-        self._waiting = deque([still] * (whole + 1), maxlen=whole + 2)
+        self._sent = [still] * (oldest + 1)  # in turns: the place of the oldest is the next one's
+        self._next = 0
 
     def send(self, command: Float) -> list[tuple[float, Float]]:
         """Issue a command (2, n), and return what is in effect meanwhile: (seconds, command)."""
-        self._waiting.append(command)
-        before, after = self._waiting[0], self._waiting[1]
-        if self._rest == 0.0:
-            return [(self._sampling_time, after)]
-        return [(self._rest, before), (self._sampling_time - self._rest, after)]
+        now = self._next
+        self._sent[now] = command
+        self._next = (now + 1) % len(self._sent)
+        return [(duration, self._in_effect(groups, now)) for duration, groups in self._segments]
+
+    def _in_effect(self, groups: list[tuple[int, Index]], now: int) -> Float:
+        """Return the commands (2, n) of the ages that groups of robots are under."""
+        sent, (age, _) = self._sent, groups[0]
+        if len(groups) == 1:
+            return sent[now - age]
+        command = sent[now - age].copy()
+        for age, columns in groups[1:]:
+            command[:, columns] = sent[now - age][:, columns]
+        return command
+
+
+def _rounded(rest: Float, rounding: float) -> Float:
+    """Return times >= 0, of those that differ by less than `rounding` always the first one."""
+    result = np.empty_like(rest)
+    kept = 0.0
+    for i in np.argsort(rest, kind="stable").tolist():
+        if rest[i] >= kept + rounding:
+            kept = float(rest[i])
+        result[i] = kept
+    return result
+
+
+def _groups(age: NDArray[np.int_]) -> list[tuple[int, Index]]:
+    """Return each age that occurs, in control steps, and the columns that have it."""
+    return [(int(a), np.flatnonzero(age == a)) for a in np.unique(age)]

@@ -31,7 +31,8 @@ RIM = 1e-3
 class Bounds:
     """The circles round the bodies of a world, and the edges of its obstacles.
 
-    radius: (N,) of the circles; offset: (N,) from poses to their centres, in the bodies' frames.
+    radius: (N,) of the circles; offset: (N,) from poses to their centres, in the bodies' frames;
+    reach: (N,) of the bodies, from their poses.
     """
 
     def __init__(
@@ -44,6 +45,7 @@ class Bounds:
         bounds = [body.shape.bound for body in bodies]
         self.radius = np.array([radius for _, radius in bounds])
         self.offset = np.array([complex(*center) for center, _ in bounds])
+        self.reach = self.radius + np.hypot(self.offset.real, self.offset.imag)
         self._centred = not self.offset.any()
         self._is_disc = np.array([body.is_disc for body in bodies])
         self._only_discs = bool(self._is_disc.all())

@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from mars2d.contact import ContactLog
 from mars2d.encounter import Bounds, Encounter
-from mars2d.motion import GRAVITY, chord_velocity, glide
+from mars2d.floor import Floor
+from mars2d.motion import chord_velocity
 from mars2d.scenario import Scenario
 from mars2d.space import Space
 from mars2d.tethers import Tethers
@@ -70,32 +71,24 @@ class Engine:
         self.contacts = ContactLog()
 
         self._in_robot_frame = np.array([robot.drive.frame == "robot" for robot in scenario.robots])
-        self._is_prop = np.arange(self.count) >= self.n
         self._set_forces(scenario)
         self._set_accuracy(scenario, thinnest, iterations)
         self._engaged = np.zeros(self.n, dtype=bool)
         self._slipping = np.zeros(self.count, dtype=bool)
-        self._gripped = np.zeros(self.count, dtype=bool)
+        self._grip = np.zeros((self.count - self.n, 2))  # N and N m, what the floor may use now
         self._hit = np.zeros(self.count, dtype=bool)  # in the last substep
         self._last_step = inf
         self._effort = np.zeros(self.n)
         self._state = self.space.read().copy()
 
     def _set_forces(self, scenario: Scenario) -> None:
-        """Work out what drives and floor can hold bodies with, and how the floor slows props."""
+        """Work out what drives and floor can hold bodies with."""
         drives = [robot.drive for robot in scenario.robots]
-        weight = [p.ground_friction * p.inertia.mass * GRAVITY for p in scenario.props]
-        lever = [prop.shape.lever for prop in scenario.props]
-        self._force = np.array([drive.max_force for drive in drives] + weight)
-        self._torque = np.array(
-            [drive.max_torque for drive in drives]
-            + [force * arm for force, arm in zip(weight, lever, strict=True)]
-        )
-        slowing = np.column_stack([self._force / self._mass, self._torque / self._moment])
-        self._slowing = slowing[self.n :]
+        self._force = np.array([drive.max_force for drive in drives])
+        self._torque = np.array([drive.max_torque for drive in drives])
+        self._floor = Floor(scenario.props)
         # A steady push of the strongest drive is no impact.
-        self._steady = np.where(self._is_prop, self._force + self._force[: self.n].max(), 0.0)
-        self._steady[: self.n] = self._force[: self.n]
+        self._steady = np.concatenate([self._force, self._floor.force + self._force.max()])
 
     def _set_accuracy(self, scenario: Scenario, thinnest: float, iterations: int) -> None:
         """Work out how deep a body may enter in one substep, and how long one in contact may be."""
@@ -103,8 +96,8 @@ class Engine:
         # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
         self._entry = min(0.75 * scenario.max_overlap, 0.125 * thinnest)
         # The depth under a force F settles at about F h^2 / (m iterations).
-        push = float(max((self._force / self._mass)[: self.n].max(),
-                         self._force[: self.n].max() / self._mass.min()))
+        own = (self._force / self._mass[: self.n]).max()
+        push = float(max(own, self._force.max() / self._mass.min()))
         self._contact_step = sqrt(0.15 * scenario.max_overlap * iterations / push)
         if self._tethers is not None:
             self._contact_step = min(self._contact_step, self._tethers.longest_step)
@@ -157,6 +150,7 @@ class Engine:
             self.space.step(duration)
             self._last_step = duration
             self._hit[:] = False
+            self.contacts.add_nothing()
         self._arrive(twist, ~near, gone, duration)
         return gone
 
@@ -165,7 +159,8 @@ class Engine:
         velocity, n = self.space.velocity, self.n
         velocity[:n] = chord_velocity(twist, self._state[:n, 2], duration, self._in_robot_frame)
         if self.count > n:
-            moved, _ = glide(self._state[n:, 3:], self._slowing, duration)
+            everyone = np.arange(self.count - n)
+            moved, _ = self._floor.glide(self._state[n:, 3:], everyone, duration)
             velocity[n : self.count] = moved / duration
 
     def _arrive(self, twist: Float, carried: Mask, gone: float, duration: float) -> None:
@@ -180,7 +175,7 @@ class Engine:
                 self._put(i, before[i, 0] + dx, before[i, 1] + dy, None)
         if self.count > self.n:
             who = self.n + np.flatnonzero(carried[self.n :])
-            moved, end = glide(before[who, 3:], self._slowing[who - self.n], gone)
+            moved, end = self._floor.glide(before[who, 3:], who - self.n, gone)
             self._state[who, 3:] = end
             if gone < duration:
                 for i, (x, y, theta) in zip(
@@ -252,6 +247,8 @@ class Engine:
             if elapsed > 0 and encounter.any_touch:
                 solved = self.space.solved(everything)
                 self.contacts.add(time + elapsed, h, solved, encounter.touching_pairs())
+            elif elapsed > 0:
+                self.contacts.add_nothing()
             if self._tethers is not None:
                 self._tethers.measure(everything)
                 touching |= self._tethers.held()[who]
@@ -299,6 +296,10 @@ class Engine:
         bend = np.zeros(len(who))
         arcs = turns & ~slipping[:k]
         bend[:k][arcs] = np.abs(np.hypot(mine[0], mine[1]) * mine[2])[arcs]
+        if k < len(who):
+            props, reach = who[k:] - self.n, self.bounds.reach[who[k:]]
+            braking = self._floor.braking(state[k:, 3:], reach, props)
+            bend[k:] = np.where(slipping[k:], 0.0, braking)
         return velocity, bend
 
     def _time_to_jerk(self, velocity: Float, bend: Float, who: Index) -> float:
@@ -345,14 +346,19 @@ class Engine:
         One that glides has its velocity at the end, so that the solver meets what it then runs into
         with the right one; it is put back by as much as it would go too short with that.
         """
-        moved, end = glide(state[:, 3:], self._slowing[who - self.n], h)
+        props = who - self.n
+        moved, end = self._floor.glide(state[:, 3:], props, h)
         glides = ~slipping & state[:, 3:].any(axis=1)
         self.space.velocity[who] = np.where(glides[:, None], end, state[:, 3:])
         ahead = state[:, :3] + moved - end * h
         for row in np.flatnonzero(glides).tolist():
             self.space.place(int(who[row]), *ahead[row].tolist())
-        held = ~glides
-        for i in who[held != self._gripped[who]].tolist():
-            self._gripped[i] = not self._gripped[i]
-            on = float(self._gripped[i])
-            self.space.grip(i, on * self._force[i], on * self._torque[i])
+        held = np.zeros((len(who), 2))
+        for row in np.flatnonzero(slipping).tolist():
+            held[row] = self.space.held(int(who[row]), self._last_step)
+        grip = np.column_stack(self._floor.bounds(state[:, 3:], held, props))
+        grip[glides] = 0.0
+        changed = (grip != self._grip[props]).any(axis=1)
+        self._grip[props] = grip
+        for row in np.flatnonzero(changed).tolist():
+            self.space.grip(int(who[row]), *grip[row].tolist())

@@ -10,29 +10,61 @@ import inspect
 import itertools
 import sys
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from mars2d import checks
 from mars2d.description import Description, wrong
-from mars2d.errors import InputError, Mars2dError, described, nearest, shown
+from mars2d.errors import InputError, LawError, Mars2dError, described, nearest, shown
+from mars2d.prediction import Prediction
 from mars2d.scenario import Scenario
+from mars2d.usercode import called
 
-__all__ = ["Experiment", "examples", "open_experiment", "parse_setting"]
+if TYPE_CHECKING:
+    from mars2d.record import Record
+
+__all__ = ["Experiment", "examples", "load_law", "open_experiment", "parse_setting"]
 
 _counter = itertools.count()
 
 
 @dataclass(frozen=True)
 class Experiment:
-    """A scenario and the law of its team; `filename` is the file's name, or empty."""
+    """A scenario, the law of its team, and what its file says of it.
+
+    filename: the file's name, or empty. checks: the function of the record that compares a run with
+    theory, or None. summary: the first line of the file's docstring, or empty.
+    """
 
     scenario: Scenario
     control: Callable[[Any], Any] | None = None
     filename: str = ""
+    checks: Callable[[Any], Any] | None = None
+    summary: str = ""
+
+    def predictions(self, record: Record) -> tuple[Prediction, ...]:
+        """Return what `checks` makes of a run; nothing without checks, or of a run cut short.
+
+        Raises LawError, which points at file and line, where `checks` raises or returns anything
+        but predictions.
+        """
+        if self.checks is None or not record.finished:
+            return ()
+        expected = "expected a list of Prediction(name, predicted, measured, tolerance)"
+        with called("checks", self.checks):
+            made = self.checks(record)
+            if made is None:
+                raise LawError(f"checks returned nothing: {expected}")
+            if isinstance(made, (str, bytes, Mapping)) or not isinstance(made, Iterable):
+                raise LawError(f"checks returned {shown(made)}: {expected}")
+            predictions = tuple(made)  # which runs a generator
+            for k, prediction in enumerate(predictions):
+                if not isinstance(prediction, Prediction):
+                    raise LawError(f"checks returned {shown(prediction)} as item {k}: {expected}")
+        return predictions
 
 
 def examples() -> dict[str, Path]:
@@ -75,10 +107,65 @@ def open_experiment(
         own = getattr(module, "control", None)
         if own is not None:
             checks.law("control", own, "the world")
+        check = getattr(module, "checks", None)
+        if check is not None:
+            checks.law("checks", check, "the record")
     except Mars2dError as error:
         error.where = error.where or Path(name).name
         raise
-    return Experiment(scenario, control if control is not None else own, Path(name).name)
+    law = own if control is None else control
+    summary = (module.__doc__ or "").strip().partition("\n")[0]
+    return Experiment(scenario, law, Path(name).name, check, summary)
+
+
+def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
+    """Return the law called `name` from a file of its own: a function or generator of the robot.
+
+    path: a relative one is looked for beside the file that calls this, then in the current folder.
+    Each call runs the file anew, so that robots with the same law share nothing. Raises InputError,
+    which points at file and line.
+    """
+    if not isinstance(path, (str, Path)):
+        raise wrong("load_law(path)", path, "the name of a law's file, as 'my_law.py'")
+    if not isinstance(name, str):
+        raise wrong("load_law(name)", name, "the name of a function, as 'control'")
+    file = _find_law(Path(path), Path(sys._getframe(1).f_code.co_filename))
+    module = _load(file, "a law")
+    try:
+        return _law_of(module, name)
+    except InputError as error:
+        error.where = file.name
+        raise
+
+
+def _find_law(path: Path, caller: Path) -> Path:
+    """Return the law's file that lies beside the caller's file, or else in the current folder."""
+    beside = [caller.parent] if caller.is_file() else []  # a notebook's cell lies nowhere
+    folders = [*beside, Path()]
+    for folder in folders:
+        if (folder / path).is_file():
+            return folder / path
+        if (folder / path).is_dir():
+            raise InputError(f"{path}: a folder; expected a law, a file that ends in .py")
+    known = {str(path.parent / file.name) for f in folders for file in _scripts(f / path)}
+    where = ""
+    if beside and not path.is_absolute():
+        where = f" beside {caller.name} or in the current folder"
+    raise InputError(f"{path}: there is no such file{where}{nearest(path, known)}")
+
+
+def _law_of(module: ModuleType, name: str) -> Callable[[Any], Any]:
+    law = getattr(module, name, None)
+    if law is None:
+        functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
+        raise InputError(f"has no law {name!r}{nearest(name, functions)}")
+    checks.law(name, law, "the robot")
+    return cast("Callable[[Any], Any]", law)
+
+
+def _scripts(path: Path) -> list[Path]:
+    """Return the Python files beside a path."""
+    return [*path.parent.glob("*.py")] if path.parent.is_dir() else []
 
 
 def _find(source: str | Path) -> Path:
@@ -90,15 +177,15 @@ def _find(source: str | Path) -> Path:
         return known[str(source)]
     if path.is_dir():
         raise InputError(f"{path}: a folder; expected an experiment, a file that ends in .py")
-    beside = [str(p) for p in path.parent.glob("*.py")] if path.parent.is_dir() else []
+    beside = [str(file) for file in _scripts(path)]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
     raise InputError(f"{source}: there is no such {kind}{nearest(source, [*beside, *known], 0.75)}")
 
 
-def _load(path: Path) -> ModuleType:
-    """Run an experiment's file as a module of its own, which no other one can see."""
+def _load(path: Path, what: str = "an experiment") -> ModuleType:
+    """Run a file as a module of its own, which no other one can see."""
     if path.suffix != ".py":
-        raise InputError(f"{path}: expected an experiment, a file that ends in .py")
+        raise InputError(f"{path}: expected {what}, a file that ends in .py")
     name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
     assert spec is not None

@@ -159,9 +159,9 @@ def props(frame: Frame) -> Scene:
 
 
 def joints(frame: Frame) -> Scene:
-    """Return what ties bodies together: ropes, rods, springs and the pins of hinges."""
+    """Return what ties bodies together, where it acts: ropes, rods, springs, pins of hinges."""
     scene = Scene()
-    if frame.scenario.ties:
+    if frame.scenario.ties and frame.scenario.physics == "contact":
         poses = np.hstack([frame.pose, frame.prop_pose])
         for tie in frame.scenario.ties:
             draw_tie(scene, tie, poses)

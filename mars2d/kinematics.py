@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from mars2d.contact import ContactLog, Solved
 from mars2d.encounter import Bounds, Encounter
 from mars2d.engine import SLOP
-from mars2d.motion import GRAVITY, chord_velocity, glide
+from mars2d.floor import Floor
+from mars2d.motion import chord_velocity
 from mars2d.scenario import Scenario
 from mars2d.space import Space
 
@@ -39,12 +40,8 @@ class Kinematics:
         self.bounds = Bounds(bodies, [s.outline for s in scenario.surfaces], scenario.joined)
         self.contacts = ContactLog()
         self._in_robot_frame = np.array([robot.drive.frame == "robot" for robot in scenario.robots])
-        slowing = [
-            (mu_g, mu_g * body.inertia.mass * body.shape.lever / body.inertia.moment)
-            for prop, body in zip(scenario.props, bodies[self.n :], strict=True)
-            for mu_g in [prop.ground_friction * GRAVITY]
-        ]
-        self._slowing = np.array(slowing).reshape(-1, 2)
+        self._floor = Floor(scenario.props)
+        self._everyone = np.arange(len(scenario.props))
         self._depth = min(SLOP, min(body.shape.thickness for body in bodies) / 32)
         self._state = self.space.read().copy()
 
@@ -79,6 +76,8 @@ class Kinematics:
         if len(who):
             encounter = self.bounds.encounter(center, who, float(reach[who].max()))
             self._state[who] = self._substeps(twist, start, duration, time, who, encounter)[who]
+        else:
+            self.contacts.add_nothing()
         self.space.place_all(self._state[:, :3])
 
     def _moved(self, twist: Float, state: Float, h: float) -> tuple[Float, Float]:
@@ -89,7 +88,7 @@ class Kinematics:
         chord = chord_velocity(twist, state[:n, 2], h, self._in_robot_frame)
         after[:n, :3] += h * chord
         after[:n, 3:] = chord
-        moved, end = glide(state[n:, 3:], self._slowing, h)
+        moved, end = self._floor.glide(state[n:, 3:], self._everyone, h)
         after[n:, :3] += moved
         after[n:, 3:] = end
         return after, now
@@ -111,6 +110,8 @@ class Kinematics:
             _, now = self._moved(twist, state, 0.0)
             if elapsed > 0 and encounter.any_touch:
                 self._note(time + elapsed, h, state, now, encounter)
+            elif elapsed > 0:
+                self.contacts.add_nothing()
             if elapsed >= duration:
                 return state
             if self._stops and encounter.any_touch:
@@ -121,6 +122,8 @@ class Kinematics:
             bend = np.zeros(len(state))
             arcs = np.abs(np.hypot(twist[0], twist[1]) * twist[2])
             bend[:n] = np.where(self._in_robot_frame, arcs, 0.0)
+            reach = self.bounds.reach[n:]
+            bend[n:] = self._floor.braking(state[n:, 3:], reach, self._everyone)
             left = h = duration - elapsed
             h = min(
                 h,
@@ -141,7 +144,9 @@ class Kinematics:
             who = body[moves]
             arm = points[moves] - state[who, :2]
             vx, vy, spin = velocity[who].T
-            approach[moves] += sign * np.column_stack([vx - spin * arm[:, 1], vy + spin * arm[:, 0]])
+            approach[moves] += sign * np.column_stack(
+                [vx - spin * arm[:, 1], vy + spin * arm[:, 0]]
+            )
         nothing = np.zeros((len(a), 2))
         solved = Solved(np.column_stack([a, b]), nothing, normals, points, points, approach)
         self.contacts.add(time, h, solved, (a, b))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 from math import cos, pi, sin, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -69,7 +70,7 @@ def draw_robot(scene: Scene, robot: Robot, pose: Float, fill: str | None, stroke
         chassis = robot.chassis
         _draw_shape(scene, chassis, pose, fill, stroke, 1.5)
         r = chassis.thickness / 2
-        scene.line(_placed([(0.0, 0.0), (_front(chassis), 0.0)], pose), stroke=mark, width=2.5)
+        scene.line(_placed(_ahead(chassis), pose), stroke=mark, width=2.5)
     if offset:
         scene.circle((x, y), r / 6, fill=mark)  # the centre of rotation
 
@@ -79,8 +80,7 @@ def draw_prop(scene: Scene, prop: Prop, pose: Float, color: str, *, hollow: bool
     edge = prop_edge(color)
     stroke = faded(edge, 0.7) if hollow else edge
     _draw_shape(scene, prop.shape, pose, None if hollow else color, stroke, 1.5)
-    ends = _placed([(0.0, 0.0), (_front(prop.shape), 0.0)], pose)
-    scene.line(ends, stroke=faded(edge, 0.45), width=1.5)
+    scene.line(_placed(_ahead(prop.shape), pose), stroke=faded(edge, 0.45), width=1.5)
 
 
 def prop_colors(props: Sequence[Prop]) -> tuple[str, ...]:
@@ -118,17 +118,17 @@ def draw_tie(scene: Scene, tie: Tie, poses: Float) -> None:
 
 
 def _wave(start: Float, end: Float, length: float) -> Float:
-    """Return one period of a wave, about as long as the rope [m]: a zigzag of the same height is."""
+    """Return two periods of a wave that is about as long as the rope [m]."""
     apart = float(np.hypot(*(end - start)))
-    height = sqrt(max(length**2 - apart**2, 0.0)) / 4
-    share = np.linspace(0.0, 1.0, 33)
-    return _beside(start, end, share, height * np.sin(2 * pi * share))
+    height = 0.85 * sqrt(max(length**2 - apart**2, 0.0)) / 8  # of a zigzag, and a little less
+    share = np.linspace(0.0, 1.0, 49)
+    return _beside(start, end, share, height * np.sin(4 * pi * share))
 
 
 def _zigzag(start: Float, end: Float, length: float) -> Float:
     """Return a spring's coils between two short straight ends."""
     apart = float(np.hypot(*(end - start)))
-    height = 0.06 * max(length, 0.5)
+    height = 0.1 * max(length, 0.6)
     lead = min(0.1 * max(length, apart), 0.2 * apart) / max(apart, 1e-9)
     coils = lead + (1 - 2 * lead) * (np.arange(2 * COILS) + 0.5) / (2 * COILS)
     share = np.concatenate([[0.0, lead], coils, [1 - lead, 1.0]])
@@ -176,10 +176,8 @@ def _placed(points: ArrayLike | Sequence[Point], pose: Float) -> Float:
 
 
 @lru_cache(maxsize=1024)
-def _edges(shape: Shape) -> tuple[Rim, ...]:
-    """Return the rims of a shape's parts as one: what overlaps has no edge inside."""
-    if len(shape.rims) == 1:
-        return shape.rims
+def _region(shape: Shape) -> Any:
+    """Return what a shape covers as a region of shapely, its parts as one."""
     import shapely
 
     parts = [
@@ -188,23 +186,34 @@ def _edges(shape: Shape) -> tuple[Rim, ...]:
         else shapely.Polygon(rim.points)
         for rim in shape.rims
     ]
-    united = shapely.get_parts(shapely.union_all(parts))
-    rings = [ring for part in united for ring in (part.exterior, *part.interiors)]
+    return shapely.union_all(parts)
+
+
+@lru_cache(maxsize=1024)
+def _edges(shape: Shape) -> tuple[Rim, ...]:
+    """Return the rims of a shape's parts as one: what overlaps has no edge inside."""
+    import shapely
+
+    if len(shape.rims) == 1:
+        return shape.rims
+    rings = [
+        ring
+        for part in shapely.get_parts(_region(shape))
+        for ring in (part.exterior, *part.interiors)
+    ]
     return tuple(Rim(tuple(ring.coords[:-1]), 0.0) for ring in rings)
 
 
 @lru_cache(maxsize=1024)
-def _front(shape: Shape) -> float:
-    """Return how far ahead of its origin a shape ends on the x axis, metres."""
-    if isinstance(shape, Disc) and shape.center[1] == 0:
-        return shape.center[0] + shape.radius
+def _ahead(shape: Shape) -> tuple[Point, Point]:
+    """Return the ends of the first stretch within a shape on the x axis, from its origin on."""
     import shapely
 
-    (x, _), r = shape.bound
-    axis = shapely.LineString([(0.0, 0.0), (max(x + r, r), 0.0)])
-    found = [
-        float(shapely.intersection(axis, shapely.Polygon(rim.points)).bounds[2])
-        for rim in _edges(shape)
-        if not rim.radius and axis.intersects(shapely.Polygon(rim.points))
-    ]
-    return max(found, default=max(x + r, r))
+    if isinstance(shape, Disc) and shape.center == (0.0, 0.0):
+        return (0.0, 0.0), (shape.radius, 0.0)
+    (x, _), radius = shape.bound
+    axis = shapely.LineString([(0.0, 0.0), (max(x + radius, radius), 0.0)])
+    within = shapely.get_parts(shapely.intersection(axis, _region(shape)))
+    found = [part.bounds for part in within if not part.is_empty]
+    first = min(found, default=(0.0, 0.0, shape.thickness / 2, 0.0))
+    return (first[0], 0.0), (first[2], 0.0)

@@ -39,12 +39,12 @@ class Record:
 
     time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, 2, n), issued at
     ``time``, after saturation; it takes effect at command_time (T,). prop_pose: (T, 3, p). effort:
-    (T, n), the largest share of its bounds that a drive used in the control step before. sensors: for each sensor's
-    name an array (T, m, ...) of readings, of the m robots in ``sensor_robots[name]``. contacts:
-    one row a pair and control step, with the fields of `mars2d.contact.CONTACT`. over_message: why
-    the run ended. finished: False when an error or
-    Ctrl-C ended it, or while it is not over. drawn: what the add-ons drew at its end, which a
-    file does not keep. missing: parts of the user's own that a file did not hold.
+    (T, n), the largest share of its bounds that a drive used in the control step before. sensors:
+    for each sensor's name an array (T, m, ...) of readings, of the m robots in
+    ``sensor_robots[name]``. contacts: one row a pair and control step, with the fields of
+    `mars2d.contact.CONTACT`. over_message: why the run ended. finished: False when an error or
+    Ctrl-C ended it, or while it is not over. drawn: what the add-ons drew at its end, which a file
+    does not keep. missing: parts of the user's own that a file did not hold.
     """
 
     scenario: Scenario
@@ -187,7 +187,6 @@ def load(path: str | Path) -> Record:
     if damaged:
         raise InputError(f"{path}: damaged: its columns do not have the digest that it states")
     return record
-
 
 
 def _of_another_format(header: Any) -> str:

@@ -134,7 +134,8 @@ class Space:
 
     def _add_joint(self, tie: Tie) -> list[pymunk.Constraint]:
         a, b = (self._floor if i < 0 else self._bodies[i] for i in (tie.a, tie.b))
-        constraints = _MAKERS[type(tie.joint)](tie, a, b)
+        make = next(_MAKERS[kind] for kind in type(tie.joint).__mro__ if kind in _MAKERS)
+        constraints = make(tie, a, b)
         for constraint in constraints:
             constraint.collide_bodies = not isinstance(tie.joint, Hinge)
             is_rope = isinstance(tie.joint, Rope)
@@ -198,6 +199,13 @@ class Space:
             self._space.add(*self._grips[i])
         pivot, gear = self._grips[i]
         pivot.max_force, gear.max_force = force, torque
+
+    def held(self, i: int, h: float) -> tuple[float, float]:
+        """Return the force [N] and torque [N m] of the floor on a body in the last step of h."""
+        if i not in self._grips:
+            return 0.0, 0.0
+        pivot, gear = self._grips[i]
+        return pivot.impulse / h, gear.impulse / h
 
     def forget_impacts(self, hit: Mask) -> None:
         """Make the solver forget what it pressed some bodies with; hit: (N,).

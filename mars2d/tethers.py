@@ -109,9 +109,7 @@ class Tethers:
         return position + arm, arm
 
 
-def _at_the_end(
-    velocity: Float, bend: Float, body: Index, arm: Complex
-) -> tuple[Complex, Float]:
+def _at_the_end(velocity: Float, bend: Float, body: Index, arm: Complex) -> tuple[Complex, Float]:
     """Return the velocities of ropes' ends, and how quickly they may turn [m/s^2]."""
     moves = body >= 0
     x, y, spin = np.where(moves, velocity[body].T, 0.0)
@@ -122,13 +120,5 @@ def _at_the_end(
 
 def _swing(tie: Tie, bodies: Sequence[Rigid]) -> float:
     """Return the longest substep that resolves how a joint's spring swings, seconds."""
-    ends = [bodies[i].inertia for i in (tie.a, tie.b) if i >= 0]
-    if isinstance(tie.joint, Spring):
-        stiffness = tie.joint.stiffness
-        lightness = sum(1 / end.mass for end in ends)
-    elif isinstance(tie.joint, Hinge) and tie.joint.stiffness:
-        stiffness = tie.joint.stiffness
-        lightness = sum(1 / end.moment for end in ends)
-    else:
-        return inf
-    return SWING / sqrt(stiffness * lightness)
+    stiffness = tie.joint.stiffness if isinstance(tie.joint, (Spring, Hinge)) else 0.0
+    return SWING / sqrt(stiffness * tie.lightness(bodies)) if stiffness else inf

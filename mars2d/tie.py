@@ -8,6 +8,7 @@ from typing import NamedTuple, Self
 
 from mars2d.geometry import Point
 from mars2d.joints.base import Joint
+from mars2d.joints.hinge import Hinge
 from mars2d.joints.rod import Rod
 from mars2d.joints.rope import Rope
 from mars2d.joints.spring import Spring
@@ -45,6 +46,18 @@ class Tie(NamedTuple):
         """Return how far its ends are apart at the start, metres."""
         (ax, ay), (bx, by) = self.ends(bodies)
         return hypot(bx - ax, by - ay)
+
+    def lightness(self, bodies: Sequence[Rigid]) -> float:
+        """Return what a spring of unit stiffness would make of it: its frequency squared.
+
+        It is 1 / mass [1/kg] of what the joint moves, the levers of its anchors included; of a
+        hinge, 1 / moment [1/(kg m^2)].
+        """
+        held = ((self.a, self.joint.anchor_a), (self.b, self.joint.anchor_b))
+        ends = [(bodies[i].inertia, anchor) for i, anchor in held if i >= 0]
+        if isinstance(self.joint, Hinge):
+            return sum(1 / inertia.moment for inertia, _ in ends)
+        return sum(1 / i.mass + (x * x + y * y) / i.moment for i, (x, y) in ends)
 
     def ends(self, bodies: Sequence[Rigid]) -> tuple[Point, Point]:
         """Return where its ends are at the start."""

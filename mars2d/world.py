@@ -43,7 +43,11 @@ __all__ = ["World"]
 FASTEST = 1e6
 """What a drive may ask for at most, m/s and rad/s."""
 
-ENGINES: dict[str, type[Engine | Kinematics]] = {"contact": Engine, "stop": Kinematics, "ideal": Kinematics}
+ENGINES: dict[str, type[Engine | Kinematics]] = {
+    "contact": Engine,
+    "stop": Kinematics,
+    "ideal": Kinematics,
+}
 """What moves the bodies, by Scenario.physics."""
 
 Float = NDArray[np.float64]

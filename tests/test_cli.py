@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 
@@ -124,8 +125,8 @@ def test_check_says_where_a_record_departs(tmp_path, capsys):
     record = mars2d.run("follow_the_leader", stop_time=5)
     pose = record.pose.copy()
     pose[30:, 0, 1] += 0.25
-    columns = {k: getattr(record, k) for k in ("scenario", "seed", "time", "command")}
-    forged = mars2d.Record(pose=pose, command_time=record.command_time, **columns)
+    names = ("scenario", "seed", "time", "command", "command_time", "prop_pose", "effort")
+    forged = mars2d.Record(pose=pose, **{name: getattr(record, name) for name in names})
     forged.save(tmp_path / "a.npz")
     assert cli.main(["check", str(tmp_path / "a.npz")]) == 1
     assert "departs at row 30, by 0.25 m" in capsys.readouterr().err
@@ -445,3 +446,169 @@ def test_a_colour_that_is_none_is_refused_where_it_is_drawn(tmp_path):
     assert done.returncode == 2
     assert "bad.py, line 7" in done.stderr
     assert "did you mean 'red'?" in done.stderr
+
+
+# -- experiments that check themselves --------------------------------------------------------
+
+ROLL = """\
+'''How far does a robot roll?
+
+v t, as long as nothing is in its way.
+'''
+from mars2d import Prediction, Scenario
+
+scenario = Scenario(stop_time=2)
+
+def control(world):
+    return 0.25, 0.0
+
+def checks(record):
+    path = record.pose[-1, 0, 0]
+    yield Prediction("path", 0.25 * 2, path, 1e-9, "m")
+    yield Prediction("path, if it were slower", 0.2 * 2, path, 0.02, "m")
+    yield Prediction("time of the first contact", 1, float("nan"), 0.1, "s")
+"""
+
+
+@pytest.fixture
+def roll(tmp_path):
+    (tmp_path / "roll.py").write_text(ROLL)
+    return tmp_path / "roll.py"
+
+
+def test_a_run_prints_what_was_predicted_and_measured_after_its_outcome(roll, capsys):
+    assert cli.main(["run", str(roll), "--headless"]) == 0  # a wrong prediction is no wrong input
+    outcome, *rest = capsys.readouterr().out.splitlines()
+    assert "Time is over: 2 s" in outcome
+    assert rest == [
+        "",
+        "How far does a robot roll?",
+        "                              predicted      measured  tolerance",
+        "path                       0.5000000000  0.5000000000      1e-09  m  ok",
+        "path, if it were slower           0.400         0.500       0.02  m  NOT OK",
+        "time of the first contact          1.00  not a number        0.1  s  NOT OK",
+        "1 of 3 predictions ok",
+    ]
+
+
+def test_the_checks_stand_in_the_json(roll, capsys):
+    assert cli.main(["run", str(roll), "--headless", "--json"]) == 0
+    text = capsys.readouterr().out
+    assert text.count("\n") == 1
+    first, second, third = json.loads(text)["checks"]
+    assert first.pop("measured") == pytest.approx(0.5, abs=1e-9)
+    assert first == {"name": "path", "predicted": 0.5, "tolerance": 1e-9, "ok": True}
+    assert second["ok"] is False
+    assert third["measured"] is None
+    assert third["ok"] is False
+
+
+def test_the_json_of_an_experiment_without_checks_has_none(capsys):
+    assert cli.main(["run", "random_walk", "--headless", "--stop-time", "3", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["checks"] == []
+
+
+@pytest.mark.parametrize("options", [[], ["--json"]])
+def test_checks_that_fail_lose_no_data(roll, tmp_path, capsys, options):
+    roll.write_text(ROLL.replace('1, float("nan")', "1, record.contacts['time'][0]"))
+    paths = [tmp_path / name for name in ("a.npz", "a.png", "a.gif")]
+    outputs = ["--record", str(paths[0]), "--figure", str(paths[1]), "--video", str(paths[2])]
+    assert cli.main(["run", str(roll), "--headless", *outputs, *options]) == 2
+    shown = capsys.readouterr()
+    assert shown.err.startswith("mars2d: roll.py, line 16: checks raised IndexError")
+    assert shown.err.count("\n") == 1
+    assert ("Time is over: 2 s" in shown.out) is not bool(options)
+    assert mars2d.load(paths[0]).finished
+    assert all(path.stat().st_size > 100 for path in paths)
+
+
+def test_a_law_that_fails_is_one_line_also_with_checks(roll, capsys):
+    roll.write_text(ROLL.replace("return 0.25, 0.0", "return 0.25, 1 / (5 - world.iteration)"))
+    assert cli.main(["run", str(roll), "--headless", "--json"]) == 2
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.count("\n") == 1
+    assert "roll.py, line 10" in shown.err
+
+
+def test_ctrl_c_says_that_checks_were_not_made(roll, tmp_path):
+    roll.write_text(ROLL.replace("return 0.25, 0.0", "raise KeyboardInterrupt"))
+    done = mars("run", "roll.py", "--headless", "--record", "a.npz", cwd=tmp_path)
+    assert done.returncode == 130
+    assert done.stderr.splitlines() == [
+        "mars2d: the run was cut short, so its checks were not made",
+        "mars2d: interrupted",
+    ]
+
+
+def test_check_says_whether_an_experiment_has_checks(roll, capsys):
+    assert cli.main(["check", str(roll)]) == 0
+    assert "checks      checks(record), after a whole run\n" in capsys.readouterr().out
+    assert cli.main(["check", "random_walk"]) == 0
+    assert "checks      none\n" in capsys.readouterr().out
+
+
+def test_a_demo_prints_its_checks_below_where_its_pictures_are(tmp_path):
+    done = mars("demo", "push_box", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    film = next(k for k, line in enumerate(lines) if line.startswith("film:"))
+    assert lines[film + 1] == ""
+    assert lines[film + 2].startswith("Push a box")
+    assert lines[-1].endswith("predictions ok")
+
+
+@pytest.fixture
+def display():
+    """The name of an X server of its own."""
+    if shutil.which("Xvfb") is None:
+        pytest.skip("Xvfb is not installed")
+    read, write = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-noreset"],
+        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        number = pipe.readline().strip()
+    yield f":{number}"
+    server.terminate()
+    server.wait(10)
+
+
+@pytest.mark.parametrize(("closes", "made"), [("on_stop", 3), ("on_step", 0)])
+def test_checks_are_made_once_a_window_closes_if_the_run_came_to_its_end(
+    roll, tmp_path, display, closes, made
+):
+    text = ROLL.replace("stop_time=2", "stop_time=2, addons=[Closer()]").replace(
+        "\nscenario",
+        f"\nimport pygame\nfrom mars2d import Addon\nclass Closer(Addon):\n"
+        f"    def {closes}(self, world):\n"
+        "        if world.time > 0:\n"
+        "            pygame.event.post(pygame.event.Event(pygame.QUIT))\n\nscenario",
+    )
+    roll.write_text(text)
+    done = mars("run", "roll.py", "--json", "--speed", 2, cwd=tmp_path, DISPLAY=display)
+    assert done.returncode == 0, done.stderr
+    outcome = json.loads(done.stdout.splitlines()[-1])
+    assert outcome["over"] is (made > 0)
+    assert len(outcome["checks"]) == made
+    assert done.stderr.count("its checks were not made") == (made == 0)
+
+
+def test_a_law_in_the_current_folder_plays_in_an_experiment_elsewhere(tmp_path):
+    (tmp_path / "games").mkdir()
+    (tmp_path / "games" / "idle.py").write_text("def control(robot):\n    return 0, 0\n")
+    (tmp_path / "games" / "duel.py").write_text(
+        HEAD + "def scenario(red='idle.py'):\n"
+        "    return Scenario(robots=[Robot(controller=load_law(red))], stop_time=1)\n"
+    )
+    (tmp_path / "my_law.py").write_text("def control(robot):\n    return robot.posee[0], 0\n")
+    run = ["run", "games/duel.py", "--headless"]
+    assert mars(*run, cwd=tmp_path).returncode == 0
+    done = mars(*run, "--set", "red=my_law.py", cwd=tmp_path)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "my_law.py, line 2" in done.stderr
+    done = mars(*run, "--set", "red=my_lwa.py", cwd=tmp_path)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "did you mean 'my_law.py'?" in done.stderr

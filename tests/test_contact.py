@@ -7,7 +7,8 @@ import pytest
 
 from mars2d import Holonomic, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
-from mars2d.contact import CONTACT, ContactLog
+from mars2d.contact import CONTACT, ContactLog, Solved, episodes
+from mars2d.props import Box, Puck
 
 
 def world_of(*robots: Robot, **fields) -> World:
@@ -173,47 +174,236 @@ def test_robots_that_stand_at_exactly_zero_distance_are_no_trouble(gap):
     assert np.abs(world.pose[0] - [0, 0.3]).max() < 1e-6
 
 
+def solved(*rows: dict) -> Solved:
+    """What the solver would list: each row a dict of what differs from these."""
+    usual = {"bodies": (0, -2), "impulse": (0.0, 0.0), "normal": (1.0, 0.0),
+             "on_first": (0.1, 0.2), "on_second": (0.3, 0.4), "velocity": (0.0, 0.0)}  # fmt: skip
+    full = [usual | row for row in rows]
+    columns = {name: np.array([row[name] for row in full]) for name in usual}
+    return Solved(**columns)
+
+
+def pairs(*touching: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
+    a, b = np.array(touching, dtype=np.int64).reshape(-1, 2).T
+    return a, b
+
+
 def test_a_log_sums_the_substeps_of_a_pair_as_vectors():
-    log = ContactLog(np.array([0, 0, 1]))
-    none = np.empty(0, dtype=np.int64)
-    touching = (none, none, np.array([0]), np.array([2]))
+    log = ContactLog()
     for time, impulse in ((0.1, (3.0, 0.0)), (0.2, (0.0, 4.0))):
-        values = np.array([[*impulse, 1, 0, 0.1, 0.2, 0.3, 0.4]])
-        log.add(time, np.array([[0, -2]]), values, touching)
+        log.add(time, 0.1, solved({"impulse": impulse}), pairs((0, -2)))
     rows = log.take()
     assert len(rows) == 1
     assert rows["time"][0] == 0.1
+    assert rows["duration"][0] == pytest.approx(0.1)  # from then to the end of the next substep
     assert (rows["a"][0], rows["b"][0]) == (0, -2)
     assert rows["impulse"][0] == pytest.approx(5.0)
+    assert rows["normal_impulse"][0] == pytest.approx(3.0)
+    assert rows["tangential_impulse"][0] == pytest.approx(4.0)
     assert rows["began"][0]
+    assert not rows["ended"][0]
     assert len(log.take()) == 0
 
 
 def test_a_log_turns_pairs_round_and_leaves_out_those_that_do_not_touch():
-    log = ContactLog(np.array([0]))
-    none = np.empty(0, dtype=np.int64)
-    touching = (np.array([2]), np.array([1]), none, none)
-    bodies = np.array([[2, 1], [-1, 2]])
-    values = np.array([[1.0, 0, 1, 0, 0.1, 0.2, 0.3, 0.4], [9.0, 0, 1, 0, 5, 5, 5, 5]])
-    log.add(0.0, bodies, values, touching)
+    log = ContactLog()
+    two = solved(
+        {"bodies": (2, 1), "impulse": (-1.0, 0.25), "velocity": (-0.5, 0.125)},
+        {"bodies": (-1, 2), "impulse": (9.0, 0.0), "on_first": (5, 5), "on_second": (5, 5)},
+    )
+    log.add(0.0, 0.1, two, pairs((2, 1)))
     rows = log.take()
     assert [(int(r["a"]), int(r["b"])) for r in rows] == [(1, 2)]
-    assert rows["normal"][0].tolist() == [-1, 0]
-    assert rows["point"][0].tolist() == [0.3, 0.4]
+    row = rows[0]
+    assert row["normal"].tolist() == [-1, 0]
+    assert row["point"].tolist() == [0.3, 0.4]
+    # The tangent is (0, -1). What is pressed on b = 2 is (-1, 0.25); a = 1 moves by (-0.5, 0.125)
+    # against 2 by the solver's listing, so 2 by (0.5, -0.125) against 1: away from it.
+    assert (row["normal_impulse"], row["tangential_impulse"]) == (1.0, -0.25)
+    assert row["speed"] == 0.5
+    assert row["slip"] == 0.125
+
+
+@pytest.mark.parametrize("bodies", [(0, 1), (1, 0)])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_impulse_is_that_on_b_whatever_the_solvers_sign_and_order(bodies, sign):
+    log = ContactLog()
+    turned = -1.0 if bodies == (1, 0) else 1.0
+    row = {"bodies": bodies, "normal": (turned, 0.0), "impulse": (sign * 2.0, sign * -1.0),
+           "velocity": (turned * -0.3, turned * 0.2)}  # fmt: skip
+    log.add(0.0, 0.1, solved(row), pairs(bodies))
+    found = log.take()[0]
+    assert found["normal"].tolist() == [1, 0]
+    assert (found["normal_impulse"], found["tangential_impulse"]) == (2.0, -1.0)
+    assert found["speed"] == pytest.approx(0.3)
+    assert found["slip"] == pytest.approx(0.2)
+
+
+def test_a_touch_lasts_from_the_substep_that_finds_it_and_nothing_in_between():
+    log = ContactLog()
+    touch = solved({"impulse": (1.0, 0)}), pairs((0, -2))
+    log.add(0.1, 0.5, *touch)  # it came nearer during the 0.5 s
+    log.add(0.2, 0.1, *touch)
+    log.add_nothing()
+    log.add(0.4, 0.1, *touch)
+    log.add(0.5, 0.07, *touch)
+    assert log.take()["duration"] == pytest.approx([0.17])
+    log.add(0.6, 0.03, *touch)  # in the next control step it still touches
+    assert log.take()["duration"] == pytest.approx([0.03])
+
+
+def test_a_contact_at_two_points_lasts_as_long_as_one_at_one_point():
+    log = ContactLog()
+    for k in range(3):
+        log.add(0.1 * k, 0.1, solved({"impulse": (1.0, 0)}, {"impulse": (2.0, 0)}), pairs((0, -2)))
+    row = log.take()[0]
+    assert row["duration"] == pytest.approx(0.2)
+    assert row["normal_impulse"] == pytest.approx(9.0)
+
+
+def test_began_and_ended_go_by_the_last_substep_of_a_step():
+    log = ContactLog()
+    touch = solved({"impulse": (1.0, 0)})
+
+    def step(*substeps: bool) -> list[tuple[bool, bool]]:
+        for k, touches in enumerate(substeps):
+            if touches:
+                log.add(0.1 * k, 0.1, touch, pairs((0, -2)))
+            elif k % 2:
+                log.add_nothing()
+            else:  # something else touches
+                log.add(0.1 * k, 0.1, touch, pairs((4, -2)))
+        return [(bool(row["began"]), bool(row["ended"])) for row in log.take()]
+
+    assert step(False, True) == [(True, False)]
+    assert step(True, True) == [(False, False)]
+    assert step(True, False) == [(False, True)]
+    assert step(True, False) == [(True, True)]
+    assert step(True, True) == [(True, False)]
+    assert step(False) == []
+    assert step(True) == [(True, False)]
+
+
+def test_speed_is_that_of_the_first_touch_and_0_in_the_steps_after():
+    log = ContactLog()
+    for time, speed in ((0.1, -0.5), (0.2, -0.3)):
+        log.add(time, 0.1, solved({"impulse": (1, 0), "velocity": (speed, 0.0)}), pairs((0, -2)))
+    assert log.take()["speed"].tolist() == [0.5]
+    log.add(0.3, 0.1, solved({"impulse": (1, 0), "velocity": (-0.2, 0.0)}), pairs((0, -2)))
+    assert log.take()["speed"].tolist() == [0.0]
 
 
 def test_the_order_in_which_the_solver_lists_contacts_does_not_matter():
     # It depends on addresses in memory. Two edges of one obstacle touch the same robot.
     rng = np.random.default_rng(0)
-    listed = [np.array([0.1, 0.3, *rng.normal(size=6)]), np.array([7.0, 0.2, *rng.normal(size=6)]),
-              np.array([0.7, 0.1, *rng.normal(size=6)])]  # fmt: skip
-    none = np.empty(0, dtype=np.int64)
+    listed = []
+    for impulse, angle in ((0.3, 0.2), (7.0, 0.7), (0.7, 0.3)):
+        normal = np.array([np.cos(angle), np.sin(angle)])
+        listed.append({"bodies": (0, -1), "impulse": impulse * normal, "normal": normal,
+                       "on_first": rng.normal(size=2), "velocity": rng.normal(size=2)})  # fmt: skip
     results = []
     for order in ([0, 1, 2], [2, 1, 0], [1, 2, 0]):
-        log = ContactLog(np.array([0]))
-        values = np.array([listed[k] for k in order])
-        log.add(0.5, np.full((3, 2), [0, -1]), values, (none, none, np.array([0]), np.array([0])))
+        log = ContactLog()
+        log.add(0.5, 0.1, solved(*(listed[k] for k in order)), pairs((0, -1)))
         results.append(log.take().tobytes())
     assert len(set(results)) == 1
     row = np.frombuffer(results[0], dtype=CONTACT)[0]
-    assert row["normal"].tolist() == listed[1][2:4].tolist()  # that of the strongest
+    assert row["normal"].tolist() == listed[1]["normal"].tolist()  # that of the strongest
+
+
+# -- the fields of a contact, as a run gives them -------------------------------------------------
+
+
+def test_an_impact_has_the_speed_and_slip_at_which_the_surfaces_met():
+    # It slides along the wall at 0.3 m/s as it comes towards it at 0.4 m/s; no friction turns it.
+    robot = Robot(drive=Holonomic(max_force=1e-6), friction=0.0)
+    world = world_of(robot, addons=[Map([wall_at(0.3)])])
+    row = drive(world, [[0.4], [0.3]], 6)[0]
+    assert row["began"]
+    assert row["speed"] == pytest.approx(0.4, rel=1e-3)
+    assert row["slip"] == pytest.approx(-0.3, rel=1e-3)  # of the wall along the robot
+    assert row["normal_impulse"] == pytest.approx(0.4, rel=1e-3)
+    assert abs(row["tangential_impulse"]) < 1e-9
+
+
+def test_friction_is_the_tangential_impulse_and_bounded_by_mu_times_the_normal_one():
+    robot = Robot(drive=Holonomic(max_force=2.0), friction=0.25)
+    world = world_of(robot, addons=[Map([[(0.3, -9), (0.3, 9)]])])
+    contacts = drive(world, [[0.4], [0.4]], 60)
+    late = contacts[contacts["time"] > 3]
+    assert len(late) > 20
+    # The wall drags b, itself, along with the robot: +y, the normal turned by 90 degrees.
+    ratio = late["tangential_impulse"] / late["normal_impulse"]
+    assert ratio == pytest.approx(np.full(len(late), 0.25), rel=0.02)
+    total = np.hypot(late["normal_impulse"], late["tangential_impulse"])
+    assert late["impulse"] == pytest.approx(total, rel=1e-3)
+
+
+def test_durations_add_up_to_the_time_in_touch():
+    world = world_of(Robot(), addons=[Map([wall_at(0.3)])])
+    contacts = drive(world, [[0.4], [0.0]], 20)
+    touched = contacts["time"][0]
+    assert contacts["duration"].sum() == pytest.approx(2.0 - touched, abs=5e-3)
+    assert (contacts["duration"] <= 0.1 + 1e-12).all()
+
+
+def test_a_bounce_begins_and_ends_and_is_one_episode():
+    robot = Robot(drive=Holonomic(max_force=1e-6), restitution=1.0)
+    world = world_of(robot, addons=[Map([wall_at(0.5)])])
+    contacts = drive(world, [[0.4], [0.0]], 20)
+    assert contacts["began"].sum() == 1
+    assert contacts["ended"][-1]
+    (episode,) = episodes(contacts)
+    assert episode["speed"] == pytest.approx(0.4, rel=1e-3)
+    assert episode["normal_impulse"] == pytest.approx(0.8, rel=0.02)
+    assert 0 <= episode["ended"] - episode["began"] < 0.01
+
+
+def test_episodes_join_the_steps_of_a_touch_and_keep_pairs_apart():
+    rows = np.zeros(6, dtype=CONTACT)
+    rows["time"] = [0.05, 0.1, 0.1, 0.2, 0.2, 0.5]
+    rows["duration"] = [0.05, 0.1, 0.1, 0.03, 0.1, 0.01]
+    rows["a"], rows["b"] = [0, 0, 1, 0, 1, 0], [-1, -1, 2, -1, 2, -1]
+    rows["began"] = [True, False, True, False, False, True]
+    rows["speed"] = [0.3, 0, 0.7, 0, 0, 0.1]
+    rows["normal_impulse"] = [1, 2, 4, 8, 16, 32]
+    rows["tangential_impulse"] = [-1, -2, -4, -8, -16, -32]
+    found = episodes(rows)
+    assert found["began"].tolist() == [0.05, 0.1, 0.5]
+    assert found["ended"] == pytest.approx([0.23, 0.3, 0.51])
+    assert list(zip(found["a"].tolist(), found["b"].tolist(), strict=True)) == [
+        (0, -1), (1, 2), (0, -1),
+    ]  # fmt: skip
+    assert found["speed"].tolist() == [0.3, 0.7, 0.1]
+    assert found["normal_impulse"].tolist() == [11, 20, 32]
+    assert found["tangential_impulse"].tolist() == [-11, -20, -32]
+    assert len(episodes(rows[:0])) == 0
+
+
+def test_props_are_numbered_after_the_robots():
+    props = [Puck(pose=(3, 3)), Box(pose=(0.5, 0, 0))]
+    world = world_of(Robot(), Robot(pose=(0, 5, 0)), props=props)
+    contacts = drive(world, [[0.3, 0], [0, 0]], 15)
+    assert set(zip(contacts["a"].tolist(), contacts["b"].tolist(), strict=True)) == {(0, 3)}
+    assert contacts["normal"][0] == pytest.approx([1, 0], abs=1e-6)
+
+
+def test_two_props_and_a_prop_and_a_wall_make_contacts_too():
+    props = [Puck(pose=(0, 0), velocity=(1, 0, 0), ground_friction=0.0),
+             Puck(pose=(0.5, 0), ground_friction=0.0)]  # fmt: skip
+    far = Robot(pose=(0, 5, 0))
+    world = world_of(far, props=props, addons=[Map([wall_at(0.8)])])
+    contacts = drive(world, [[0], [0]], 30)
+    met = set(zip(contacts["a"].tolist(), contacts["b"].tolist(), strict=True))
+    assert met == {(1, 2), (2, -1)}
+
+
+@pytest.mark.parametrize("physics", ["stop", "ideal"])
+def test_without_forces_contacts_are_reported_without_impulses(physics):
+    world = world_of(Robot(), Robot(pose=(0.5, 0, np.pi)), physics=physics)
+    contacts = drive(world, [[0.2, 0.2], [0, 0]], 12)
+    assert contacts["time"][0] == pytest.approx(0.5, abs=5e-3)
+    assert contacts["began"].sum() == 1
+    assert contacts["speed"][0] == pytest.approx(0.4)
+    assert not contacts["impulse"].any()
+    assert (contacts["normal"] == pytest.approx(np.tile([1.0, 0], (len(contacts), 1)))) is True

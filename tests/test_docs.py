@@ -337,7 +337,8 @@ def test_every_module_stands_in_the_picture_of_the_design():
     parts = {path.name for path in package.glob("*.py")}
     parts |= {f"{path.parent.name}/" for path in package.glob("*/__init__.py")}
     parts.discard("examples/")
-    named = set(re.findall(r"\w+\.py|\b(?:bodies|sensors|addons|commands|view|output)/", picture))
+    folders = "bodies|sensors|addons|props|joints|commands|view|output"
+    named = set(re.findall(rf"\w+\.py|\b(?:{folders})/", picture))
     assert named - {"base.py"} == parts
 
 

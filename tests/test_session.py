@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, Robot, Scenario
+from mars2d import InputError, LawError, Robot, Scenario
 from mars2d.files import Experiment
 from mars2d.loop import simulate
 
@@ -122,3 +122,136 @@ def test_an_error_carries_what_was_recorded():
         mars2d.run(SQUARE, control=fails_later)
     assert len(caught.value.record) == 5
     assert caught.value.where.startswith("test_session.py, line")
+
+
+# -- laws in files of their own ---------------------------------------------------------------
+
+DUEL = """\
+from mars2d import Robot, Scenario, load_law
+
+def scenario(red="players/forward.py", blue="players/forward.py"):
+    return Scenario(
+        stop_time=1,
+        robots=[
+            Robot(pose=(-1, 0, 0), controller=load_law(red), name="red"),
+            Robot(pose=(1, 0, 3.14), controller=load_law(blue), name="blue"),
+        ],
+    )
+"""
+
+COUNTING = """\
+calls = []
+
+def control(robot):
+    calls.append(robot.name)
+    return 0.01 * len(calls), 0.0
+"""
+
+
+@pytest.fixture
+def duel(tmp_path, monkeypatch):
+    """An experiment with a law in a folder beside it, while another folder is the current one."""
+    (tmp_path / "game" / "players").mkdir(parents=True)
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "game" / "duel.py").write_text(DUEL)
+    (tmp_path / "game" / "players" / "forward.py").write_text(COUNTING)
+    monkeypatch.chdir(tmp_path / "mine")
+    return tmp_path / "game" / "duel.py"
+
+
+def test_a_law_is_found_beside_the_experiment_and_each_robot_has_its_own(duel):
+    record = mars2d.run(duel)
+    assert np.array_equal(record.command[:, 0, 0], record.command[:, 0, 1])
+    assert record.command[:, 0, 0] == pytest.approx(0.01 * np.arange(1, 12))
+
+
+def test_a_law_is_found_in_the_current_folder_and_by_its_full_path(duel, tmp_path):
+    law = tmp_path / "mine" / "spin.py"
+    law.write_text("def control(robot):\n    while True:\n        yield 0.0, 1.0\n")
+    for path in ("spin.py", str(law), law):
+        record = mars2d.run(duel, options={"red": path})
+        assert np.all(record.command[:, 1] == [1.0, 0.0])
+
+
+def test_a_law_beside_the_experiment_comes_before_one_in_the_current_folder(duel, tmp_path):
+    (tmp_path / "mine" / "players").mkdir()
+    (tmp_path / "mine" / "players" / "forward.py").write_text("1 / 0\n")
+    assert mars2d.run(duel).finished
+
+
+def test_a_law_may_have_another_name_and_import_what_lies_beside_it(duel):
+    (duel.parent / "players" / "gains.py").write_text("GAIN = 0.25\n")
+    (duel.parent / "players" / "mine.py").write_text(
+        "from gains import GAIN\ndef pusher(robot):\n    return GAIN, 0\n"
+    )
+    duel.write_text(DUEL.replace("load_law(red)", "load_law('players/mine.py', 'pusher')"))
+    before = set(sys.modules)
+    assert np.all(mars2d.run(duel).command[:, 0, 0] == 0.25)
+    assert not {name for name in set(sys.modules) - before if "mine" in name or "gains" in name}
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "words"),
+    [
+        ("def contrl(robot):\n    pass\n", "red.py", "no law 'control'; did you mean 'contrl'?"),
+        ("def attack(robot):\n    pass\n", "red.py", "no law 'control'; known: attack"),
+        ("x = 1\n", "red.py", "has no law 'control'"),
+        ("control = 3\n", "red.py", "control = 3: expected a function of one argument, the robot"),
+        ("def control():\n    pass\n", "red.py", "exactly one argument, the robot"),
+        ("x = 1\nimport nmpy\n", "red.py, line 2", "ModuleNotFoundError"),
+        ("def control(robot:\n    pass\n", "red.py, line 1", "never closed"),
+        ("def control(robot):\n    return robot.posee\n", "red.py, line 2", "'posee'"),
+        ("def control(robot):\n    yield 1\n", "red.py, line 1", "control returned 1"),
+        ("def control(robot):\n    pass\n", "red.py, line 1", "control returned nothing"),
+    ],
+)
+def test_a_mistake_in_a_laws_file_points_into_it(duel, tmp_path, text, where, words):
+    (tmp_path / "mine" / "red.py").write_text(text)
+    with pytest.raises(InputError) as caught:
+        mars2d.run(duel, options={"red": "red.py"})
+    assert caught.value.where == where
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [
+        (
+            "rde.py",
+            "rde.py: there is no such file beside duel.py or in the current folder;",
+        ),
+        ("rde.py", "did you mean 'red.py'?"),
+        ("red", "did you mean 'red.py'?"),
+        ("players/foward.py", "did you mean 'players/forward.py'?"),
+        ("players", "players: a folder; expected a law"),
+        ("red.txt", "red.txt: expected a law, a file that ends in .py"),
+        ("/nowhere/at/all/red.py", "/nowhere/at/all/red.py: there is no such file"),
+        (3, "load_law(path) = 3: expected the name of a law's file"),
+    ],
+)
+def test_a_laws_file_that_is_not_there_is_named_with_the_nearest(duel, tmp_path, path, words):
+    (tmp_path / "mine" / "red.py").write_text("def control(robot):\n    return 0, 0\n")
+    (tmp_path / "mine" / "red.txt").write_text("")
+    with pytest.raises(InputError) as caught:
+        mars2d.run(duel, options={"red": path})
+    assert words in str(caught.value)
+    assert caught.value.where.startswith("duel.py, line")
+
+
+def test_a_law_that_fails_late_keeps_the_record_and_its_line(duel, tmp_path):
+    (tmp_path / "mine" / "late.py").write_text(
+        "def control(robot):\n    return 1 / (0.5 - robot.time), 0\n"
+    )
+    with pytest.raises(LawError, match="ZeroDivisionError") as caught:
+        mars2d.run(duel, options={"red": "late.py"})
+    assert caught.value.where == "late.py, line 2"
+    assert len(caught.value.record) == 5
+
+
+def test_a_law_can_be_loaded_without_an_experiment(tmp_path, monkeypatch):
+    (tmp_path / "law.py").write_text(COUNTING)
+    monkeypatch.chdir(tmp_path)
+    robot = Robot(controller=mars2d.load_law("law.py"))
+    assert mars2d.run(Scenario(robots=[robot], stop_time=1)).command[-1, 0, 0] > 0
+    with pytest.raises(InputError, match=r"load_law\(name\) = 3"):
+        mars2d.load_law("law.py", 3)

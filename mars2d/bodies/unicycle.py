@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
-from mars2d.bodies.base import ROUNDING, Drive, Float
+from mars2d.bodies.base import Drive, Float, saturate_wheels
 from mars2d.description import number
 
 __all__ = ["Unicycle"]
@@ -14,25 +16,30 @@ class Unicycle(Drive):
     """Two wheels on one axle, commanded by (v [m/s], omega [rad/s]).
 
     x' = v cos(theta), y' = v sin(theta), theta' = omega. `max_linear_speed` bounds the speed of
-    each wheel, v -+ wheel_semiaxis * omega (m/s), as MARS does.
+    each wheel, v -+ wheel_semiaxis * omega (m/s), as MARS does, and `max_acceleration` its change;
+    so neither keeps the curvature of the path. Each wheel has `noise` of its own.
     """
 
     wheel_semiaxis: float = number(
         default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
     )
 
+    @cached_property
+    def _arms(self) -> Float:
+        return np.array([[-self.wheel_semiaxis], [self.wheel_semiaxis]])
+
+    def actuators(self, command: Float) -> Float:
+        """Return the speeds (2, n) of the left and the right wheel, m/s."""
+        return command[0] + self._arms * command[1]
+
+    def command_for(self, actuators: Float) -> Float:
+        """Return (v, omega), (2, n), of wheels with these speeds."""
+        left, right = actuators
+        return np.array([(left + right) / 2, (right - left) / (2 * self.wheel_semiaxis)])
+
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) with each wheel's speed clipped to +-max_linear_speed."""
-        v, rim = command[0], self.wheel_semiaxis * command[1]
-        left, right = v - rim, v + rim
-        limit = self.max_linear_speed
-        over = np.maximum(np.abs(left), np.abs(right)) > limit * (1 + ROUNDING)
-        if not over.any():
-            return command
-        left, right = np.clip(left, -limit, limit), np.clip(right, -limit, limit)
-        v = np.where(over, (left + right) / 2, v)
-        omega = np.where(over, (right - left) / (2 * self.wheel_semiaxis), command[1])
-        return np.array([v, omega])
+        return saturate_wheels(self, command)
 
     def twist(self, command: Float) -> Float:
         """Return (v, 0, omega)."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,6 +12,7 @@ from mars2d.animation import playback_speed
 from mars2d.files import Experiment, examples
 from mars2d.frame import Frame
 from mars2d.loop import simulate
+from mars2d.prediction import Prediction, table
 from mars2d.progress import Progress
 from mars2d.record import Record
 from mars2d.world import Watcher, World
@@ -70,6 +72,27 @@ def run_headless(experiment: Experiment, seed: int, watchers: Sequence[Watcher] 
         return simulate(experiment, seed, watchers=[*watchers, progress])
     finally:
         progress.close()
+
+
+def predictions_of(experiment: Experiment, record: Record) -> tuple[Prediction, ...]:
+    """Return what an experiment's checks make of a run; of one that was cut short, say so."""
+    if not record.finished:
+        warn_unchecked(experiment)
+    return experiment.predictions(record)
+
+
+def print_predictions(experiment: Experiment, record: Record) -> None:
+    """Print what an experiment's checks make of a run as a table, if it has any."""
+    predictions = predictions_of(experiment, record)
+    if predictions:
+        title = [experiment.summary] if experiment.summary else []
+        print("", *title, table(predictions), sep="\n")
+
+
+def warn_unchecked(experiment: Experiment) -> None:
+    """Say that a run was cut short, if the experiment has checks that were to follow it."""
+    if experiment.checks is not None:
+        print("mars2d: the run was cut short, so its checks were not made", file=sys.stderr)
 
 
 def film_speed(experiment: Experiment, speed: float | str | None) -> float:

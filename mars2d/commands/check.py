@@ -70,6 +70,7 @@ def _description(experiment: Experiment) -> list[tuple[str, str]]:
         ("add-ons", ", ".join(addon.key for addon in scenario.addons) or "none"),
         ("time", f"{scenario.stop_time:g} s in steps of {scenario.sampling_time:g} s"),
         ("laws", ", ".join(laws) or "none: all robots stand still"),
+        ("checks", "checks(record), after a whole run" if experiment.checks else "none"),
     ]
     return rows
 

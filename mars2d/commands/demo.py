@@ -11,12 +11,16 @@ from mars2d.commands.base import (
     add_run_arguments,
     has_display,
     print_examples,
+    print_predictions,
     run_headless,
     save_footage,
     show,
+    warn_unchecked,
 )
 from mars2d.errors import InputError, nearest
 from mars2d.files import Experiment, examples, open_experiment
+from mars2d.loop import Interrupted
+from mars2d.record import Record
 
 NAME = "demo"
 
@@ -41,14 +45,19 @@ def execute(arguments: argparse.Namespace) -> None:
     if name not in known:
         raise InputError(f"{name}: there is no such example{nearest(name, known)}")
     experiment = open_experiment(known[name])
-    if not arguments.headless and has_display():
-        show(experiment, None, arguments.seed)
-    else:
-        _make_pictures(experiment, name, arguments.seed)
+    try:
+        if not arguments.headless and has_display():
+            record = show(experiment, None, arguments.seed)
+        else:
+            record = _make_pictures(experiment, name, arguments.seed)
+    except Interrupted:
+        warn_unchecked(experiment)
+        raise
+    print_predictions(experiment, record)
 
 
-def _make_pictures(experiment: Experiment, name: str, seed: int) -> None:
-    """Make a picture and a short film, and say where they are."""
+def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
+    """Run, make a picture and a short film, and say where they are."""
     from mars2d.output.figure import save_figure
     from mars2d.output.footage import Footage
 
@@ -63,4 +72,5 @@ def _make_pictures(experiment: Experiment, name: str, seed: int) -> None:
     print(f"picture: {save_figure(record, FOLDER / f'{name}.png')}", flush=True)
     film = FOLDER / f"{name}.gif"
     save_footage(footage, world.frame, film, FILM_SIZE)
-    print(f"film:    {film}")
+    print(f"film:    {film}", flush=True)
+    return record

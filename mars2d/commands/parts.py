@@ -9,7 +9,13 @@ from mars2d.registry import members, summary
 
 NAME = "list"
 
-FAMILIES = {"Drives": "bodies", "Sensors": "sensors", "Add-ons": "addons"}
+FAMILIES = {
+    "Drives": "bodies",
+    "Props": "props",
+    "Joints": "joints",
+    "Sensors": "sensors",
+    "Add-ons": "addons",
+}
 
 
 def add_arguments(_: argparse.ArgumentParser) -> None:
@@ -17,7 +23,7 @@ def add_arguments(_: argparse.ArgumentParser) -> None:
 
 
 def execute(_: argparse.Namespace) -> None:
-    """List examples, drives, sensors and add-ons, one line each."""
+    """List examples, drives, props, joints, sensors and add-ons, one line each."""
     print_examples()
     for title, family in FAMILIES.items():
         print_table(title, {name: summary(kind) for name, kind in members(family).items()})

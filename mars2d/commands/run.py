@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from mars2d.commands.base import (
@@ -14,14 +15,18 @@ from mars2d.commands.base import (
     add_speed,
     film_speed,
     has_display,
+    predictions_of,
+    print_predictions,
     run_headless,
     save_footage,
     show,
+    warn_unchecked,
 )
 from mars2d.errors import InputError, Mars2dError, counted
 from mars2d.files import Experiment, open_experiment, parse_setting
 from mars2d.loop import Interrupted
 from mars2d.output import figure, film
+from mars2d.prediction import Prediction
 from mars2d.record import Record
 
 NAME = "run"
@@ -66,13 +71,17 @@ def execute(arguments: argparse.Namespace) -> None:
     except (Mars2dError, Interrupted) as error:
         if error.record is not None and len(error.record):
             _keep(arguments, error.record)
+        if isinstance(error, Interrupted):
+            warn_unchecked(experiment)
         raise
     if experiment.control is None and not any(r.controller for r in experiment.scenario.robots):
         print("mars2d: there is no law, so all robots stood still", file=sys.stderr)
     if arguments.json:
-        print(_as_json(record, time.perf_counter() - start))
+        predictions = predictions_of(experiment, record)
+        print(_as_json(record, predictions, time.perf_counter() - start))
     else:
-        print(_as_text(record))
+        print(_as_text(record), flush=True)
+        print_predictions(experiment, record)
 
 
 def _check_outputs(arguments: argparse.Namespace) -> None:
@@ -176,7 +185,7 @@ def _as_text(record: Record) -> str:
     return f"{message}. {done}, digest {record.digest[:16]}"
 
 
-def _as_json(record: Record, wall: float) -> str:
+def _as_json(record: Record, predictions: Sequence[Prediction], wall: float) -> str:
     outcome = {
         "ticks": _ticks(record),
         "time": float(record.time[-1]) if len(record) else 0.0,
@@ -186,8 +195,9 @@ def _as_json(record: Record, wall: float) -> str:
         "collisions": record.collisions,
         "seed": record.seed,
         "wall_s": round(wall, 6),
+        "checks": [prediction.as_dict() for prediction in predictions],
     }
-    return json.dumps(outcome)
+    return json.dumps(outcome, allow_nan=False)
 
 
 def _ticks(record: Record) -> int:

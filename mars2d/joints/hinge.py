@@ -37,6 +37,4 @@ class Hinge(Joint):
     stiffness: float = number(
         default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that turns it back"
     )
-    damping: float = number(
-        default=0.0, low=0, high=1e6, unit="N m s/rad", doc="of its turning"
-    )
+    damping: float = number(default=0.0, low=0, high=1e6, unit="N m s/rad", doc="of its turning")

@@ -7,7 +7,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.scene import Circle, Line, Polygon, Scene, Shape, Text, split_wake_style
+from mars2d.scene import (
+    Arrow,
+    Circle,
+    Line,
+    Polygon,
+    Scene,
+    Shape,
+    Text,
+    arrow_outline,
+    split_wake_style,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,6 +64,8 @@ def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) 
             _line(shape, ax, scale, level, ppm)
         elif isinstance(shape, Polygon):
             _polygon(shape, ax, scale, level)
+        elif isinstance(shape, Arrow):
+            _arrow(shape, ax, scale, level, ppm)
         else:
             _text(shape, ax, scale, level)
     if scene.shapes:
@@ -65,6 +77,8 @@ def _corners(shape: Shape) -> Float:
     """Return points (k, 2) within whose bounds a shape lies, metres."""
     if isinstance(shape, Circle):
         return np.add(shape.center, [[-shape.radius] * 2, [shape.radius] * 2])
+    if isinstance(shape, Arrow):
+        return np.array([shape.tail, shape.tip])
     return np.reshape(shape.position, (1, 2)) if isinstance(shape, Text) else shape.points
 
 
@@ -107,6 +121,18 @@ def _polygon(shape: Polygon, ax: Axes, scale: float, level: float) -> None:
         linewidth=shape.width * scale if shape.stroke else 0.0,
     )  # fmt: skip
     _add(patch, ax)
+
+
+def _arrow(shape: Arrow, ax: Axes, scale: float, level: float, ppm: float) -> None:
+    from matplotlib.patches import Polygon as Outline
+
+    points = arrow_outline(shape.tail, shape.tip, shape.width * scale / ppm)
+    edge = {"edgecolor": shape.stroke, "linewidth": 3 * scale} if shape.stroke else {"linewidth": 0}
+    for style in (edge, {"linewidth": 0.0}):
+        patch = Outline(
+            points, closed=True, joinstyle="round", zorder=level, facecolor=shape.fill, **style
+        )
+        _add(patch, ax)
 
 
 def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from io import BytesIO
-from math import ceil, floor, log, log10
+from math import ceil, floor, hypot, log, log10
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -16,16 +16,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d import frame as seen
 from mars2d.errors import InputError, shown
+from mars2d.forces import FORCE, LABEL_SIZE, force_scale, forces, in_newtons, round_force
 from mars2d.output.artists import paint, points_per_metre
-from mars2d.scene import Line, Polygon, Scene, Shape, faded
+from mars2d.scene import Line, Polygon, Scene, Shape, Text, faded
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from mars2d.frame import Frame
     from mars2d.record import Record
     from mars2d.scenario import Scenario
+    from mars2d.shapes import Shape as Chassis
 
 __all__ = [
     "SUFFIXES",
@@ -196,6 +199,11 @@ class View:
         reach = np.array(
             [robot.radius + abs(robot.center_offset) for robot in record.scenario.robots]
         )
+        if record.scenario.props:
+            props = record.prop_pose[: row + 1, :2]
+            low = np.hstack([low, props.min(axis=0)])
+            high = np.hstack([high, props.max(axis=0)])
+            reach = np.append(reach, [_reach(prop.shape) for prop in record.scenario.props])
         xmin, xmax, ymin, ymax = record.scenario.bounds
         xmin = min(xmin, float((low[0] - reach).min()))
         xmax = max(xmax, float((high[0] + reach).max()))
@@ -230,6 +238,12 @@ class View:
         """Return the largest (width, height) in the view's proportions that fits, inches."""
         scale = min(width / self.width, height / self.height)
         return scale * self.width, scale * self.height
+
+
+def _reach(shape: Chassis) -> float:
+    """Return how far a body reaches from its pose, metres."""
+    (x, y), radius = shape.bound
+    return hypot(x, y) + radius
 
 
 def _new_figure(width: float, height: float) -> Figure:
@@ -316,7 +330,27 @@ def paint_row(ax: Axes, record: Record, row: int) -> None:
         paint(trails, ax, scale=0.55 if few else 0.4)
     if scenario.animation.show_initial_pose:
         paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75))
+    paint(seen.props(now), ax, scale=min(scale, 0.6))
     paint(seen.robots(now), ax, scale=scale)
+    paint(seen.joints(now), ax, scale=max(0.4, scale))
+    if scenario.animation.forces:
+        _paint_forces(ax, now, max(0.4, scale))
+
+
+def _paint_forces(ax: Axes, now: Frame, scale: float) -> None:
+    """Paint the forces of the last control step, and how long some round force is."""
+    shapes = forces(now).shapes
+    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
+    length = force_scale(now.scenario).newton
+    force = round_force(0.14 * (xmax - xmin) / length)
+    tail = (xmin + 0.03 * (xmax - xmin), ymin + 0.05 * (ymax - ymin))
+    tip = (tail[0] + force * length, tail[1])
+    legend = Scene()
+    legend.arrow(tail, tip, fill=FORCE, stroke="#ffffff")
+    legend.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left")
+    shapes += legend.shapes
+    paint(Scene([shape for shape in shapes if not isinstance(shape, Text)]), ax, scale=scale)
+    paint(Scene([shape for shape in shapes if isinstance(shape, Text)]), ax, scale=0.65)
 
 
 def _paler(shape: Shape) -> Shape:

@@ -15,7 +15,8 @@ from mars2d.shapes import Shape
 
 __all__ = ["Prop"]
 
-FASTEST = 1e3
+FASTEST = 100.0
+"""At the start, m/s and rad/s; quicker ones need ever more substeps."""
 
 
 def _velocity(name: str, value: Any) -> tuple[float, float, float]:

@@ -30,9 +30,7 @@ class Gate(Prop):
     stiffness: float = number(
         default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that shuts it"
     )
-    damping: float = number(
-        default=0.05, low=0, high=1e6, unit="N m s/rad", doc="of its turning"
-    )
+    damping: float = number(default=0.05, low=0, high=1e6, unit="N m s/rad", doc="of its turning")
 
     @cached_property
     def shape(self) -> Shape:

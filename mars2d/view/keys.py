@@ -29,15 +29,18 @@ KEYS = (
     Key("grid", ("g",), ("G",), "grid on and off"),
     Key("trails", ("t",), ("T",), "trails on and off"),
     Key("sensors", ("s",), ("S",), "sensors on and off"),
+    Key("forces", ("c",), ("C",), "forces of contacts, and who slips, on and off"),
+    Key("select", ("tab",), ("Tab",), "select the next robot or prop: the force on it over time"),
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
     Key("restart", ("r",), ("R",), "restart from time 0"),
     Key("help", ("f1",), ("F1",), "all keys, on and off"),
-    Key("leave", ("escape",), ("Esc",), "leave"),
+    Key("leave", ("escape",), ("Esc",), "close the help, select none, leave"),
 )
 
 MOUSE = (
     Key("zoom", (), ("Wheel",), "zoom about the pointer"),
     Key("pan", (), ("Drag",), "move the picture"),
+    Key("pick", (), ("Click",), "select a robot or prop; beside them, none"),
 )
 
 MODIFIERS = frozenset(

@@ -17,8 +17,11 @@ class Layers:
     grid: bool = True
     trails: bool = True
     sensors: bool = True
+    forces: bool = False
 
     @classmethod
     def of(cls, animation: Animation, *, sensors: bool = True) -> Self:
         """Return what an experiment starts with."""
-        return cls(grid=animation.grid, trails=animation.wake, sensors=sensors)
+        return cls(
+            grid=animation.grid, trails=animation.wake, sensors=sensors, forces=animation.forces
+        )

@@ -23,7 +23,7 @@ class Artist:
 
     size: pixels. camera: where the world lies, by default so that the workspace fits. status: what
     the chip beside the time says, as "10x". footer: reserve the strip for the message at the end.
-    grid, trails: None does as the scenario's animation says.
+    grid, trails, forces: None does as the scenario's animation says.
     """
 
     def __init__(
@@ -34,6 +34,7 @@ class Artist:
         sensors: bool = False,
         grid: bool | None = None,
         trails: bool | None = None,
+        forces: bool | None = None,
         footer: bool = True,
         status: str = "",
     ) -> None:
@@ -46,7 +47,7 @@ class Artist:
         self.painter.ui = self.layout.ui
         self._stage = Stage(self.painter)
         self._camera = camera
-        self._sensors, self._grid, self._trails = sensors, grid, trails
+        self._sensors, self._grid, self._trails, self._forces = sensors, grid, trails, forces
         self._status = Status(status) if status else None
 
     def paint(self, frame: Frame, surface: pygame.Surface | None = None) -> pygame.Surface:
@@ -58,6 +59,7 @@ class Artist:
             grid=animation.grid if self._grid is None else self._grid,
             trails=animation.wake if self._trails is None else self._trails,
             sensors=self._sensors,
+            forces=animation.forces if self._forces is None else self._forces,
         )
         camera = self._camera or fitted(frame.scenario, self.size, self.layout)
         self._stage.draw(surface, frame, camera, layers, self.layout.plot)
@@ -83,10 +85,19 @@ def paint_frame(
     sensors: bool = False,
     grid: bool | None = None,
     trails: bool | None = None,
+    forces: bool | None = None,
     footer: bool = True,
 ) -> pygame.Surface:
     """Return the picture of one frame: title, time, iteration, message and all. See `Artist`."""
-    artist = Artist(size, camera=camera, sensors=sensors, grid=grid, trails=trails, footer=footer)
+    artist = Artist(
+        size,
+        camera=camera,
+        sensors=sensors,
+        grid=grid,
+        trails=trails,
+        forces=forces,
+        footer=footer,
+    )
     return artist.paint(frame)
 
 

@@ -197,14 +197,25 @@ class Player:
 def between(first: Frame, second: Frame, time: float) -> Frame:
     """Return what is seen at a time [s] between two frames: poses linear, all else of the first.
 
-    A time before or after both is taken as the first's or the second's.
+    Only contacts and efforts are the second's: those of the control step that leads there. A time
+    before or after both is taken as the first's or the second's.
     """
     span = second.time - first.time
     if span <= 0 or time >= second.time:
         return second
     share = max(0.0, (time - first.time) / span)
-    pose = first.pose + share * (second.pose - first.pose)
-    return replace(first, time=max(time, first.time), pose=pose, path=second.path)
+    return replace(
+        first,
+        time=max(time, first.time),
+        pose=first.pose + share * (second.pose - first.pose),
+        path=second.path,
+        prop_pose=first.prop_pose + share * (second.prop_pose - first.prop_pose),
+        prop_path=second.prop_path,
+        contacts=second.contacts,
+        effort=second.effort,
+        contact_log=second.contact_log,
+        effort_path=second.effort_path,
+    )
 
 
 def _times(factor: float) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from math import ceil, floor
 from time import perf_counter
@@ -10,12 +10,14 @@ from time import perf_counter
 import pygame
 
 from mars2d import frame as scenes
+from mars2d.forces import forces
 from mars2d.frame import Frame
 from mars2d.scenario import Scenario
-from mars2d.scene import Polygon, Scene
+from mars2d.scene import Polygon, Scene, Shape
 from mars2d.view.camera import Camera
 from mars2d.view.grid import draw_grid, labels
 from mars2d.view.layers import Layers
+from mars2d.view.legend import draw_legend
 from mars2d.view.painter import Painter
 from mars2d.view.theme import PAGE
 from mars2d.view.trails import Trails
@@ -40,7 +42,7 @@ class Stage:
         self._still_key: Hashable = None
         self._scenario: Scenario | None = None
         self._trailed: pygame.Surface | None = None
-        self._trails: Trails | None = None
+        self._trails: tuple[Trails, ...] = ()  # of the props, of the robots
         self._labels: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._camera: Camera | None = None
         self._seconds = 0.0
@@ -53,12 +55,14 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect | None = None,
         *,
+        marks: Sequence[Shape] = (),
         hurried: bool = False,
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
-        hurried: while the camera moves. If drawing what stands still took long, the picture drawn
-        last is enlarged or moved instead, until there is time to draw it anew.
+        marks: shapes to draw over the bodies, beneath the forces. hurried: while the camera moves.
+        If drawing what stands still took long, the picture drawn last is enlarged or moved instead,
+        until there is time to draw it anew.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -71,24 +75,31 @@ class Stage:
             if self._camera != camera:
                 self._camera, self._seconds = camera, perf_counter() - start
             surface.blit(picture, plot, plot)
-            if layers.trails and self._trails is not None:
-                self._trails.loose_ends(surface, frame.pose[:2])
+            if layers.trails:
+                for trails, poses in zip(self._trails, (frame.prop_pose, frame.pose), strict=False):
+                    trails.loose_ends(surface, poses[:2])
         moving = Scene()
         if frame.draw_addons is not None:
             frame.draw_addons(moving)
         if layers.sensors:
             moving.extend(scenes.sensors(frame).shapes)
-        moving.extend(scenes.robots(frame).shapes)
+        for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):
+            moving.extend(scene.shapes)
+        moving.extend(marks)
+        if layers.forces:
+            moving.extend(forces(frame).shapes)
         self.painter.paint(surface, moving.shapes, camera)
         if camera == self._camera:
             surface.fblits(self._labels)
+        if layers.forces:
+            draw_legend(surface, self.painter, frame.scenario, camera, plot)
         surface.set_clip(before)
 
     def _moved(
         self, surface: pygame.Surface, camera: Camera, layers: Layers, plot: pygame.Rect
     ) -> bool:
         """Draw the last picture as another camera sees it, roughly; return whether there is one."""
-        last = self._trailed if layers.trails and self._trails is not None else self._still
+        last = self._trailed if layers.trails and self._trails else self._still
         if last is None or self._camera is None or last.get_size() != surface.get_size():
             return False
         factor = camera.scale / self._camera.scale
@@ -126,7 +137,7 @@ class Stage:
             if scenario.animation.show_initial_pose:
                 self.painter.paint(still, scenes.initial_poses(scenario).shapes, camera)
             self._still, self._still_key, self._scenario = still, key, scenario
-            self._trails = None
+            self._trails = ()
         return self._still
 
     def _grid(self, still: pygame.Surface, scenario: Scenario, camera: Camera) -> None:
@@ -141,11 +152,22 @@ class Stage:
         self._labels = labels(still.get_clip(), camera, bounds, self.painter.fonts, self.painter.ui)
 
     def _with_trails(self, still: pygame.Surface, frame: Frame, camera: Camera) -> pygame.Surface:
-        if self._trails is None or self._trailed is None or not self._trails.continues(frame.path):
+        paths = (frame.prop_path, frame.path)
+        kept = self._trails and all(
+            trails.continues(path) for trails, path in zip(self._trails, paths, strict=True)
+        )
+        if self._trailed is None or not kept:
             self._trailed = still.copy()
-            scenario = frame.scenario
-            style = scenario.animation.wake_style
-            colors = scenes.trail_colors(scenario)
-            self._trails = Trails(self.painter, camera, style, colors, scenes.TRAIL_WIDTH)
-        self._trails.prolong(self._trailed, frame.path)
+            self._trails = self._new_trails(frame.scenario, camera)
+        for trails, path in zip(self._trails, paths, strict=True):
+            trails.prolong(self._trailed, path)
         return self._trailed
+
+    def _new_trails(self, scenario: Scenario, camera: Camera) -> tuple[Trails, Trails]:
+        thin = scenes.prop_trail_colors(scenario), scenes.PROP_TRAIL_WIDTH
+        style = scenario.animation.wake_style
+        colors = scenes.trail_colors(scenario)
+        return (
+            Trails(self.painter, camera, "-", *thin),
+            Trails(self.painter, camera, style, colors, scenes.TRAIL_WIDTH),
+        )

@@ -7,8 +7,9 @@ import pygame
 from numpy.typing import NDArray
 
 from mars2d.scene import split_wake_style
+from mars2d.view.brushes import rgba
 from mars2d.view.camera import Camera
-from mars2d.view.painter import Painter, rgba
+from mars2d.view.painter import Painter
 from mars2d.view.strokes import DASHES, MARK_SPACING, dashes, hair_shifts, hairlines
 
 __all__ = ["Trails"]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pygame
 
 from mars2d.errors import InputError, Mars2dError
+from mars2d.frame import Frame
 from mars2d.scene import PALETTE, Scene
 from mars2d.view import keys
 from mars2d.view.bars import (
@@ -25,8 +28,10 @@ from mars2d.view.camera import Camera
 from mars2d.view.display import NO_DISPLAY, open_display
 from mars2d.view.layers import Layers
 from mars2d.view.painter import Painter
+from mars2d.view.panel import Panel
 from mars2d.view.picture import summary
 from mars2d.view.player import Player
+from mars2d.view.selection import body_at, next_body, selection_mark
 from mars2d.view.source import Source
 from mars2d.view.stage import Stage
 
@@ -39,6 +44,8 @@ REST = 0.12
 """The camera moves until it has rested for so many seconds."""
 HINTS = (("Space", "pause"), ("→", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"))
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
+CLICK = 5
+"""A press of the mouse that moves by less, in pixels, is a click."""
 DEEPEST, WIDEST = 400.0, 0.05
 """How far one can zoom in and out, times the scale at which the workspace fits."""
 
@@ -59,12 +66,15 @@ class Window:
         self.title = f"{source.scenario.title} - MARS2D"
         self.layers = Layers.of(source.scenario.animation)
         self.help = False
+        self.selected: int | None = None  # an index of Scenario.bodies
         self._open = False
         self._fits = True
         self._hurry = 0.0
         self._held: set[int] = set()
+        self._pressed: tuple[int, int] | None = None
         self._painter = Painter()
         self._stage = Stage(self._painter)
+        self._panel = Panel(self._painter)
         self.layout = Layout.of(size)
         self.camera = self._fitted()
         self._actions: dict[str, Callable[[], None]] = {
@@ -75,6 +85,8 @@ class Window:
             "grid": lambda: self._toggle("grid"),
             "trails": lambda: self._toggle("trails"),
             "sensors": lambda: self._toggle("sensors"),
+            "forces": lambda: self._toggle("forces"),
+            "select": self._select_next,
             "fit": self._fit,
             "restart": self.player.restart,
             "help": self._toggle_help,
@@ -137,9 +149,19 @@ class Window:
         self._arrange(surface.get_size(), banner)
         frame = self.player.frame
         hurried = time.perf_counter() < self._hurry
+        marks = [] if self.selected is None else selection_mark(frame, self.selected).shapes
         self._stage.draw(
-            surface, frame, self.camera, self.layers, self.layout.plot, hurried=hurried
+            surface,
+            frame,
+            self.camera,
+            self.layers,
+            self.layout.plot,
+            marks=marks,
+            hurried=hurried,
         )
+        place = self._panel_place(frame)
+        if place is not None and self.selected is not None:
+            self._panel.draw(surface, place, frame, self.selected)
         text, waiting = self.player.status()
         status = Status(text, waiting, error=self.player.error is not None)
         draw_header(surface, self.layout, self._painter, frame, status)
@@ -147,6 +169,14 @@ class Window:
         draw_footer(surface, self.layout, self._painter, banner, summary(frame), hints)
         if self.help:
             draw_help(surface, self.layout, self._painter, (*keys.KEYS, *keys.MOUSE))
+
+    def _panel_place(self, frame: Frame) -> pygame.Rect | None:
+        """Return where the panel of the selected body lies, if there is one and room for it."""
+        if self.selected is None:
+            return None
+        position = np.hstack([frame.pose, frame.prop_pose])[:2, self.selected]
+        ((x, y),) = self.camera.to_pixels([position]).tolist()
+        return self._panel.place(self.layout.plot, (x, y))
 
     def _banner(self) -> Banner | None:
         if not self.player.over:
@@ -193,6 +223,12 @@ class Window:
             self._zoom(WHEEL_FACTOR ** getattr(event, "precise_y", event.y))
         elif event.type == pygame.MOUSEMOTION and any(event.buttons):
             self._pan(*event.rel)
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
+            self._pressed = event.pos
+        elif event.type == pygame.MOUSEBUTTONUP and event.button == pygame.BUTTON_LEFT:
+            if self._pressed is not None and math.dist(self._pressed, event.pos) < CLICK:
+                self._click(event.pos)
+            self._pressed = None
 
     def _press(self, code: int, character: str) -> None:
         key = keys.action_of(pygame.key.name(code), character, manual=self.player.manual)
@@ -218,13 +254,28 @@ class Window:
     def _toggle(self, layer: str) -> None:
         self.layers = replace(self.layers, **{layer: not getattr(self.layers, layer)})
 
+    def _click(self, pixel: tuple[int, int]) -> None:
+        """Select what lies at a pixel of the picture, or nothing."""
+        frame = self.player.frame
+        place = self._panel_place(frame)
+        beside = not self.layout.plot.collidepoint(pixel)
+        if self.help or beside or (place is not None and place.collidepoint(pixel)):
+            return
+        ((x, y),) = self.camera.to_world([pixel]).tolist()
+        self.selected = body_at(frame, (x, y), CLICK * self.layout.ui / self.camera.scale)
+
+    def _select_next(self) -> None:
+        self.selected = next_body(self.player.frame, self.selected)
+
     def _toggle_help(self) -> None:
         self.help = not self.help
 
     def _leave(self) -> None:
-        """Close the page of help if it is open, else the window."""
+        """Close the page of help if it is open, else select none, else close the window."""
         if self.help:
             self.help = False
+        elif self.selected is not None:
+            self.selected = None
         else:
             self._open = False
 

@@ -1,0 +1,59 @@
+"""Head-on: two robots push against each other, and the stronger one wins.
+
+Question: two robots of mass m drive against each other at the speed v. What happens if their
+drives have the same force? And if one has a little more?
+Prediction: they meet without bouncing and stop. What is left of the forces then moves both at
+a = (F1 - F2) / (2 m) (Newton's second law): equals stay where they are. Meanwhile each presses with
+F1 - m a = F2 + m a, the mean of both (his third law). At last the stronger one drives at its own v,
+for which it needs no more than to bear the F2 of the other.
+Measured: the speed of both 2 s after they met, the path of the middle between them, and the
+contact's force, both then and at the end.
+"""
+
+import numpy as np
+
+from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
+
+SPEED, MET, LANES = 0.3, 1.0, (0.7, -0.7)  # m/s, s, m
+
+
+def scenario(force: float = 5.0, extra: float = 0.6, mass: float = 5.0):
+    robot = Robot(diameter=0.3, mass=mass, drive=Unicycle(max_force=force), color="#0072b2")
+    strong = robot.replace(drive=Unicycle(max_force=force + extra), color="#d55e00")
+    start = SPEED * MET + robot.radius
+    return Scenario(
+        title="Head-on",
+        robots=[
+            robot.at(-start, LANES[0]).replace(name="left"),
+            robot.at(start, LANES[0], np.pi).replace(name="right"),
+            strong.at(-start, LANES[1]).replace(name="strong"),
+            robot.at(start, LANES[1], np.pi).replace(name="weak"),
+        ],
+        workspace=[(-1, -1.6), (-1, 1.6), (3.6, 1.6), (3.6, -1.6)],
+        sampling_time=0.05,
+        stop_time=12.0,
+        animation=Animation(forces=True),
+    )
+
+
+def control(world):
+    return np.outer([SPEED, 0.0], np.ones(len(world.robots)))
+
+
+def checks(record):
+    time, dt = record.time[-1] - MET, record.scenario.sampling_time
+    for i, lane in ((0, "equal"), (2, "unequal")):
+        one, other = record.scenario.robots[i : i + 2]
+        force, less = one.drive.max_force, other.drive.max_force
+        a = (force - less) / (one.mass + other.mass)
+        start = min(SPEED / a, time) if a else time  # how long they gather speed
+        middle = record.pose[:, 0, i : i + 2].mean(axis=1)
+        k = round((MET + 2.0) / dt)
+        speed = (middle[k + 1] - middle[k - 1]) / (2 * dt)
+        touch = record.contacts[record.contacts["a"] == i]
+        first, last = touch["normal_impulse"][[k - round(MET / dt), -1]] / dt
+        mean = (force + less) / 2
+        yield Prediction(f"{lane}: speed after 2 s", min(2 * a, SPEED), speed, 0.003, "m/s")
+        yield Prediction(f"{lane}: path", a * start * (time - start / 2), middle[-1], 0.01, "m")
+        yield Prediction(f"{lane}: force after 2 s", mean if 2 < start else less, first, 0.01, "N")
+        yield Prediction(f"{lane}: force", less if start < time else mean, last, 0.01, "N")

@@ -1,0 +1,56 @@
+"""Wall slide: how quickly a robot slides along a wall, and when the wall holds it.
+
+Question: a robot drives against a wall at the speed v, at the angle a to it. The friction between
+the two is mu. How quickly does it slide along the wall? When does it stick?
+Prediction: a smooth wall stops only the part of the speed across it: v cos a is left. Now let it
+slide at u. Its wheels slip at (v cos a - u) along the wall and v sin a across it, and push with
+their force F in that direction. The wall bears all across it, but along it only mu times that
+(Coulomb, 1785). So v cos a - u = mu v sin a, which gives u = v (cos a - mu sin a). Nothing is left
+of it from tan a = 1 / mu on: there the robot sticks.
+Measured: each robot's speed over the second half, and with what the wall presses and drags at the
+end. The last two have a friction 2 % below and 2 % above the one at which they stick.
+"""
+
+from math import atan, cos, pi, radians, sin, tan
+
+import numpy as np
+
+from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
+from mars2d.addons import Map
+
+SPEED, LANES = 0.3, (1.5, 0.5, -0.5, -1.5)  # m/s, m
+
+
+def scenario(angle: float = 40.0, force: float = 5.0):
+    a = radians(angle)
+    drive = Unicycle(max_force=force, max_torque=100)  # the wall can not turn it
+    frictions = np.array([0.0, 0.5, 0.98, 1.02]) / tan(a)
+    return Scenario(
+        title="Wall slide",
+        robots=[
+            Robot(pose=(-1.5, y - 0.4, a), drive=drive, friction=mu, name=f"friction {mu:.3g}")
+            for mu, y in zip(frictions.tolist(), LANES, strict=True)
+        ],
+        addons=[Map([[(-2, y), (3, y)] for y in LANES])],
+        workspace=[(-2, -2.2), (-2, 1.8), (3, 1.8), (3, -2.2)],
+        stop_time=15.0,
+        animation=Animation(forces=True),
+    )
+
+
+def control(world):
+    return np.outer([SPEED, 0.0], np.ones(len(world.robots)))
+
+
+def checks(record):
+    half, dt = len(record) // 2, record.scenario.sampling_time
+    for i, robot in enumerate(record.scenario.robots):
+        a, mu, force = robot.pose[2], robot.friction, robot.drive.max_force
+        slide = SPEED * max(cos(a) - mu * sin(a), 0.0)
+        lean = min(atan(mu), pi / 2 - a)  # of the force, from the wall's normal
+        speed = np.diff(record.pose[half:, 0, i]).mean() / dt
+        touch = record.contacts[record.contacts["a"] == i][-1]
+        press, drag = touch["normal_impulse"] / dt, -touch["tangential_impulse"] / dt
+        yield Prediction(f"{robot.name}: slides at", slide, speed, 0.001 * SPEED, "m/s")
+        yield Prediction(f"{robot.name}: pressed with", force * cos(lean), press, 0.01, "N")
+        yield Prediction(f"{robot.name}: dragged with", force * sin(lean), drag, 0.01, "N")

@@ -1,0 +1,62 @@
+"""Which robot or prop is selected, and which one lies under the pointer."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mars2d.forces import bounding_circle
+from mars2d.frame import Float, Frame
+from mars2d.scene import Scene
+from mars2d.shapes import Piece
+from mars2d.view import theme
+
+__all__ = ["body_at", "body_name", "next_body", "selection_mark"]
+
+
+def body_at(frame: Frame, point: tuple[float, float], slack: float) -> int | None:
+    """Return the index of the body at a point, or None; robots lie above props.
+
+    slack: so far off its edge it is hit as well, metres. Indices are those of `Scenario.bodies`.
+    """
+    poses = np.hstack([frame.pose, frame.prop_pose])
+    n = frame.pose.shape[1]
+    order = [*reversed(range(n)), *reversed(range(n, poses.shape[1]))]
+    for i in order:
+        x, y, theta = poses[:, i].tolist()
+        c, s = np.cos(theta), np.sin(theta)
+        dx, dy = point[0] - x, point[1] - y
+        local = np.array([c * dx + s * dy, c * dy - s * dx])
+        if any(_distance(piece, local) <= slack for piece in frame.scenario.bodies[i].shape.pieces):
+            return i
+    return None
+
+
+def _distance(piece: Piece, point: Float) -> float:
+    """Return how far off a convex piece a point is, metres, at most; negative within."""
+    ring = np.array(piece.vertices)
+    if len(ring) == 1:
+        return float(np.hypot(*(point - ring[0]))) - piece.radius
+    edges = np.roll(ring, -1, axis=0) - ring
+    outwards = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.hypot(*edges.T)[:, None]
+    return float(((point - ring) * outwards).sum(axis=1).max())
+
+
+def next_body(frame: Frame, body: int | None) -> int | None:
+    """Return the body after another one: robots, props, then None, and round again."""
+    following = 0 if body is None else body + 1
+    return following if following < len(frame.scenario.bodies) else None
+
+
+def body_name(frame: Frame, body: int) -> str:
+    """Return the name of a body."""
+    return frame.scenario.bodies[body].name
+
+
+def selection_mark(frame: Frame, body: int) -> Scene:
+    """Return the ring round a selected body."""
+    scene = Scene()
+    pose = np.hstack([frame.pose, frame.prop_pose])[:, body]
+    center, radius = bounding_circle(frame.scenario.bodies[body].shape, pose)
+    for color, width in (("#ffffff", 4.5), (theme.SELECTED, 2.5)):
+        scene.circle(center, radius, stroke=color, width=width, pixels=10.0)
+    return scene
