@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from mars2d.addons import Addon
 from mars2d.animation import Animation
-from mars2d.bodies import Drive, Holonomic, Unicycle
+from mars2d.bodies import Car, Differential, Drive, Holonomic, Unicycle
 from mars2d.errors import InputError, LawError, Mars2dError
 from mars2d.files import load_law
 from mars2d.prediction import Prediction
@@ -26,6 +26,8 @@ __version__ = "0.1.0"
 __all__ = [
     "Addon",
     "Animation",
+    "Car",
+    "Differential",
     "Drive",
     "Holonomic",
     "InputError",

@@ -44,6 +44,12 @@ ITERATIONS_UNEQUAL = 20  # with masses more than three times apart
 SLACK = 1.25
 """How much further than at its present speed a body may be thrown before gaps are asked anew."""
 
+STRETCH = 1 / 15
+"""How much longer a rope may be when it jerks, in parts of how deep bodies may enter.
+
+The solver draws it in again, and what it pulls at bounces by that much more than nothing.
+"""
+
 GROWTH = 2.0
 """How much longer a substep may be than the one before, while impulses are carried over from it.
 
@@ -307,7 +313,7 @@ class Engine:
         assert self._tethers is not None
         all_velocity, all_bend = np.zeros((self.count, 3)), np.zeros(self.count)
         all_velocity[who], all_bend[who] = velocity, bend
-        return self._tethers.time_to_jerk(all_velocity, all_bend, self._entry)
+        return self._tethers.time_to_jerk(all_velocity, all_bend, STRETCH * self._entry)
 
     def _were_hit(self, state: Float, who: Index, h: float) -> Mask:
         """Return whose velocities the last substep changed by more than steady forces can."""

@@ -41,6 +41,9 @@ SLIPPING = 0.999
 FAINTEST = 0.01
 """Weaker forces, in shares of the strongest drive's, are not drawn."""
 
+MOST = 60
+"""Of the contacts of a frame, so many are drawn: the strongest."""
+
 LABELED, LABELS = 0.15, 6
 """Numbers stand at so many arrows at most, the longest of all, from this share of a force on."""
 
@@ -52,13 +55,15 @@ class ForceScale(NamedTuple):
     """How forces are drawn, the same in a whole experiment.
 
     strongest: newtons, the largest bound of a drive. newton: metres that 1 N is long. longest:
-    metres; stronger forces are drawn this long, with a cut through the arrow. width: points.
+    metres; stronger forces are drawn this long, with a cut through the arrow. width: of an arrow,
+    points. ring: what the widths of slip marks are multiplied by.
     """
 
     strongest: float
     newton: float
     longest: float
     width: float
+    ring: float
 
 
 def force_scale(scenario: Scenario) -> ForceScale:
@@ -76,7 +81,8 @@ def force_scale(scenario: Scenario) -> ForceScale:
         strongest=strongest,
         newton=length / strongest / crowd,
         longest=2.5 * length / crowd,
-        width=ARROW_WIDTH / sqrt(crowd),
+        width=ARROW_WIDTH / crowd**0.25,
+        ring=1 / sqrt(crowd),
     )
 
 
@@ -93,7 +99,7 @@ def forces(frame: Frame) -> Scene:
     """Return the mean forces of the control step that led to a frame, and which drives slip.
 
     Each pair that touched has two opposite arrows from where it touched, one on either body; on an
-    obstacle there is none.
+    obstacle there is none. In a crowd only the strongest are drawn.
     """
     scene = Scene()
     _slip_marks(scene, frame)
@@ -104,7 +110,7 @@ def forces(frame: Frame) -> Scene:
     size = np.hypot(force[:, 0], force[:, 1])
     scale = force_scale(scenario)
     drawn = np.flatnonzero(size >= FAINTEST * scale.strongest)
-    drawn = drawn[np.argsort(size[drawn], kind="stable")]  # the strongest lie on top
+    drawn = drawn[np.argsort(size[drawn], kind="stable")][-MOST:]  # the strongest lie on top
     at = _touching_points(frame)
     length = np.minimum(scale.newton * size[drawn], scale.longest)
     reach = force[drawn] * (length / size[drawn])[:, None]
@@ -125,10 +131,12 @@ def forces(frame: Frame) -> Scene:
 
 def _slip_marks(scene: Scene, frame: Frame) -> None:
     """Draw a ring of the warning colour round each robot whose drive is at its bound."""
-    for i in np.flatnonzero(frame.effort >= SLIPPING).tolist():
+    slipping = np.flatnonzero(frame.effort >= SLIPPING).tolist()
+    share = force_scale(frame.scenario).ring if slipping else 1.0
+    for i in slipping:
         center, radius = bounding_circle(frame.scenario.robots[i].chassis, frame.pose[:, i])
         for color, width in ((SLIP_EDGE, 4.5), (SLIP, 2.7)):
-            scene.circle(center, radius, stroke=color, width=width, pixels=1.5)
+            scene.circle(center, radius, stroke=color, width=share * width, pixels=1.5)
 
 
 def bounding_circle(shape: Shape, pose: Float) -> tuple[Float, float]:
@@ -151,7 +159,7 @@ def _number(scene: Scene, tip: Float, way: Float, newtons: float) -> None:
     side: Anchor = ("left" if way[0] > 0 else "right") if across else "above"
     if not across and way[1] < 0:
         side = "below"
-    scene.text(tip, in_newtons(newtons), color=FORCE, size=LABEL_SIZE, anchor=side)
+    scene.text(tip, in_newtons(newtons), color=FORCE, size=LABEL_SIZE, anchor=side, halo=EDGE)
 
 
 def _touching_points(frame: Frame) -> Float:

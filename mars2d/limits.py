@@ -23,7 +23,15 @@ from mars2d.rigid import Rigid
 from mars2d.shapes import Compound, Disc, Polygon, Shape
 from mars2d.tie import Tie
 
-__all__ = ["check_bodies", "check_drive", "check_ends", "check_forces", "check_shape", "check_tie"]
+__all__ = [
+    "check_bodies",
+    "check_centred",
+    "check_drive",
+    "check_ends",
+    "check_forces",
+    "check_shape",
+    "check_tie",
+]
 
 MASS_RATIO = 10.0
 """The largest ratio of masses that contacts hold; at 100, crowds push robots through walls."""
@@ -59,6 +67,16 @@ def check_shape(name: str, shape: object) -> None:
             check_shape(name, part)
     elif not isinstance(shape, (Disc, Polygon)):
         raise wrong(name, shape, "a Disc, Polygon or Compound, or a class derived from one")
+
+
+def check_centred(name: str, shape: Shape) -> None:
+    """Refuse the shape of a prop whose pose is not that of its centre of mass."""
+    x, y = shape.centroid
+    if hypot(x, y) > 1e-6 * reach(shape):
+        raise InputError(
+            f"{name}: its centre of mass lies at ({x:.4g}, {y:.4g}); expected (0, 0), as "
+            "shape.moved(-x, -y) makes it"
+        )
 
 
 def check_bodies(bodies: Sequence[Rigid], material: Mapping[str, str], max_overlap: float) -> None:

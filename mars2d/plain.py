@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from functools import cache
 from typing import Any
 
 from mars2d.addons.base import Addon
@@ -12,26 +13,28 @@ from mars2d.bodies.base import Drive
 from mars2d.bodies.unicycle import Unicycle
 from mars2d.description import Description
 from mars2d.errors import InputError
+from mars2d.joints.base import Joint
+from mars2d.props.base import Prop
+from mars2d.props.solid import Solid
 from mars2d.registry import members
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
+from mars2d.shapes import Compound, Disc, Polygon, Shape
 
-__all__ = ["from_description", "to_scenario"]
+__all__ = ["MOVING", "from_description", "to_scenario"]
 
 
 def from_description(value: Any) -> Any:
     """Return a description as dicts, lists, text and numbers; a law is its name."""
     if isinstance(value, Description):
-        fields = {
-            f.name: from_description(getattr(value, f.name)) for f in dataclasses.fields(value)
-        }
         kind = type(value)
         if kind.__module__.startswith("mars2d."):
-            return {"type": kind.__name__, **fields}
-        # The code of the user's own parts is not in the file; what matters to motion is.
-        if isinstance(value, Addon):
-            fields["obstacles"] = from_description(value.obstacles())
-        return {"type": kind.__name__, "own": _family(value), **fields}
+            return {"type": kind.__name__, **_fields(value)}
+        for base in (Scenario, Robot, Animation):  # one derived from these is one of them
+            if isinstance(value, base):
+                return {"type": base.__name__, **_fields(value, base)}
+        family = next(name for name, base in _FAMILIES.items() if isinstance(value, base))
+        return {"type": kind.__name__, "own": family, **_fields(value), **_moving(value)}
     if isinstance(value, (list, tuple)):
         return [from_description(item) for item in value]
     if value is None or isinstance(value, (bool, int, float, str)):
@@ -39,18 +42,54 @@ def from_description(value: Any) -> Any:
     return getattr(value, "__name__", type(value).__name__)
 
 
-def _family(value: Description) -> str:
-    if isinstance(value, Drive):
-        return "drive"
-    return "add-on" if isinstance(value, Addon) else "sensor"
+def _fields(value: Description, kind: type[Description] | None = None) -> dict[str, Any]:
+    """Return the fields of a description made plain, or those of a class that it derives from."""
+    fields = dataclasses.fields(kind or type(value))
+    return {f.name: from_description(getattr(value, f.name)) for f in fields}
+
+
+def _moving(value: Description) -> dict[str, Any]:
+    """Return what of a part of the user's own matters to motion; its code is not in the file."""
+    if isinstance(value, Addon):
+        return {"obstacles": from_description(value.obstacles())}
+    if isinstance(value, Prop):
+        mass, moment = value.inertia
+        friction, restitution = value.surface
+        return {
+            "shape": from_description(value.shape), "mass": mass, "moment": moment,
+            "friction": friction, "restitution": restitution,
+            "joints": from_description(value.joints()),
+        }  # fmt: skip
+    if isinstance(value, Shape):
+        parts = [
+            Disc(2 * radius, center=points[0]) if radius else Polygon(points)
+            for points, radius in value.rims
+        ]
+        return {"parts": from_description(parts)}
+    return {}
+
+
+_FAMILIES: dict[str, type[Description]] = {
+    "drive": Drive,
+    "prop": Prop,
+    "joint": Joint,
+    "shape": Shape,
+    "add-on": Addon,
+    "sensor": Description,
+}
+"""What parts of the user's own are called."""
+
+MOVING = ("drive", "joint", "shape")
+"""Without such parts of the user's own a scenario does not move as it did."""
 
 
 def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
     """Return the scenario that `from_description` made plain, and what is missing of it.
 
-    Laws do not come back, nor does what is of the user's own: sensors and add-ons are left out,
-    but for obstacles, and a drive is replaced by a Unicycle; they are named in the second value,
-    as ``sensor Eyes``. Raises InputError for anything that is no scenario.
+    Laws do not come back, nor does what is of the user's own: sensors and joints are left out, of
+    add-ons only the obstacles stay. A prop is replaced by a Solid of its shape, mass and surface, a
+    shape by the parts that were drawn of it, a drive by a Unicycle. All are named in the second
+    value, as ``sensor Eyes``. Raises InputError for anything that is no scenario.
     """
     missing: list[str] = []
     result = _to_description(data, missing)
@@ -69,16 +108,32 @@ def _to_description(value: Any, missing: list[str]) -> Any:
     fields = {k: _to_description(v, missing) for k, v in value.items() if k not in unread}
     if "own" in value:
         missing.append(f"{value['own']} {value['type']}")
+        if value["own"] == "prop":
+            missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
         return _stand_in(value["own"], fields)
-    kinds: dict[str, Any] = {"Scenario": Scenario, "Robot": Robot, "Animation": Animation}
-    kinds |= members("bodies") | members("sensors") | members("addons")
-    return kinds[value["type"]](**fields)
+    return _kinds()[value["type"]](**fields)
+
+
+@cache
+def _kinds() -> dict[str, type[Description]]:
+    kinds: dict[str, type[Description]] = {kind.__name__: kind for kind in _KNOWN}
+    for family in ("bodies", "sensors", "addons", "props", "joints"):
+        kinds |= members(family)
+    return kinds
+
+
+_KNOWN = (Scenario, Robot, Animation, Disc, Polygon, Compound)
 
 
 def _stand_in(family: str, fields: dict[str, Any]) -> Any:
     """Return what stands for a part of the user's own, or that it is left out."""
     if family == "drive":
         return Unicycle(**{f.name: fields[f.name] for f in dataclasses.fields(Drive)})
+    if family == "prop":
+        kept = {f.name: fields[f.name] for f in dataclasses.fields(Prop)}
+        return Solid(fields["shape"], **kept)
+    if family == "shape":
+        return Compound(fields["parts"])
     if family == "add-on" and fields["obstacles"]:
         kept = {f.name: fields[f.name] for f in dataclasses.fields(Addon)}
         return Map(fields["obstacles"], **kept)

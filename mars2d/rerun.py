@@ -8,6 +8,7 @@ import numpy as np
 
 from mars2d.contact import CONTACT
 from mars2d.errors import InputError
+from mars2d.plain import MOVING
 from mars2d.record import Record
 from mars2d.world import World
 
@@ -25,23 +26,32 @@ class Departure:
 def rerun(record: Record) -> Departure | None:
     """Run the record's scenario again under its commands; None when all is the same to the bit.
 
-    Poses and contacts are compared. Raises InputError for a record with a drive of the user's own,
-    which a file does not hold.
+    Poses, efforts and contacts are compared. Raises InputError for a record with a drive, joint or
+    shape of the user's own, which a file does not hold.
     """
-    drives = [part for part in record.missing if part.startswith("drive")]
-    if drives:
-        raise InputError(f"can't be run again: the file does not hold the {', '.join(drives)}")
+    needed = [part for part in record.missing if part.startswith(MOVING)]
+    if needed:
+        raise InputError(f"can't be run again: the file does not hold the {', '.join(needed)}")
     # The workspace and the stop time have ended the run, or not: the record says how long it was.
     scenario = record.scenario.replace(stop_time=record.scenario.stop_time + 1e3)
     if scenario.on_exit == "stop":
         scenario = scenario.replace(on_exit="ignore")
     world = World(scenario, seed=record.seed)
-    for row, (pose, command) in enumerate(zip(record.pose, record.command, strict=True)):
-        if not np.array_equal(world.pose, pose):
-            return Departure(row, float(np.abs(world.pose - pose).max()))
+    for row, command in enumerate(record.command):
+        departure = _departs(row, world, record)
+        if departure is not None:
+            return departure
         if row < len(record) - 1:
             world.step(command)
     return _contacts_depart(record, world.record)
+
+
+def _departs(row: int, world: World, record: Record) -> Departure | None:
+    """Return where a world and a row of a record part, if they do."""
+    for mine, other in ((record.pose, world.pose), (record.prop_pose, world.prop_pose)):
+        if not np.array_equal(mine[row], other):
+            return Departure(row, float(np.abs(mine[row] - other).max()))
+    return None if np.array_equal(record.effort[row], world.effort) else Departure(row, 0.0)
 
 
 def _contacts_depart(first: Record, second: Record) -> Departure | None:

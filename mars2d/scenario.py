@@ -169,7 +169,9 @@ class Scenario(Description):
         for prop in self.props:
             with called(f"prop {prop.name!r}", type(prop)):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
-            limits.check_shape(f"{type(prop).__name__}.shape of {prop.name}", shape)
+            where = f"{type(prop).__name__}.shape of {prop.name}"
+            limits.check_shape(where, shape)
+            limits.check_centred(where, shape)
         of_material = {
             str(p.name): p.material for p in self.props if p.mass is None and p.material is not None
         }

@@ -145,13 +145,17 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A label at a point (x, y) in metres; `size` is its height in points."""
+    """A label at a point (x, y) in metres; `size` is its height in points.
+
+    halo: the colour of a rim round the letters, which sets them off from what they lie on.
+    """
 
     position: tuple[float, float]
     text: str
     color: str = "#333333"
     size: float = 12.0
     anchor: Anchor = "center"
+    halo: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,11 +224,12 @@ class Scene:
         color: str = "#333333",
         size: float = 12.0,
         anchor: Anchor = "center",
+        halo: str | None = None,
     ) -> None:
         """Add a label."""
         x, y = np.asarray(position, dtype=float)[:2].tolist()
-        color = _checked("color", color)
-        self.shapes.append(Text((x, y), str(text), color, size, anchor))
+        color, halo = _checked("color", color), _paint(halo, "halo")
+        self.shapes.append(Text((x, y), str(text), color, size, anchor, halo))
 
     def arrow(
         self,

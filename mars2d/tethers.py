@@ -27,7 +27,7 @@ Mask = NDArray[np.bool_]
 SWING = 0.05
 """The longest substep, in periods of a spring over 2 pi."""
 
-BENT = 0.05
+BENT = 0.75
 """What part of the stretch allowed a joint may be pulled apart in one substep."""
 
 TINY = 1e-12

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mars2d import checks
 from mars2d.addons.base import HOOKS, Addon
-from mars2d.bodies.base import Drive
+from mars2d.bodies.drives import Drives
 from mars2d.contact import CONTACT
 from mars2d.control import (
     Law,
@@ -27,7 +27,7 @@ from mars2d.control import (
 from mars2d.delay import DelayLine
 from mars2d.description import wrong
 from mars2d.engine import Engine
-from mars2d.errors import InputError, LawError, UnknownNameError, nearest, shown
+from mars2d.errors import InputError, LawError, UnknownNameError, nearest
 from mars2d.frame import Frame
 from mars2d.geometry import Outline, outside_polygon
 from mars2d.kinematics import Kinematics
@@ -39,9 +39,6 @@ from mars2d.streams import check_seed, stream
 from mars2d.usercode import called
 
 __all__ = ["World"]
-
-FASTEST = 1e6
-"""What a drive may ask for at most, m/s and rad/s."""
 
 ENGINES: dict[str, type[Engine | Kinematics]] = {
     "contact": Engine,
@@ -105,8 +102,10 @@ class World:
         self.history = History(self._recorder)
         self._workspace = None if scenario.workspace is None else np.array(scenario.workspace)
         n = len(scenario.robots)
-        self._delay = DelayLine(scenario.command_delay, scenario.sampling_time, n)
-        self._teams = _teams(scenario)
+        drives = {str(robot.name): robot.drive for robot in scenario.robots}
+        self._drives = Drives(drives, scenario.sampling_time, self.stream)
+        delay = scenario.command_delay + self._drives.dead_time
+        self._delay = DelayLine(delay, scenario.sampling_time, n)
         self._still = np.zeros((2, n))
         self._command = _frozen(self._still)
         self._take_state()
@@ -352,23 +351,8 @@ class World:
         return team_command(command, self._still.shape[1], refuse)
 
     def _saturate(self, command: Float) -> Float:
-        """Limit the commands (2, n) to what each robot's drive can do."""
-        for drive, columns in self._teams:
-            with called(f"drive {type(drive).__name__}", drive.saturate):
-                command[:, columns] = drive.saturate(command[:, columns])
-        if not np.isfinite(command).all():
-            raise LawError(f"a drive saturates a command to {shown(command.tolist())}")
-        return command
-
-    def _twist(self, command: Float) -> Float:
-        """Return the twists (3, n) that the drives make of commands (2, n)."""
-        twist = np.empty((3, command.shape[1]))
-        for drive, columns in self._teams:
-            with called(f"drive {type(drive).__name__}", drive.twist):
-                twist[:, columns] = drive.twist(command[:, columns])
-        if not (np.abs(twist) <= FASTEST).all():  # neither for NaN
-            raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {FASTEST:g}")
-        return twist
+        """Limit the commands (2, n) to what each robot's drive can do after the last ones."""
+        return self._drives.limit(command, self._command)
 
     def _write_row(self) -> None:
         takes_effect = self.time + self.scenario.command_delay
@@ -396,8 +380,9 @@ class World:
     def _drive(self) -> None:
         """Move the robots for one sampling time under the commands in effect."""
         time = self.time
+        self._drives.draw()
         for duration, command in self._delay.send(self._command):
-            self._engine.drive(self._twist(command), duration, time)
+            self._engine.drive(self._drives.twist(command), duration, time)
             time += duration
         self._contacts = _frozen(self._engine.contacts.take())
         self._recorder.write_contacts(self._contacts)
@@ -464,18 +449,3 @@ def _copied(reading: Any) -> Any:
 
 def _overrides(addon: Addon, hook: str) -> bool:
     return getattr(type(addon), hook) is not getattr(Addon, hook)
-
-
-def _teams(scenario: Scenario) -> list[tuple[Drive, Any]]:
-    """Group the robots by equal drives: pairs of a drive and the columns of its robots."""
-    groups: list[tuple[Drive, list[int]]] = []
-    for i, robot in enumerate(scenario.robots):
-        for drive, columns in groups:
-            if drive == robot.drive and type(drive) is type(robot.drive):
-                columns.append(i)
-                break
-        else:
-            groups.append((robot.drive, [i]))
-    if len(groups) == 1:
-        return [(groups[0][0], slice(None))]
-    return [(drive, np.array(columns)) for drive, columns in groups]

@@ -69,7 +69,7 @@ def test_a_rope_is_never_longer_than_its_length_and_a_millimetre(speed, sampling
     box = Box(pose=(-1, 0.3, 0), ground_friction=0.2)
     rope = Rope(a="robot0", b="box0", length=1.5, anchor_a=(-0.15, 0), anchor_b=(0.2, 0.2))
     world = world_of([puller], [box], [rope], sampling_time=sampling_time)
-    poses = drive(world, [[speed], [0]], 4)
+    poses = drive(world, [[speed], [0]], max(4, 1 / speed))
     length = apart(at(poses[:, :, 0], rope.anchor_a), at(poses[:, :, 1], rope.anchor_b))
     assert length.max() < 1.5 + MILLIMETRE
     assert length[-1] > 1.5 - MILLIMETRE
@@ -276,8 +276,8 @@ def test_a_damped_hinge_comes_to_rest_as_exponentials_do():
 
 def test_a_puck_on_a_hinge_is_held_by_floor_and_hinge_at_once():
     puck = Puck(pose=(0, 0, 0), velocity=(0, 0, 8), ground_friction=0.2)
-    world = world_of([IDLE], [puck], [Hinge(a="puck0")], sampling_time=0.02)
-    poses = coast(world, 3)
+    world = world_of([IDLE], [puck], [Hinge(a="puck0")], sampling_time=0.002)
+    poses = coast(world, 0.5)
     assert np.abs(poses[:, :2, 1]).max() < 1e-6
     slowing = 0.2 * GRAVITY * (2 / 3 * 0.1) / (0.1**2 / 2)
     assert world.prop_velocity[2, 0] == 0
@@ -291,8 +291,8 @@ def test_a_puck_on_a_hinge_is_held_by_floor_and_hinge_at_once():
     ("joint", "said"),
     [
         (lambda: Rope(a="robot0", b="ball0", length=-1), "Rope.length = -1"),
-        (lambda: Rope(a="robot0", b="ball0", length=0.5), "its ends start 1 m apart"),
-        (lambda: Rod(a="robot0", b="ball0", length=2), "its ends start 1 m apart"),
+        (lambda: Rope(a="robot0", b="ball0", length=0.5), "start 1 m apart"),
+        (lambda: Rod(a="robot0", b="ball0", length=2), "start 1 m apart"),
         (lambda: Hinge(a="robot0", b="ball0"), "a hinge is one point"),
         (lambda: Rope(a="robot0", b="robot0"), "another body than a"),
         (lambda: Rope(a="robot0", b="bal0"), "did you mean 'ball0'"),

@@ -1,4 +1,4 @@
-"""Motion that nothing disturbs, in closed form: against integrals, and cut in pieces."""
+"""The chords of arcs, against integrals."""
 
 from __future__ import annotations
 
@@ -7,51 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d.floor import GRAVITY, chord_velocity, glide
+from mars2d.motion import chord_velocity
 
 speeds = st.floats(-10, 10)
-rates = st.one_of(st.just(0.0), st.floats(1e-3, 50))
-times = st.floats(1e-6, 20)
-
-
-@given(vx=speeds, vy=speeds, spin=speeds, brake=rates, slow=rates, first=times, second=times)
-def test_gliding_for_two_times_is_gliding_for_their_sum(
-    vx, vy, spin, brake, slow, first, second
-):
-    velocity, slowing = np.array([[vx, vy, spin]]), np.array([[brake, slow]])
-    moved, end = glide(velocity, slowing, first + second)
-    half, between = glide(velocity, slowing, first)
-    rest, after = glide(between, slowing, second)
-    assert half + rest == pytest.approx(moved, rel=1e-9, abs=1e-9)
-    assert after == pytest.approx(end, rel=1e-9, abs=1e-9)
-
-
-@given(vx=speeds, vy=speeds, spin=speeds, brake=rates, slow=rates, h=times)
-def test_gliding_is_the_integral_of_a_speed_that_falls_at_a_constant_rate(
-    vx, vy, spin, brake, slow, h
-):
-    moved, end = glide(np.array([[vx, vy, spin]]), np.array([[brake, slow]]), h)
-    speed = np.hypot(vx, vy)
-    left = max(speed - brake * h, 0.0)
-    lasts = min(h, speed / brake) if brake else h
-    way = (speed + left) / 2 * lasts
-    assert np.hypot(*moved[0, :2]) == pytest.approx(way, rel=1e-9, abs=1e-12)
-    assert np.hypot(*end[0, :2]) == pytest.approx(left, rel=1e-9, abs=1e-9)
-    assert moved[0, 0] * vy == pytest.approx(moved[0, 1] * vx, rel=1e-9, abs=1e-9)  # straight
-    assert abs(end[0, 2]) == pytest.approx(max(abs(spin) - slow * h, 0.0), rel=1e-9, abs=1e-9)
-
-
-@pytest.mark.parametrize("mu", [0.01, 0.1, 1.0])
-def test_what_slides_stops_after_its_square_of_speed_over_twice_its_braking(mu):
-    moved, end = glide(np.array([[3.0, 4.0, 0.0]]), np.array([[mu * GRAVITY, 0.0]]), 1e4)
-    assert np.hypot(*moved[0, :2]) == pytest.approx(25 / (2 * mu * GRAVITY), rel=1e-12)
-    assert end.tolist() == [[0, 0, 0]]
-
-
-def test_what_rests_stays_at_rest_whatever_the_floor():
-    moved, end = glide(np.zeros((2, 3)), np.array([[0.0, 0.0], [5.0, 5.0]]), 3.0)
-    assert not moved.any()
-    assert not end.any()
 
 
 @given(forward=speeds, left=speeds, spin=speeds, theta=st.floats(-7, 7), h=st.floats(1e-6, 2))

@@ -31,7 +31,7 @@ def drive(world: World, command, seconds: float) -> None:
 
 
 def glided(prop: Prop, t: float) -> list[float]:
-    """Where a prop is after t seconds on the floor alone: the formulas of the textbook."""
+    """Where a prop that slides or spins is after t seconds: the formulas of the textbook."""
     (x, y, theta), (vx, vy, spin) = prop.pose, prop.velocity
     mass, moment = prop.inertia
     brake = prop.ground_friction * GRAVITY
@@ -45,12 +45,12 @@ def glided(prop: Prop, t: float) -> list[float]:
 
 
 PROPS = [
-    Puck(pose=(0, 0, 1), velocity=(1.5, -0.5, 3)),
-    Box(pose=(0, 9, 0), velocity=(0.3, 2.0, -6), ground_friction=0.3, mass=3),
+    Puck(pose=(0, 0, 1), velocity=(1.5, -0.5, 0)),
+    Box(pose=(0, 9, 0), velocity=(0.3, 2.0, 0), ground_friction=0.3, mass=3),
     Ball(pose=(0, -9, 0), velocity=(-0.4, 0.1, 2)),
     Bar(pose=(0, 18, 0.3), velocity=(0, 0, 9), ground_friction=0.05),
-    Solid(ELL, pose=(0, 27, -1), velocity=(1, 1, 1), ground_friction=0.2),
-    Solid(Compound([Disc(0.3), Disc(0.2).moved(0.3, 0)]), pose=(0, -18, 2), velocity=(1, 0, 1)),
+    Solid(ELL, pose=(0, 27, -1), velocity=(0, 0, 5), ground_friction=0.2),
+    Solid(Compound([Disc(0.3), Disc(0.2).moved(0.3, 0)]), pose=(0, -18, 2), velocity=(1, 0, 0)),
 ]
 
 
@@ -87,8 +87,8 @@ def test_props_glide_exactly_while_others_near_them_push_and_cause_substeps(samp
     # Two robots press against each other; two pucks pass on either side, a few millimetres off.
     robots = [Robot(pose=(-0.2, 0, 0)), Robot(pose=(0.2, 0, pi))]
     pucks = [
-        Puck(pose=(-1, 0.255, 0), velocity=(1, 0, 2), ground_friction=0.05),
-        Puck(pose=(1, -0.255, 0), velocity=(-0.8, 0, -2), ground_friction=0.05),
+        Puck(pose=(-1, 0.255, 0), velocity=(1, 0, 0), ground_friction=0.05),
+        Puck(pose=(1, -0.255, 0), velocity=(-0.8, 0, 0), ground_friction=0.05),
         Box(pose=(-1, 0.66, 0), velocity=(0.9, 0, 0), ground_friction=0.05, length=0.5),
     ]
     world = world_of(robots, pucks, sampling_time=sampling_time)
@@ -104,8 +104,8 @@ def test_props_glide_exactly_when_others_are_thrown_further_than_was_thought_pos
     heavy = Robot(pose=(-2.3, 0, 0), mass=10, restitution=1, drive=Holonomic())
     light = Robot(pose=(0, 0, 0), restitution=1, drive=Holonomic())
     far = [
-        Puck(pose=(0, 20, 0), velocity=(1, 0, 3), ground_friction=0.02),
-        Bar(pose=(0, 9, 0), velocity=(-0.5, 0.5, 1), ground_friction=0.01),
+        Puck(pose=(0, 20, 0), velocity=(1, 0, 0), ground_friction=0.02),
+        Bar(pose=(0, 9, 0), velocity=(-0.5, 0.5, 0), ground_friction=0.01),
         Ball(pose=(0, -9, 0), velocity=(0.3, 0.2, 1)),
     ]
     wall = Map([[(2.3, -2), (2.3, 2)]])
@@ -203,9 +203,9 @@ def test_the_effort_is_nothing_in_free_motion_and_all_when_stalled():
 
 
 def test_a_box_that_is_pushed_beside_its_centre_turns():
-    world = world_of([Robot(pose=(-0.4, 0.18, 0))], [Box()])
+    world = world_of([Robot(pose=(-0.4, 0.1, 0))], [Box()])
     drive(world, [[0.2], [0]], 3)
-    assert world.prop_pose[2, 0] < -0.2
+    assert world.prop_pose[2, 0] < -0.3
 
 
 def test_a_box_pushed_at_both_ends_alike_keeps_its_heading():

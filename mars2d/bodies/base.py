@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.description import Description, number
 
-__all__ = ["Drive"]
+__all__ = ["Drive", "Wheeled"]
 
 Float = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ class Drive(Description):
     3. `disturb` adds the actuators' noise, which is not recorded;
     4. `twist` gives the velocity that is asked for.
 
-    Two actuators move a robot. Unless a drive says otherwise, they are the command's two components.
+    Two actuators move a robot. Unless a drive says otherwise, the command is what they do.
     """
 
     max_linear_speed: float = number(
@@ -49,7 +49,7 @@ class Drive(Description):
     )  # fmt: skip
     noise: float = number(
         default=0.0, low=0, high=1,
-        doc="standard deviation of what each actuator does, in shares of what it should do",
+        doc="standard deviation of an actuator's speed, in shares of it; anew each control step",
     )  # fmt: skip
     dead_time: float = number(
         default=0.0, low=0, high=1e6, unit="s",
@@ -106,13 +106,42 @@ class Drive(Description):
         return self.command_for(self.actuators(command) * (1.0 + self.noise * normal))
 
 
-def saturate_wheels(drive: Drive, command: Float) -> Float:
-    """Return commands (2, n) with each wheel's rim speed clipped to +-max_linear_speed.
+class Wheeled(Drive):
+    """The base of drives of two wheels on one axle, each of them an actuator.
 
-    drive: one whose actuators are two wheels, measured by their rims' speeds [m/s].
+    Commands are (v [m/s], omega [rad/s]), and actuators the speeds of the wheels' rims,
+    v -+ wheel_semiaxis * omega [m/s]. With `noise` s and the semiaxis b, v and omega are off by the
+    variances s^2 (v^2 + b^2 omega^2) / 2 and s^2 (v^2 + b^2 omega^2) / (2 b^2): the velocity motion
+    model with alpha_1 = alpha_4 = s^2 / 2, alpha_2 = s^2 b^2 / 2, alpha_3 = s^2 / (2 b^2).
+
+    Source of the model: Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 5.3.
     """
-    rims, limit = drive.actuators(command), drive.max_linear_speed
-    over = np.abs(rims) > limit * (1 + ROUNDING)
-    if not over.any():
-        return command
-    return np.where(over.any(axis=0), drive.command_for(rims.clip(-limit, limit)), command)
+
+    wheel_semiaxis: float = number(
+        default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
+    )
+
+    @cached_property
+    def _arms(self) -> Float:
+        return np.array([[-self.wheel_semiaxis], [self.wheel_semiaxis]])
+
+    def actuators(self, command: Float) -> Float:
+        """Return the speeds (2, n) of the left and the right wheel's rim, m/s."""
+        return np.asarray(command[0] + self._arms * command[1])
+
+    def command_for(self, actuators: Float) -> Float:
+        """Return (v, omega), (2, n), of rims with these speeds."""
+        left, right = actuators
+        return np.array([(left + right) / 2, (right - left) / (2 * self.wheel_semiaxis)])
+
+    def saturate(self, command: Float) -> Float:
+        """Return commands (2, n) with each rim's speed clipped to +-max_linear_speed."""
+        rims, limit = self.actuators(command), self.max_linear_speed
+        over = np.abs(rims) > limit * (1 + ROUNDING)
+        if not over.any():
+            return command
+        return np.where(over.any(axis=0), self.command_for(rims.clip(-limit, limit)), command)
+
+    def twist(self, command: Float) -> Float:
+        """Return (v, 0, omega)."""
+        return np.array([command[0], np.zeros(command.shape[1]), command[1]])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,32 +31,32 @@ BLOCK = 256
 class Drives:
     """The drives of a world's robots: from all commands (2, n) to all twists (3, n)."""
 
-    def __init__(
-        self, drives: Sequence[Drive], names: Sequence[str], sampling_time: float, stream: Stream
-    ) -> None:
-        """Take each robot's drive and name, the sampling time [s], and who opens random streams.
+    def __init__(self, drives: Mapping[str, Drive], sampling_time: float, stream: Stream) -> None:
+        """Take the drives by their robots' names, the sampling time [s], and what opens streams.
 
         Raises InputError for a dead time of more than a million sampling times.
         """
-        for drive in drives:
+        for drive in drives.values():
             if drive.dead_time > LONGEST * sampling_time:
                 raise wrong(
                     f"{type(drive).__name__}.dead_time", drive.dead_time,
                     f"at most a million sampling times of {sampling_time:g} s",
                 )  # fmt: skip
-        self.dead_time = np.array([drive.dead_time for drive in drives])
+        names = [*drives]
+        self.dead_time = np.array([drive.dead_time for drive in drives.values()])
         self._sampling_time = sampling_time
+        teams = _teams([*drives.values()])
         self._teams = [
             (drive, slice(None) if len(columns) == len(drives) else np.array(columns))
-            for drive, columns in _teams(drives)
+            for drive, columns in teams
         ]
-        self._hurried = [team for team in self._teams if team[0].rates != (None, None)]
+        self._rated = [team for team in self._teams if team[0].rates != (None, None)]
         self._noises = [
             _noise([stream(f"drive {names[i]}") for i in columns]) if drive.noise > 0 else None
-            for drive, columns in _teams(drives)
+            for drive, columns in teams
         ]
         self._noisy = any(noise is not None for noise in self._noises)
-        self._normal: list[Float | None] = [None] * len(self._teams)
+        self._normal: list[Float | None] = [None] * len(teams)
 
     def limit(self, command: Float, last: Float) -> Float:
         """Limit commands (2, n), in place, to what the drives can do after the last ones (2, n).
@@ -64,14 +64,14 @@ class Drives:
         Raises LawError where a drive of the user's fails.
         """
         self._saturate(command, self._teams)
-        if self._hurried:
-            for drive, columns in self._hurried:
+        if self._rated:
+            for drive, columns in self._rated:
                 with called(f"drive {type(drive).__name__}", drive.accelerate):
                     command[:, columns] = drive.accelerate(
                         command[:, columns], last[:, columns], self._sampling_time
                     )
             # Rounding may have brought one beyond a limit again.
-            self._saturate(command, self._hurried)
+            self._saturate(command, self._rated)
         if not np.isfinite(command).all():
             raise LawError(f"a drive saturates a command to {shown(command.tolist())}")
         return command

@@ -49,7 +49,7 @@ class Holonomic(Drive):
 
         normal: (2, n), numbers of the standard normal distribution.
         """
-        return command + self.noise * np.hypot(command[0], command[1]) * normal
+        return np.asarray(command + self.noise * np.hypot(command[0], command[1]) * normal)
 
     def twist(self, command: Float) -> Float:
         """Return (vx, vy, 0)."""

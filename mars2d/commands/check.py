@@ -70,8 +70,9 @@ def _description(experiment: Experiment) -> list[tuple[str, str]]:
         ("add-ons", ", ".join(addon.key for addon in scenario.addons) or "none"),
         ("time", f"{scenario.stop_time:g} s in steps of {scenario.sampling_time:g} s"),
         ("laws", ", ".join(laws) or "none: all robots stand still"),
-        ("checks", "checks(record), after a whole run" if experiment.checks else "none"),
     ]
+    if experiment.checks is not None:
+        rows.append(("checks", "checks(record), made after a whole run"))
     return rows
 
 

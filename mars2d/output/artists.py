@@ -127,7 +127,11 @@ def _arrow(shape: Arrow, ax: Axes, scale: float, level: float, ppm: float) -> No
     from matplotlib.patches import Polygon as Outline
 
     points = arrow_outline(shape.tail, shape.tip, shape.width * scale / ppm)
-    edge = {"edgecolor": shape.stroke, "linewidth": 3 * scale} if shape.stroke else {"linewidth": 0}
+    edge = (
+        {"edgecolor": shape.stroke, "linewidth": 0.8 * shape.width * scale}
+        if shape.stroke
+        else {"linewidth": 0}
+    )
     for style in (edge, {"linewidth": 0.0}):
         patch = Outline(
             points, closed=True, joinstyle="round", zorder=level, facecolor=shape.fill, **style
@@ -181,6 +185,10 @@ def _text(shape: Text, ax: Axes, scale: float, level: float) -> None:
         annotation_clip=True,
         zorder=level,
     )
+    if shape.halo:
+        from matplotlib.patheffects import withStroke
+
+        label.set_path_effects([withStroke(linewidth=2.5 * scale, foreground=shape.halo)])
     label.set_parse_math(False)
     label.set_clip_on(True)
     label.set_in_layout(False)

@@ -347,7 +347,7 @@ def _paint_forces(ax: Axes, now: Frame, scale: float) -> None:
     tip = (tail[0] + force * length, tail[1])
     legend = Scene()
     legend.arrow(tail, tip, fill=FORCE, stroke="#ffffff")
-    legend.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left")
+    legend.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left", halo="#ffffff")
     shapes += legend.shapes
     paint(Scene([shape for shape in shapes if not isinstance(shape, Text)]), ax, scale=scale)
     paint(Scene([shape for shape in shapes if isinstance(shape, Text)]), ax, scale=0.65)

@@ -30,6 +30,7 @@ __all__ = [
     "filled",
     "in_sight",
     "mark",
+    "outlined",
     "rgba",
     "ring",
     "rounded",
@@ -147,6 +148,17 @@ def edged(points: Float, fill: Rgba, edge: float) -> Draw:
         if edge:
             around(large, left, top, factor, color)
         inside(large, left, top, factor, fill)
+
+    return draw
+
+
+def outlined(points: Float, fill: Rgba, width: float) -> Draw:
+    """Return how to fill a polygon (k, 2), and draw its edge upon it in the ink."""
+    inside, around = filled(points), stroked([np.vstack([points, points[:1]])], width)
+
+    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
+        inside(large, left, top, factor, fill)
+        around(large, left, top, factor, color)
 
     return draw
 

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mars2d.floor import GRAVITY
 from mars2d.forces import mean_forces
 from mars2d.frame import Float, Frame
-from mars2d.floor import GRAVITY
 
 __all__ = ["Bound", "Meter", "Reading", "bound_of"]
 

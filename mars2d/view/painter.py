@@ -31,6 +31,10 @@ PHASES = 4
 BROAD = 20.0
 """The radius in pixels from which a ring is drawn of hair lines."""
 LARGEST_SPRITE = 160.0
+EDGE = 0.4
+"""The width of the edge round an arrow, in widths of its shaft."""
+SMALL = 10_000
+"""The area in pixels up to which fill and edge of a polygon are drawn at once."""
 FAINT = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
 
@@ -106,11 +110,24 @@ class Painter:
         if len(points) == 0:
             return
         width = shape.width * self.ui
+        if shape.fill and shape.stroke and self._small_polygon(surface, shape, points, width):
+            return
         if shape.fill:
             self._fill(surface, points, rgba(shape.fill))
         if shape.stroke:
             ring = np.vstack([points, points[:1]])
             brushes.stroke(surface, rgba(shape.stroke), [ring], width)
+
+    def _small_polygon(
+        self, surface: pygame.Surface, shape: Polygon, points: Float, width: float
+    ) -> bool:
+        """Draw fill and edge at once, which is quicker, if they are small and opaque."""
+        fill, stroke = rgba(shape.fill or ""), rgba(shape.stroke or "")
+        box = brushes.extent_of(points, width / 2 + 1)
+        if fill[3] < 255 or stroke[3] < 255 or box.width * box.height > SMALL:
+            return False
+        brushes.cover(surface, stroke, box, brushes.outlined(points, fill, width), factor=4)
+        return True
 
     def _fill(self, surface: pygame.Surface, points: Float, color: Rgba) -> None:
         visible = clip_polygon(points, brushes.in_sight(surface))
@@ -169,7 +186,8 @@ class Painter:
         (ax, ay), (bx, by) = shape.tail, shape.tip
         x, y = camera.x + camera.scale * ax, camera.y - camera.scale * ay
         dx, dy = camera.scale * (bx - ax), camera.scale * (ay - by)
-        width, edge = shape.width * self.ui, 1.5 * self.ui if shape.stroke else 0.0
+        width = shape.width * self.ui
+        edge = EDGE * width if shape.stroke else 0.0
         left, top = min(x, x + dx), min(y, y + dy)
         around = pygame.Rect(left - 20, top - 20, abs(dx) + 40, abs(dy) + 40)
         if not around.colliderect(surface.get_clip()):
@@ -215,11 +233,16 @@ class Painter:
         images = [self.fonts.render(text, shape.size * self.ui, shape.color) for text in lines]
         height = sum(image.get_height() for image in images)
         top = {"above": y - gap - height, "below": y + gap}.get(shape.anchor, y - height / 2)
-        for image in images:
+        for text, image in zip(lines, images, strict=True):
             width = image.get_width()
             # MARS's and matplotlib's sense: "left" puts the text's left end at the point
             left = {"left": x + gap, "right": x - gap - width}.get(shape.anchor, x - width / 2)
-            surface.blit(image, (round(left), round(top)))
+            place = (round(left), round(top))
+            if shape.halo:
+                rim = self.fonts.render(text, shape.size * self.ui, shape.halo)
+                reach = max(1, round(1.5 * self.ui))
+                surface.fblits((rim, (place[0] + a, place[1] + b)) for a, b in _around(reach))
+            surface.blit(image, place)
             top += image.get_height()
 
     # -- what the window's own parts are made of ----------------------------------------------
@@ -259,6 +282,12 @@ class Painter:
         self._sprites[key] = sprite
         self._kept += area
         return sprite
+
+
+def _around(reach: int) -> list[tuple[int, int]]:
+    """Return shifts to all sides, by `reach` pixels."""
+    steps = (-reach, 0, reach)
+    return [(a, b) for a in steps for b in steps if (a, b) != (0, 0)]
 
 
 def _sprite_factor(box: pygame.Rect) -> int:
