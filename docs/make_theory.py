@@ -36,7 +36,8 @@ physics, the second what the examples say of themselves. This page is written by
     python docs/make_theory.py
 
 which runs all of it anew; so do the tests, which fail when a number leaves its tolerance. Tolerances
-are absolute, in the unit given. "0" in the last digits differs from processor to processor.
+are absolute, in the unit given. Where 0 is predicted, what is measured is rounding, which differs
+between processors.
 """
 
 
@@ -115,7 +116,7 @@ def friction_threshold() -> Iterator[Prediction]:
     while high - low > 1e-3:
         mu = (low + high) / 2
         box = Box(pose=(0.36, 0, 0), mass=mass, ground_friction=mu)
-        x = run([Robot()], [[0.2], [0]], 4, props=[box]).prop_pose[:, 0, 0]
+        x = run([Robot()], [[0.2], [0]], 20, props=[box]).prop_pose[:, 0, 0]
         low, high = (mu, high) if x[-1] - x[-11] > 0.01 else (low, mu)
     predicted = force / (mass * GRAVITY)
     yield Prediction("box that just moves: mu = F / (m g)", predicted, low, 0.02 * predicted)
@@ -136,8 +137,8 @@ def wall_slide() -> Iterator[Prediction]:
         )  # fmt: skip
 
 
-def billiard_table(seed: int, restitution: float) -> Record:
-    """Let balls and boxes without friction on the floor meet each other at random."""
+def billiard_table(seed: int, restitution: float, friction: float) -> Record:
+    """Let balls and boxes that the floor does not hold meet each other at random."""
     rng = np.random.default_rng(seed)
     props: list[Prop] = []
     for k in range(12):
@@ -146,7 +147,7 @@ def billiard_table(seed: int, restitution: float) -> Record:
         kind = Ball if k % 2 else Box
         size = {"diameter": 0.2} if k % 2 else {"length": 0.25, "width": 0.15}
         props.append(kind(
-            pose=place, velocity=v, mass=float(rng.uniform(1, 3)), friction=0.5,
+            pose=place, velocity=v, mass=float(rng.uniform(1, 3)), friction=sqrt(friction),
             restitution=sqrt(restitution), ground_friction=0.0, **size,
         ))  # fmt: skip
     return run([Robot(pose=(-50, 0, 0))], [[0], [0]], 4, props=props, sampling_time=0.05)
@@ -155,9 +156,9 @@ def billiard_table(seed: int, restitution: float) -> Record:
 def momentum_and_energy() -> Iterator[Prediction]:
     """Add up the momentum and the energy of what collides with motors off."""
     most_momentum = most_energy = 0.0
-    for restitution in (0.0, 0.5, 1.0):
+    for restitution, friction in ((0.0, 0.3), (0.5, 0.3), (0.8, 0.3), (1.0, 0.0)):
         for seed in range(3):
-            record = billiard_table(seed, restitution)
+            record = billiard_table(seed, restitution, friction)
             inertia = [prop.inertia for prop in record.scenario.props]
             mass, moment = (np.array(column) for column in zip(*inertia, strict=True))
             still = touching_rows(record)
@@ -191,14 +192,16 @@ def restitution() -> Iterator[Prediction]:
 def sliding() -> Iterator[Prediction]:
     """Let a puck slide to rest, and spin to rest."""
     mu, v, omega = 0.1, 1.0, 3.0
-    puck = Puck(velocity=(v, 0, omega), ground_friction=mu)
-    pose = run([Robot(pose=(-50, 0, 0))], [[0], [0]], 10, props=[puck]).prop_pose[-1, :, 0]
-    yield Prediction(
-        "sliding puck: v^2 / (2 mu g)", v**2 / (2 * mu * GRAVITY), pose[0], 1e-9, "m"
-    )
-    moment, lever = puck.inertia.moment, puck.shape.lever
-    turned = omega**2 * moment / (2 * mu * puck.inertia.mass * GRAVITY * lever)
-    yield Prediction("spinning puck: angle until it rests", turned, pose[2], 1e-9, "rad")
+    pucks = [
+        Puck(velocity=(v, 0, 0), ground_friction=mu),
+        Puck(pose=(0, 5, 0), velocity=(0, 0, omega), ground_friction=mu),
+    ]
+    pose = run([Robot(pose=(-50, 0, 0))], [[0], [0]], 10, props=pucks).prop_pose[-1]
+    way = v**2 / (2 * mu * GRAVITY)
+    yield Prediction("sliding puck: v^2 / (2 mu g)", way, pose[0, 0], 1e-9, "m")
+    (mass, moment), lever = pucks[1].inertia, pucks[1].shape.lever
+    turned = omega**2 * moment / (2 * mu * mass * GRAVITY * lever)
+    yield Prediction("spinning puck: angle until it rests", turned, pose[2, 1], 1e-9, "rad")
 
 
 def joints() -> Iterator[Prediction]:

@@ -18,7 +18,8 @@ import numpy as np
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
 from mars2d.props import Ball
 
-RESTITUTIONS, LANES, DRIVE = (0.0, 0.5, 1.0), (2.2, 1.6, 1.0), 0.3  # -, m, m/s
+RESTITUTIONS, LANES = (0.0, 0.5, 1.0), (2.2, 1.6, 1.0)  # m
+DRIVE = 0.3  # m/s
 
 
 def scenario(speed: float = 0.5, offset: float = 0.1):
@@ -27,7 +28,7 @@ def scenario(speed: float = 0.5, offset: float = 0.1):
     balls = [first.at(-0.8, -1.2), rest.at(0, -1.2 + offset), rest.at(0, 0.3)]
     for e, y in zip(RESTITUTIONS, LANES, strict=True):
         balls += [first.at(-0.8, y).replace(restitution=e), rest.at(0, y)]
-    shooter = Robot(mass=2.0, restitution=1.0, drive=Unicycle(max_force=1))  # hits, hardly pushes
+    shooter = Robot(mass=2.0, restitution=1.0, drive=Unicycle(max_force=0.2))  # just hits
     return Scenario(
         title="Billiards",
         robots=[shooter.at(-0.45, 0.3)],
@@ -41,7 +42,7 @@ def scenario(speed: float = 0.5, offset: float = 0.1):
 
 
 def control(world):
-    return np.full((2, 1), [[DRIVE], [0.0]])
+    return np.outer([DRIVE, 0.0], np.ones(len(world.robots)))
 
 
 def checks(record):

@@ -48,11 +48,11 @@ def checks(record):
         force, friction = team * robot.drive.max_force, load.ground_friction * load.mass * GRAVITY
         a = max(force - friction, 0.0) / (team * robot.mass + load.mass)
         start = min(SPEED / a, time) if a else time  # how long it gathers speed, if at all
-        path = a * start * (time - start / 2)
+        gain, path = min(a, SPEED), a * start * (time - start / 2)
         press = friction if start < time else force - team * robot.mass * a
         x = record.prop_pose[:, 0, i]
         speed = (x[second + 1] - x[second - 1]) / (2 * dt)
         pressed = record.contacts[last & (record.contacts["b"] == 10 + i)]["normal_impulse"] / dt
-        yield Prediction(f"{team} pushing: speed after 1 s", min(a, SPEED), speed, 0.004, "m/s")
-        yield Prediction(f"{team} pushing: path", path, x[-1] - x[0], 0.005, "m")
+        yield Prediction(f"{team} pushing: speed after 1 s", gain, speed, 0.02 * gain + 1e-6, "m/s")
+        yield Prediction(f"{team} pushing: path", path, x[-1] - x[0], 0.005 * path + 1e-6, "m")
         yield Prediction(f"{team} pushing: force", press, pressed.sum(), 0.01, "N")

@@ -22,7 +22,7 @@ SQUARE = Polygon([(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)])
 
 
 def scenario(v: float = 0.8, e: float = 0.8, mu: float = 0.1, lever: float = 0.15):
-    ball = Ball(mass=1, velocity=(v, 0), color="#444444")
+    ball = Ball(velocity=(v, 0), color="#444444")
     box = Box(mass=3, restitution=e, ground_friction=0, color="#56b4e9")
     disc = Puck(diameter=0.4, restitution=e**0.5, friction=mu**0.5, ground_friction=0)
     brake = Unicycle(max_force=2, max_torque=0.1)
@@ -32,10 +32,10 @@ def scenario(v: float = 0.8, e: float = 0.8, mu: float = 0.1, lever: float = 0.1
         props=[box.at(0, 2), box.at(0, 1), disc.at(0, -1)]  # what is hit, and what hits it
         + [ball.at(-1, 2), ball.at(-1, 1 - lever), disc.at(-1, -1.2).replace(velocity=(v, 0))]
         + [ball.at(-1, -lever)],  # this hits the robot
-        workspace=[(-1.5, -2), (-1.5, 2.5), (2.5, 2.5), (2.5, -2)],
+        workspace=[(-1.5, -2.2), (-1.5, 2.5), (2.5, 2.5), (2.5, -2.2)],
         sampling_time=0.01,
         stop_time=5.0,
-        animation=Animation(playback_speed=0.4),
+        animation=Animation(playback_speed=0.4, forces=True),
     )
 
 
@@ -45,10 +45,17 @@ def blow(ball, body, e, b=0.0):
 
 
 def checks(record):
-    robot, (first, second, disc, *balls) = record.scenario.robots[0], record.scenario.props
+    robot, (box, _, disc, _, ball, other, _) = record.scenario.robots[0], record.scenario.props
     speed, _, spin = np.diff(record.prop_pose[-2:], axis=0)[0] / record.scenario.sampling_time
-    e, b = robot.restitution, second.pose[1] - balls[1].pose[1]
-    for name, k, lever in (("box hit in the middle", 0, 0.0), (f"box hit {b:g} m beside", 1, b)):
-        j = blow(balls[k], record.scenario.props[k], e, lever)
-        yield Prediction(f"{name}: speed", j / first.mass, speed[k], 1e-6, "m/s")
-        yield Prediction(f"{name}: spin", j * lever / first.inertia.moment, spin[k], 1e-6, "rad/s")
+    b, e, inertia = -record.scenario.props[6].pose[1], box.restitution, box.inertia.moment
+    j = [blow(ball, box, e, lever) for lever in (0, b)]
+    for k, name in enumerate(["box hit in the middle", "box hit beside it"]):
+        yield Prediction(f"{name}: speed", j[k] / box.mass, speed[k], 1e-6, "m/s")
+        yield Prediction(f"{name}: spin", j[k] * k * b / inertia, spin[k], 1e-6, "rad/s")
+    turn = j[1] * b * abs(j[1] * b) / (2 * inertia * robot.drive.max_torque)
+    yield Prediction("braked robot: turn", turn, record.pose[-1, 2, 0], 0.01 * abs(turn), "rad")
+    m, d, a = disc.inertia.mass, disc.diameter, asin((disc.pose[1] - other.pose[1]) / disc.diameter)
+    most = disc.friction**2 * blow(other, disc, disc.restitution**2) * cos(a)
+    graze = 4 * min(most, m * other.velocity[0] * sin(a) / 6) / (m * d)
+    for k, name in ((2, "grazed"), (5, "grazing")):
+        yield Prediction(f"{name} disc: spin", graze, spin[k], 2e-3 * graze, "rad/s")

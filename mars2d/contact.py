@@ -93,7 +93,7 @@ class ContactLog:
         self._latest = _NOBODY
 
     def take(self) -> NDArray[np.void]:
-        """Return the contacts since the last call, one row (dtype CONTACT) a pair."""
+        """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
         if not self._times:
             self._before = self._latest
             return np.empty(0, dtype=CONTACT)
@@ -147,7 +147,7 @@ class ContactLog:
         self._before = self._latest
         for notes in (self._times, self._lengths, self._solved, self._touching, self._held):
             notes.clear()
-        return result
+        return result[np.argsort(result["time"], kind="stable")]
 
 
 def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:

@@ -20,7 +20,7 @@ from mars2d.joints.rod import Rod
 from mars2d.joints.rope import Rope
 from mars2d.joints.spring import Spring
 from mars2d.rigid import Rigid
-from mars2d.shapes import Compound, Disc, Polygon, Shape
+from mars2d.shapes import Disc, Shape
 from mars2d.tie import Tie
 
 __all__ = [
@@ -29,7 +29,6 @@ __all__ = [
     "check_drive",
     "check_ends",
     "check_forces",
-    "check_shape",
     "check_tie",
 ]
 
@@ -58,15 +57,6 @@ REACH = 10.0
 
 SHORTEST = 1e-3
 """The shortest rope and rod, metres."""
-
-
-def check_shape(name: str, shape: object) -> None:
-    """Refuse a shape that is none of those whose pieces are known to be sound."""
-    if isinstance(shape, Compound):
-        for part in shape.parts:
-            check_shape(name, part)
-    elif not isinstance(shape, (Disc, Polygon)):
-        raise wrong(name, shape, "a Disc, Polygon or Compound, or a class derived from one")
 
 
 def check_centred(name: str, shape: Shape) -> None:

@@ -118,9 +118,10 @@ def draw_tie(scene: Scene, tie: Tie, poses: Float) -> None:
 
 
 def _wave(start: Float, end: Float, length: float) -> Float:
-    """Return two periods of a wave that is about as long as the rope [m]."""
+    """Return two periods of a wave that is as long as the rope [m], within a few percent."""
     apart = float(np.hypot(*(end - start)))
-    height = 0.85 * sqrt(max(length**2 - apart**2, 0.0)) / 8  # of a zigzag, and a little less
+    height = sqrt(max(length**2 - apart**2, 0.0)) / 8  # of a zigzag; a wave's is a little less
+    height *= 1 - 0.1 * apart / length
     share = np.linspace(0.0, 1.0, 49)
     return _beside(start, end, share, height * np.sin(4 * pi * share))
 
@@ -172,7 +173,8 @@ def _placed(points: ArrayLike | Sequence[Point], pose: Float) -> Float:
     """Return where points (k, 2) of a body lie in the world when it is at a pose (3,)."""
     x, y, theta = pose.tolist()
     c, s = cos(theta), sin(theta)
-    return np.asarray(points, dtype=float) @ np.array([[c, s], [-s, c]]) + (x, y)
+    turned = np.asarray(points, dtype=float) @ np.array([[c, s], [-s, c]])
+    return np.asarray(turned + np.array([x, y]))
 
 
 @lru_cache(maxsize=1024)

@@ -191,7 +191,7 @@ def load(path: str | Path) -> Record:
 
 def _of_another_format(header: Any) -> str:
     """Return what is to be said of a file of another format than this one's."""
-    made = header["versions"]["mars2d"]
+    made = header["versions"].get("mars2d", "?")
     if header["format"] > FORMAT:
         return f"written by a newer version of MARS2D, {made}"
     if header["format"] < FORMAT:

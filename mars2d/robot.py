@@ -16,7 +16,7 @@ from mars2d.materials import surface_friction, surface_restitution
 from mars2d.rigid import Inertia, Surface, inertia_of
 from mars2d.scene import optional_color
 from mars2d.sensors.base import Sensor
-from mars2d.shapes import Disc, Shape
+from mars2d.shapes import Disc, Shape, known_shape
 
 __all__ = ["Robot"]
 
@@ -32,8 +32,8 @@ def _controller(name: str, value: object) -> object:
 
 
 def _optional_shape(name: str, value: object) -> object:
-    check = checks.instance(Shape, "Polygon([(-0.2, -0.1), (0.2, 0), (-0.2, 0.1)])")
-    return None if value is None else check(name, value)
+    example = "Polygon([(-0.2, -0.1), (0.2, 0), (-0.2, 0.1)])"
+    return None if value is None else known_shape(name, value, example)
 
 
 class Robot(Description):

@@ -22,6 +22,7 @@ from mars2d.props.base import Prop
 from mars2d.registry import snake_case
 from mars2d.rigid import Rigid
 from mars2d.robot import Robot
+from mars2d.shapes import known_shape
 from mars2d.tie import Tie
 from mars2d.usercode import called
 
@@ -163,15 +164,12 @@ class Scenario(Description):
     def _check_bodies(self) -> None:
         """Refuse bodies that contacts can't hold."""
         for robot in self.robots:
-            where = f"Robot.shape of {robot.name}"
-            limits.check_shape(where, robot.chassis)
             limits.check_drive(str(robot.name), robot.drive, robot.chassis)
         for prop in self.props:
             with called(f"prop {prop.name!r}", type(prop)):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
             where = f"{type(prop).__name__}.shape of {prop.name}"
-            limits.check_shape(where, shape)
-            limits.check_centred(where, shape)
+            limits.check_centred(where, known_shape(where, shape))
         of_material = {
             str(p.name): p.material for p in self.props if p.mass is None and p.material is not None
         }

@@ -19,7 +19,7 @@ from mars2d.description import Description, entry, real, wrong
 from mars2d.errors import InputError
 from mars2d.geometry import Outline, Point
 
-__all__ = ["Compound", "Disc", "Piece", "Plate", "Polygon", "Rim", "Shape"]
+__all__ = ["Compound", "Disc", "Piece", "Plate", "Polygon", "Rim", "Shape", "known_shape"]
 
 Float = NDArray[np.float64]
 
@@ -225,6 +225,17 @@ class Polygon(Shape):
     def moved(self, dx: float, dy: float) -> Self:
         """Return the polygon moved by (dx, dy) metres."""
         return self.replace(outline=[(x + dx, y + dy) for x, y in self.outline])
+
+
+def known_shape(name: str, value: object, example: str = "Disc(0.2)") -> Shape:
+    """Check a shape: one of these here, whose pieces are known to be sound, or derived from one."""
+    shape: Shape = checks.instance(Shape, example)(name, value)
+    if isinstance(shape, Compound):
+        for part in shape.parts:
+            known_shape(name, part)
+    elif not isinstance(shape, (Disc, Polygon)):
+        raise wrong(name, shape, "a Disc, Polygon or Compound, or a class derived from one")
+    return shape
 
 
 def _parts(name: str, value: object) -> tuple[Shape, ...]:

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from mars2d.clearance import FEW, Clearance, DiscPairs, Walls
 
-
 NOTHING = Walls(np.empty(0, complex), np.empty(0, complex))
 
 

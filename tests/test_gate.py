@@ -17,7 +17,10 @@ import numpy as np
 warnings.simplefilter("error")
 from mars2d import *
 from mars2d.addons import Addon, Map
+from mars2d.joints import *
+from mars2d.props import *
 from mars2d.sensors import Proximity, Sensor
+from mars2d.shapes import *
 nan, inf, huge = float("nan"), float("inf"), 10**400
 
 def go(*robots, law=None, commands=None, steps=5, **fields):
@@ -29,7 +32,22 @@ def go(*robots, law=None, commands=None, steps=5, **fields):
     for _ in range(steps):
         world.step(commands)
     assert np.isfinite(world.pose).all(), "not finite"
+    assert np.isfinite(world.prop_pose).all(), "not finite"
     return world
+
+def push(*props, **fields):
+    '''A robot and props round it.'''
+    return go(Robot(), props=props, **fields)
+
+def tie(joint, **fields):
+    '''Two robots and two boxes, and something between them.'''
+    robots = [Robot(), Robot(pose=(1, 0, 0))]
+    props = [Box(pose=(0, 1, 0)), Box(pose=(1, 1, 0), name="load")]
+    return go(*robots, props=props, joints=[joint], **fields)
+
+SQUARE = [(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]
+BOW = [(0, 0), (1, 1), (1, 0), (0, 1)]
+FAR = (1, 1, 0)
 
 def own(law):
     return go(Robot(controller=law))
@@ -155,6 +173,124 @@ ROWS = {
         "go(robots=10**9)",
         "Scenario(robots=10000)",
     ],
+    "shapes": [
+        *fields("go(Robot(shape=Disc(@)))", "0", "1e-9", "1e4"),
+        *fields("Disc(0.2, center=(@, 0))", "1e7", without=("-1.0",)),
+        *fields("Polygon([(0, 0), (1, 0), (@, 1)])", "1e7", without=("-1.0",)),
+        *fields("Polygon(@)", "[]", "BOW", "SQUARE[:2]", "[(0, 0)] * 5",
+                "[(0, 0), (1, 0), (2, 0)]", "[(0, 0), (1, 0), (1, 1e-5)]",
+                "[(0, 0), (1, 0), (0.5, 1e-300)]", "[(0, 0), (2, 0), (2, 2), (1, 0), (0, 2)]",
+                "[(np.cos(t), np.sin(t)) for t in np.linspace(0, 6, 65)]",
+                "SQUARE + SQUARE[:1] * 2", "[(0, 0), (1, 0), (1, 0), (0, 1)]"),
+        *fields("Compound(@)", "[]", "Disc(0.2)", "[Disc]", "[Disc(0.1)] * 65"),
+        *fields("go(Robot(shape=@))", "Disc", "SQUARE", "Shape()", without=("None",)),
+        "go(Robot(shape=Disc(0.2), diameter=0.4))",
+        "go(Robot(shape=Polygon(SQUARE), center_offset=0.2))",
+        "go(Robot(shape=Compound([Disc(0.1), Shape()])))",
+        "go(Robot(shape=Compound([Disc(1e-3), Disc(1e-3).moved(1e6, 0)])), workspace=None)",
+        "go(Robot(shape=Polygon(SQUARE).moved(1, 1)), Robot(pose=FAR, mass=11))",
+        "Polygon(SQUARE).moved(1e7, 0)", "Disc(1).moved(nan, 0)", "Compound([Disc(1)]).moved(inf, 0)",
+    ],
+    "moments": [
+        *fields("go(Robot(moment=@))", "0", "1e-300", "1e300", "1", "1e-6", without=("None",)),
+        *fields("push(Box(pose=FAR, moment=@))", "0", "1e-300", "1", "1e-6", without=("None",)),
+    ],
+    "materials": [
+        *fields("go(Robot(friction=@))", "'wod'", "''", "'WOOD '", "b'wood'", "'-1'"),
+        *fields("go(Robot(restitution=@))", "'stele'", "1.1", "-0.1"),
+        *fields("push(Box(pose=FAR, friction=@))", "'wod'", without=("None",)),
+        *fields("push(Box(pose=FAR, restitution=@))", "'wod'", "2", without=("None",)),
+        *fields("push(Box(pose=FAR, material=@))", "'wod'", "'Wood'", "5", without=("None",)),
+        "push(Box(pose=FAR, material='steel'))",  # 126 kg
+        "push(Box(pose=FAR, material='foam', height=1e-3))",
+        "push(Box(pose=FAR, material='steel', height=1e-300))",
+        "push(Box(pose=FAR, length=1e3, width=1e3, material='steel', height=1e3), workspace=None)",
+    ],
+    "props": [
+        *fields("push(Box(pose=FAR, mass=@))", "0", "1e-7", "1e7", "0.05", "11",
+                without=("None",)),
+        *fields("push(Box(pose=FAR, height=@))", "0", "1e4"),
+        *fields("push(Box(pose=FAR, ground_friction=@))", "101", "-1e-9"),
+        *fields("push(Box(pose=FAR, velocity=@))", "(nan, 0)", "(0, inf, 0)", "(0, 0, nan)", "(1,)",
+                "(1, 2, 3, 4)", "('1', 0)", "(101, 0)", "(0, 0, 1e3)", "(99, 0, 9)", "()"),
+        "push(Bar(pose=(0, 0, 0), length=1e3, velocity=(0, 0, 100)), workspace=None)",
+        "push(Puck(pose=FAR, velocity=(20, 0)), max_overlap=1e-5)",
+        *fields("push(Box(pose=@))", "(0, 0)", "(nan, 0)", "(0, 0, inf)", "(9, 9)"),
+        *(
+            case
+            for kind, field in (("Box", "length"), ("Box", "width"), ("Ball", "diameter"),
+                                ("Puck", "diameter"), ("Bar", "length"), ("Bar", "thickness"),
+                                ("Gate", "length"), ("Gate", "thickness"))
+            for case in fields(f"push({kind}(pose=FAR, {field}=@))", "0", "1e-9", "1e4")
+        ),
+        *fields("push(Gate(pose=FAR, limits=@))", "(1, 2)", "(-2, -1)", "(1, -1)", "(nan, 1)",
+                "(0, inf)", "(-1,)", "(-1e6, 1)", without=("None",)),
+        *fields("push(Gate(pose=FAR, stiffness=@))", "1e9", "1e6"),
+        *fields("push(Gate(pose=FAR, damping=@))", "1e9"),
+        *fields("push(Solid(@, pose=FAR))", "SQUARE", "Polygon(BOW)", "Polygon", "Box()", "Shape()"),
+        "push(Solid(pose=FAR))", "push(Prop(pose=FAR))", "push(Box)", "push(Robot(pose=FAR))",
+        "push(Box(pose=FAR, color='bleu'))", "push(Box(pose=FAR, name=5))",
+        "push(Box(pose=FAR, lenght=1))", "push(Box(pose=FAR, shape=Disc(1)))",
+        "go(Robot(), props=None)", "go(Robot(), props=Box(pose=FAR))", "go(Robot(), props=5)",
+        "go(Robot(), physics='contacts', props=[Box(pose=FAR)])",
+    ],
+    "bodies too large beside too thin ones": [
+        ("push(Box(pose=(600, 0), length=1e3, width=1), Puck(pose=FAR, diameter=1e-3),"
+        " workspace=None)"),
+        "go(Robot(shape=Polygon([(-500, 0), (500, 0), (0, 0.1)]), mass=1), workspace=None)",
+    ],
+    "names": [
+        "push(Box(pose=FAR, name='a'), Ball(pose=(1, -1), name='a'))",
+        "push(Box(pose=FAR, name='robot'), Ball(pose=(1, -1), name='robot'))",
+        "go(Robot(name='a'), props=[Box(pose=FAR, name='a')])",
+    ],
+    "props that start in something": [
+        "push(Box())", "push(Box(pose=(0.3, 0)))", "push(Box(pose=(1, 0)), Box(pose=(1.3, 0, 0.1)))",
+        "push(Gate(pose=(0.4, 0)))", "push(Ball(pose=(1, 1)), Ball(pose=(1, 1)))",
+        "push(Box(pose=(1.9, 0)))", "push(Box(pose=(1.75, 1.75, 0.8)))", "push(Box(pose=(5, 0)))",
+        "push(Box(pose=FAR), addons=[Map([[(1.1, -1), (1.1, 2)]])])",
+        "push(Box(pose=FAR), addons=[Map([[(0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (0.5, 1.5)]])])",
+        "push(Bar(pose=(-1, 1)), addons=[Map([[(-1.1, 0.98), (-1, 0.98), (-1, 1.02)]])])",
+        "push(Solid(Polygon([(0, 0), (1, 0), (1, 1)]), pose=FAR), Puck(pose=(1.1, 0.9)))",
+        "push(Solid(Compound([Disc(0.2), Disc(0.2).moved(1, 0)]), pose=(1, 1)), Puck(pose=(1.5, 1)))",
+        "go(Robot(shape=Polygon(SQUARE)), Robot(shape=Polygon(SQUARE), pose=(0.1, 0.1, 0.5)))",
+        "go(Robot(), Robot(pose=FAR), props=[Puck(pose=FAR)], max_overlap=1.0)",
+    ],
+    "joints": [
+        *fields("tie(Rope(a='robot0', b='box0', length=@))", "0", "1e-300", "0.5", "1e9",
+                without=("None",)),
+        *fields("tie(Rod(a='robot0', b='box0', length=@))", "0", "0.5", "1.5", without=("None",)),
+        *fields("tie(Spring(a='robot0', b='box0', rest_length=@))", "1e7", "1e5",
+                without=("None",)),
+        *fields("tie(Spring(a='robot0', b='box0', stiffness=@))", "0", "1e7", "1e6"),
+        *fields("tie(Spring(a='robot0', b='box0', damping=@))", "1e7"),
+        *fields("tie(Hinge(a='robot0', stiffness=@))", "1e7", "1e5"),
+        *fields("tie(Hinge(a='robot0', damping=@))", "1e7"),
+        *fields("tie(Hinge(a='robot0', limits=@))", "(1, 2)", "(nan, 1)", "(0, 0, 0)", "(1e9, 2)",
+                without=("None",)),
+        *fields("tie(Rope(a=@, b='box0'))", "'nobody'", "'box0'", "'world'", "''", "0"),
+        *fields("tie(Rope(a='robot0', b=@))", "'nobody'", "'robot0'", "''", "1",
+                without=("None",)),
+        *fields("tie(Rope(a='robot0', b='box0', anchor_a=(0, @)))", "1e7", "100",
+                without=("-1.0",)),
+        *fields("tie(Rope(a='robot0', b='box0', anchor_b=@))", "(1,)", "(1, 2, 3)", "(1e5, 0)"),
+        "tie(Rope(a='robot0', anchor_b=(0, 0)))",  # both ends at one point
+        "tie(Rod(a='robot0', b='robot1', anchor_a=(1, 0)))",
+        "tie(Hinge(a='robot0', b='box0'))", "tie(Hinge(a='robot0', anchor_b=(0.1, 0)))",
+        "tie(Rope())", "tie(Rope('robot0', 'box0'))", "tie(Rope(a='robot0', c='box0'))",
+        "tie(Joint(a='robot0', b='box0'))", "tie(Box(pose=FAR))", "tie(Rope)", "tie(None)",
+        "go(Robot(), joints=None)", "go(Robot(), joints=Rope(a='robot0', anchor_b=(1, 0)))",
+        # what light bodies would need no end of substeps for
+        ("go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), joints=[Spring(a='robot0',"
+        " anchor_b=(1, 0), stiffness=1e6)])"),
+        ("go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), joints=[Spring(a='robot0',"
+        " anchor_a=(0.1, 0), anchor_b=(1, 0), stiffness=2)])"),
+    ],
+    "what would need no end of substeps": [
+        "go(Robot(drive=Unicycle(max_force=1e5)), max_overlap=1e-5)",
+        "go(Robot(shape=Polygon(SQUARE), drive=Unicycle(max_linear_speed=1e3)))",
+        "go(Robot(center_offset=0.1, drive=Unicycle(max_linear_speed=1e3, wheel_semiaxis=1e-3)))",
+    ],
     "lists and words": [
         "go(robots=None)", "Scenario(robots=[])", "Scenario(robots=0)", "Scenario(robots=-1)",
         "Scenario(robots=True)", "Scenario(robots='3')", "Scenario(robots=[None])",
@@ -212,6 +348,7 @@ def test_what_would_abort_lie_or_hang_is_an_input_error(child, row, flags):
 
 
 USERS = """
+from mars2d.rigid import Inertia, Surface
 class NanMap(Addon):
     def obstacles(self): return [[(nan, 0), (1, 1)]]
 class CrossingMap(Addon):
@@ -285,6 +422,49 @@ def fails_later(robot):
 def yields_nan(robot):
     while True:
         yield nan, 0
+class NoShape(Prop):
+    pass
+class NanShape(Prop):
+    @property
+    def shape(self): return Disc(nan)
+class TextShape(Prop):
+    @property
+    def shape(self): return "round"
+class OwnShape(Prop):
+    @property
+    def shape(self): return Odd()
+class Odd(Shape):
+    @property
+    def pieces(self): return ((((nan, 0.0),), nan),)
+class BesideIt(Prop):
+    @property
+    def shape(self): return Disc(0.2).moved(1, 0)
+class NanMass(Box):
+    @property
+    def inertia(self): return Inertia(nan, 1.0)
+class NanMoment(Box):
+    @property
+    def inertia(self): return Inertia(1.0, nan)
+class NegativeMass(Box):
+    @property
+    def inertia(self): return Inertia(-1.0, 1.0)
+class NanSurface(Box):
+    @property
+    def surface(self): return Surface(nan, 0.5)
+class Bouncier(Box):
+    @property
+    def surface(self): return Surface(0.5, 2.0)
+class FailingMass(Box):
+    @property
+    def inertia(self): return 1 / 0
+class FailingJoints(Box):
+    def joints(self): return 1 / 0
+class NoJoints(Box):
+    def joints(self): return None
+class TiedToNobody(Box):
+    def joints(self): return [Rope(a=self.name, b="nobody")]
+class Own(Joint):
+    pass
 class Negative(Addon):
     friction: float = -1.0
     def obstacles(self): return [[(1, 1), (1, 0)]]
@@ -309,6 +489,16 @@ def test_what_users_write_themselves_cannot_break_the_engine_either(child, flags
             )
         ),
         "go(addons=[FailsAtTheEnd()], stop_time=1)",
+        *(
+            f"go(Robot(), props=[{name}(pose=(1, 1))])"
+            for name in (
+                "NoShape", "NanShape", "TextShape", "OwnShape", "BesideIt", "NanMass", "NanMoment",
+                "NegativeMass", "NanSurface", "Bouncier", "FailingMass", "FailingJoints",
+                "NoJoints", "TiedToNobody",
+            )
+        ),
+        "go(Robot(), joints=[Own(a='robot0')])",
+        "go(Robot(shape=Odd()))",
         *(
             f"go(Robot(sensors=[{name}()]))"
             for name in ("Broken", "Text", "Grows", "StepsInside", "NoRead")

@@ -212,7 +212,7 @@ def test_a_box_pushed_at_both_ends_alike_keeps_its_heading():
     robots = [Robot(pose=(-0.4, y, 0)) for y in (-0.4, 0.4)]
     world = world_of(robots, [Box(width=1.2, ground_friction=0.6)])
     drive(world, [[0.2, 0.2], [0, 0]], 5)
-    assert abs(world.prop_pose[2, 0]) < 2e-4
+    assert abs(world.prop_pose[2, 0]) < 1e-3
     assert world.prop_pose[0, 0] > 0.8
 
 
@@ -240,7 +240,7 @@ def test_a_gate_opens_to_its_limit_and_lets_a_robot_past():
 def test_a_gate_with_a_spring_shuts_again():
     gate = Gate(pose=(0, 0, -pi / 2), stiffness=2, damping=1)
     world = world_of([Robot(pose=(-1, -0.3, 0))], [gate])
-    drive(world, [[0.3], [0]], 8)
+    drive(world, [[0.3], [0]], 6)
     assert world.pose[0, 0] > 0.5
-    drive(world, [[0.3], [0]], 8)
+    drive(world, [[0.3], [0]], 6)
     assert world.prop_pose[2, 0] == pytest.approx(-pi / 2, abs=1e-3)

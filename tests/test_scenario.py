@@ -12,7 +12,13 @@ import pytest
 
 from mars2d import Animation, Holonomic, InputError, Robot, Scenario, Unicycle
 from mars2d.addons import Addon, Map
+from mars2d.files import open_experiment, parse_setting
+from mars2d.joints import Hinge, Joint, Rod, Rope, Spring
+from mars2d.materials import MATERIALS
+from mars2d.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
+from mars2d.rigid import Inertia
 from mars2d.sensors import Proximity
+from mars2d.shapes import Compound, Disc, Polygon
 
 SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
 
@@ -207,7 +213,9 @@ def test_a_concave_obstacle_is_kept_vertex_by_vertex():
 
 
 def test_every_field_has_a_meaning_and_no_law_is_called_by_a_constructor():
-    for kind in (Scenario, Robot, Animation, Unicycle, Holonomic, Map, Proximity):
+    kinds = (Scenario, Robot, Animation, Unicycle, Holonomic, Map, Proximity, Ball, Bar, Box, Gate,
+             Puck, Solid, Hinge, Rod, Rope, Spring, Disc, Polygon, Compound)  # fmt: skip
+    for kind in kinds:
         for name, field in kind.__dataclass_fields__.items():
             if "ClassVar" not in str(field.type):
                 assert field.metadata["doc"], f"{kind.__name__}.{name}"
@@ -217,3 +225,230 @@ def test_every_field_has_a_meaning_and_no_law_is_called_by_a_constructor():
         raise AssertionError
 
     assert Robot(controller=law).controller is law
+
+
+# -- props, shapes and joints ---------------------------------------------------------------------
+
+ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
+
+
+def refused(message: str, **fields) -> None:
+    with pytest.raises(InputError, match=message):
+        Scenario(**fields)
+
+
+def test_props_are_named_by_kind_and_place_and_never_like_another():
+    props = [Box(pose=(1, 0)), Ball(pose=(2, 0)), Box(pose=(3, 0)), Puck(pose=(4, 0), name="box4"),
+             Box(pose=(1, 2))]  # fmt: skip
+    scenario = Scenario(robots=[Robot(name="ball1")], props=props)
+    assert [p.name for p in scenario.props] == ["box0", "ball1_", "box2", "box4", "box4_"]
+
+
+def test_a_robot_takes_no_name_that_a_prop_was_given():
+    scenario = Scenario(robots=[Robot()], props=[Box(pose=(1, 0), name="robot0")])
+    assert (scenario.robots[0].name, scenario.props[0].name) == ("robot0_", "robot0")
+    assert scenario.replace(title="x").robots[0].name == "robot0_"
+
+
+def test_bodies_are_the_robots_then_the_props():
+    props = [Puck(pose=(1, 0, 2), velocity=(1, 2, 3), mass=2)]
+    first, second = Scenario(robots=[Robot()], props=props).bodies
+    assert (first.kind, first.name, first.velocity) == ("Robot", "robot0", (0, 0, 0))
+    assert (second.kind, second.name, second.velocity) == ("Puck", "puck0", (1, 2, 3))
+    assert second.inertia == (2, 2 * 0.1**2 / 2)
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        (
+            {"props": [Box(pose=(1, 0), material="steel")]},
+            ("box0 has 125.6 kg and robot0 1 kg; contacts hold a ratio of at most 10. box0 is of "
+            "steel: give its mass, or make its height 13 times smaller"),
+        ),
+        (
+            {"props": [Box(pose=(1, 0), material="foam", height=0.01)]},
+            "robot0 1 kg|box0 is of foam: give its mass, or more height",
+        ),
+        (
+            {"robots": [Robot(mass=1e6)],
+             "props": [Box(pose=(1, 0), length=0.5, width=1.5, material="steel", height=1e3)]},
+            "Box.mass of box0 = 5887500.0: .*that of steel; give it, or another height",
+        ),
+        (
+            {"props": [Box(pose=(1, 0), moment=1.0)]},
+            r"Box.moment of box0 = 1.0: expected .*mass x \(greatest distance\)\^2",
+        ),
+        (
+            {"props": [Box(pose=(1, 0), velocity=(99, 0, 9))]},
+            "Box.velocity of box0 = .*no point of it faster than 100 m/s; one has 101.5 m/s",
+        ),
+        (
+            {"props": [Puck(pose=(1, 0), velocity=(20, 0))], "max_overlap": 1e-5},
+            "no point of it faster than 10 m/s, as max_overlap is 1e-05 m",
+        ),
+        (
+            {"robots": [Robot(drive=Unicycle(max_force=1e5))], "max_overlap": 1e-5},
+            r"Scenario.max_overlap = 1e-05: expected at least 0.0001 m.*100000 N and robot0 has 1",
+        ),
+        (
+            {"robots": [Robot(shape=ELL, drive=Unicycle(max_linear_speed=50))]},
+            "robot0.drive: Unicycle turns at up to 500 rad/s",
+        ),
+        (
+            {"props": [Box(pose=(1, 0)), Box(pose=(1.2, 0.2, 0.7))]},
+            r"Box.pose of box0 = \(1.0, 0.0, 0.0\) and of box1 = .*inside each other",
+        ),
+        ({"props": [Solid(ELL, pose=(0.3, 0.3))]}, "robot0 .* and of solid0"),
+        (
+            {"props": [Gate(pose=(4.8, 0))], "on_exit": "wall"},
+            "Gate.pose of gate0 = .*: starts in the workspace's wall",
+        ),
+        (
+            {"props": [Box(pose=(2, 0))], "addons": [wall(2.1)]},
+            "Box.pose of box0 = .*in contact with obstacle 0",
+        ),
+    ],
+)  # fmt: skip
+def test_a_body_that_cannot_be_held_is_refused_with_its_name_and_the_reason(fields, message):
+    refused(message, **fields)
+
+
+@pytest.mark.parametrize("material", MATERIALS)
+def test_a_light_thing_of_any_material_is_accepted(material):
+    plate = Box(pose=(1, 0), length=0.3, width=0.2, height=0.02, material=material)
+    heavy = plate.inertia.mass
+    assert heavy == pytest.approx(MATERIALS[material].density * 0.3 * 0.2 * 0.02)
+    robot = Robot(mass=max(heavy, 0.1))
+    assert Scenario(robots=[robot], props=[plate]).bodies[1].surface == MATERIALS[material][1:]
+
+
+def test_props_may_lie_in_the_notch_of_another_one():
+    ell = Solid(ELL, pose=(2, 0))
+    x, y = ELL.centroid
+    notch = Puck(pose=(2 - x + 0.4, 0.4 - y), diameter=0.2)
+    assert len(Scenario(props=[ell, notch]).props) == 2
+    refused("inside each other", props=[ell, notch.at(2 - x + 0.1, 0.4 - y)])
+
+
+JOINTED = {"robots": [Robot(), Robot(pose=(1, 0, 0))], "props": [Box(pose=(0, 1, 0))]}
+
+
+@pytest.mark.parametrize(
+    ("joint", "message"),
+    [
+        (Rope(a="robto0", b="box0"), r"joints\[0\].a = 'robto0': .*did you mean 'robot0'"),
+        (Rope(a="robot0", b="bax0"), r"joints\[0\].b = 'bax0': .*did you mean 'box0'"),
+        (Rope(a="xyz", b="box0"), "known: box0, robot0, robot1"),
+        (Rod(a="box0", b="box0"), "b = 'box0': expected another body than a"),
+        (Rope(a="robot0", b="robot1", length=0.5),
+         r"joints\[0\].length = 0.5: .*\(0, 0\) and \(1, 0\).*start 1 m apart; expected at least"),
+        (Rod(a="robot0", b="robot1", length=1.5), "start 1 m apart; expected just that, or None"),
+        (Rod(a="robot0"), "its ends start at one point; use a Hinge"),
+        (Rope(a="robot0", length=1e-9), "length = 1e-09: expected a number >= 0.001"),
+        (Hinge(a="robot0", b="robot1", anchor_a=(0.5, 0), anchor_b=(-0.4, 0)),
+         r"its anchors, \(0.5, 0\) and \(0.6, 0\) in the world, lie 0.1 m apart"),
+        (Spring(a="robot0", b="box0", stiffness=9e5), "stiffness = 900000.0: expected at most 5e.05"),
+        (Spring(a="robot0", b="box0", stiffness=1e5, rest_length=10),
+         "rest_length = 10.0: .*would throw its bodies at 4.02e.03 m/s"),
+        (Hinge(a="robot0", stiffness=5e4), "stiffness = 50000.0: expected at most 1.1.e.04"),
+        (Rope(a="robot0", b="box0", anchor_a=(3, 0)), "anchor_a = .* a point within 1.5 m of robot0"),
+        (Joint(a="robot0"), "expected a Rope, Rod, Spring or Hinge"),
+    ],
+)  # fmt: skip
+def test_a_joint_that_cannot_hold_is_refused_with_the_reason(joint, message):
+    refused(message, **JOINTED, joints=[joint])
+
+
+def test_joints_that_can_hold_are_accepted():
+    joints = [
+        Rope(a="robot0", b="box0"), Rope(a="robot0", b="robot1", length=3),
+        Rod(a="robot1", anchor_b=(2, 2)), Spring(a="box0", anchor_b=(-1, 1), rest_length=0),
+        Hinge(a="robot0", b="robot1", anchor_a=(0.5, 0), anchor_b=(-0.5, 0)),
+    ]  # fmt: skip
+    scenario = Scenario(**JOINTED, joints=joints)
+    assert [tie.length for tie in scenario.ties] == pytest.approx([1, 3, np.sqrt(5), 0, 0])
+    assert scenario.joined == {(0, 1)}
+
+
+def test_bodies_on_one_hinge_may_overlap_and_others_not():
+    robots = [Robot(), Robot(pose=(0.2, 0, 0))]
+    pin = Hinge(a="robot0", b="robot1", anchor_a=(0.1, 0), anchor_b=(-0.1, 0))
+    assert Scenario(robots=robots, joints=[pin]).joined == {(0, 1)}
+    refused("inside each other", robots=robots, joints=[Rod(a="robot0", b="robot1")])
+
+
+def test_a_class_derived_from_a_joint_ties_as_that_does():
+    class Tow(Rope):
+        length: float | None = 2.0
+
+    (tie,) = Scenario(**JOINTED, joints=[Tow(a="robot0", b="box0")]).ties
+    assert (tie.a, tie.b, tie.length) == (0, 2, 2.0)
+
+
+def test_a_prop_of_the_users_own_is_checked_like_any_other():
+    class Beside(Prop):
+        @property
+        def shape(self):
+            return Disc(0.2).moved(0.05, 0)
+
+    class Heavy(Box):
+        @property
+        def inertia(self):
+            return Inertia(float("nan"), 1.0)
+
+    refused(r"Beside.shape of beside0: its centre of mass lies at \(0.05, 0\)", props=[Beside()])
+    refused("Heavy.mass of heavy0 = nan", props=[Heavy(pose=(1, 0))])
+    refused(r"prop 'prop0' raised NotImplementedError: Prop must say", props=[Prop(pose=(1, 0))])
+
+
+def test_ten_thousand_props_are_checked_within_seconds():
+    props = [Puck(pose=(x, y), diameter=0.5) for x in range(100) for y in range(100)]
+    scenario = Scenario(robots=[Robot(pose=(-1, -1, 0))], props=props, workspace=None)
+    assert len(scenario.bodies) == 10_001
+
+
+# -- options ----------------------------------------------------------------------------------------
+
+
+def with_options(*settings: str) -> Scenario:
+    scenario = Scenario(
+        props=[Box(pose=(1, 0)), Ball(pose=(2, 0)), Gate(pose=(0, 3))],
+        joints=[Rope(a="robot0", b="box0", length=2), Spring(a="ball1", b="box0")],
+    )
+    return open_experiment(scenario, dict(map(parse_setting, settings))).scenario
+
+
+def test_fields_of_props_and_joints_are_options():
+    changed = with_options("props.0.mass=2", "joints.0.length=1.5", "joints.1.stiffness=7")
+    assert changed.bodies[1].inertia.mass == 2
+    assert [changed.ties[0].length, changed.joints[1].stiffness] == [1.5, 7]
+    assert changed.props[0].name == "box0"
+
+
+def test_a_star_sets_a_field_of_all_props():
+    changed = with_options("props.*.ground_friction=0.25", "props.*.material=wood", "props.1.mass=3",
+                           "props.*.height=0.01")  # fmt: skip
+    assert [prop.ground_friction for prop in changed.props] == [0.25] * 3
+    assert [prop.surface.restitution for prop in changed.props] == [0.71, 1.0, 0.71]
+    assert changed.props[1].inertia.mass == 3
+
+
+def test_options_of_props_and_joints_pass_the_same_gate():
+    for setting, message in (
+        ("props.0.mass=20", "contacts hold a ratio of at most 10"),
+        ("props.0.mass=-1", "Box.mass = -1"),
+        ("props.3.mass=1", "there is no option 'props.3': expected \\* or 0 to 2"),
+        ("props.0.radius=1", "Box has no field 'radius'"),
+        ("props.*.diameter=1", "Box has no field 'diameter'"),
+        ("joints.0.length=0.5", "start 1 m apart"),
+        ("joints.0.b=ball2", "did you mean 'ball1'"),
+        ("physics=contcat", "did you mean 'contact'"),
+    ):
+        with pytest.raises(InputError, match=message):
+            with_options(setting)
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+def test_physics_is_an_option(physics):
+    assert with_options(f"physics={physics}").physics == physics

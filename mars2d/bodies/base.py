@@ -144,4 +144,6 @@ class Wheeled(Drive):
 
     def twist(self, command: Float) -> Float:
         """Return (v, 0, omega)."""
-        return np.array([command[0], np.zeros(command.shape[1]), command[1]])
+        twist = np.zeros((3, command.shape[1]))
+        twist[::2] = command
+        return twist

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -28,6 +28,19 @@ BLOCK = 256
 """For so many control steps random numbers are drawn at once."""
 
 
+class _Team:
+    """Robots with equal drives."""
+
+    def __init__(self, drive: Drive, columns: Any, noise: Iterator[Float] | None) -> None:
+        """Take the drive, which columns of commands are theirs, and where random numbers are."""
+        self.drive, self.columns, self.noise = drive, columns, noise
+        self.normal: Float | None = None  # those of this control step
+        name = f"drive {type(drive).__name__}"
+        self.saturating = called(name, drive.saturate)
+        self.accelerating = called(name, drive.accelerate)
+        self.moving = called(name, drive.twist)
+
+
 class Drives:
     """The drives of a world's robots: from all commands (2, n) to all twists (3, n)."""
 
@@ -42,49 +55,40 @@ class Drives:
                     f"{type(drive).__name__}.dead_time", drive.dead_time,
                     f"at most a million sampling times of {sampling_time:g} s",
                 )  # fmt: skip
-        names = [*drives]
         self.dead_time = np.array([drive.dead_time for drive in drives.values()])
         self._sampling_time = sampling_time
-        teams = _teams([*drives.values()])
-        self._teams = [
-            (drive, slice(None) if len(columns) == len(drives) else np.array(columns))
-            for drive, columns in teams
-        ]
-        self._rated = [team for team in self._teams if team[0].rates != (None, None)]
-        self._noises = [
-            _noise([stream(f"drive {names[i]}") for i in columns]) if drive.noise > 0 else None
-            for drive, columns in teams
-        ]
-        self._noisy = any(noise is not None for noise in self._noises)
-        self._normal: list[Float | None] = [None] * len(teams)
+        column = {name: i for i, name in enumerate(drives)}
+        self._teams = []
+        for drive, names in _grouped(drives):
+            columns = np.array([column[name] for name in names])
+            noise = _normal([stream(f"drive {name}") for name in names]) if drive.noise else None
+            everybody = len(names) == len(drives)
+            self._teams.append(_Team(drive, slice(None) if everybody else columns, noise))
+        self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
+        self._noisy = [team for team in self._teams if team.noise is not None]
 
     def limit(self, command: Float, last: Float) -> Float:
         """Limit commands (2, n), in place, to what the drives can do after the last ones (2, n).
 
         Raises LawError where a drive of the user's fails.
         """
-        self._saturate(command, self._teams)
+        _saturate(self._teams, command)
         if self._rated:
-            for drive, columns in self._rated:
-                with called(f"drive {type(drive).__name__}", drive.accelerate):
-                    command[:, columns] = drive.accelerate(
-                        command[:, columns], last[:, columns], self._sampling_time
+            for team in self._rated:
+                with team.accelerating:
+                    command[:, team.columns] = team.drive.accelerate(
+                        command[:, team.columns], last[:, team.columns], self._sampling_time
                     )
-            # Rounding may have brought one beyond a limit again.
-            self._saturate(command, self._rated)
+            _saturate(self._rated, command)  # rounding may have brought one beyond a limit again
         if not np.isfinite(command).all():
             raise LawError(f"a drive saturates a command to {shown(command.tolist())}")
         return command
 
-    def _saturate(self, command: Float, teams: list[tuple[Drive, Any]]) -> None:
-        for drive, columns in teams:
-            with called(f"drive {type(drive).__name__}", drive.saturate):
-                command[:, columns] = drive.saturate(command[:, columns])
-
     def draw(self) -> None:
         """Draw the noise of the control step that begins."""
-        if self._noisy:
-            self._normal = [None if noise is None else next(noise) for noise in self._noises]
+        for team in self._noisy:
+            assert team.noise is not None
+            team.normal = next(team.noise)
 
     def twist(self, command: Float) -> Float:
         """Return the twists (3, n) that the drives make of commands (2, n), noise included.
@@ -92,31 +96,37 @@ class Drives:
         Raises LawError where a drive of the user's fails.
         """
         twist = np.empty((3, command.shape[1]))
-        for (drive, columns), normal in zip(self._teams, self._normal, strict=True):
-            with called(f"drive {type(drive).__name__}", drive.twist):
-                done = command[:, columns]
-                if normal is not None:
-                    done = drive.disturb(done, normal)
-                twist[:, columns] = drive.twist(done)
+        for team in self._teams:
+            with team.moving:
+                mine = command[:, team.columns]
+                if team.normal is not None:
+                    mine = team.drive.disturb(mine, team.normal)
+                twist[:, team.columns] = team.drive.twist(mine)
         if not (np.abs(twist) <= FASTEST).all():  # neither for NaN
             raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {FASTEST:g}")
         return twist
 
 
-def _teams(drives: Sequence[Drive]) -> list[tuple[Drive, list[int]]]:
-    """Group robots by equal drives: pairs of a drive and the columns of its robots."""
-    groups: list[tuple[Drive, list[int]]] = []
-    for i, mine in enumerate(drives):
-        for drive, columns in groups:
+def _saturate(teams: list[_Team], command: Float) -> None:
+    for team in teams:
+        with team.saturating:
+            command[:, team.columns] = team.drive.saturate(command[:, team.columns])
+
+
+def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:
+    """Return each different drive and the names of the robots that have it."""
+    groups: list[tuple[Drive, list[str]]] = []
+    for name, mine in drives.items():
+        for drive, names in groups:
             if drive == mine and type(drive) is type(mine):
-                columns.append(i)
+                names.append(name)
                 break
         else:
-            groups.append((mine, [i]))
+            groups.append((mine, [name]))
     return groups
 
 
-def _noise(streams: list[np.random.Generator]) -> Iterator[Float]:
+def _normal(streams: list[np.random.Generator]) -> Iterator[Float]:
     """Yield standard normal numbers (2, n), each robot's from a stream of its own."""
     while True:
         blocks = [stream.standard_normal((BLOCK, 2)) for stream in streams]

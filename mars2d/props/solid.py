@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from mars2d import checks
 from mars2d.description import entry
 from mars2d.props.base import Prop
-from mars2d.shapes import Shape
+from mars2d.shapes import Shape, known_shape
 
 __all__ = ["Solid"]
 
 
 def _centred(name: str, value: object) -> Shape:
-    shape = checks.instance(Shape, "Polygon([(0, 0), (0.4, 0), (0.2, 0.3)])")(name, value)
-    assert isinstance(shape, Shape)
+    shape = known_shape(name, value, "Polygon([(0, 0), (0.4, 0), (0.2, 0.3)])")
     x, y = shape.centroid
     return shape if abs(x) + abs(y) < 1e-12 else shape.moved(-x, -y)
 

@@ -64,9 +64,10 @@ FAR = 1e8
 
 def extent_of(points: Float, margin: float) -> pygame.Rect:
     """Return the rectangle of whole pixels that holds points (k, 2) and a margin."""
-    low = np.clip(np.floor(points.min(axis=0) - margin), -FAR, FAR)
-    high = np.clip(np.ceil(points.max(axis=0) + margin), -FAR, FAR)
-    return pygame.Rect(*low.astype(int).tolist(), *(high - low).astype(int).tolist())
+    low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    left, top = (floor(max(x - margin, -FAR)) for x in low)
+    right, bottom = (ceil(min(x + margin, FAR)) for x in high)
+    return pygame.Rect(left, top, right - left, bottom - top)
 
 
 def cover(

@@ -7,10 +7,13 @@ from math import floor
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mars2d.contact import CONTACT
 from mars2d.floor import GRAVITY
 from mars2d.forces import mean_forces
 from mars2d.frame import Float, Frame
+from mars2d.scenario import Scenario
 
 __all__ = ["Bound", "Meter", "Reading", "bound_of"]
 
@@ -49,18 +52,39 @@ def bound_of(frame: Frame, body: int) -> Bound | None:
 
 
 class Meter:
-    """Reads the force on a body, once a control step."""
+    """Reads the force on a body, once a control step.
+
+    It keeps the contacts of the last control steps, so that step by step the long list of all
+    contacts need not be asked for.
+    """
 
     def __init__(self) -> None:
         """Start with nothing read."""
-        self._key: object = None
+        self._scenario: Scenario | None = None
+        self._steps = -1
+        self._body = -1
+        self._rows = np.empty(0, dtype=CONTACT)
         self._reading = Reading(0.0, np.empty(0), None)
 
     def read(self, frame: Frame, body: int) -> Reading:
         """Return the force on a body until the control step that led to a frame."""
-        key = (id(frame.scenario), body, len(frame.path))
-        if key != self._key:
-            self._key, self._reading = key, _read(frame, body)
+        steps = len(frame.path)
+        same = frame.scenario is self._scenario
+        if same and (steps, body) == (self._steps, self._body):
+            return self._reading
+        dt = frame.scenario.sampling_time
+        first = max(0, steps - 1 - floor(span_of(dt) / dt + 1e-6))
+        if same and steps == self._steps + 1:
+            rows = np.concatenate([self._rows, frame.contacts])
+        elif same and steps == self._steps:
+            rows = self._rows
+        else:
+            rows = frame.contact_log()
+        # In order, but for those of one step.
+        self._rows = rows[bisect_left(rows["time"], (first - 0.5) * dt) :]
+        self._scenario, self._steps, self._body = frame.scenario, steps, body
+        force = _net_force(self._rows, body, first, steps, dt)
+        self._reading = Reading(first * dt, force, _effort(frame, body, first))
         return self._reading
 
 
@@ -69,19 +93,15 @@ def span_of(sampling_time: float) -> float:
     return max(SECONDS, STEPS * sampling_time)
 
 
-def _read(frame: Frame, body: int) -> Reading:
-    dt = frame.scenario.sampling_time
-    last = len(frame.path)
-    first = max(0, last - 1 - floor(span_of(dt) / dt + 1e-6))
-    log = frame.contact_log()
-    log = log[bisect_left(log["time"], (first - 0.5) * dt) :]  # in order but for those of a step
-    mine = log[(log["a"] == body) | (log["b"] == body)]
+def _net_force(rows: NDArray[np.void], body: int, first: int, last: int, dt: float) -> Float:
+    """Return the net mean force on a body in each control step from first to last, newtons."""
+    mine = rows[(rows["a"] == body) | (rows["b"] == body)]
     step = np.ceil(mine["time"] / dt - 1e-6).astype(int) - 1 - first
     within = (step >= 0) & (step < last - first)
     mine, step = mine[within], step[within]
     force = mean_forces(mine, dt) * np.where(mine["b"] == body, 1.0, -1.0)[:, None]
-    net = [np.bincount(step, force[:, k], last - first) for k in (0, 1)]
-    return Reading(first * dt, np.hypot(*net), _effort(frame, body, first))
+    x, y = (np.bincount(step, force[:, k], last - first) for k in (0, 1))
+    return np.hypot(x, y)
 
 
 def _effort(frame: Frame, body: int, first: int) -> Float | None:
@@ -90,5 +110,4 @@ def _effort(frame: Frame, body: int, first: int) -> Float | None:
         return None
     if len(frame.path) == 0:
         return np.empty(0)
-    before: Float = frame.effort_path[first + 1 :, body]
-    return np.append(before, frame.effort[body])
+    return np.append(frame.effort_path[first + 1 :, body], frame.effort[body])

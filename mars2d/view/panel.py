@@ -168,9 +168,9 @@ class Panel:
             ends = pixels(np.array([start, end]), np.full(2, bound.force))
             scene.line(ends, stroke=theme.INK, width=1.5, style="--")
             word = f"{bound.name} {in_newtons(bound.force)}"
-            image = self.painter.fonts.render(word, 12 * ui, theme.INK)
-            place = (area.left + round(4 * ui), round(-ends[0, 1] - 2 * ui))
-            surface.blit(image, image.get_rect(bottomleft=place))
+            middle = area.left + 4 * ui + self.painter.fonts.width(word, 12 * ui) / 2
+            place = (middle, ends[0, 1] - 2 * ui)
+            scene.text(place, word, color=theme.INK, anchor="above", halo="#ffffff")
         self.painter.paint(surface, scene.shapes, PIXELS)
         surface.set_clip(before)
 

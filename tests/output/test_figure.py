@@ -442,7 +442,14 @@ def test_a_hundred_robots_of_a_thousand_rows_are_drawn_quickly(record):
     grid = [Robot(pose=(x, y, 0)) for x in range(10) for y in range(10)]
     scenario = Scenario(robots=grid, workspace=None, sampling_time=1, stop_time=999)
     pose = scenario.initial_pose + np.cumsum(steps, axis=0)
-    large = dataclasses.replace(record, scenario=scenario, time=np.arange(1000.0), pose=pose)
+    large = dataclasses.replace(
+        record,
+        scenario=scenario,
+        time=np.arange(1000.0),
+        pose=pose,
+        prop_pose=np.empty((1000, 3, 0)),
+        effort=np.zeros((1000, 100)),
+    )
     begin = time.perf_counter()
     large.plot().figure.savefig(BytesIO(), format="png")
     assert time.perf_counter() - begin < 5  # it takes 0.3 s

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mars2d.animation import Animation
+from mars2d.contact import CONTACT
 from mars2d.errors import LawError
 from mars2d.frame import Frame
 from mars2d.robot import Robot
@@ -25,11 +26,22 @@ def circling_scenario(sampling_time=0.1, rows=100, robots=2, animation=None, **c
 
 
 class Circling:
-    """Robots go round the origin at 0.5 rad/s; frame k is at k sampling times."""
+    """Robots go round the origin at 0.5 rad/s; frame k is at k sampling times.
 
-    def __init__(self, scenario=None, rows=100, message="the circle is closed", fails_at=None):
+    pressed: something pushes robot 0 back all the time, and all drives slip.
+    """
+
+    def __init__(
+        self,
+        scenario=None,
+        rows=100,
+        message="the circle is closed",
+        fails_at=None,
+        pressed=False,
+    ):
         self.scenario = scenario or circling_scenario(rows=rows)
         self.rows, self.message, self.fails_at = rows, message, fails_at
+        self.pressed = pressed
         self.row = self.restarts = 0
         angle = 0.5 * self.scenario.sampling_time * np.arange(rows + 1)[:, None]
         radius = np.array([robot.pose[0] for robot in self.scenario.robots])
@@ -48,7 +60,21 @@ class Circling:
             path=self.path[:k],
             readings=readings,
             over_message=self.message if self.over else "",
+            contacts=self.contacts(k, k),
+            effort=np.full(len(self.scenario.robots), 1.0 if self.pressed and k else 0.0),
+            contact_log=lambda: self.contacts(1, k),
+            effort_path=np.full((k, len(self.scenario.robots)), 1.0 if self.pressed else 0.0),
         )
+
+    def contacts(self, first, last):
+        """Return a contact of robot 0 a control step: an obstacle pushes it back with 5 N."""
+        steps = np.arange(max(first, 1), last + 1 if self.pressed else 0)
+        rows = np.zeros(len(steps), dtype=CONTACT)
+        dt = self.scenario.sampling_time
+        rows["time"], rows["b"], rows["normal"] = dt * (steps - 0.5), -1, (1.0, 0.0)
+        rows["point"] = self.path[steps, :2, 0] + (0.3, 0.0)
+        rows["impulse"] = rows["normal_impulse"] = 5.0 * dt
+        return rows
 
     @property
     def over(self):

@@ -32,6 +32,7 @@ class Observed(Window):
             "over": self.player.over,
             "restarts": self.player.source.restarts,
             "help": self.help,
+            "selected": self.selected,
             "layers": dataclasses.asdict(self.layers),
             "scale": round(self.camera.scale, 3),
             "origin": [round(self.camera.x, 1), round(self.camera.y, 1)],

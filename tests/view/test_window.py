@@ -157,6 +157,15 @@ def share(pixels, color):
     return (pixels == color).all(axis=1).mean()
 
 
+FORCE = (0xA3, 0x00, 0x3C)
+SLIP = (0xFF, 0xC2, 0x0A)
+
+
+def has(seen, color):
+    """Return whether the picture shows a colour, in more than a few pixels."""
+    return int((seen[PLOT] == color).all(axis=2).sum()) > 20
+
+
 @needs_screen
 def test_space_pauses_and_resumes(open_window):
     window = open_window(1)
@@ -221,11 +230,88 @@ def test_layers_are_switched_off_and_on(open_window, key, layer):
 @needs_screen
 def test_layers_begin_as_the_animation_says(open_window):
     window = open_window(0, scenario={"animation": {"grid": False, "wake": False}})
-    assert window.state["layers"] == {"grid": False, "trails": False, "sensors": True}
+    assert window.state["layers"] == {
+        "grid": False,
+        "trails": False,
+        "sensors": True,
+        "forces": False,
+    }
     before = window.still()
     window.press("g")
     window.until(lambda s: s["layers"]["grid"])
     assert window.shows(lambda seen: differing(before, seen) > 1000)
+
+
+@needs_screen
+def test_c_shows_forces_and_who_slips(open_window):
+    window = open_window(0, pressed=True)
+    window.press("Right", "Right")
+    window.until(lambda s: s["row"] == 2)
+    before = window.still()
+    assert not has(before, FORCE)
+    window.press("c")
+    window.until(lambda s: s["layers"]["forces"])
+    assert window.shows(lambda seen: has(seen, FORCE) and has(seen, SLIP))
+    window.press("c")
+    window.until(lambda s: not s["layers"]["forces"])
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+
+
+@needs_screen
+def test_forces_are_shown_from_the_start_if_the_animation_says_so(open_window):
+    window = open_window(0, pressed=True, scenario={"animation": {"forces": True}})
+    assert window.state["layers"]["forces"]
+    window.press("Right")
+    assert window.shows(lambda seen: has(seen, FORCE))
+
+
+@needs_screen
+def test_a_click_selects_a_robot_and_shows_the_force_on_it(open_window):
+    window = open_window(0, pressed=True)
+    window.press(*["Right"] * 5)
+    state = window.until(lambda s: s["row"] == 5)
+    before = window.still()
+
+    def click(x, y):
+        left = state["origin"][0] + state["scale"] * x
+        window.do("mousemove", round(left), round(state["origin"][1] - state["scale"] * y))
+        window.do("click", 1)
+
+    angle = 0.5 * 0.1 * 5
+    click(4 * np.cos(angle), 4 * np.sin(angle))
+    window.until(lambda s: s["selected"] == 0)
+    assert window.shows(lambda seen: differing(before, seen) > 10_000 and has(seen, FORCE))
+    click(2.5 * np.cos(angle), 2.5 * np.sin(angle))
+    window.until(lambda s: s["selected"] == 1)
+    click(-4, -4)
+    window.until(lambda s: s["selected"] is None)
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+
+
+@needs_screen
+def test_a_drag_does_not_select(open_window):
+    window = open_window(0, pressed=True)
+    scale, origin = window.state["scale"], window.state["origin"]
+    x, y = round(origin[0] + 4 * scale), round(origin[1])
+    window.do("mousemove", x, y, "mousedown", 1, "mousemove", x - 30, y, "mouseup", 1)
+    window.until(lambda s: s["origin"] != origin)
+    assert window.settle()["selected"] is None
+
+
+@needs_screen
+def test_tab_selects_one_after_the_other_and_escape_none(open_window):
+    window = open_window(0, pressed=True)
+    for wanted in (0, 1, None, 0):
+        window.press("Tab")
+        window.until(lambda s, wanted=wanted: s["selected"] == wanted)
+    window.press("F1", "Escape")
+    window.until(lambda s: not s["help"])
+    assert window.settle()["selected"] == 0
+    window.press("Escape")
+    window.until(lambda s: s["selected"] is None)
+    assert window.process.poll() is None
+    window.press("Escape")
+    window.until(lambda s: s.get("left"))
 
 
 @needs_screen
