@@ -11,26 +11,69 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle
+from mars2d import (
+    Animation,
+    Car,
+    Differential,
+    Drive,
+    Holonomic,
+    Prediction,
+    Robot,
+    Scenario,
+    Unicycle,
+)
 from mars2d.addons import Map
 from mars2d.description import Description
 from mars2d.errors import InputError
+from mars2d.joints import Hinge, Joint, Rod, Rope, Spring
+from mars2d.materials import MATERIALS
+from mars2d.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.registry import summary
 from mars2d.sensors import Proximity
+from mars2d.shapes import Compound, Disc, Polygon
 
 KINDS: tuple[type[Description], ...] = (
-    Scenario, Robot, Animation, Unicycle, Holonomic, Proximity, Map,
+    Scenario, Robot, Animation,
+    Drive, Unicycle, Differential, Car, Holonomic,
+    Disc, Polygon, Compound,
+    Prop, Box, Bar, Ball, Puck, Gate, Solid,
+    Joint, Rope, Rod, Spring, Hinge,
+    Proximity, Map, Prediction,
 )  # fmt: skip
+
+BASES: tuple[type[Description], ...] = (Drive, Prop, Joint)
+"""Classes derived from one of these state only the fields that it has not, or not so."""
 
 HEAD = """\
 # Fields
 
 Every field that an experiment can set, with its unit, its default and what it accepts. All values
 are checked when an object is made: anything else is an error that names the field. Fields are given
-by name, as in `Robot(diameter=0.2)`; `Map` also takes its outlines as its only unnamed argument.
+by name, as in `Robot(diameter=0.2)`; those marked with * may also be given without it, in their
+order, as in `Disc(0.2)`.
 
 `object.replace(field=value)` returns a copy with some fields changed; the objects themselves never
 change.
+"""
+
+TABLE_HEAD = """\
+| field | unit | default | accepts | meaning |
+|---|---|---|---|---|
+"""
+
+MATERIALS_HEAD = """
+## Materials
+
+What a surface of a material brings into a contact, which has the product of both. The last two
+columns are those products for two things of the same material.
+
+| material | density | friction | restitution | friction of two | restitution of two |
+|---|---|---|---|---|---|
+"""
+
+MATERIALS_TAIL = """
+Densities are in kg/m^3. The figures are typical ones of clean, dry, solid things; real ones scatter
+by a third and more. `mars2d/materials.py` names the sources.
 """
 
 TAIL = """
@@ -40,28 +83,50 @@ This page is written by `docs/make_fields.py`.
 
 def document() -> str:
     """Return the text of docs/fields.md."""
-    return HEAD + "".join(section(kind) for kind in KINDS) + TAIL
+    return HEAD + "".join(section(kind) for kind in KINDS) + materials() + TAIL
+
+
+def base_of(kind: type[Description]) -> type[Description] | None:
+    """Return the base whose fields stand in a table of their own."""
+    return next((base for base in BASES if issubclass(kind, base) and kind is not base), None)
+
+
+def fields_of(kind: type[Description]) -> list[dataclasses.Field[Any]]:
+    """Return the fields of a class that its base has not, or not with the same default."""
+    base = base_of(kind)
+    known = {} if base is None else {field.name: field for field in dataclasses.fields(base)}
+    return [
+        field
+        for field in dataclasses.fields(kind)
+        if field.name not in known or default(known[field.name]) != default(field)
+    ]
 
 
 def section(kind: type[Description]) -> str:
     """Return the part about one class."""
-    lines = [
-        f"\n## {kind.__name__}\n",
-        f"{summary(kind)}\n",
-        "| field | unit | default | accepts | meaning |",
-        "|---|---|---|---|---|",
-    ]
-    for field in dataclasses.fields(kind):
-        unit, doc = field.metadata.get("unit", ""), field.metadata.get("doc", "")
-        cells = [f"`{field.name}`", unit, default(field), accepts(kind, field), doc]
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines) + "\n"
+    text = f"\n## {kind.__name__}\n\n{summary(kind)}\n"
+    base, fields = base_of(kind), fields_of(kind)
+    if base is not None:
+        link = f"[{base.__name__}](#{base.__name__.lower()})"
+        text += f"\nIt has the fields of {link}{', and' if fields else '.'}\n"
+    if fields:
+        text += "\n" + TABLE_HEAD + "".join(row(kind, field) for field in fields)
+    return text
+
+
+def row(kind: type[Description], field: dataclasses.Field[Any]) -> str:
+    """Return the row of one field."""
+    unit, doc = field.metadata.get("unit", ""), field.metadata.get("doc", "")
+    name = f"`{field.name}`" + ("" if field.kw_only else "*")
+    cells = [name, unit, default(field), accepts(kind, field), doc]
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
 
 
 def default(field: dataclasses.Field[Any]) -> str:
     """Return a field's default as it is written in Python."""
     if field.default is not dataclasses.MISSING:
-        return "`2 * pi`" if field.default == 2 * pi else f"`{field.default!r}`"
+        known = {2 * pi: "2 * pi", (-pi / 2, pi / 2): "(-pi / 2, pi / 2)"}
+        return f"`{known.get(field.default, repr(field.default))}`"
     if field.default_factory is not dataclasses.MISSING:
         return f"`{field.default_factory()!r}`"
     return "none: must be given"
@@ -77,9 +142,19 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
     else:
         raise AssertionError(f"{name} accepts anything")
     with contextlib.suppress(InputError):
-        if check(name, None) is None:
-            expected += ", or `None`"
-    return expected.replace(f" [{field.metadata['unit']}]", "")
+        if check(name, None) is None and "None" not in expected:
+            expected += ", or None"
+    expected = expected.replace(f" [{field.metadata['unit']}]", "")
+    return expected.removesuffix("None") + "`None`" if expected.endswith("None") else expected
+
+
+def materials() -> str:
+    """Return the table of materials."""
+    rows = ""
+    for name, (density, friction, restitution) in MATERIALS.items():
+        alone = f"{density:g} | {friction:.2f} | {restitution:.2f}"
+        rows += f"| `{name}` | {alone} | {friction**2:.2f} | {restitution**2:.2f} |\n"
+    return MATERIALS_HEAD + rows + MATERIALS_TAIL
 
 
 if __name__ == "__main__":

@@ -2,12 +2,11 @@
 
 Question: two robots of mass m drive against each other at the speed v. What happens if their
 drives have the same force? And if one has a little more?
-Prediction: they meet without bouncing and stop. What is left of the forces then moves both at
-a = (F1 - F2) / (2 m) (Newton's second law): equals stay where they are. Meanwhile each presses with
-F1 - m a = F2 + m a, the mean of both (his third law). At last the stronger one drives at its own v,
-for which it needs no more than to bear the F2 of the other.
-Measured: the speed of both 2 s after they met, the path of the middle between them, and the
-contact's force, both then and at the end.
+Prediction: they meet without bouncing, and stop. Then what is left of the forces moves both at
+a = (F1 - F2) / (2 m) (Newton's second law), and each presses with F1 - m a = F2 + m a, the mean of
+both forces (his third law). Equals stay where they are. Of unequals the stronger one at last goes
+at its own v: then it only has to bear the F2 of the other.
+Measured: their speed 2 s after they met, the path of the middle between them, the contact's force.
 """
 
 import numpy as np
@@ -42,18 +41,19 @@ def control(world):
 
 def checks(record):
     time, dt = record.time[-1] - MET, record.scenario.sampling_time
+    then = min(round((MET + 2.0) / dt), len(record) - 1)
     for i, lane in ((0, "equal"), (2, "unequal")):
         one, other = record.scenario.robots[i : i + 2]
         force, less = one.drive.max_force, other.drive.max_force
-        a = (force - less) / (one.mass + other.mass)
-        start = min(SPEED / a, time) if a else time  # how long they gather speed
+        a, mean = (force - less) / (one.mass + other.mass), (force + less) / 2
+        start = min(SPEED / a, time) if a else time  # for so long they gather speed, if they do
+        gain, path = min(2 * a, SPEED), a * start * (time - start / 2)
         middle = record.pose[:, 0, i : i + 2].mean(axis=1)
-        k = round((MET + 2.0) / dt)
-        speed = (middle[k + 1] - middle[k - 1]) / (2 * dt)
-        touch = record.contacts[record.contacts["a"] == i]
-        then, last = touch[touch["time"] > MET + 2.0]["normal_impulse"][[0, -1]] / dt
-        gain, path, mean = min(2 * a, SPEED), a * start * (time - start / 2), (force + less) / 2
+        speed = np.gradient(middle, dt)[then]
+        touch = [record.frame(row).contacts for row in (then, -1)]
+        press, at_end = (t["normal_impulse"][t["a"] == i].sum() / dt for t in touch)
+        press_then, press_last = mean if start > 2 else less, less if start < time else mean
         yield Prediction(f"{lane}: speed after 2 s", gain, speed, 0.02 * gain + 1e-9, "m/s")
         yield Prediction(f"{lane}: path", path, middle[-1], 0.005 * path + 1e-9, "m")
-        yield Prediction(f"{lane}: force after 2 s", mean if start > 2 else less, then, 0.01, "N")
-        yield Prediction(f"{lane}: force", less if start < time else mean, last, 0.01, "N")
+        yield Prediction(f"{lane}: force after 2 s", press_then, press, 0.01, "N")
+        yield Prediction(f"{lane}: force", press_last, at_end, 0.01, "N")

@@ -42,17 +42,17 @@ def control(world):
 
 def checks(record):
     time, dt = record.time[-1], record.scenario.sampling_time
-    second, last = round(1 / dt), record.contacts["time"] > time - dt
-    robot = record.scenario.robots[0]
+    last = record.frame(-1).contacts
+    robot, robots = record.scenario.robots[0], len(record.scenario.robots)
     for i, (team, load) in enumerate(zip(TEAMS, record.scenario.props, strict=True)):
         force, friction = team * robot.drive.max_force, load.ground_friction * load.mass * GRAVITY
         a = max(force - friction, 0.0) / (team * robot.mass + load.mass)
-        start = min(SPEED / a, time) if a else time  # how long it gathers speed, if at all
+        start = min(SPEED / a, time) if a else time  # for so long it gathers speed, if it does
         gain, path = min(a, SPEED), a * start * (time - start / 2)
         press = friction if start < time else force - team * robot.mass * a
         x = record.prop_pose[:, 0, i]
-        speed = (x[second + 1] - x[second - 1]) / (2 * dt)
-        pressed = record.contacts[last & (record.contacts["b"] == 10 + i)]["normal_impulse"] / dt
+        speed = np.interp(1.0, record.time, np.gradient(x, dt))
+        pressed = last[last["b"] == robots + i]["normal_impulse"].sum() / dt
         yield Prediction(f"{team} pushing: speed after 1 s", gain, speed, 0.02 * gain + 1e-6, "m/s")
         yield Prediction(f"{team} pushing: path", path, x[-1] - x[0], 0.005 * path + 1e-6, "m")
-        yield Prediction(f"{team} pushing: force", press, pressed.sum(), 0.01, "N")
+        yield Prediction(f"{team} pushing: force", press, pressed, 0.01, "N")

@@ -23,7 +23,7 @@ SPEED, LANES = 0.3, (1.5, 0.5, -0.5, -1.5)  # m/s, m
 
 def scenario(angle: float = 40.0, force: float = 5.0):
     a = radians(angle)
-    drive = Unicycle(max_force=force, max_torque=100)  # the wall can not turn it
+    drive = Unicycle(max_force=force, max_torque=1000)  # the wall can't turn it
     frictions = np.array([0.0, 0.5, 0.98, 1.02]) / tan(a)
     return Scenario(
         title="Wall slide",
@@ -44,13 +44,14 @@ def control(world):
 
 def checks(record):
     half, dt = len(record) // 2, record.scenario.sampling_time
+    last = record.frame(-1).contacts
     for i, robot in enumerate(record.scenario.robots):
         a, mu, force = robot.pose[2], robot.friction, robot.drive.max_force
         slide = SPEED * max(cos(a) - mu * sin(a), 0.0)
         lean = min(atan(mu), pi / 2 - a)  # of the force, from the wall's normal
         speed = np.diff(record.pose[half:, 0, i]).mean() / dt
-        touch = record.contacts[record.contacts["a"] == i][-1]
-        press, drag = touch["normal_impulse"] / dt, -touch["tangential_impulse"] / dt
+        touch = last[last["a"] == i]
+        press, drag = touch["normal_impulse"].sum() / dt, -touch["tangential_impulse"].sum() / dt
         yield Prediction(f"{robot.name}: slides at", slide, speed, 0.001 * SPEED, "m/s")
         yield Prediction(f"{robot.name}: pressed with", force * cos(lean), press, 0.01, "N")
         yield Prediction(f"{robot.name}: dragged with", force * sin(lean), drag, 0.01, "N")

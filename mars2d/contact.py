@@ -127,7 +127,6 @@ class ContactLog:
         row = rows[start]
 
         result = np.zeros(len(pairs), dtype=CONTACT)
-        result["time"] = np.array(self._times)[substep[row]]
         result["a"], result["b"] = a[row], b[row]
         result["normal"], result["point"] = normal[row], point[row]
         total = [np.bincount(group, impulse[rows, k], len(pairs)) for k in (0, 1)]
@@ -138,6 +137,9 @@ class ContactLog:
         result["tangential_impulse"] = np.bincount(group, across, len(pairs))
         result["began"] = ~np.isin(pairs, self._before)
         fresh = result["began"]
+        # What touched before does so from the start of the control step.
+        when, took = np.array(self._times), np.array(self._lengths)
+        result["time"] = when[substep[row]] - np.where(fresh, 0.0, took[substep[row]])
         result["speed"] = np.where(fresh, -(velocity * normal)[row].sum(axis=1), 0.0)
         result["slip"] = velocity[row, 1] * normal[row, 0] - velocity[row, 0] * normal[row, 1]
         lengths = np.repeat(self._lengths, [len(held) for held in self._held])

@@ -15,7 +15,7 @@ solver, with the floor's friction as a joint of bounded force.
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import ceil, inf, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,11 +50,14 @@ STRETCH = 1 / 15
 The solver draws it in again, and what it pulls at bounces by that much more than nothing.
 """
 
-GROWTH = 2.0
-"""How much longer a substep may be than the one before, while impulses are carried over from it.
+TURNED = 0.01
+"""How far a rim may turn on while its drive stops it, in parts of the overlap allowed."""
 
-The solver scales them by the ratio of the two. That is right for those of steady forces, but after
-an impact it would throw the robots back: then the next substep must be no longer.
+GROWTH = 2.0
+"""How much longer or shorter a substep may be than the one before, with the same impulses.
+
+The solver begins with those of the substep before. From where the next one has to be shorter than
+that, it begins anew.
 """
 
 
@@ -82,7 +85,6 @@ class Engine:
         self._engaged = np.zeros(self.n, dtype=bool)
         self._slipping = np.zeros(self.count, dtype=bool)
         self._grip = np.zeros((self.count - self.n, 2))  # N and N m, what the floor may use now
-        self._hit = np.zeros(self.count, dtype=bool)  # in the last substep
         self._last_step = inf
         self._effort = np.zeros(self.n)
         self._state = self.space.read().copy()
@@ -93,8 +95,6 @@ class Engine:
         self._force = np.array([drive.max_force for drive in drives])
         self._torque = np.array([drive.max_torque for drive in drives])
         self._floor = Floor(scenario.props)
-        # A steady push of the strongest drive is no impact.
-        self._steady = np.concatenate([self._force, self._floor.force + self._force.max()])
 
     def _set_accuracy(self, scenario: Scenario, thinnest: float, iterations: int) -> None:
         """Work out how deep a body may enter in one substep, and how long one in contact may be."""
@@ -144,8 +144,7 @@ class Engine:
         """
         center = self.bounds.center(self._state)
         near, path = self._find_near(twist, center, duration)
-        self._engage(near[: self.n])
-        self._hit &= near
+        self._engage(self._engaged & near[: self.n])
         self._carry(twist, duration)
         if near.any():
             who = np.flatnonzero(near)
@@ -155,7 +154,6 @@ class Engine:
             gone = duration
             self.space.step(duration)
             self._last_step = duration
-            self._hit[:] = False
             self.contacts.add_nothing()
         self._arrive(twist, ~near, gone, duration)
         return gone
@@ -219,13 +217,13 @@ class Engine:
         bounds.clearance.moved(reach)
         return near, path
 
-    def _engage(self, near: Mask) -> None:
-        """Add the joints of robots that are near, remove those of the others."""
-        for i in np.flatnonzero(near & ~self._engaged).tolist():
+    def _engage(self, wanted: Mask) -> None:
+        """Let the drives of these robots act through their joints, and those of no others; (n,)."""
+        for i in np.flatnonzero(wanted & ~self._engaged).tolist():
             self.space.engage(i)
-        for i in np.flatnonzero(self._engaged & ~near).tolist():
+        for i in np.flatnonzero(self._engaged & ~wanted).tolist():
             self.space.disengage(i)
-        self._engaged = near
+        self._engaged = wanted
 
     def _substeps(
         self,
@@ -265,26 +263,33 @@ class Engine:
             slipping |= touching
             if slipping.any():
                 h = min(h, self._contact_step, GROWTH * self._last_step)
+                h = self._time_to_brake(twist, state[:k], slipping[:k], h, who[:k])
                 slipping[:k] &= touching[:k] | self._out_of_reach(twist, state[:k], h, who[:k])
                 slipping[k:] = touching[k:]
             velocity, bend = self._motion(twist, state, slipping, who, k)
             h = min(h, encounter.time_to_touch(velocity, bend, self._entry))
             if self._tethers is not None:
                 h = min(h, self._time_to_jerk(velocity, bend, who))
-            if h < left < 2 * h:
-                h = left / 2  # rather than a sliver at the end
+            h = left / ceil(left / h - 1e-9)  # equal ones settle best, and leave no sliver
             gone += h * self.bounds.top_speed(velocity, who)
             if elapsed > 0 and gone.max() > path:
                 self._slipping[who] = slipping
                 return elapsed
             self._aim(twist, state, slipping, who, k, h)
-            if h != self._last_step:
-                self.space.forget_impacts(self._hit)
+            wanted = np.zeros(self.n, dtype=bool)
+            wanted[who[:k]] = slipping[:k]
+            self._engage(wanted)
+            if GROWTH * h < self._last_step and slipping.any():
+                held = np.zeros(self.count, dtype=bool)
+                held[who] = slipping
+                self.space.forget(held)
+            if self._tethers is not None:
+                for rope, speed in self._tethers.drift(h):
+                    self.space.draw_in(rope, speed)
             self.space.step(h)
             self._last_step = h
             elapsed = duration if h == left else elapsed + h
             everything = self.space.read().copy()
-            self._hit[who] = self._were_hit(everything[who], who, h)
             for i in who[:k][slipping[:k]].tolist():
                 self._effort[i] = max(self._effort[i], self.space.effort(i, h))
 
@@ -315,10 +320,17 @@ class Engine:
         all_velocity[who], all_bend[who] = velocity, bend
         return self._tethers.time_to_jerk(all_velocity, all_bend, STRETCH * self._entry)
 
-    def _were_hit(self, state: Float, who: Index, h: float) -> Mask:
-        """Return whose velocities the last substep changed by more than steady forces can."""
-        change = np.hypot(*(state[:, 3:5] - self.space.velocity[who, :2]).T)
-        return np.asarray(change * self._mass[who] > 1.01 * self._steady[who] * h)
+    def _time_to_brake(
+        self, twist: Float, state: Float, slipping: Mask, h: float, who: Index
+    ) -> float:
+        """Return h, or less where a strong drive ends a spin sooner: it would turn for all of h."""
+        spin = np.abs(state[:, 5] - twist[2, who])
+        rim = spin * self.bounds.radius[who]
+        lasts = np.maximum(
+            spin * self._moment[who] / self._torque[who],
+            TURNED * self._max_overlap / np.maximum(rim, np.finfo(float).tiny),
+        )
+        return float(np.where(slipping, lasts, h).min(initial=h))
 
     def _out_of_reach(self, twist: Float, state: Float, h: float, who: Index) -> Mask:
         """Return which robots their drives can't bring back to their commands within h."""

@@ -134,11 +134,12 @@ def _together(speed: Float, rate: Float, h: float) -> tuple[Float, Float]:
     zero, one = np.zeros_like(b), np.ones_like(b)
     stops = integral(zero, zero) <= h
     low, high = zero, one
-    x = np.maximum(1 - slower * h / np.hypot(b, o), 0.0)
+    x = np.maximum(1 - slower * h / np.maximum(np.hypot(b, o), 1e-150), 0.0)
     for _ in range(ROUNDS):  # Newton's method, with bisection where that leaves the bounds
         gone = integral(x, zero)
         low, high = np.where(gone >= h, x, low), np.where(gone <= h, x, high)
-        step = x + (gone - h) * slower / np.hypot(b, o * x ** (exponent - 1))
+        rate_now = np.maximum(np.hypot(b, o * x ** (exponent - 1)), 1e-150)
+        step = x + (gone - h) * slower / rate_now
         better = np.where((step >= low) & (step <= high), step, (low + high) / 2)
         moved, x = np.abs(better - x), better
         if (stops | (moved <= CLOSE)).all():

@@ -30,6 +30,7 @@ __all__ = [
     "check_ends",
     "check_forces",
     "check_tie",
+    "corner",
 ]
 
 MASS_RATIO = 10.0
@@ -152,22 +153,26 @@ def reach(shape: Shape) -> float:
     return hypot(*center) + radius
 
 
-def check_drive(name: str, drive: Drive, shape: Shape) -> None:
-    """Refuse a drive that could spin a chassis so fast that its corners would outrun everything.
+def corner(shape: Shape) -> float:
+    """Return how far from the origin a corner of a shape lies, metres; a centred disc has none."""
+    centred_disc = isinstance(shape, Disc) and shape.center == (0.0, 0.0)
+    return 0.0 if centred_disc else reach(shape)
 
-    A disc that turns about its middle has no corners.
+
+def check_drive(name: str, drive: Drive, arm: float) -> None:
+    """Refuse a drive that could swing a corner, or a joint's end, faster than can be followed.
+
+    arm: metres, from the centre of rotation to it.
     """
-    if isinstance(shape, Disc) and shape.center == (0.0, 0.0):
-        return
-    if not type(drive).__module__.startswith("mars2d."):
-        return  # of the user's own: the world looks at what it asks for
+    if arm == 0 or not type(drive).__module__.startswith("mars2d."):
+        return  # at one of the user's own the world looks when it is asked
     hard = np.array([[a, b] for a in (-1e9, 0.0, 1e9) for b in (-1e9, 0.0, 1e9)]).T
     spin = float(np.abs(drive.twist(drive.saturate(hard))[2]).max())
-    speed = spin * reach(shape)
-    if not speed <= FASTEST:
+    if not spin * arm <= FASTEST:
         raise InputError(
-            f"{name}.drive: {type(drive).__name__} turns at up to {spin:.4g} rad/s, which moves "
-            f"the chassis's ends at {speed:.4g} m/s; expected at most {FASTEST:g} m/s"
+            f"{name}.drive: {type(drive).__name__} turns at up to {spin:.4g} rad/s; what lies "
+            f"{arm:.4g} m off the centre of rotation goes at {spin * arm:.4g} m/s then, and "
+            f"{FASTEST:g} m/s is the most"
         )
 
 

@@ -120,14 +120,23 @@ class Record:
             prop_pose=self.prop_pose[row],
             contacts=self._contacts_before(row),
             effort=self.effort[row],
+            prop_path=self.prop_pose[:row],
+            effort_path=self.effort[:row],
             contact_log=lambda: self.contacts[: np.searchsorted(self._contact_rows, row, "right")],
             draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
         )
 
     @cached_property
     def _contact_rows(self) -> NDArray[np.intp]:
-        """The row that each contact's control step led to."""
-        return np.searchsorted(self.time, self.contacts["time"] - 1e-9, side="left")
+        """The row that each contact's control step led to.
+
+        What began at the very end of a control step belongs to it; what began before it, and has
+        the time of its start, too.
+        """
+        rounding = 1e-6 * self.scenario.sampling_time
+        time, began = self.contacts["time"], self.contacts["began"]
+        within = time + np.where(began, -rounding, rounding)
+        return np.searchsorted(self.time, within, side="left")
 
     def _contacts_before(self, row: int) -> NDArray[np.void]:
         """Return the contacts of the control step that led to a row."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numbers
 from collections.abc import Sequence
 from functools import cached_property
-from math import cos, floor, pi, sin
+from math import cos, floor, hypot, pi, sin
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -164,7 +164,7 @@ class Scenario(Description):
     def _check_bodies(self) -> None:
         """Refuse bodies that contacts can't hold."""
         for robot in self.robots:
-            limits.check_drive(str(robot.name), robot.drive, robot.chassis)
+            limits.check_drive(str(robot.name), robot.drive, limits.corner(robot.chassis))
         for prop in self.props:
             with called(f"prop {prop.name!r}", type(prop)):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
@@ -188,6 +188,10 @@ class Scenario(Description):
             limits.check_ends(where, joint, self._indices)
         for (where, _), tie in zip(named, self.ties, strict=True):
             limits.check_tie(where, tie, self.bodies)
+            for index, anchor in ((tie.a, tie.joint.anchor_a), (tie.b, tie.joint.anchor_b)):
+                if 0 <= index < len(self.robots):
+                    robot = self.robots[index]
+                    limits.check_drive(str(robot.name), robot.drive, hypot(*anchor))
 
     def _check_starts(self) -> None:
         """Refuse bodies that start outside the workspace, in an obstacle or in each other."""

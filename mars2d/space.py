@@ -13,6 +13,7 @@ import numpy as np
 import pymunk
 from numpy.typing import NDArray
 from pymunk import batch
+from pymunk._chipmunk_cffi import lib
 
 from mars2d.contact import Solved
 from mars2d.geometry import Outline, edges_of
@@ -23,6 +24,7 @@ from mars2d.joints.rope import Rope
 from mars2d.joints.spring import Spring
 from mars2d.rigid import Rigid
 from mars2d.scenario import Scenario
+from mars2d.tethers import TAUT
 from mars2d.tie import Tie
 
 __all__ = ["Space"]
@@ -30,6 +32,7 @@ __all__ = ["Space"]
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Index = NDArray[np.intp]
+Clutch = tuple[pymunk.PivotJoint, pymunk.GearJoint]
 
 _STATE = (
     batch.BodyFields.POSITION
@@ -53,11 +56,7 @@ _ARBITER = (
 
 
 JOINT_BIAS = 0.7**1000
-ROPE_BIAS = 0.8**200
-"""What is left after a second of the error of a joint: 30 % of it go in 1 ms, a fifth in 5 ms.
-
-A rope that is drawn in more briskly gets slack, and jerks.
-"""
+"""What is left after a second of the error of a joint: 30 % of it go in 1 ms."""
 
 
 class Space:
@@ -78,13 +77,13 @@ class Space:
         self._floor = self._add(_static())
         self.obstacles = tuple(s.outline for s in scenario.surfaces)
         self._statics = [self._add_obstacle(*surface) for surface in scenario.surfaces]
-        self._clutches = [
-            _clutch(control, body, robot.drive.max_force, robot.drive.max_torque)
-            for control, body, robot in zip(
-                self._controls, self._bodies[: self.robots], scenario.robots, strict=True
+        self._clutches: dict[int, Clutch] = {
+            i: _clutch(control, self._bodies[i], robot.drive.max_force, robot.drive.max_torque)
+            for i, (control, robot) in enumerate(
+                zip(self._controls, scenario.robots, strict=True)
             )
-        ]
-        self._grips: dict[int, list[pymunk.Constraint]] = {}
+        }
+        self._grips: dict[int, Clutch] = {}
         self._ties = scenario.ties
         self._joints = [self._add_joint(tie) for tie in self._ties]
 
@@ -138,8 +137,7 @@ class Space:
         constraints = make(tie, a, b)
         for constraint in constraints:
             constraint.collide_bodies = not isinstance(tie.joint, Hinge)
-            is_rope = isinstance(tie.joint, Rope)
-            constraint.error_bias = ROPE_BIAS if is_rope else JOINT_BIAS
+            constraint.error_bias = JOINT_BIAS
         self._space.add(*constraints)
         return constraints
 
@@ -157,7 +155,12 @@ class Space:
         return np.frombuffer(buffer.float_buf(), dtype=np.float64, count=6 * count).reshape(-1, 6)
 
     def step(self, h: float) -> None:
-        """Set the velocities of all bodies to `velocity`, and go on by h seconds."""
+        """Set the velocities of all bodies to `velocity`, and go on by h seconds.
+
+        The solver begins with the impulses of the step before, scaled by the ratio of the steps'
+        lengths, but can only take back the unscaled ones. So it is told that the lengths are equal.
+        """
+        lib.cpSpaceSetCurrentTimeStep(self._space._space, h)
         batch.set_space_bodies(self._space, _VELOCITY, self._velocity_buffer)
         self._space.step(h)
 
@@ -180,6 +183,7 @@ class Space:
 
     def engage(self, i: int) -> None:
         """Let a robot's drive act through its joints."""
+        self._clutches[i] = _renewed(self._clutches[i])
         self._space.add(*self._clutches[i])
 
     def disengage(self, i: int) -> None:
@@ -207,20 +211,36 @@ class Space:
         pivot, gear = self._grips[i]
         return pivot.impulse / h, gear.impulse / h
 
-    def forget_impacts(self, hit: Mask) -> None:
-        """Make the solver forget what it pressed some bodies with; hit: (N,).
+    def draw_in(self, k: int, speed: float) -> None:
+        """Let rope k, which is longer than it ought to be, get shorter by no more than this, m/s.
 
-        It would begin with that again, scaled by the ratio of two steps' lengths, and could take
-        back only the unscaled part: bodies would bounce, or stick, for no reason.
+        What is drawn in goes on to move, and makes the rope slack.
         """
-        for i in np.flatnonzero(hit):
+        (self._joints[k][0]).max_bias = speed
+
+    def forget(self, which: Mask) -> None:
+        """Make the solver forget the impulses on some bodies, which it would begin with; (N,).
+
+        Those of robots are engaged. It is to be done where a step is much shorter than the one
+        before: the solver would begin with far too much.
+        """
+        for i in np.flatnonzero(which).tolist():
             for shape in self._bodies[i].shapes:
                 self._space.remove(shape)
                 self._space.add(shape)
+            joints = self._clutches if i < self.robots else self._grips
+            if i < self.robots or i in self._grips:
+                joints[i] = self._replaced(joints[i])
         for k, tie in enumerate(self._ties):
-            if hit[tie.a] or (tie.b >= 0 and hit[tie.b]):
+            if which[tie.a] or (tie.b >= 0 and which[tie.b]):
                 self._space.remove(*self._joints[k])
                 self._joints[k] = self._add_joint(tie)
+
+    def _replaced(self, clutch: Clutch) -> Clutch:
+        self._space.remove(*clutch)
+        fresh = _renewed(clutch)
+        self._space.add(*fresh)
+        return fresh
 
     # -- contacts ---------------------------------------------------------------------------
 
@@ -288,19 +308,26 @@ def _static() -> pymunk.Body:
     return pymunk.Body(body_type=pymunk.Body.STATIC)
 
 
-def _clutch(
-    holder: pymunk.Body, body: pymunk.Body, force: float, torque: float
-) -> list[pymunk.Constraint]:
+def _renewed(clutch: Clutch) -> Clutch:
+    """Return a clutch like this one that has not held anything yet."""
+    pivot, gear = clutch
+    return _clutch(pivot.a, pivot.b, pivot.max_force, gear.max_force)
+
+
+def _clutch(holder: pymunk.Body, body: pymunk.Body, force: float, torque: float) -> Clutch:
     """Return the joints that make a body move as its holder does, with bounded force and torque."""
     pivot = pymunk.PivotJoint(holder, body, (0.0, 0.0), (0.0, 0.0))
     gear = pymunk.GearJoint(holder, body, 0.0, 1.0)
     pivot.max_bias = gear.max_bias = 0.0
     pivot.max_force, gear.max_force = force, torque
-    return [pivot, gear]
+    return pivot, gear
 
 
 def _rope(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
-    return [pymunk.SlideJoint(a, b, tie.joint.anchor_a, tie.joint.anchor_b, 0.0, tie.length)]
+    ends = tie.joint.anchor_a, tie.joint.anchor_b
+    rope = pymunk.SlideJoint(a, b, *ends, 0.0, tie.length - TAUT)
+    rope.max_bias = 0.0
+    return [rope]
 
 
 def _rod(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:

@@ -5,7 +5,7 @@ Points are complex numbers x + i y, in metres.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import inf, sqrt
 
 import numpy as np
@@ -17,7 +17,7 @@ from mars2d.joints.spring import Spring
 from mars2d.rigid import Rigid
 from mars2d.tie import Tie
 
-__all__ = ["Tethers"]
+__all__ = ["TAUT", "Tethers"]
 
 Float = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -26,6 +26,9 @@ Mask = NDArray[np.bool_]
 
 SWING = 0.05
 """The longest substep, in periods of a spring over 2 pi."""
+
+TAUT = 1e-6
+"""By how much a rope is shorter than said, metres: so it pulls as soon as it is straight."""
 
 BENT = 0.75
 """What part of the stretch allowed a joint may be pulled apart in one substep."""
@@ -70,7 +73,7 @@ class Tethers:
     def held(self) -> Mask:
         """Return which bodies a joint holds, (N,): a rope does while it is taut."""
         held = np.zeros(self._count, dtype=bool)
-        tight = self._slack <= 0
+        tight = self._slack <= TAUT
         held[self._a[tight]] = True
         ends = self._b[tight]
         held[ends[ends >= 0]] = True
@@ -91,13 +94,18 @@ class Tethers:
         # What moves across a rope or rod lengthens it too.
         across = parting.real * self._normal.imag - parting.imag * self._normal.real
         swing = np.where(self._length > 0, across**2 / np.maximum(self._apart, TINY), 0.0)
-        turn = turn_a + turn_b + swing
+        turn = self._turn = turn_a + turn_b + swing
         room = np.maximum(self._slack + stretch, stretch / 64)
         h = 2 * room / (rate + np.sqrt(rate**2 + 2 * turn * room) + TINY)
         jerk = np.where(self._ropes, h, inf)
-        tight = (self._slack <= 0) & ~self._springs
+        tight = (self._slack <= TAUT) & ~self._springs
         pulled_apart = np.sqrt(2 * BENT * stretch / np.maximum(turn, TINY))
         return float(np.minimum(jerk, np.where(tight, pulled_apart, inf)).min())
+
+    def drift(self, h: float) -> Iterator[tuple[int, float]]:
+        """Yield each rope, by its number, and how quickly substeps of h let it get longer, m/s."""
+        for k in np.flatnonzero(self._ropes).tolist():
+            yield k, float(self._turn[k]) * h
 
     def _ends(self, state: Float, body: Index, anchor: Complex) -> tuple[Complex, Complex]:
         """Return where the ropes' ends are, and the arms from the bodies' poses to them."""

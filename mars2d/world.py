@@ -426,6 +426,8 @@ class World:
             contacts=self._contacts,
             effort=self._effort,
             contact_log=self._recorder.contacts,
+            prop_path=self.history.prop_pose[: self.iteration],
+            effort_path=self.history.effort[: self.iteration],
         )
 
     def _draw_addons(self, scene: Scene) -> None:

@@ -35,13 +35,13 @@ def test_without_contact_there_are_no_rows():
 
 
 def test_two_robots_that_meet_make_one_row_each_control_step():
-    world = world_of(Robot(), Robot(pose=(0.5, 0, np.pi)))
+    world = world_of(Robot(), Robot(pose=(0.51, 0, np.pi)))
     contacts = drive(world, [[0.2, 0.2], [0, 0]], 20)
     assert set(zip(contacts["a"].tolist(), contacts["b"].tolist(), strict=True)) == {(0, 1)}
-    # The gap of 0.2 m closes at 0.4 m/s: they meet after 0.5 s.
-    assert contacts["time"][0] == pytest.approx(0.5, abs=5e-3)
+    # The gap of 0.21 m closes at 0.4 m/s: they meet after 0.525 s.
+    assert contacts["time"][0] == pytest.approx(0.525, abs=5e-3)
     assert len(contacts) == pytest.approx(15, abs=1)
-    steps = np.floor(contacts["time"] / 0.1 - 1e-9)
+    steps = np.floor(contacts["time"] / 0.1 + 1e-9)
     assert len(np.unique(steps)) == len(contacts)
 
 
@@ -132,7 +132,7 @@ def test_all_edges_of_an_obstacle_are_one_thing():
     world = world_of(robot, addons=[Map([corner])])
     contacts = drive(world, [[0.2], [0.2]], 20)
     assert set(contacts["b"]) == {-1}
-    steps = np.floor(contacts["time"] / 0.1 - 1e-9)
+    steps = np.floor(contacts["time"] / 0.1 + 1e-9)
     assert len(np.unique(steps)) == len(contacts)  # pressed in the corner, still one row a step
 
 

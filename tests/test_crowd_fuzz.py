@@ -126,7 +126,10 @@ def placed_at_random(
         for _ in range(3000):
             i = len(places)
             x, y = rng.uniform(-1, 1, 2) * (size / 2 - reach[i] - 1e-3)
-            apart = (hypot(x - p, y - q) > r + reach[i] for (p, q, _), r in zip(places, reach))
+            apart = (
+                hypot(x - p, y - q) > r + reach[i]
+                for (p, q, _), r in zip(places, reach, strict=False)
+            )
             if all(apart):
                 places.append((float(x), float(y), float(rng.uniform(-3, 3))))
                 if len(places) == len(bodies):
@@ -227,3 +230,102 @@ def rough(seed: int, mix: str, mass_ratio: float, sampling_time: float, ticks: i
             command = rng.uniform(-2, 2, (2, 4))
             watch.tick(command)
     return watch
+
+
+RUNS = [
+    (mix, mass_ratio, sampling_time)
+    for mix in MIXES
+    for mass_ratio in (1.0, 10.0)
+    for sampling_time in (0.05, 0.5)
+]
+
+
+def check(watch: Watch, sampling_time: float) -> None:
+    assert watch.deepest <= ALLOWED
+    # A sharp vertex in a corner of the room lies further beyond one wall than it is in either.
+    assert watch.outside <= 3 * ALLOWED
+    assert watch.most_substeps <= 50 + 10_000 * sampling_time
+
+
+@pytest.mark.parametrize(("mix", "mass_ratio", "sampling_time"), RUNS)
+def test_in_a_crowd_of_many_shapes_nothing_overlaps_by_a_millimetre(mix, mass_ratio, sampling_time):
+    ties = mass_ratio == 1
+    ticks = 15 if sampling_time < 0.1 else 3
+    check(rough(1, mix, mass_ratio, sampling_time, ticks, ties=ties), sampling_time)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("ties", [False, True])
+def test_in_many_crowds_of_many_shapes_nothing_overlaps_by_a_millimetre(seed, ties):
+    for mix, mass_ratio, sampling_time in RUNS:
+        ticks = 40 if sampling_time < 0.1 else 8
+        watch = rough(seed, mix, mass_ratio, sampling_time, ticks, ties=ties)
+        try:
+            check(watch, sampling_time)
+        except AssertionError as error:
+            error.add_note(f"{mix}, mass ratio {mass_ratio}, sampling time {sampling_time}")
+            raise
+
+
+# -- everything at once, and wildly ---------------------------------------------------------
+
+
+def wild(seed: int) -> Scenario:
+    """A crowd with numbers near the ends of what is allowed."""
+    rng = np.random.default_rng(seed)
+    scenario = crowd(seed, "everything", 10.0, float(rng.choice([0.01, 0.1, 1.0])), ties=True)
+    force = float(10 ** rng.uniform(-6, 3))
+    torque = float(10 ** rng.uniform(-6, 2))
+    friction = float(rng.choice([0, 1, 1000]))
+    speed = float(10 ** rng.uniform(-2, 1.5))
+    robots = [
+        robot.replace(
+            drive=robot.drive.replace(max_force=force, max_torque=torque, max_linear_speed=speed),
+            friction=friction,
+        )
+        for robot in scenario.robots
+    ]
+    props = [
+        prop.replace(
+            ground_friction=float(rng.choice([0, 1, 100])),
+            velocity=tuple(rng.uniform(-1, 1, 3) * float(10 ** rng.uniform(-2, 1.5))),
+        )
+        for prop in scenario.props
+    ]
+    return scenario.replace(
+        robots=robots, props=props, physics=str(rng.choice(["contact", "contact", "stop", "ideal"]))
+    )
+
+
+def run_wildly(seed: int, seconds: float = 2.0) -> None:
+    """Run a wild crowd; raises AssertionError where something is not finite."""
+    world = World(wild(seed))
+    rng = np.random.default_rng(seed)
+    for _ in range(max(2, round(seconds / world.scenario.sampling_time))):
+        world.step(rng.uniform(-30, 30, (2, 4)))
+        assert np.isfinite(world.pose).all()
+        assert np.isfinite(world.prop_pose).all()
+        assert np.isfinite(world.prop_velocity).all()
+        assert all(np.isfinite(world.contacts[name]).all() for name in ("impulse", "speed", "slip"))
+        assert ((world.effort >= 0) & (world.effort <= 1)).all()
+
+
+def in_a_child(child, seeds: range, timeout: float):
+    code = (
+        f"import runpy; tests = runpy.run_path({__file__!r})\n"
+        f"for seed in {seeds!r}: print(seed, flush=True); tests['run_wildly'](seed)"
+    )
+    return child(code, timeout=timeout)
+
+
+def test_wild_crowds_end_neither_the_process_nor_in_nonsense(child):
+    done = in_a_child(child, range(1, 4), 120)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("first", range(0, 100, 5))
+def test_many_wild_crowds_end_neither_the_process_nor_in_nonsense(child, first):
+    done = in_a_child(child, range(first, first + 5), 600)
+    assert done.returncode == 0, done.stdout + done.stderr

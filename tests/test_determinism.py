@@ -44,6 +44,41 @@ def test_processes_with_other_hash_seeds_give_the_same_digest(child):
     assert int(collisions) > 10  # it is no run in which nothing happens
 
 
+WORKSHOP = """
+import numpy as np
+import mars2d
+from mars2d import Robot, Scenario
+from mars2d.joints import Hinge, Rod, Rope, Spring
+from mars2d.props import Bar, Box, Gate, Puck, Solid
+from mars2d.shapes import Compound, Disc, Polygon
+
+def wander(robot):
+    return 0.5, robot.rng.normal() * 2
+
+ell = Polygon([(0, 0), (0.3, 0), (0.3, 0.1), (0.1, 0.1), (0.1, 0.3), (0, 0.3)])
+robots = [Robot(pose=(x, y, x + y), controller=wander, shape=ell if x == y else None)
+          for x in range(4) for y in range(3)]
+props = [[Box, Puck, Bar][(x + y) % 3](pose=(x + 0.5, y + 0.5, x), **{"mass": 0.5})
+         for x in range(3) for y in range(2)]
+props += [Solid(Compound([Disc(0.2), ell]), pose=(3.6, 0.5)), Gate(pose=(3.6, 1.5), length=0.4)]
+joints = [Rope(a="robot0", b="robot1", length=1.2), Rod(a="robot2", b="robot5"),
+          Spring(a="box0", b="puck1"), Hinge(a="robot11", anchor_a=(0.1, 0.1), anchor_b=(
+              3 + 0.1 * np.cos(5) - 0.1 * np.sin(5), 2 + 0.1 * np.sin(5) + 0.1 * np.cos(5)))]
+scenario = Scenario(robots=robots, props=props, joints=joints, stop_time=3, on_exit="wall",
+                    workspace=[(-1, -1), (5, -1), (5, 3), (-1, 3)])
+record = mars2d.run(scenario, seed=5)
+print(record.digest, record.collisions)
+"""
+
+
+def test_so_do_those_with_polygons_props_and_joints(child):
+    results = [child(WORKSHOP, PYTHONHASHSEED=seed) for seed in ("0", "4242")]
+    for result in results:
+        assert result.returncode == 0, result.stderr
+    assert results[0].stdout == results[1].stdout
+    assert int(results[0].stdout.split()[1]) > 10
+
+
 def wander(robot):
     return 0.3, robot.rng.normal()
 

@@ -31,8 +31,10 @@ from typing import Any
 import pytest
 
 import mars2d
-from mars2d import addons, bodies, cli, sensors
-from mars2d.control import RobotView
+from mars2d import addons, bodies, cli, joints, props, sensors, shapes
+from mars2d.control import PropView, RobotView
+from mars2d.files import examples, open_experiment
+from mars2d.registry import members
 from mars2d.view import keys
 
 ROOT = Path(__file__).parents[1]
@@ -295,6 +297,21 @@ def test_the_exit_codes_in_the_commands_document_are_those_of_the_command_line()
     assert stated == {cli.OK, cli.FAULT, cli.BAD_INPUT, cli.INTERRUPTED}
 
 
+@pytest.mark.parametrize("document", ["bodies.md", "fields.md"])
+def test_each_drive_prop_and_joint_is_documented(document):
+    text = (ROOT / "docs" / document).read_text(encoding="utf-8")
+    for family in ("bodies", "props", "joints"):
+        for name in members(family):
+            assert f"| `{name}` |" in text or f"\n## {name}\n" in text, name
+
+
+def test_each_example_that_checks_itself_is_a_lesson_with_a_picture():
+    text = (ROOT / "docs" / "contact.md").read_text(encoding="utf-8")
+    lessons = set(re.findall(r"^mars2d run (\w+) .*--figure", text, flags=re.M))
+    checked = {name for name, path in examples().items() if open_experiment(path).checks}
+    assert checked <= lessons
+
+
 def test_the_columns_of_contacts_are_those_of_a_record():
     text = (ROOT / "docs" / "record.md").read_text(encoding="utf-8")
     section = text.partition("## Contacts")[2].partition("\n## ")[0]
@@ -371,8 +388,9 @@ OWNERS: dict[str, Any] = {
     "mars2d": mars2d,
     "RobotView": RobotView,
     **{name: getattr(mars2d, name) for name in mars2d.__all__ if name[0].isupper()},
-    **{kind.__name__: kind for kind in (*vars(bodies).values(), *vars(sensors).values())
-       if isinstance(kind, type)},
+    "PropView": PropView,
+    **{kind.__name__: kind for family in (bodies, sensors, props, joints, shapes)
+       for kind in vars(family).values() if isinstance(kind, type)},
     "Map": addons.Map,
 }  # fmt: skip
 

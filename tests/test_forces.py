@@ -147,7 +147,7 @@ def test_the_point_of_contact_moves_with_the_bodies_between_two_control_steps():
     for time in np.linspace(first.time, world.time, 5)[1:]:
         frame = between(first, world.frame, time)
         tail = vectors(forces(frame))[0, 0]
-        np.testing.assert_allclose(tail, frame.pose[:2, 0] + (0.15, 0.0), atol=2e-3)
+        np.testing.assert_allclose(tail, frame.pose[:2, 0] + (0.15, 0.0), atol=0.01)
 
 
 def test_where_nothing_acts_nothing_is_drawn():

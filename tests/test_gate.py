@@ -17,6 +17,7 @@ import numpy as np
 warnings.simplefilter("error")
 from mars2d import *
 from mars2d.addons import Addon, Map
+from mars2d.bodies import *
 from mars2d.joints import *
 from mars2d.props import *
 from mars2d.sensors import Proximity, Sensor
@@ -115,6 +116,16 @@ ROWS = {
         *fields("go(Robot(drive=Unicycle(wheel_semiaxis=@)))", "0", "1e-300"),
         "go(Robot(mass=1e-6, drive=Unicycle(max_force=1e6)))",
     ],
+    "wheels, steering, acceleration and noise of a drive": [
+        *fields("go(Robot(drive=Differential(wheel_radius=@)))", "0", "1e-300", "1e9"),
+        *fields("go(Robot(drive=Differential(wheel_semiaxis=@)))", "0", "1e-300"),
+        *fields("go(Robot(drive=Car(wheelbase=@)))", "0", "1e-300", "1e9"),
+        *fields("go(Robot(drive=Car(max_steering=@)))", "0", "1.6"),
+        *fields("go(Robot(drive=Car(max_steering_rate=@)))", "0", without=("None",)),
+        *fields("go(Robot(drive=Unicycle(max_acceleration=@)))", "0", without=("None",)),
+        *fields("go(Robot(drive=Unicycle(noise=@)))", "1e9"),
+        *fields("go(Robot(drive=Unicycle(dead_time=@)))", "1e300"),
+    ],
     "the time step": [
         *fields("go(sampling_time=@)", "0", "-0.1", "1e-9", "1e9"),
         *fields("go(stop_time=@)", "-1e-9", "1e300"),
@@ -189,7 +200,8 @@ ROWS = {
         "go(Robot(shape=Compound([Disc(0.1), Shape()])))",
         "go(Robot(shape=Compound([Disc(1e-3), Disc(1e-3).moved(1e6, 0)])), workspace=None)",
         "go(Robot(shape=Polygon(SQUARE).moved(1, 1)), Robot(pose=FAR, mass=11))",
-        "Polygon(SQUARE).moved(1e7, 0)", "Disc(1).moved(nan, 0)", "Compound([Disc(1)]).moved(inf, 0)",
+        "Polygon(SQUARE).moved(1e7, 0)", "Disc(1).moved(nan, 0)",
+        "Compound([Disc(1)]).moved(inf, 0)",
     ],
     "moments": [
         *fields("go(Robot(moment=@))", "0", "1e-300", "1e300", "1", "1e-6", without=("None",)),
@@ -227,7 +239,8 @@ ROWS = {
                 "(0, inf)", "(-1,)", "(-1e6, 1)", without=("None",)),
         *fields("push(Gate(pose=FAR, stiffness=@))", "1e9", "1e6"),
         *fields("push(Gate(pose=FAR, damping=@))", "1e9"),
-        *fields("push(Solid(@, pose=FAR))", "SQUARE", "Polygon(BOW)", "Polygon", "Box()", "Shape()"),
+        *fields("push(Solid(@, pose=FAR))", "SQUARE", "Polygon(BOW)", "Polygon", "Box()",
+                "Shape()"),
         "push(Solid(pose=FAR))", "push(Prop(pose=FAR))", "push(Box)", "push(Robot(pose=FAR))",
         "push(Box(pose=FAR, color='bleu'))", "push(Box(pose=FAR, name=5))",
         "push(Box(pose=FAR, lenght=1))", "push(Box(pose=FAR, shape=Disc(1)))",
@@ -245,14 +258,15 @@ ROWS = {
         "go(Robot(name='a'), props=[Box(pose=FAR, name='a')])",
     ],
     "props that start in something": [
-        "push(Box())", "push(Box(pose=(0.3, 0)))", "push(Box(pose=(1, 0)), Box(pose=(1.3, 0, 0.1)))",
+        "push(Box())", "push(Box(pose=(0.3, 0)))",
+        "push(Box(pose=(1, 0)), Box(pose=(1.3, 0, 0.1)))",
         "push(Gate(pose=(0.4, 0)))", "push(Ball(pose=(1, 1)), Ball(pose=(1, 1)))",
         "push(Box(pose=(1.9, 0)))", "push(Box(pose=(1.75, 1.75, 0.8)))", "push(Box(pose=(5, 0)))",
         "push(Box(pose=FAR), addons=[Map([[(1.1, -1), (1.1, 2)]])])",
         "push(Box(pose=FAR), addons=[Map([[(0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (0.5, 1.5)]])])",
         "push(Bar(pose=(-1, 1)), addons=[Map([[(-1.1, 0.98), (-1, 0.98), (-1, 1.02)]])])",
         "push(Solid(Polygon([(0, 0), (1, 0), (1, 1)]), pose=FAR), Puck(pose=(1.1, 0.9)))",
-        "push(Solid(Compound([Disc(0.2), Disc(0.2).moved(1, 0)]), pose=(1, 1)), Puck(pose=(1.5, 1)))",
+        "push(Solid(Compound([Disc(0.2), Disc(0.2).moved(1, 0)]), pose=FAR), Puck(pose=(1.5, 1)))",
         "go(Robot(shape=Polygon(SQUARE)), Robot(shape=Polygon(SQUARE), pose=(0.1, 0.1, 0.5)))",
         "go(Robot(), Robot(pose=FAR), props=[Puck(pose=FAR)], max_overlap=1.0)",
     ],
@@ -289,6 +303,8 @@ ROWS = {
     "what would need no end of substeps": [
         "go(Robot(drive=Unicycle(max_force=1e5)), max_overlap=1e-5)",
         "go(Robot(shape=Polygon(SQUARE), drive=Unicycle(max_linear_speed=1e3)))",
+        ("tie(Rod(a='robot0', anchor_a=(1, 0), anchor_b=(1.5, 0)), robots=[Robot(drive=Unicycle("
+        "max_linear_speed=50)), Robot(pose=(-1, 0, 0))])"),
         "go(Robot(center_offset=0.1, drive=Unicycle(max_linear_speed=1e3, wheel_semiaxis=1e-3)))",
     ],
     "lists and words": [
@@ -542,6 +558,35 @@ def test_extreme_but_sound_inputs_run_and_stay_finite(child):
         "go(law=lambda world: (0.1, 0.2))",
         "go(robots=np.int64(3))",
         "go(Robot(), addons=[Map([])])",
+        "push(Puck(pose=FAR, velocity=(100, 0)))",
+        "push(Ball(pose=FAR, velocity=(70, 70, 9), ground_friction=0, restitution=1))",
+        "push(Box(pose=FAR, velocity=(0, 0, 100)))",
+        "push(Bar(pose=(1, 0, 0), length=1.4, thickness=1e-3), commands=[[1], [0]])",
+        (
+            "push(Solid(Polygon([(0, 0), (1, 0), (1, 1e-3)]), pose=(1, 0), friction=1e3),"
+            " commands=[[1], [0]])"
+        ),
+        "push(Puck(pose=FAR, mass=0.1, ground_friction=100), commands=[[1], [1]])",
+        (
+            "push(Gate(pose=(1, 0, 1.57), stiffness=1e4, damping=1e6, limits=(0, 0)),"
+            " commands=[[1], [0]])"
+        ),
+        "push(Gate(pose=(1, 0, 1.57), limits=None, damping=0), commands=[[1], [0]])",
+        "push(Solid(Compound([Disc(0.2)] * 64), pose=(1, 0)), commands=[[1], [0]])",
+        "tie(Spring(a='robot0', b='load', stiffness=1e5, damping=1e6), commands=[[1, -1], [0, 0]])",
+        "tie(Rod(a='robot0', b='robot1'), commands=[[1, -1], [5, 5]])",
+        "tie(Rope(a='robot0', b='load', length=1e6), commands=[[1, -1], [5, 5]])",
+        "tie(Rope(a='load', anchor_b=(1.5, 1.5)), commands=[[1, -1], [5, 5]])",
+        (
+            "tie(Hinge(a='robot0', b='box0', anchor_a=(0, 0.5), anchor_b=(0, -0.5), limits=(0, 0)),"
+            " commands=[[1, -1], [5, 5]])"
+        ),
+        "tie(Hinge(a='robot0'), commands=[[1, -1], [5, 5]])",
+        "go(Robot(mass=10), props=[Box(pose=FAR, material='steel', height=0.05)])",
+        (
+            "push(*[Puck(pose=(x / 9, y / 9), diameter=0.1) for x in range(-9, 10)"
+            " for y in range(3, 12)])"
+        ),
     ]
     assert outcomes(child, cases) == dict.fromkeys(cases, "passed")
 

@@ -348,11 +348,13 @@ JOINTED = {"robots": [Robot(), Robot(pose=(1, 0, 0))], "props": [Box(pose=(0, 1,
         (Rope(a="robot0", length=1e-9), "length = 1e-09: expected a number >= 0.001"),
         (Hinge(a="robot0", b="robot1", anchor_a=(0.5, 0), anchor_b=(-0.4, 0)),
          r"its anchors, \(0.5, 0\) and \(0.6, 0\) in the world, lie 0.1 m apart"),
-        (Spring(a="robot0", b="box0", stiffness=9e5), "stiffness = 900000.0: expected at most 5e.05"),
+        (Spring(a="robot0", b="box0", stiffness=9e5),
+         "stiffness = 900000.0: expected at most 5e.05"),
         (Spring(a="robot0", b="box0", stiffness=1e5, rest_length=10),
          "rest_length = 10.0: .*would throw its bodies at 4.02e.03 m/s"),
         (Hinge(a="robot0", stiffness=5e4), "stiffness = 50000.0: expected at most 1.1.e.04"),
-        (Rope(a="robot0", b="box0", anchor_a=(3, 0)), "anchor_a = .* a point within 1.5 m of robot0"),
+        (Rope(a="robot0", b="box0", anchor_a=(3, 0)),
+         "anchor_a = .* a point within 1.5 m of robot0"),
         (Joint(a="robot0"), "expected a Rope, Rod, Spring or Hinge"),
     ],
 )  # fmt: skip
@@ -408,7 +410,7 @@ def test_ten_thousand_props_are_checked_within_seconds():
     assert len(scenario.bodies) == 10_001
 
 
-# -- options ----------------------------------------------------------------------------------------
+# -- options --------------------------------------------------------------------------------------
 
 
 def with_options(*settings: str) -> Scenario:
@@ -427,8 +429,10 @@ def test_fields_of_props_and_joints_are_options():
 
 
 def test_a_star_sets_a_field_of_all_props():
-    changed = with_options("props.*.ground_friction=0.25", "props.*.material=wood", "props.1.mass=3",
-                           "props.*.height=0.01")  # fmt: skip
+    changed = with_options(
+        "props.*.ground_friction=0.25", "props.*.material=wood", "props.1.mass=3",
+        "props.*.height=0.01",
+    )  # fmt: skip
     assert [prop.ground_friction for prop in changed.props] == [0.25] * 3
     assert [prop.surface.restitution for prop in changed.props] == [0.71, 1.0, 0.71]
     assert changed.props[1].inertia.mass == 3

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import mars2d
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Addon
+from mars2d.props import Ball, Box, Puck
 from mars2d.sensors import Sensor
 
 
@@ -198,14 +199,16 @@ def test_robots_are_saturated_each_by_its_own_drive():
 
 
 def test_pose_command_history_and_contacts_cannot_be_written():
-    world = World(Scenario(robots=[Robot(), Robot(pose=(0.3, 0, 0))]))
+    robots = [Robot(), Robot(pose=(0.3, 0, 0))]
+    world = World(Scenario(robots=robots, props=[Box(pose=(3, 0))]))
     for _ in range(3):
         world.step([[0.2, 0], [0, 0]])
     assert len(world.contacts) == 1
     for array in (
         world.pose, world.command, world.history.pose, world.history.time, world.history.command,
         world.history.command_time, world.robots[0].pose, world.robots[0].command,
-        world.robots[0].neighbours[0].pose, world.contacts["impulse"],
+        world.robots[0].neighbours[0].pose, world.contacts["impulse"], world.prop_pose,
+        world.props[0].pose, world.effort, world.history.prop_pose, world.history.effort,
     ):  # fmt: skip
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
@@ -398,3 +401,71 @@ def test_the_record_so_far_does_not_grow():
     assert len(early) == 1
     assert len(world.record) == 2
     assert world.record.over_message == "not over"
+
+
+# -- props and effort -----------------------------------------------------------------------------
+
+
+def test_a_law_sees_the_props_where_they_are():
+    seen = []
+
+    def control(world):
+        seen.append([(prop.index, prop.name, *prop.pose.tolist()) for prop in world.props])
+        return [[0.3], [0]]
+
+    props = [Ball(pose=(0, 2), velocity=(1, 0, 0.5)), Box(pose=(1, 0, 0.2), name="load")]
+    world = World(Scenario(props=props), control)
+    for _ in range(3):
+        world.step()
+    assert seen[0] == [(0, "ball0", 0, 2, 0), (1, "load", 1, 0, 0.2)]
+    assert seen[2][0] == pytest.approx((0, "ball0", 0.2, 2, 0.1))
+    assert world.prop_pose[:, 0] == pytest.approx([0.3, 2, 0.15])
+    assert world.prop_velocity[:, 0] == pytest.approx([1, 0, 0.5])
+    assert world.props[0].velocity == pytest.approx([1, 0, 0.5])
+    assert world.pose.shape == (3, 1)
+    assert world.velocity.shape == (3, 1)
+
+
+def test_a_prop_may_leave_the_workspace_and_the_run_goes_on():
+    world = World(Scenario(props=[Ball(pose=(4.5, 0), velocity=(9, 0))]))
+    for _ in range(3):
+        world.step()
+    assert world.prop_pose[0, 0] == pytest.approx(7.2)
+    assert not world.over
+
+
+def test_effort_is_none_in_free_motion_and_all_of_it_against_a_wall():
+    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    scenario = Scenario(robots=[Robot()], workspace=square, on_exit="wall")
+    world = World(scenario)
+    for _ in range(10):
+        world.step([[0.5], [0.3]])
+        assert world.effort.tolist() == [0]
+    for _ in range(30):
+        world.step([[0.5], [0]])
+    assert world.effort == pytest.approx([1])
+    effort = world.record.effort
+    assert effort[:10].max() == 0
+    assert effort[-1] == pytest.approx([1])
+
+
+def test_effort_is_the_share_of_the_force_that_a_load_takes():
+    # The floor holds the box with 0.25 x 1 kg x 9.81 m/s^2 = 2.45 N; the drive has 5 N.
+    box = Box(pose=(0.4, 0), mass=1.0, ground_friction=0.25)
+    world = World(Scenario(robots=[Robot()], props=[box]))
+    for _ in range(40):
+        world.step([[0.2], [0]])
+    assert world.effort == pytest.approx([0.25 * 9.81 / 5], rel=0.02)
+
+
+def test_a_frame_shows_props_contacts_and_efforts_of_this_instant():
+    world = World(Scenario(robots=[Robot()], props=[Puck(pose=(0.3, 0), ground_friction=0.4)]))
+    assert world.frame.prop_pose.tolist() == [[0.3], [0], [0]]
+    assert len(world.frame.contacts) == len(world.frame.contact_log()) == 0
+    for _ in range(9):
+        world.step([[0.2], [0]])
+    frame = world.frame
+    assert np.array_equal(frame.prop_pose, world.prop_pose)
+    assert frame.contacts.tobytes() == world.contacts.tobytes()
+    assert frame.effort.tolist() == world.effort.tolist()
+    assert len(frame.contact_log()) == len(world.record.contacts) > len(frame.contacts) == 1

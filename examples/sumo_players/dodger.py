@@ -19,6 +19,6 @@ def control(robot):
         elif hypot(other_x, other_y) > hypot(x, y):  # the other is farther out: push
             waits, aim = False, atan2(other_y - y, other_x - x)
         else:
-            waits, aim = False, atan2(y, x) + side * 2  # along the rim, and a little inwards
+            waits, aim = False, atan2(y, x) + side * 1.9  # along the rim, and a little inwards
         error = wrap(aim - heading)
         yield (0.0 if waits else cos(error)), 6 * error

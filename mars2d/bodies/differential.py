@@ -16,6 +16,7 @@ class Differential(Wheeled):
     `max_linear_speed` bounds the speed of each wheel's rim and `max_acceleration` its change; so
     neither keeps the curvature of the path. Each wheel has `noise` of its own.
 
+    >>> import numpy as np
     >>> Differential(wheel_radius=0.05).twist(np.array([[3.0], [5.0]])).T.round(12).tolist()
     [[0.2, 0.0, 0.5]]
     """

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from io import BytesIO
-from math import ceil, floor, hypot, log, log10
+from math import ceil, floor, log, log10
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,7 @@ from mars2d import frame as seen
 from mars2d.errors import InputError, shown
 from mars2d.forces import FORCE, LABEL_SIZE, force_scale, forces, in_newtons, round_force
 from mars2d.output.artists import paint, points_per_metre
+from mars2d.output.extent import View
 from mars2d.scene import Line, Polygon, Scene, Shape, Text, faded
 
 if TYPE_CHECKING:
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from mars2d.frame import Frame
     from mars2d.record import Record
     from mars2d.scenario import Scenario
-    from mars2d.shapes import Shape as Chassis
 
 __all__ = [
     "SUFFIXES",
@@ -175,75 +175,6 @@ def save_drawing(draw: Callable[[], Figure], path: str | Path, *, trim: bool = T
     except OSError as error:
         raise InputError(f"{path}: can't be written: {error.strerror}") from error
     return path
-
-
-@dataclass(frozen=True)
-class View:
-    """What part of the plane is drawn, metres."""
-
-    xmin: float
-    xmax: float
-    ymin: float
-    ymax: float
-
-    RATIO = 8.0
-    """The longest side to the shortest: a corridor is given some room."""
-
-    @classmethod
-    def of(cls, record: Record, row: int) -> Self:
-        """Return the view of the workspace, and of all paths until `row`, with a margin."""
-        if len(record) == 0:
-            raise InputError("the record has no rows: nothing ran, so there is nothing to draw")
-        xy = record.pose[: row + 1, :2]
-        low, high = xy.min(axis=0), xy.max(axis=0)  # (2, n)
-        reach = np.array(
-            [robot.radius + abs(robot.center_offset) for robot in record.scenario.robots]
-        )
-        if record.scenario.props:
-            props = record.prop_pose[: row + 1, :2]
-            low = np.hstack([low, props.min(axis=0)])
-            high = np.hstack([high, props.max(axis=0)])
-            reach = np.append(reach, [_reach(prop.shape) for prop in record.scenario.props])
-        xmin, xmax, ymin, ymax = record.scenario.bounds
-        xmin = min(xmin, float((low[0] - reach).min()))
-        xmax = max(xmax, float((high[0] + reach).max()))
-        ymin = min(ymin, float((low[1] - reach).min()))
-        ymax = max(ymax, float((high[1] + reach).max()))
-        margin = 0.02 * max(xmax - xmin, ymax - ymin)
-        view = cls(xmin - margin, xmax + margin, ymin - margin, ymax + margin)
-        more_x = max(0.0, view.height / cls.RATIO - view.width) / 2
-        more_y = max(0.0, view.width / cls.RATIO - view.height) / 2
-        return cls(view.xmin - more_x, view.xmax + more_x, view.ymin - more_y, view.ymax + more_y)
-
-    @property
-    def width(self) -> float:
-        """From left to right, metres."""
-        return self.xmax - self.xmin
-
-    @property
-    def height(self) -> float:
-        """From bottom to top, metres."""
-        return self.ymax - self.ymin
-
-    def union(self, limits: tuple[float, float, float, float]) -> Self:
-        """Return the view that also holds (xmin, xmax, ymin, ymax), metres."""
-        xmin, xmax, ymin, ymax = limits
-        return replace(
-            self,
-            xmin=min(self.xmin, xmin), xmax=max(self.xmax, xmax),
-            ymin=min(self.ymin, ymin), ymax=max(self.ymax, ymax),
-        )  # fmt: skip
-
-    def inches(self, width: float, height: float) -> tuple[float, float]:
-        """Return the largest (width, height) in the view's proportions that fits, inches."""
-        scale = min(width / self.width, height / self.height)
-        return scale * self.width, scale * self.height
-
-
-def _reach(shape: Chassis) -> float:
-    """Return how far a body reaches from its pose, metres."""
-    (x, y), radius = shape.bound
-    return hypot(x, y) + radius
 
 
 def _new_figure(width: float, height: float) -> Figure:

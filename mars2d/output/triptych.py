@@ -149,7 +149,7 @@ class _Panel:
 
     def paint(self, surface: pygame.Surface, frame: Frame) -> None:
         animation = frame.scenario.animation
-        layers = Layers(grid=animation.grid, trails=animation.wake, sensors=True)
+        layers = Layers.of(animation)
         self._stage.draw(surface, frame, self._camera, layers, self.plot)
         ui, fonts = self._painter.ui, self._painter.fonts
         count = int(np.searchsorted(self._collisions, frame.time, side="right"))

@@ -96,9 +96,11 @@ def span_of(sampling_time: float) -> float:
 def _net_force(rows: NDArray[np.void], body: int, first: int, last: int, dt: float) -> Float:
     """Return the net mean force on a body in each control step from first to last, newtons."""
     mine = rows[(rows["a"] == body) | (rows["b"] == body)]
-    step = np.ceil(mine["time"] / dt - 1e-6).astype(int) - 1 - first
-    within = (step >= 0) & (step < last - first)
-    mine, step = mine[within], step[within]
+    # What began at the very end of a step belongs to it; what began before it has its start's time.
+    within = mine["time"] / dt + np.where(mine["began"], -1e-6, 1e-6)
+    step = np.ceil(within).astype(int) - 1 - first
+    seen = (step >= 0) & (step < last - first)
+    mine, step = mine[seen], step[seen]
     force = mean_forces(mine, dt) * np.where(mine["b"] == body, 1.0, -1.0)[:, None]
     x, y = (np.bincount(step, force[:, k], last - first) for k in (0, 1))
     return np.hypot(x, y)

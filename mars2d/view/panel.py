@@ -164,6 +164,13 @@ class Panel:
             foot = [(points[-1, 0], -area.bottom), (points[0, 0], -area.bottom)]
             scene.polygon(np.vstack([points, foot]), fill=faded(FORCE, 0.18))
             scene.line(points, stroke=FORCE, width=2.5)
+        if len(reading.force) and reading.force.max() > top:
+            k = int(reading.force.argmax())
+            word = f"peak {in_newtons(float(reading.force[k]))}"
+            half = self.painter.fonts.width(word, 12 * ui) / 2 + 4 * ui
+            x = float(pixels(edges[k : k + 1], np.zeros(1))[0, 0])
+            x = min(max(x, area.left + half), area.right - half)
+            scene.text((x, -area.top), word, color=FORCE, anchor="below", halo="#ffffff")
         if bound is not None:
             ends = pixels(np.array([start, end]), np.full(2, bound.force))
             scene.line(ends, stroke=theme.INK, width=1.5, style="--")

@@ -20,8 +20,12 @@ from matplotlib.patches import Circle, Polygon
 import mars2d
 from mars2d import Animation, InputError, Record, Robot, Scenario
 from mars2d.addons import Map
+from mars2d.forces import FORCE
+from mars2d.joints import Rope
+from mars2d.looks import NEUTRAL
 from mars2d.output.artists import paint
 from mars2d.output.figure import plot_paths, plot_snapshots, save_figure
+from mars2d.props import Box, Puck
 from mars2d.scene import Scene
 
 BLUE, RED = "#0072b2", "#d55e00"
@@ -508,3 +512,73 @@ def test_what_an_addon_draws_is_in_the_figure():
     ax = mars2d.run("own_sensor_and_addon").plot()
     lamps = [disc for disc in discs(ax) if disc.radius == 0.3]
     assert len(lamps) == 3
+
+
+# -- props, joints, forces ------------------------------------------------------------------------
+
+
+def pushed(**animation):
+    box = Box(pose=(-2.5, -2, 0), length=0.3, width=0.3, ground_friction=0.6, mass=1, name="box")
+    far = Puck(pose=(6, 0, 0), name="far")
+    robots = [Robot(pose=(-3, -2, 0), name="red"), Robot(pose=(-3, 2, 0))]
+    scenario = Scenario(
+        robots=robots,
+        props=[box, far],
+        joints=[Rope(a="red", b="far", length=12)],
+        stop_time=5,
+        animation=Animation(**animation),
+    )
+    return mars2d.run(scenario, control=lambda world: [[0.2, 0.0], [0.0, 0.0]])
+
+
+def filled(ax, kind, color):
+    return [
+        patch
+        for patch in ax.patches
+        if isinstance(patch, kind) and not hollow(patch) and to_hex(patch.get_facecolor()) == color
+    ]
+
+
+def test_props_are_drawn_hollow_at_the_start_and_filled_at_the_end():
+    record = pushed()
+    ax = record.plot()
+    boxes = [patch for patch in ax.patches if isinstance(patch, Polygon)]
+    start = [patch for patch in boxes if hollow(patch) and len(patch.get_xy()) == 5]
+    end = filled(ax, Polygon, NEUTRAL)
+    assert len(end) == 1
+    assert any(np.allclose(p.get_xy().mean(axis=0), (-2.53, -2.03), atol=0.1) for p in start)
+    np.testing.assert_allclose(end[0].get_xy()[:4].mean(axis=0), record.prop_pose[-1, :2, 0])
+    assert len(filled(ax, Circle, NEUTRAL)) == 1
+
+
+def test_the_view_holds_props_outside_of_the_workspace():
+    ax = pushed().plot()
+    assert ax.get_xlim()[1] > 6.1
+
+
+def test_a_rope_is_drawn_from_end_to_end():
+    record = pushed()
+    ropes = [line.get_xydata() for line in record.plot().lines if len(line.get_xdata()) == 49]
+    assert len(ropes) == 1
+    ends = [record.pose[-1, :2, 0], record.prop_pose[-1, :2, 1]]
+    np.testing.assert_allclose(ropes[0][[0, -1]], ends, atol=1e-9)
+
+
+def test_forces_are_drawn_when_the_animation_says_so():
+    assert not filled(pushed().plot(), Polygon, FORCE)
+    ax = pushed(forces=True).plot()
+    arrows = {tuple(np.round(p.get_xy()[:7].ravel(), 6)) for p in filled(ax, Polygon, FORCE)}
+    assert len(arrows) == 3, "two of the pair, one of the legend"
+    texts = [text.get_text() for text in ax.texts]
+    assert texts[0] == "5.0 N"
+    assert texts[1].endswith(" N")
+    ax.figure.canvas.draw()
+
+
+def test_snapshots_show_forces_too(tmp_path):
+    figure = plot_snapshots(pushed(forces=True), [0.0, 4.0])
+    before, after = figure.axes
+    assert len(before.texts) == 1, "the legend"
+    assert len(after.texts) == 2
+    target = save_figure(pushed(forces=True), tmp_path / "forces.pdf", [4.0])
+    assert target.stat().st_size > 5000

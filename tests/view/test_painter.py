@@ -3,14 +3,18 @@
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pygame
 import pytest
 
+from mars2d import Robot, Scenario, World
 from mars2d.animation import Animation
+from mars2d.contact import CONTACT
 from mars2d.errors import InputError
 from mars2d.frame import Frame
+from mars2d.props import Box
 from mars2d.scene import Scene, wake_style
 from mars2d.view.camera import Camera
 from mars2d.view.layers import Layers
@@ -334,3 +338,120 @@ def test_the_window_draws_itself_at_any_size(size, fails_at):
     surface = pygame.Surface(size, 0, 32)
     window.draw(surface)
     assert window.layout.footer.bottom == size[1] or size[1] < 200
+
+
+# -- arrows and forces ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("tip", [(3.0, 0.0), (2.1, 2.1), (-1.0, -2.5)])
+def test_an_arrow_goes_from_its_tail_to_its_tip_with_its_width(tip):
+    scene = Scene()
+    scene.arrow((0, 0), tip, fill="#000000", width=3.0)
+    covered = coverage(painted(scene))
+    y, x = np.mgrid[:100, :100] + 0.5
+    along = np.array([tip[0], -tip[1]]) / np.hypot(*tip)
+    at = (x - 50) * along[0] + (y - 50) * along[1]
+    assert covered[(at < -1.5) | (at > 10 * np.hypot(*tip) + 1.5)].sum() < 0.1
+    shaft = (at > 3) & (at < 8)
+    assert covered[shaft].sum() / 5 == pytest.approx(3.0, abs=0.7)
+    head = (at > 10 * np.hypot(*tip) - 11) & (at < 10 * np.hypot(*tip) - 8)
+    assert covered[head].sum() / 3 > 6.0
+
+
+def test_a_short_arrow_is_an_arrow_still_and_a_long_one_is_drawn_as_well():
+    for length, reach in ((0.4, 4), (30.0, 50)):
+        scene = Scene()
+        scene.arrow((0, 0), (length, 0), fill="#000000", stroke="#ffffff", width=4.0)
+        covered = coverage(painted(scene))
+        columns = np.flatnonzero(covered.sum(axis=0) > 0.3)
+        assert columns.min() == pytest.approx(50, abs=1)
+        assert columns.max() == pytest.approx(50 + reach, abs=2)
+
+
+def test_the_edge_of_an_arrow_sets_it_off():
+    scene = Scene()
+    scene.polygon([(-5, -5), (5, -5), (5, 5), (-5, 5)], fill="#000000")
+    scene.arrow((-3, 0), (3, 0), fill="#000000", stroke="#ffffff", width=4.0)
+    seen = 1 - coverage(painted(scene))
+    assert 1.5 < seen[:, 40].sum() < 5.0  # both sides of the shaft
+    assert seen[49:51, 40].max() < 0.1
+
+
+def test_an_arrow_outside_of_the_picture_is_not_kept():
+    scene, painter = Scene(), Painter()
+    scene.arrow((30, 30), (31, 30), fill="#000000")
+    painter.paint(pygame.Surface((100, 100), 0, 32), scene.shapes, CAMERA)
+    assert not painter._sprites
+
+
+def test_a_halo_sets_letters_off_from_a_dark_ground():
+    def white(halo):
+        scene = Scene()
+        scene.polygon([(-5, -5), (5, -5), (5, 5), (-5, 5)], fill="#000000")
+        scene.text((0, 0), "5 N", color="#000000", size=20, halo=halo)
+        return (1 - coverage(painted(scene))).sum()
+
+    assert white(None) == 0
+    assert white("#ffffff") > 100
+
+
+def pressed(row=5, **changes):
+    source = Circling(circling_scenario(**changes), pressed=True)
+    source.row = row
+    return source.frame
+
+
+def count(surface, color):
+    return int((pixels(surface) == color).all(axis=2).sum())
+
+
+FORCE, SLIP = (0xA3, 0x00, 0x3C), (0xFF, 0xC2, 0x0A)
+
+
+def test_forces_are_off_unless_they_are_asked_for():
+    plain = paint_frame(pressed())
+    assert count(plain, FORCE) == count(plain, SLIP) == 0
+    shown = paint_frame(pressed(), forces=True)
+    assert count(shown, FORCE) > 200
+    assert count(shown, SLIP) > 100
+    animated = pressed(animation=Animation(forces=True))
+    assert differing(paint_frame(animated), shown) == 0
+    assert differing(paint_frame(animated, forces=False), plain) == 0
+
+
+def test_switched_off_forces_cost_nothing(monkeypatch):
+    def refuse(frame):
+        raise AssertionError("the forces were asked for")
+
+    monkeypatch.setattr("mars2d.view.stage.forces", refuse)
+    paint_frame(pressed())
+    with pytest.raises(AssertionError):
+        paint_frame(pressed(), forces=True)
+
+
+def test_the_legend_is_left_out_of_small_pictures():
+    frame = replace(pressed(), contacts=np.empty(0, CONTACT), effort=np.zeros(2))
+    assert count(paint_frame(frame, forces=True), SLIP) > 5
+    assert (
+        differing(paint_frame(frame, (320, 200)), paint_frame(frame, (320, 200), forces=True)) == 0
+    )
+
+
+def test_props_and_their_trails_grow_on_the_picture():
+    scenario = Scenario(robots=[Robot(pose=(-4, -4, 0))], props=[Box(pose=(0, 0, 0))])
+    frame = World(scenario).frame
+    path = np.zeros((50, 3, 1))
+    path[:, 0, 0] = np.linspace(-3, 2, 50)
+    artist = Artist()
+    moved = replace(frame, path=np.repeat(frame.pose[None], 50, axis=0))
+    still = artist.paint(replace(moved, prop_pose=path[-1]))
+    grown = [
+        artist.paint(
+            replace(frame, path=moved.path[:k], prop_path=path[:k], prop_pose=path[min(k, 49)])
+        )
+        for k in (1, 20, 49)
+    ]
+    trailed = [differing(still, surface) for surface in grown]
+    assert trailed[2] > 200
+    bare = artist.paint(replace(moved, prop_pose=path[-1]))
+    assert differing(bare, still) == 0, "no path, no trail"

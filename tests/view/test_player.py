@@ -1,5 +1,7 @@
 """The clock of the window: speeds, steps, pauses, and what is drawn in between."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -182,6 +184,18 @@ def test_between_keeps_within_its_two_frames():
     assert between(first, second, 9.0) is second
 
 
+def test_between_two_frames_props_move_and_contacts_are_those_under_way():
+    source = Circling(pressed=True)
+    source.row = 4
+    first = replace(source.frame, prop_pose=np.zeros((3, 1)))
+    source.row = 5
+    second = replace(source.frame, prop_pose=np.full((3, 1), 2.0))
+    seen = between(first, second, 0.45)
+    np.testing.assert_allclose(seen.prop_pose, np.full((3, 1), 1.0))
+    np.testing.assert_array_equal(seen.contacts, second.contacts)
+    assert len(seen.contact_log()) == len(seen.path) == len(seen.effort_path) == 5
+
+
 # -- keys -----------------------------------------------------------------------------------------
 
 
@@ -209,7 +223,8 @@ def test_what_keys_do(name, character, action):
     ("name", "action"),
     [
         ("space", "step"), ("return", "step"), ("right", "step"), ("a", "step"), ("up", "step"),
-        ("g", "grid"), ("escape", "leave"), ("left shift", None), ("left ctrl", None),
+        ("g", "grid"), ("c", "forces"), ("tab", "select"), ("escape", "leave"),
+        ("left shift", None), ("left ctrl", None),
     ],
 )  # fmt: skip
 def test_in_manual_mode_every_other_key_is_a_step(name, action):
