@@ -53,7 +53,7 @@ def checks(record):
         yield Prediction(f"{name}: speed", j[k] / box.mass, speed[k], 1e-6, "m/s")
         yield Prediction(f"{name}: spin", j[k] * k * b / inertia, spin[k], 1e-6, "rad/s")
     turn = j[1] * b * abs(j[1] * b) / (2 * inertia * robot.drive.max_torque)
-    yield Prediction("braked robot: turn", turn, record.pose[-1, 2, 0], 0.01 * abs(turn), "rad")
+    yield Prediction("braked robot: turn", turn, record.pose[-1, 2, 0], 0.02 * abs(turn), "rad")
     m, d, a = disc.inertia.mass, disc.diameter, asin((disc.pose[1] - other.pose[1]) / disc.diameter)
     most = disc.friction**2 * blow(other, disc, disc.restitution**2) * cos(a)
     graze = 4 * min(most, m * other.velocity[0] * sin(a) / 6) / (m * d)

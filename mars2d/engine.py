@@ -1,13 +1,14 @@
 """Contact physics: bodies moved exactly where nothing touches, by forces where something does.
 
-What a robot's drive asks for is put to it in one of two ways:
+What a robot's drive asks for is put to it in one of three ways:
 
 - A robot that nothing can reach during the time to come is *carried*: its velocity is that of the
   chord of its arc, and one step of any length brings it to the exact pose.
-- A robot that may touch something is *engaged*: a kinematic control body pulls it through joints of
-  bounded force and torque. As long as it does follow, it is primed with the chord's velocity each
-  substep, so that it is exact too. When contact or a joint has thrown it off, it *slips*: its
-  velocity is left to the solver until the drive's force has brought it back.
+- A robot that may touch something is watched. As long as it does follow, it is primed with the
+  chord's velocity each substep, so that it is exact too.
+- A robot that contact or a joint has thrown off its command *slips*: its velocity is left to the
+  solver, and its drive is *engaged*, a kinematic control body that pulls it through joints of
+  bounded force and torque, until that force has brought it back.
 
 A prop that nothing touches *glides* as the closed form of friction says; else it is left to the
 solver, with the floor's friction as a joint of bounded force.
@@ -50,6 +51,9 @@ STRETCH = 1 / 15
 The solver draws it in again, and what it pulls at bounces by that much more than nothing.
 """
 
+LINGER = 3
+"""For how many substeps a drive stays engaged that need not be any more."""
+
 TURNED = 0.01
 """How far a rim may turn on while its drive stops it, in parts of the overlap allowed."""
 
@@ -83,6 +87,7 @@ class Engine:
         self._set_forces(scenario)
         self._set_accuracy(scenario, thinnest, iterations)
         self._engaged = np.zeros(self.n, dtype=bool)
+        self._since = np.full(self.n, LINGER + 1)  # substeps since a robot slipped
         self._slipping = np.zeros(self.count, dtype=bool)
         self._grip = np.zeros((self.count - self.n, 2))  # N and N m, what the floor may use now
         self._last_step = inf
@@ -217,6 +222,17 @@ class Engine:
         bounds.clearance.moved(reach)
         return near, path
 
+    def _hold(self, slipping: Mask, who: Index, h: float) -> None:
+        """Engage the drives of robots that slip, or did a moment ago, for a substep of h.
+
+        One that pushes loses touch now and then for a substep or two. What comes from afar is to be
+        hit with its momentum alone, not with all that its drive could give meanwhile.
+        """
+        self._since[who] = np.where(slipping, 0, self._since[who] + 1)
+        wanted = np.zeros(self.n, dtype=bool)
+        wanted[who] = slipping | ((self._since[who] <= LINGER) & (h <= self._contact_step))
+        self._engage(wanted)
+
     def _engage(self, wanted: Mask) -> None:
         """Let the drives of these robots act through their joints, and those of no others; (n,)."""
         for i in np.flatnonzero(wanted & ~self._engaged).tolist():
@@ -276,9 +292,7 @@ class Engine:
                 self._slipping[who] = slipping
                 return elapsed
             self._aim(twist, state, slipping, who, k, h)
-            wanted = np.zeros(self.n, dtype=bool)
-            wanted[who[:k]] = slipping[:k]
-            self._engage(wanted)
+            self._hold(slipping[:k], who[:k], h)
             if GROWTH * h < self._last_step and slipping.any():
                 held = np.zeros(self.count, dtype=bool)
                 held[who] = slipping
@@ -375,7 +389,7 @@ class Engine:
         for row in np.flatnonzero(slipping).tolist():
             held[row] = self.space.held(int(who[row]), self._last_step)
         grip = np.column_stack(self._floor.bounds(state[:, 3:], held, props))
-        grip[glides] = 0.0
+        grip[~slipping] = 0.0  # what rests untouched stays so, and is hit as if free
         changed = (grip != self._grip[props]).any(axis=1)
         self._grip[props] = grip
         for row in np.flatnonzero(changed).tolist():

@@ -15,6 +15,7 @@ from __future__ import annotations
 import contextlib
 import doctest
 import importlib.util
+import inspect
 import io
 import os
 import re
@@ -35,6 +36,7 @@ from mars2d import addons, bodies, cli, joints, props, sensors, shapes
 from mars2d.control import PropView, RobotView
 from mars2d.files import examples, open_experiment
 from mars2d.registry import members
+from mars2d.scene import Scene
 from mars2d.view import keys
 
 ROOT = Path(__file__).parents[1]
@@ -295,6 +297,16 @@ def test_the_exit_codes_in_the_commands_document_are_those_of_the_command_line()
     section = text.partition("## Exit codes")[2].partition("\n## ")[0]
     stated = {int(row[0]) for row in table(section)[1:]}
     assert stated == {cli.OK, cli.FAULT, cli.BAD_INPUT, cli.INTERRUPTED}
+
+
+def test_what_a_scene_draws_is_documented_with_its_arguments():
+    rows = table((ROOT / "docs" / "own_sensor_and_addon.md").read_text(encoding="utf-8"))
+    stated = [row[0].strip("`)").split("(") for row in rows[rows.index(["method", "draws"]) + 1 :]]
+    drawing = {name for name in vars(Scene) if not name.startswith("_")} - {"extend", "shapes"}
+    assert {name for name, _ in stated} == drawing
+    for name, call in stated:
+        known = set(inspect.signature(getattr(Scene, name)).parameters)
+        assert {word.strip("= ") for word in call.split(",")} <= known, name
 
 
 @pytest.mark.parametrize("document", ["bodies.md", "fields.md"])
