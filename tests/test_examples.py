@@ -14,10 +14,19 @@ from mars2d.files import examples
 
 # Another platform or engine may round the last digit differently.
 DIGESTS = {
-    "follow_the_leader": "32df3379b40f872b4711737dc09a7f8b20175fe3662a7418c401ce53c2f97ca6",
-    "go_to_point": "5993df66e130eba797152ee608536bc86f135ab50b3ac8322b1925f2c0330c17",
-    "own_sensor_and_addon": "9a7420ea70f7164023f522f4cf16f27c9ff609db5ac5a0ad93a081702b5ccc85",
-    "random_walk": "332532de78425b562c85409727befe00eebf8aefb62417f500fd3da9a127385c",
+    "billiards": "22e2f8fa04aac8d95cdeaf06adc4f615944d7aef0402309f03d4cb40e0e49c94",
+    "crowd": "87243aa39415c913de05203f8d60c592134ecca33d936721e7b6c4eab4d2cc6d",
+    "follow_the_leader": "b73e802b2472ba73fd89a3eca8bdfe4d4a620a97874de3e990efd655d0c03d8e",
+    "go_to_point": "b643a036965138572e874006ba4e9fa15b385d51cec11e5b42f5528fa6577dc7",
+    "head_on": "181b0447a15e24b01239500068fb16ec227663169c141bfe4dc8e5af806684e6",
+    "many_push_one": "7bc3ac883c935dde644ef2b503e3ac0a88f050647d1b5c67b30ecaec8109f6ca",
+    "own_sensor_and_addon": "08983bf61d91926a9458ef71a10b25d7f9d7921d59158a51b4ce03da3b18a14c",
+    "push_box": "47bcc4514e7fb08dc4b20821dd959814858ec07f8facf5bd1d84961d84490717",
+    "random_walk": "914c9ae91a7f718268043edbc156cfafb5299cc64efcb983faae97aae3e22440",
+    "shove_and_spin": "6f7444b332f0f37fbf03f822055391b179aaf2eb4d37778696c19859c26e8c83",
+    "sumo": "33f5f989e9a4704b6893c94e71ce4a2f7a182be782282b6a3a38887ff81ce333",
+    "tug_of_war": "da0030f1783f40bc6192505da0315de61534f4343f776304f84100e238e21e81",
+    "wall_slide": "cc58984fd9927ea3ac5262b9bd3f25890a3d0842bc0fe8b53ea5315fb1aa25f2",
 }
 PINNED_ON = "Linux x86_64 with pymunk 7.3"
 ON_THE_PINNED_PLATFORM = (

@@ -82,7 +82,7 @@ SCENES = {
     "a wedge robot pushes a concave solid": Scene(
         [Robot(pose=(-0.6, 0.02, 0), shape=WEDGE, drive=Unicycle(max_force=8))], [(0.2, 0.0)],
         [Solid(Polygon([(0, 0), (0.1, 0.3), (0.3, 0.3), (0.3, -0.3), (0.1, -0.3)]))],
-        tolerance=1e-3, split=4e-2,
+        tolerance=1e-2, split=4e-2,
     ),
 }  # fmt: skip
 

@@ -74,7 +74,10 @@ def execute(arguments: argparse.Namespace) -> None:
         if isinstance(error, Interrupted):
             warn_unchecked(experiment)
         raise
-    if experiment.control is None and not any(r.controller for r in experiment.scenario.robots):
+    lawless = experiment.control is None and not any(
+        robot.controller for robot in experiment.scenario.robots
+    )
+    if lawless and not experiment.scenario.props:
         print("mars2d: there is no law, so all robots stood still", file=sys.stderr)
     if arguments.json:
         predictions = predictions_of(experiment, record)

@@ -14,7 +14,7 @@ __all__ = ["Box"]
 class Box(Prop):
     """A rectangle, `length` along its heading and `width` across.
 
-    >>> Box(length=0.4, width=0.2, material="wood").inertia.mass
+    >>> round(Box(length=0.4, width=0.2, material="wood").inertia.mass, 6)
     4.8
     """
 
