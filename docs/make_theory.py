@@ -106,7 +106,9 @@ def acceleration() -> Iterator[Prediction]:
     v = velocity(run([robot], [[50.0], [0]], 2, props=[box]))[:, 0, 0]
     predicted = force / (mass + load)
     measured = (v[-1] - v[-11]) / 1.0
-    yield Prediction("pushed box: acceleration F / m", predicted, measured, 0.005 * predicted, "m/s^2")
+    yield Prediction(
+        "pushed box: acceleration F / m", predicted, measured, 0.005 * predicted, "m/s^2"
+    )
 
 
 def friction_threshold() -> Iterator[Prediction]:
@@ -169,9 +171,7 @@ def momentum_and_energy() -> Iterator[Prediction]:
             most_momentum = max(most_momentum, float(drift))
             most_energy = max(most_energy, float((energy / energy[0] - 1).max()))
     yield Prediction("motors off: change of momentum, relative", 0.0, most_momentum, 1e-9)
-    yield Prediction(
-        "motors off: growth of energy, relative", 0.0, max(most_energy, 0.0), 1e-9
-    )
+    yield Prediction("motors off: growth of energy, relative", 0.0, max(most_energy, 0.0), 1e-9)
 
 
 def touching_rows(record: Record) -> NDArray[np.bool_]:

@@ -8,7 +8,7 @@ are unsure of their way. Bodies overlap by at most the 1 mm that the solver is a
 goes through a wall: who is in the hall has come by the doorway. (0.01 s: g, with such overlaps.)
 """
 
-from math import inf, sqrt
+from math import atan2, inf, sqrt
 
 import numpy as np
 from scipy.spatial.distance import pdist
@@ -23,16 +23,17 @@ LENGTH, HALL = 0.6, 2.5  # m, of the doorway from x = 0 on, and half the rooms' 
 def control(world):
     """Head for the doorway, off by angles drawn anew every half second, then go straight on."""
     while True:
-        error = world.rng.normal(scale=0.8, size=len(world.robots))
+        error = world.rng.normal(scale=1.2, size=len(world.robots))
         for _ in range(5):
             x, y, _ = world.pose
             if x.min() > LENGTH:
                 world.stop(f"all are through after {world.time:.1f} s")
-            heading = np.where(x < 0, np.arctan2(-y, LENGTH / 2 - x) + error, 0)
+            ahead = [atan2(-b, LENGTH / 2 - a) for a, b in zip(x, y, strict=True)]
+            heading = np.where(x < 0, ahead + error, 0)
             yield np.array([np.cos(heading), np.sin(heading)])  # drives slow it to their top speed
 
 
-def scenario(door: float = 0.55, speed: float = 0.5):
+def scenario(door: float = 0.58, speed: float = 0.5):
     robot = Robot(friction=0.1, drive=Holonomic(max_linear_speed=speed))
     wall = [(0, door / 2), (0, HALL), (LENGTH, HALL), (LENGTH, door / 2)]
     return Scenario(

@@ -112,10 +112,12 @@ class ContactLog:
         impulse = np.where(away[:, None] < 0, -impulse, impulse)
 
         key = _key(a, b)
-        live = np.zeros(len(key), dtype=bool)
-        for k, touching in enumerate(self._touching):
-            mine = substep == k
-            live[mine] = np.isin(key[mine], touching)
+        # Those listed in a substep that touch after it; the others parted shortly before.
+        names, number = np.unique(np.concatenate([key, *self._touching]), return_inverse=True)
+        touch_count = [len(touching) for touching in self._touching]
+        when = np.concatenate([substep, np.repeat(np.arange(len(count)), touch_count)])
+        both = when * len(names) + number.ravel()
+        live = np.isin(both[: len(key)], both[len(key) :])
         # The solver lists them in the order of addresses in memory: put them in one that is always
         # the same, the strongest of a pair and substep first.
         rows = np.flatnonzero(live)

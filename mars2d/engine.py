@@ -304,8 +304,10 @@ class Engine:
             self._last_step = h
             elapsed = duration if h == left else elapsed + h
             everything = self.space.read().copy()
-            for i in who[:k][slipping[:k]].tolist():
-                self._effort[i] = max(self._effort[i], self.space.effort(i, h))
+            slips = who[:k][slipping[:k]].tolist()
+            if slips:
+                used = self.space.effort(slips, h)
+                self._effort[slips] = np.maximum(self._effort[slips], used)
 
     def _motion(
         self, twist: Float, state: Float, slipping: Mask, who: Index, k: int

@@ -79,10 +79,10 @@ class Space:
         self._statics = [self._add_obstacle(*surface) for surface in scenario.surfaces]
         self._clutches: dict[int, Clutch] = {
             i: _clutch(control, self._bodies[i], robot.drive.max_force, robot.drive.max_torque)
-            for i, (control, robot) in enumerate(
-                zip(self._controls, scenario.robots, strict=True)
-            )
+            for i, (control, robot) in enumerate(zip(self._controls, scenario.robots, strict=True))
         }
+        drives = [robot.drive for robot in scenario.robots]
+        self._bounds = np.array([(drive.max_force, drive.max_torque) for drive in drives])
         self._grips: dict[int, Clutch] = {}
         self._ties = scenario.ties
         self._joints = [self._add_joint(tie) for tie in self._ties]
@@ -190,11 +190,10 @@ class Space:
         """Take a robot's joints out again."""
         self._space.remove(*self._clutches[i])
 
-    def effort(self, i: int, h: float) -> float:
-        """Return the share of its bounds that an engaged drive used in the last step of h."""
-        pivot, gear = self._clutches[i]
-        push, turn = pivot.max_force, gear.max_force
-        return max(pivot.impulse / (push * h), gear.impulse / (turn * h))
+    def effort(self, which: list[int], h: float) -> Float:
+        """Return the shares of their bounds that engaged drives used in the last step of h."""
+        used = [(pivot.impulse, gear.impulse) for pivot, gear in (self._clutches[i] for i in which)]
+        return np.asarray((np.array(used) / (self._bounds[which] * h)).max(axis=1))
 
     def grip(self, i: int, force: float, torque: float) -> None:
         """Let the floor hold a body with a force [N] and a torque [N m] of friction."""
