@@ -16,9 +16,9 @@ from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, Worl
 from mars2d.addons import Map
 from mars2d.contact import episodes
 from mars2d.files import examples, open_experiment
+from mars2d.floor import GRAVITY
 from mars2d.joints import Joint, Rope, Spring
 from mars2d.loop import simulate
-from mars2d.floor import GRAVITY
 from mars2d.prediction import Prediction
 from mars2d.props import Ball, Box, Prop, Puck
 from mars2d.record import Record
@@ -35,9 +35,9 @@ physics, the second what the examples say of themselves. This page is written by
 
     python docs/make_theory.py
 
-which runs all of it anew; so do the tests, which fail when a number leaves its tolerance. Tolerances
-are absolute, in the unit given. Where 0 is predicted, what is measured is rounding, which differs
-between processors.
+which runs all of it anew; so do the tests, which fail when a number leaves its tolerance.
+Tolerances are absolute, in the unit given. Where 0 is predicted, what is measured is rounding,
+which differs between processors.
 """
 
 
@@ -307,7 +307,8 @@ def table(rows: Sequence[tuple[str, Prediction]], first: str) -> str:
         unit = f" {p.unit}" if p.unit else ""
         mark = "ok" if p.ok else "**NOT OK**"
         lines.append(
-            f"| {what} | {p.predicted:.5g}{unit} | {measured(p)}{unit} | {p.tolerance:.2g} | {mark} |"
+            f"| {what} | {p.predicted:.5g}{unit} | {measured(p)}{unit} "
+            f"| {p.tolerance:.2g} | {mark} |"
         )
     return "\n".join(lines) + "\n"
 

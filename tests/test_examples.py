@@ -15,7 +15,7 @@ from mars2d.files import examples
 # Another platform or engine may round the last digit differently.
 DIGESTS = {
     "billiards": "22e2f8fa04aac8d95cdeaf06adc4f615944d7aef0402309f03d4cb40e0e49c94",
-    "crowd": "ec8dd7aa3182ca3f57f7e82d76cd2d8d553b66ed444e711379e1d5be8ca9ada2",
+    "crowd": "a8e459e193ad352a2f6f509388e0a511f88be3dbbdc1b6fed85c7feec41cb06f",
     "follow_the_leader": "b73e802b2472ba73fd89a3eca8bdfe4d4a620a97874de3e990efd655d0c03d8e",
     "go_to_point": "b643a036965138572e874006ba4e9fa15b385d51cec11e5b42f5528fa6577dc7",
     "head_on": "181b0447a15e24b01239500068fb16ec227663169c141bfe4dc8e5af806684e6",

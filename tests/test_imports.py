@@ -23,8 +23,9 @@ LAYERS = [
     {"looks", "limits", "floor", "tethers"},
     {"scenario"},
     {"frame", "plain", "files", "pace", "space"},
-    {"engine", "record", "control", "forces"},
-    {"kinematics", "recorder"},
+    {"clutches", "grips", "record", "control", "forces"},
+    {"engine", "recorder"},
+    {"kinematics"},
     {"world"},
     {"loop", "rerun"},
     {"view"},
@@ -116,7 +117,7 @@ def test_who_draws_senses_or_reports_never_touches_the_engine(part: str) -> None
     assert files
     for path in files:
         modules = {module for module, _ in _own_imports(path)}
-        inside = {"mars2d.engine", "mars2d.kinematics", "mars2d.space"}
+        inside = {f"mars2d.{name}" for name in ("clutches", "engine", "grips", "kinematics", "space")}
         assert not {m for m in modules if m in inside or m.split(".")[0] == "pymunk"}, path
 
 

@@ -1,0 +1,76 @@
+"""What holds props on the floor while something may touch them.
+
+A prop that nothing touches glides in closed form. Else it is left to the solver, and the floor
+holds it by joints of bounded force and torque.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.encounter import Bounds
+from mars2d.floor import Floor
+from mars2d.scenario import Scenario
+from mars2d.space import Space
+
+__all__ = ["Grips"]
+
+Float = NDArray[np.float64]
+Index = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+
+class Grips:
+    """The floor under the props, as it acts on bodies.
+
+    In the methods, `who` (m,) are the numbers of some props among all bodies, `state` (m, 6) and
+    `slipping` (m,) theirs; a prop slips while something touches or holds it.
+    """
+
+    def __init__(self, scenario: Scenario, space: Space, bounds: Bounds) -> None:
+        """Take the props, where their bodies are, and how far these reach."""
+        self._space = space
+        self._first = len(scenario.robots)
+        self._floor = Floor(scenario.props)
+        self._reach = bounds.reach
+        self._grip = np.zeros((len(scenario.props), 2))  # N and N m, what the floor may use now
+        self._last_step = np.inf
+
+    def glide(self, state: Float, who: Index, h: float) -> tuple[Float, Float]:
+        """Return how far props slide in h seconds, and their velocities then, (m, 3) each."""
+        return self._floor.glide(state[:, 3:], who - self._first, h)
+
+    def motion(self, state: Float, slipping: Mask, who: Index) -> tuple[Float, Float]:
+        """Return how props move now, (m, 3), and how quickly that may turn, (m,) m/s^2."""
+        velocity = state[:, 3:]
+        braking = self._floor.braking(velocity, self._reach[who], who - self._first)
+        return velocity, np.where(slipping, 0.0, braking)
+
+    def aim(self, state: Float, slipping: Mask, who: Index, h: float) -> None:
+        """Set the velocities of props and what the floor may use for a substep of h.
+
+        One that glides has its velocity at the end, so that the solver meets what it then runs into
+        with the right one; it is put back by as much as it would go too short with that.
+        """
+        moved, end = self.glide(state, who, h)
+        glides = ~slipping & state[:, 3:].any(axis=1)
+        self._space.velocity[who] = np.where(glides[:, None], end, state[:, 3:])
+        ahead = state[:, :3] + moved - end * h
+        for row in np.flatnonzero(glides).tolist():
+            self._space.place(int(who[row]), *ahead[row].tolist())
+        self._hold(state, slipping, who)
+        self._last_step = h
+
+    def _hold(self, state: Float, slipping: Mask, who: Index) -> None:
+        """Let the floor hold what slips; what rests untouched stays so, and is hit as if free."""
+        held = np.zeros((len(who), 2))
+        for row in np.flatnonzero(slipping).tolist():
+            held[row] = self._space.held(int(who[row]), self._last_step)
+        props = who - self._first
+        grip = np.column_stack(self._floor.bounds(state[:, 3:], held, props))
+        grip[~slipping] = 0.0
+        changed = (grip != self._grip[props]).any(axis=1)
+        self._grip[props] = grip
+        for row in np.flatnonzero(changed).tolist():
+            self._space.grip(int(who[row]), *grip[row].tolist())
