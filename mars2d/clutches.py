@@ -61,7 +61,7 @@ class Clutches:
         return velocity, np.where(arcs, np.abs(np.hypot(forward, left) * spin), 0.0)
 
     def time_to_brake(self, twist: Float, state: Float, slipping: Mask, who: Index) -> Float:
-        """Return when drives end the spins of robots that slip, (m,) s; inf where they follow.
+        """Return when drives end the spins of robots that just begin to slip, (m,) s; else inf.
 
         A substep that is longer lets them turn on for all of it. It need not be so short that this
         can't be seen.
@@ -69,7 +69,7 @@ class Clutches:
         spin = np.abs(state[:, 5] - twist[2, who])
         rim = np.maximum(spin * self._rim[who], np.finfo(float).tiny)
         lasts = np.maximum(spin * self._moment[who] / self._torque[who], self._turned / rim)
-        return np.where(slipping, lasts, np.inf)
+        return np.where(slipping & (self._since[who] > 0), lasts, np.inf)
 
     def out_of_reach(self, twist: Float, state: Float, who: Index, h: float) -> Mask:
         """Return which robots their drives can't bring back to their commands within h."""
@@ -91,13 +91,14 @@ class Clutches:
         from afar is to hit with its momentum alone, not with all that its drive gives meanwhile.
         """
         now = np.where(slipping[:, None], state[:, 3:], self.chord(twist, state, h, who))
-        ahead = state[:, [0, 1, 2]]
-        ahead[:, 2] += now[:, 2] * h
         self._space.velocity[who] = now
-        self._space.velocity[self._count + who] = self.chord(twist, ahead, h, who)
         self._since[who] = np.where(slipping, 0, self._since[who] + 1)
+        holds = slipping | (brief & (self._since[who] <= LINGER))
+        ahead = state[holds, :3]
+        ahead[:, 2] += now[holds, 2] * h
+        self._space.velocity[self._count + who[holds]] = self.chord(twist, ahead, h, who[holds])
         wanted = np.zeros(len(self._engaged), dtype=bool)
-        wanted[who] = slipping | (brief & (self._since[who] <= LINGER))
+        wanted[who] = holds
         self._engage(wanted)
 
     def release(self, away: Mask) -> None:

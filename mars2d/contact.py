@@ -69,28 +69,28 @@ class ContactLog:
         self._times: list[float] = []
         self._lengths: list[float] = []
         self._solved: list[Solved] = []
-        self._touching: list[Int] = []
-        self._held: list[Int] = []  # those that touched after the substep before, too
-        self._latest = self._before = _NOBODY
+        self._touching: list[list[int]] = []
+        self._held: list[list[int]] = []  # those that touched after the substep before, too
+        self._latest: set[int] = set()
+        self._before: set[int] = set()
 
     def add(self, time: float, h: float, solved: Solved, touching: tuple[Int, Int]) -> None:
         """Note what the solver lists after a substep of h seconds, and which pairs do touch.
 
         touching: bodies (a, b), b negative for obstacles.
         """
-        a, b = touching
-        keys = np.unique(_key(*_ordered(a, b)))
-        keys = keys[np.isin(keys, _key(*_ordered(*solved.bodies.T)))]
+        listed = set(_key(*_ordered(*solved.bodies.T)).tolist())
+        keys = listed.intersection(_key(*_ordered(*touching)).tolist())
         self._times.append(time)
         self._lengths.append(h)
         self._solved.append(solved)
-        self._touching.append(keys)
-        self._held.append(keys[np.isin(keys, self._latest)])
+        self._touching.append(sorted(keys))
+        self._held.append(sorted(keys & self._latest))
         self._latest = keys
 
     def add_nothing(self) -> None:
         """Note that nothing touches after a substep."""
-        self._latest = _NOBODY
+        self._latest = set()
 
     def take(self) -> NDArray[np.void]:
         """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
@@ -113,8 +113,9 @@ class ContactLog:
 
         key = _key(a, b)
         # Those listed in a substep that touch after it; the others parted shortly before.
-        names, number = np.unique(np.concatenate([key, *self._touching]), return_inverse=True)
-        touch_count = [len(touching) for touching in self._touching]
+        touching = _numbers(self._touching)
+        names, number = np.unique(np.concatenate([key, touching]), return_inverse=True)
+        touch_count = [len(keys) for keys in self._touching]
         when = np.concatenate([substep, np.repeat(np.arange(len(count)), touch_count)])
         both = when * len(names) + number.ravel()
         live = np.isin(both[: len(key)], both[len(key) :])
@@ -137,7 +138,7 @@ class ContactLog:
         across = impulse[rows, 1] * normal[rows, 0] - impulse[rows, 0] * normal[rows, 1]
         result["normal_impulse"] = np.bincount(group, along, len(pairs))
         result["tangential_impulse"] = np.bincount(group, across, len(pairs))
-        result["began"] = ~np.isin(pairs, self._before)
+        result["began"] = [pair not in self._before for pair in pairs.tolist()]
         fresh = result["began"]
         # What touched before does so from the start of the control step.
         when, took = np.array(self._times), np.array(self._lengths)
@@ -145,9 +146,9 @@ class ContactLog:
         result["speed"] = np.where(fresh, -(velocity * normal)[row].sum(axis=1), 0.0)
         result["slip"] = velocity[row, 1] * normal[row, 0] - velocity[row, 0] * normal[row, 1]
         lengths = np.repeat(self._lengths, [len(held) for held in self._held])
-        held = np.searchsorted(pairs, np.concatenate(self._held))
+        held = np.searchsorted(pairs, _numbers(self._held))
         result["duration"] = np.bincount(held, lengths, len(pairs))
-        result["ended"] = ~np.isin(pairs, self._latest)
+        result["ended"] = [pair not in self._latest for pair in pairs.tolist()]
         self._before = self._latest
         for notes in (self._times, self._lengths, self._solved, self._touching, self._held):
             notes.clear()
@@ -176,13 +177,15 @@ def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:
     return result[np.argsort(result["began"], kind="stable")]
 
 
-_NOBODY: Int = np.empty(0, dtype=np.int64)
-
-
 def _ordered(a: Int, b: Int) -> tuple[Int, Int]:
     """Return pairs with the lower body first, an obstacle last."""
     swap = (a < 0) | ((b >= 0) & (b < a))
     return np.where(swap, b, a), np.where(swap, a, b)
+
+
+def _numbers(lists: list[list[int]]) -> Int:
+    """Return the keys of several lists in one array."""
+    return np.array([key for keys in lists for key in keys], dtype=np.int64)
 
 
 def _key(a: Int, b: Int) -> Int:

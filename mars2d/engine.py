@@ -271,8 +271,9 @@ class Engine:
             h = min(h, self._contact_step, GROWTH * self._last_step)
             brakes = self._clutches.time_to_brake(twist, state[:r], slipping[:r], who[:r])
             h = float(brakes.min(initial=h))
-            slow = self._clutches.out_of_reach(twist, state[:r], who[:r], h)
-            slipping[:r] &= touching[:r] | slow
+            returns = np.flatnonzero(slipping[:r] & ~touching[:r])
+            slow = self._clutches.out_of_reach(twist, state[returns], who[returns], h)
+            slipping[returns] = slow
             slipping[r:] = touching[r:]
         parts = [self._clutches.motion(twist, state[:r], slipping[:r], who[:r])]
         if r < len(who):

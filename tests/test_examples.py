@@ -15,16 +15,16 @@ from mars2d.files import examples
 # Another platform or engine may round the last digit differently.
 DIGESTS = {
     "billiards": "22e2f8fa04aac8d95cdeaf06adc4f615944d7aef0402309f03d4cb40e0e49c94",
-    "crowd": "a8e459e193ad352a2f6f509388e0a511f88be3dbbdc1b6fed85c7feec41cb06f",
+    "crowd": "e16c39e3660e558dc038100dd5c561c4436385ed5557030cd6ff3fe406d78692",
     "follow_the_leader": "b73e802b2472ba73fd89a3eca8bdfe4d4a620a97874de3e990efd655d0c03d8e",
     "go_to_point": "b643a036965138572e874006ba4e9fa15b385d51cec11e5b42f5528fa6577dc7",
     "head_on": "181b0447a15e24b01239500068fb16ec227663169c141bfe4dc8e5af806684e6",
     "many_push_one": "7bc3ac883c935dde644ef2b503e3ac0a88f050647d1b5c67b30ecaec8109f6ca",
-    "own_sensor_and_addon": "08983bf61d91926a9458ef71a10b25d7f9d7921d59158a51b4ce03da3b18a14c",
+    "own_sensor_and_addon": "0a8791a7bdaec76d356636f83972a7ed462df73bde1dbbad1895306653067730",
     "push_box": "47bcc4514e7fb08dc4b20821dd959814858ec07f8facf5bd1d84961d84490717",
     "random_walk": "914c9ae91a7f718268043edbc156cfafb5299cc64efcb983faae97aae3e22440",
     "shove_and_spin": "6f7444b332f0f37fbf03f822055391b179aaf2eb4d37778696c19859c26e8c83",
-    "sumo": "33f5f989e9a4704b6893c94e71ce4a2f7a182be782282b6a3a38887ff81ce333",
+    "sumo": "b128452edc25016c113f8bfa48cf70aa593ceb6013716da0d0b4a9146f4b5c82",
     "tug_of_war": "da0030f1783f40bc6192505da0315de61534f4343f776304f84100e238e21e81",
     "wall_slide": "cc58984fd9927ea3ac5262b9bd3f25890a3d0842bc0fe8b53ea5315fb1aa25f2",
 }
