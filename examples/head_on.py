@@ -54,6 +54,6 @@ def checks(record):
         press, at_end = (t["normal_impulse"][t["a"] == i].sum() / dt for t in touch)
         press_then, press_last = mean if start > 2 else less, less if start < time else mean
         yield Prediction(f"{lane}: speed after 2 s", gain, speed, 0.02 * gain + 1e-9, "m/s")
-        yield Prediction(f"{lane}: path", path, middle[-1], 0.005 * path + 1e-9, "m")
+        yield Prediction(f"{lane}: path", path, middle[-1], 0.005 * path + 1e-8, "m")
         yield Prediction(f"{lane}: force after 2 s", press_then, press, 0.01, "N")
         yield Prediction(f"{lane}: force", press_last, at_end, 0.01, "N")

@@ -198,6 +198,10 @@ class DiscPairs:
         discs, walls = self._touch[: len(self._i)], self._touch[len(self._i) :]
         return Close(self._i[discs], self._j[discs], self._disc[walls], self._segment[walls])
 
+    def gap_of_touching(self) -> Float:
+        """Return the gaps of the pairs that touch, zero or negative, metres."""
+        return np.asarray(self._gap[self._touch])
+
     def touching_points(self) -> tuple[Complex, Complex]:
         """Return of the pairs that touch points on the first disc, and the normals from it."""
         normal = self._normal[self._touch]

@@ -2,7 +2,8 @@
 
 As long as a robot follows its command, it is primed with its chord's velocity each substep. When
 contact or a joint has thrown it off, it slips: its velocity is left to the solver, and its drive is
-engaged, a control body that pulls it with bounded force and torque until it follows again.
+engaged, a control body that pulls it with bounded force and torque until it follows again, and for
+a few short substeps more.
 """
 
 from __future__ import annotations
@@ -104,6 +105,7 @@ class Clutches:
     def release(self, away: Mask) -> None:
         """Disengage the drives of robots that nothing can touch, (n,)."""
         self._engage(self._engaged & ~away)
+        self._since[away] = LINGER + 1
 
     def _engage(self, wanted: Mask) -> None:
         for i in np.flatnonzero(wanted & ~self._engaged).tolist():

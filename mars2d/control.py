@@ -73,6 +73,10 @@ class PropView:
         self._world = world
         self.index = index
 
+    def __getattr__(self, name: str) -> NoReturn:
+        known = [item for item in dir(type(self)) if not item.startswith("_")]
+        raise UnknownNameError(f"a prop has no {name!r}{nearest(name, [*known, 'index'])}")
+
     @property
     def name(self) -> str:
         """The prop's name."""
@@ -126,6 +130,16 @@ class RobotView:
         return self._world.pose[:, self.index]
 
     @property
+    def velocity(self) -> Float:
+        """The robot's own velocity (3,): x', y' [m/s], theta' [rad/s]."""
+        return self._world.velocity[:, self.index]
+
+    @property
+    def effort(self) -> float:
+        """The largest share of its bounds that its drive used in the last step, 0 to 1: slip."""
+        return float(self._world.effort[self.index])
+
+    @property
     def command(self) -> Float:
         """The last command (2,) that was issued, after saturation; zeros at first."""
         return self._world.command[:, self.index]
@@ -140,7 +154,10 @@ class RobotView:
 
     @property
     def contacts(self) -> NDArray[np.void]:
-        """The contacts of this robot since the last step: rows as in ``record.contacts``."""
+        """The contacts of this robot since the last step: rows as in ``record.contacts``.
+
+        Normals and tangential impulses are those on b, which may be this robot or the other body.
+        """
         rows = self._world.contacts
         return np.asarray(rows[(rows["a"] == self.index) | (rows["b"] == self.index)])
 
@@ -157,6 +174,11 @@ class SensorsOnlyView(RobotView):
     def pose(self) -> Float:
         """Refuse: a pose is not sensed."""
         raise LawError("this law sees sensors only: robot.pose is not available")
+
+    @property
+    def velocity(self) -> Float:
+        """Refuse: a velocity is not sensed."""
+        raise LawError("this law sees sensors only: robot.velocity is not available")
 
     @property
     def neighbours(self) -> tuple[Neighbour, ...]:

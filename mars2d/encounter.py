@@ -177,6 +177,15 @@ class Encounter:
                 ends.append(self._bounds.owner[piece[self._convex.touch]])
         return np.concatenate(first), np.concatenate(second)
 
+    def grazing(self, depth: float) -> tuple[Index, Index, Complex]:
+        """Return pairs (a, b) that touch, but less deep than this, and normals; see `touches`."""
+        a, b, _, normal = self.touches()
+        gap = self._discs.gap_of_touching()
+        if self._convex is not None and self._convex.any_touch:
+            gap = np.concatenate([gap, self._convex.gap[self._convex.touch]])
+        grazes = gap > -depth
+        return a[grazes], b[grazes], normal[grazes]
+
     def inwards(self, velocity: Float) -> Float:
         """Return how fast bodies move into what they touch, at most, (k,) m/s; velocity: (k, 3)."""
         fastest = np.full(len(self._who), -inf)

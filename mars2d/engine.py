@@ -41,6 +41,7 @@ SLOP = 1e-4
 
 ITERATIONS = 15
 ITERATIONS_UNEQUAL = 20  # with masses more than three times apart
+ITERATIONS_TIED = 60  # with joints: several may hold the same bodies
 
 SLACK = 1.25
 """How much further than at its present speed a body may be thrown before gaps are asked anew."""
@@ -51,11 +52,14 @@ STRETCH = 1 / 15
 The solver draws it in again, and what it pulls at bounces by that much more than nothing.
 """
 
-GROWTH = 2.0
-"""How much longer or shorter a substep may be than the one before, with the same impulses.
+PRESSED = 0.25
+"""How deep bodies overlap at least that press against each other, in parts of the slop."""
 
-The solver begins with those of the substep before. From where the next one has to be shorter than
-that, it begins anew.
+GROWTH = 2.0
+"""How much longer or shorter a substep may be than the one before, with the same joints.
+
+The solver begins with what they did in the substep before. From where the next one has to be
+shorter than that, they begin anew.
 """
 
 
@@ -70,7 +74,10 @@ class Engine:
         thinnest = min(body.shape.thickness for body in bodies)
         unequal = max(mass) > 3 * min(mass)
         iterations = ITERATIONS_UNEQUAL if unequal else ITERATIONS
+        if scenario.ties:
+            iterations = ITERATIONS_TIED
         slop = min(SLOP, scenario.max_overlap / 4, thinnest / 32)
+        self._pressed = PRESSED * slop
         self.space = Space(scenario, slop, iterations)
         self.bounds = Bounds(bodies, [s.outline for s in scenario.surfaces], scenario.joined)
         self._tethers = Tethers(scenario.ties, bodies) if scenario.ties else None
@@ -224,6 +231,8 @@ class Engine:
                 self._note_contacts(time + elapsed, h, everything, encounter)
             if elapsed >= duration:
                 break
+            if encounter.any_touch:
+                self._press(everything, encounter)
             left = duration - elapsed
             velocity, h = self._look_ahead(twist, everything, slipping, who, encounter, left)
             gone += h * self.bounds.top_speed(velocity, who)
@@ -238,6 +247,18 @@ class Engine:
             self._clutches.note_effort(who[:robots][slipping[:robots]], h)
         self._slipping[who] = slipping
         return elapsed
+
+    def _press(self, everything: Float, encounter: Encounter) -> None:
+        """Press together what touches by a rounding only, and would lose touch by another.
+
+        everything: (N, 6) states of all bodies, which are brought up to date.
+        """
+        for a, b, normal in zip(*encounter.grazing(self._pressed / 8), strict=True):
+            share = self._pressed if b < 0 else self._pressed / 2
+            for i, way in ((int(a), share), (int(b), -share)):
+                if i >= 0:
+                    everything[i, :2] += way * normal.real, way * normal.imag
+                    self.space.place(i, *everything[i, :2].tolist())
 
     def _note_contacts(self, time: float, h: float, state: Float, encounter: Encounter) -> None:
         if encounter.any_touch:
@@ -301,7 +322,7 @@ class Engine:
         if GROWTH * h < self._last_step and slipping.any():
             held = np.zeros(self.count, dtype=bool)
             held[who] = slipping
-            self.space.forget(held)
+            self.space.renew(held)
         if self._tethers is not None:
             for rope, speed in self._tethers.drift(h):
                 self.space.draw_in(rope, speed)

@@ -33,7 +33,8 @@ def rerun(record: Record) -> Departure | None:
     if needed:
         raise InputError(f"can't be run again: the file does not hold the {', '.join(needed)}")
     # The workspace and the stop time have ended the run, or not: the record says how long it was.
-    scenario = record.scenario.replace(stop_time=record.scenario.stop_time + 1e3)
+    longer = (len(record) + 1) * record.scenario.sampling_time
+    scenario = record.scenario.replace(stop_time=longer)
     if scenario.on_exit == "stop":
         scenario = scenario.replace(on_exit="ignore")
     world = World(scenario, seed=record.seed)

@@ -19,7 +19,17 @@ from mars2d.description import Description, entry, real, wrong
 from mars2d.errors import InputError
 from mars2d.geometry import Outline, Point
 
-__all__ = ["Compound", "Disc", "Piece", "Plate", "Polygon", "Rim", "Shape", "known_shape"]
+__all__ = [
+    "Compound",
+    "Disc",
+    "Piece",
+    "Plate",
+    "Polygon",
+    "Rim",
+    "Shape",
+    "known_shape",
+    "rectangle",
+]
 
 Float = NDArray[np.float64]
 
@@ -243,6 +253,12 @@ def _parts(name: str, value: object) -> tuple[Shape, ...]:
     if not 1 <= len(parts) <= MOST_PARTS:
         raise wrong(name, value, f"from 1 to {MOST_PARTS} shapes, as [Disc(0.2), Polygon(...)]")
     return parts
+
+
+def rectangle(length: float, width: float) -> Polygon:
+    """Return a rectangle about the origin, `length` along x and `width` along y, metres."""
+    x, y = length / 2, width / 2
+    return Polygon([(-x, -y), (x, -y), (x, y), (-x, y)])
 
 
 class Compound(Shape):

@@ -55,6 +55,9 @@ _ARBITER = (
 )
 
 
+_IN_TOUCH = (0, 1)
+"""The engine's states of contacts that are not over: just begun, going on."""
+
 JOINT_BIAS = 0.7**1000
 """What is left after a second of the error of a joint: 30 % of it go in 1 ms."""
 
@@ -87,6 +90,7 @@ class Space:
         self._ties = scenario.ties
         self._joints = [self._add_joint(tie) for tie in self._ties]
 
+        self._last_step = 1.0
         count = len(self._bodies) + len(self._controls) + 1 + len(self._statics)
         self._state_buffer = batch.Buffer()
         self._arbiter_buffer = batch.Buffer()
@@ -158,11 +162,26 @@ class Space:
         """Set the velocities of all bodies to `velocity`, and go on by h seconds.
 
         The solver begins with the impulses of the step before, scaled by the ratio of the steps'
-        lengths, but can only take back the unscaled ones. So it is told that the lengths are equal.
+        lengths, but takes back the unscaled ones: a drive at its bound would push with
+        F (2 h - h before), impacts would be undone by half. So those of contacts are scaled where
+        they are kept, and the solver is told that both steps are equally long.
         """
+        if h != self._last_step:
+            self._scale_contacts(h / self._last_step)
+            self._last_step = h
+            self._renew_ties()
         lib.cpSpaceSetCurrentTimeStep(self._space._space, h)
         batch.set_space_bodies(self._space, _VELOCITY, self._velocity_buffer)
         self._space.step(h)
+
+    def _scale_contacts(self, ratio: float) -> None:
+        """Scale the impulses that the solver keeps of contacts."""
+        for arbiter in self._space._get_arbiters():
+            if arbiter.state in _IN_TOUCH:
+                for k in range(arbiter.count):
+                    contact = arbiter.contacts[k]
+                    contact.jnAcc *= ratio
+                    contact.jtAcc *= ratio
 
     def place(self, i: int, x: float, y: float, theta: float | None = None) -> None:
         """Put a body somewhere; the next step finds it there."""
@@ -217,23 +236,23 @@ class Space:
         """
         (self._joints[k][0]).max_bias = speed
 
-    def forget(self, which: Mask) -> None:
-        """Make the solver forget the impulses on some bodies, which it would begin with; (N,).
+    def renew(self, which: Mask) -> None:
+        """Let the joints of some bodies begin anew, as if they had not held anything yet; (N,).
 
-        Those of robots are engaged. It is to be done where a step is much shorter than the one
-        before: the solver would begin with far too much.
+        Robots among them are engaged. It is to be done where a step is much shorter than the one
+        before: the solver would begin with what the joints did in that.
         """
         for i in np.flatnonzero(which).tolist():
-            for shape in self._bodies[i].shapes:
-                self._space.remove(shape)
-                self._space.add(shape)
             joints = self._clutches if i < self.robots else self._grips
             if i < self.robots or i in self._grips:
                 joints[i] = self._replaced(joints[i])
+
+    def _renew_ties(self) -> None:
         for k, tie in enumerate(self._ties):
-            if which[tie.a] or (tie.b >= 0 and which[tie.b]):
-                self._space.remove(*self._joints[k])
-                self._joints[k] = self._add_joint(tie)
+            bias = self._joints[k][0].max_bias
+            self._space.remove(*self._joints[k])
+            self._joints[k] = self._add_joint(tie)
+            self._joints[k][0].max_bias = bias
 
     def _replaced(self, clutch: Clutch) -> Clutch:
         self._space.remove(*clutch)

@@ -99,7 +99,12 @@ class Tethers:
         h = 2 * room / (rate + np.sqrt(rate**2 + 2 * turn * room) + TINY)
         jerk = np.where(self._ropes, h, inf)
         tight = (self._slack <= TAUT) & ~self._springs
-        pulled_apart = np.sqrt(2 * BENT * stretch / np.maximum(turn, TINY))
+        # The ends of a hinge may part in any direction at the start, those of a rod along it.
+        apart = np.hypot(parting.real, parting.imag)
+        along = np.abs(parting.real * self._normal.real + parting.imag * self._normal.imag)
+        speed = np.where(self._length > 0, np.where(self._ropes, 0.0, along), apart)
+        give = BENT * stretch
+        pulled_apart = 2 * give / (speed + np.sqrt(speed**2 + 2 * turn * give) + TINY)
         return float(np.minimum(jerk, np.where(tight, pulled_apart, inf)).min())
 
     def drift(self, h: float) -> Iterator[tuple[int, float]]:

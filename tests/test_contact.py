@@ -171,7 +171,7 @@ def test_a_robot_that_has_parted_makes_no_more_rows():
 def test_robots_that_stand_at_exactly_zero_distance_are_no_trouble(gap):
     world = world_of(Robot(), Robot(pose=(0.3 + gap, 0, 0)), addons=[Map([wall_at(0.45)])])
     drive(world, [[0, 0], [0, 0]], 5)
-    assert np.abs(world.pose[0] - [0, 0.3]).max() < 1e-6
+    assert np.abs(world.pose[0] - [0, 0.3]).max() < 5e-5  # a quarter of the slop each
 
 
 def solved(*rows: dict) -> Solved:

@@ -14,19 +14,19 @@ from mars2d.files import examples
 
 # Another platform or engine may round the last digit differently.
 DIGESTS = {
-    "billiards": "22e2f8fa04aac8d95cdeaf06adc4f615944d7aef0402309f03d4cb40e0e49c94",
-    "crowd": "e16c39e3660e558dc038100dd5c561c4436385ed5557030cd6ff3fe406d78692",
+    "billiards": "688a4dac0b2a47ae85d063d556f579668450bf024215cdc0626dedfeddfd813e",
+    "crowd": "26e3c75a44808b2f6a2bcc168f49b010cd92c163b76a79721f245d5efbd1d44e",
     "follow_the_leader": "b73e802b2472ba73fd89a3eca8bdfe4d4a620a97874de3e990efd655d0c03d8e",
     "go_to_point": "b643a036965138572e874006ba4e9fa15b385d51cec11e5b42f5528fa6577dc7",
-    "head_on": "181b0447a15e24b01239500068fb16ec227663169c141bfe4dc8e5af806684e6",
-    "many_push_one": "7bc3ac883c935dde644ef2b503e3ac0a88f050647d1b5c67b30ecaec8109f6ca",
-    "own_sensor_and_addon": "0a8791a7bdaec76d356636f83972a7ed462df73bde1dbbad1895306653067730",
-    "push_box": "47bcc4514e7fb08dc4b20821dd959814858ec07f8facf5bd1d84961d84490717",
+    "head_on": "363d023d50865a9e70f5aa3beecaff1828248b2257e77c3f3f6d4948e9919dfb",
+    "many_push_one": "a24119b6b0cf09431e63480ef211b3643a840e65bda9830814d7192c9c54c1e4",
+    "own_sensor_and_addon": "c35bf996ad95297c7cc664f6291176ba5132da5108c5379f507be047ff047bec",
+    "push_box": "365534f7136bf71df428b8f172058e30f61e1a986da54d2160bb092b4e530d30",
     "random_walk": "914c9ae91a7f718268043edbc156cfafb5299cc64efcb983faae97aae3e22440",
-    "shove_and_spin": "6f7444b332f0f37fbf03f822055391b179aaf2eb4d37778696c19859c26e8c83",
-    "sumo": "b128452edc25016c113f8bfa48cf70aa593ceb6013716da0d0b4a9146f4b5c82",
-    "tug_of_war": "da0030f1783f40bc6192505da0315de61534f4343f776304f84100e238e21e81",
-    "wall_slide": "cc58984fd9927ea3ac5262b9bd3f25890a3d0842bc0fe8b53ea5315fb1aa25f2",
+    "shove_and_spin": "25b100a92d504c412c0f0fcb1b2ee8fb9b456a813eb4afa842ee8283d76857a1",
+    "sumo": "92b3c90538d1a58ff2947246e7f74e50b4d7669e7a3fdbacacb61c178930d24d",
+    "tug_of_war": "d740cf155d73b5267075d5826034af20cb0a8830028c8a03d5e1242cc6787457",
+    "wall_slide": "ef8343e6df01902a4da2dbb1e56b65ac2e14a39d44dac16d8ea298fe5cf05950",
 }
 PINNED_ON = "Linux x86_64 with pymunk 7.3"
 ON_THE_PINNED_PLATFORM = (

@@ -117,7 +117,9 @@ def test_who_draws_senses_or_reports_never_touches_the_engine(part: str) -> None
     assert files
     for path in files:
         modules = {module for module, _ in _own_imports(path)}
-        inside = {f"mars2d.{name}" for name in ("clutches", "engine", "grips", "kinematics", "space")}
+        inside = {
+            f"mars2d.{name}" for name in ("clutches", "engine", "grips", "kinematics", "space")
+        }
         assert not {m for m in modules if m in inside or m.split(".")[0] == "pymunk"}, path
 
 

@@ -127,7 +127,7 @@ def moves(robots, prop: Prop) -> bool:
     """
     world = world_of(robots, [prop])
     command = [[0.02] * len(robots), [0] * len(robots)]
-    drive(world, command, 1.5)
+    drive(world, command, 7.5)
     before = world.prop_pose[0, 0]
     drive(world, command, 0.5)
     return bool(world.prop_pose[0, 0] - before > 0.002)

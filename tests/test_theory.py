@@ -66,9 +66,8 @@ def test_two_equal_robots_head_on_do_not_drift_whatever_is_between(shape, betwee
     start = np.hstack([world.pose, world.prop_pose])
     drive(world, [[0.3, 0.3], [0, 0]], 15)
     poses = np.hstack([world.pose, world.prop_pose])
-    # What lies with its faces between faces turns a little, by less than a milliradian.
-    # So does what lies between discs, by a tenth of that.
-    turns = 1e-5 if not between else 2e-4 if shape is None else 1e-3
+    # Three bodies pressed together buckle a little, those with flat faces the most.
+    turns = 1e-5 if not between else 2e-4 if shape is None else 5e-3
     assert np.abs(world.pose[:2].mean(axis=1)).max() < turns
     assert np.abs(poses - start).max() < turns
     assert world.effort == pytest.approx([1, 1], abs=1e-3)

@@ -8,6 +8,7 @@ from pathlib import Path
 from mars2d.commands.base import run_headless
 from mars2d.errors import InputError, Mars2dError, counted
 from mars2d.files import Experiment, open_experiment
+from mars2d.joints import Joint
 from mars2d.record import load
 from mars2d.rerun import rerun
 from mars2d.robot import Robot
@@ -67,6 +68,9 @@ def _description(experiment: Experiment) -> list[tuple[str, str]]:
     rows += [
         ("workspace", f"{xmax - xmin:g} m x {ymax - ymin:g} m, {corners}"),
         ("obstacles", str(len(scenario.obstacles))),
+        ("props", ", ".join(str(prop.name) for prop in scenario.props) or "none"),
+        ("joints", ", ".join(_joint(tie.joint) for tie in scenario.ties) or "none"),
+        ("physics", scenario.physics),
         ("add-ons", ", ".join(addon.key for addon in scenario.addons) or "none"),
         ("time", f"{scenario.stop_time:g} s in steps of {scenario.sampling_time:g} s"),
         ("laws", ", ".join(laws) or "none: all robots stand still"),
@@ -74,6 +78,10 @@ def _description(experiment: Experiment) -> list[tuple[str, str]]:
     if experiment.checks is not None:
         rows.append(("checks", "checks(record), made after a whole run"))
     return rows
+
+
+def _joint(joint: Joint) -> str:
+    return f"{type(joint).__name__} of {joint.a} and {joint.b or 'the world'}"
 
 
 def _robot(robot: Robot) -> str:

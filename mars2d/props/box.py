@@ -6,7 +6,7 @@ from functools import cached_property
 
 from mars2d.description import number
 from mars2d.props.base import Prop
-from mars2d.shapes import Polygon, Shape
+from mars2d.shapes import Shape, rectangle
 
 __all__ = ["Box"]
 
@@ -24,5 +24,4 @@ class Box(Prop):
     @cached_property
     def shape(self) -> Shape:
         """The rectangle."""
-        x, y = self.length / 2, self.width / 2
-        return Polygon([(-x, -y), (x, -y), (x, y), (-x, y)])
+        return rectangle(self.length, self.width)

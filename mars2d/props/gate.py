@@ -9,7 +9,7 @@ from mars2d.description import entry, number
 from mars2d.joints.base import Joint
 from mars2d.joints.hinge import Hinge, turning_limits
 from mars2d.props.base import Prop
-from mars2d.shapes import Polygon, Shape
+from mars2d.shapes import Shape, rectangle
 
 __all__ = ["Gate"]
 
@@ -35,8 +35,7 @@ class Gate(Prop):
     @cached_property
     def shape(self) -> Shape:
         """The bar."""
-        x, y = self.length / 2, self.thickness / 2
-        return Polygon([(-x, -y), (x, -y), (x, y), (-x, y)])
+        return rectangle(self.length, self.thickness)
 
     def joints(self) -> tuple[Joint, ...]:
         """Return the hinge."""

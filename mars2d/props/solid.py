@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+from math import hypot
+
 from mars2d.description import entry
 from mars2d.props.base import Prop
 from mars2d.shapes import Shape, known_shape
 
 __all__ = ["Solid"]
 
+CENTRED = 1e-9
+"""How far off its origin a shape's centre of mass may be, in parts of its size."""
+
 
 def _centred(name: str, value: object) -> Shape:
     shape = known_shape(name, value, "Polygon([(0, 0), (0.4, 0), (0.2, 0.3)])")
-    x, y = shape.centroid
-    return shape if abs(x) + abs(y) < 1e-12 else shape.moved(-x, -y)
+    center, radius = shape.bound
+    for _ in range(2):  # the first move leaves the rounding of a shape that was far away
+        x, y = shape.centroid
+        if hypot(x, y) <= CENTRED * (hypot(*center) + radius):
+            break
+        shape = shape.moved(-x, -y)
+    return shape
 
 
 class Solid(Prop):
