@@ -70,9 +70,9 @@ class Engine:
         """Build robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls."""
         bodies = scenario.bodies
         self.n, self.count = len(scenario.robots), len(bodies)
-        mass = [body.inertia.mass for body in bodies]
+        mass = self._mass = np.array([body.inertia.mass for body in bodies])
         thinnest = min(body.shape.thickness for body in bodies)
-        unequal = max(mass) > 3 * min(mass)
+        unequal = mass.max() > 3 * mass.min()
         iterations = ITERATIONS_UNEQUAL if unequal else ITERATIONS
         if scenario.ties:
             iterations = ITERATIONS_TIED
@@ -96,8 +96,8 @@ class Engine:
         # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
         self._entry = min(0.75 * scenario.max_overlap, 0.125 * thinnest)
         # The depth under a force F settles at about F h^2 / (m iterations).
-        force, mass = self._clutches.force, np.array([b.inertia.mass for b in scenario.bodies])
-        push = float(max((force / mass[: self.n]).max(), force.max() / mass.min()))
+        force = self._clutches.force
+        push = float(max((force / self._mass[: self.n]).max(), force.max() / self._mass.min()))
         self._contact_step = sqrt(0.15 * scenario.max_overlap * iterations / push)
         if self._tethers is not None:
             self._contact_step = min(self._contact_step, self._tethers.longest_step)
@@ -254,8 +254,9 @@ class Engine:
         everything: (N, 6) states of all bodies, which are brought up to date.
         """
         for a, b, normal in zip(*encounter.grazing(self._pressed / 8), strict=True):
-            share = self._pressed if b < 0 else self._pressed / 2
-            for i, way in ((int(a), share), (int(b), -share)):
+            # Their common centre of mass stays.
+            share = 1.0 if b < 0 else self._mass[b] / (self._mass[a] + self._mass[b])
+            for i, way in ((int(a), share * self._pressed), (int(b), (share - 1) * self._pressed)):
                 if i >= 0:
                     everything[i, :2] += way * normal.real, way * normal.imag
                     self.space.place(i, *everything[i, :2].tolist())

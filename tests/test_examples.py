@@ -14,7 +14,7 @@ from mars2d.files import examples
 
 # Another platform or engine may round the last digit differently.
 DIGESTS = {
-    "billiards": "688a4dac0b2a47ae85d063d556f579668450bf024215cdc0626dedfeddfd813e",
+    "billiards": "a6fcb5253b310e38039ad72e32d7e92fc4327e896538ec21b94ae80a124a272c",
     "crowd": "26e3c75a44808b2f6a2bcc168f49b010cd92c163b76a79721f245d5efbd1d44e",
     "follow_the_leader": "b73e802b2472ba73fd89a3eca8bdfe4d4a620a97874de3e990efd655d0c03d8e",
     "go_to_point": "b643a036965138572e874006ba4e9fa15b385d51cec11e5b42f5528fa6577dc7",
@@ -23,7 +23,7 @@ DIGESTS = {
     "own_sensor_and_addon": "c35bf996ad95297c7cc664f6291176ba5132da5108c5379f507be047ff047bec",
     "push_box": "365534f7136bf71df428b8f172058e30f61e1a986da54d2160bb092b4e530d30",
     "random_walk": "914c9ae91a7f718268043edbc156cfafb5299cc64efcb983faae97aae3e22440",
-    "shove_and_spin": "25b100a92d504c412c0f0fcb1b2ee8fb9b456a813eb4afa842ee8283d76857a1",
+    "shove_and_spin": "1c233159d0e1f7160097ed10bd7be72ec374a86f0084f6a5206236d25113c369",
     "sumo": "92b3c90538d1a58ff2947246e7f74e50b4d7669e7a3fdbacacb61c178930d24d",
     "tug_of_war": "d740cf155d73b5267075d5826034af20cb0a8830028c8a03d5e1242cc6787457",
     "wall_slide": "ef8343e6df01902a4da2dbb1e56b65ac2e14a39d44dac16d8ea298fe5cf05950",

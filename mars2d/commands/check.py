@@ -12,6 +12,7 @@ from mars2d.joints import Joint
 from mars2d.record import load
 from mars2d.rerun import rerun
 from mars2d.robot import Robot
+from mars2d.scenario import Scenario
 
 NAME = "check"
 
@@ -68,9 +69,7 @@ def _description(experiment: Experiment) -> list[tuple[str, str]]:
     rows += [
         ("workspace", f"{xmax - xmin:g} m x {ymax - ymin:g} m, {corners}"),
         ("obstacles", str(len(scenario.obstacles))),
-        ("props", ", ".join(str(prop.name) for prop in scenario.props) or "none"),
-        ("joints", ", ".join(_joint(tie.joint) for tie in scenario.ties) or "none"),
-        ("physics", scenario.physics),
+        *_things(scenario),
         ("add-ons", ", ".join(addon.key for addon in scenario.addons) or "none"),
         ("time", f"{scenario.stop_time:g} s in steps of {scenario.sampling_time:g} s"),
         ("laws", ", ".join(laws) or "none: all robots stand still"),
@@ -78,6 +77,16 @@ def _description(experiment: Experiment) -> list[tuple[str, str]]:
     if experiment.checks is not None:
         rows.append(("checks", "checks(record), made after a whole run"))
     return rows
+
+
+def _things(scenario: Scenario) -> list[tuple[str, str]]:
+    """Return what is to be said of props and joints, and of physics without forces."""
+    rows = [
+        ("props", ", ".join(str(prop.name) for prop in scenario.props)),
+        ("joints", ", ".join(_joint(tie.joint) for tie in scenario.ties)),
+        ("physics", "" if scenario.physics == "contact" else scenario.physics),
+    ]
+    return [(name, text) for name, text in rows if text]
 
 
 def _joint(joint: Joint) -> str:
