@@ -124,7 +124,8 @@ class ContactLog:
         rows = np.flatnonzero(live)
         strength = np.hypot(impulse[rows, 0], impulse[rows, 1])
         x, y = point[rows].T
-        rows = rows[np.lexsort((y, x, -strength, key[rows], substep[rows]))]
+        nx, ny = normal[rows].T
+        rows = rows[np.lexsort((ny, nx, y, x, -strength, key[rows], substep[rows]))]
         pairs, start, group = np.unique(key[rows], return_index=True, return_inverse=True)
         group = group.ravel()
         row = rows[start]
