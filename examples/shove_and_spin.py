@@ -57,4 +57,4 @@ def checks(record):
     m, d, a = disc.inertia.mass, disc.diameter, asin((disc.pose[1] - other.pose[1]) / disc.diameter)
     most = disc.friction**2 * blow(other, disc, disc.restitution**2) * cos(a)
     graze = 4 * min(most, m * other.velocity[0] * sin(a) / 6) / (m * d)
-    yield Prediction("grazed disc: spin", graze, spin[2], 2e-3 * graze, "rad/s")
+    yield Prediction("grazed disc: spin", graze, spin[2], 2e-3 * graze + 1e-9, "rad/s")
