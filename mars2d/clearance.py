@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.geometry import dot, length
+
 __all__ = ["Clearance", "Close", "DiscPairs", "Walls"]
 
 Float = NDArray[np.float64]
@@ -23,19 +25,6 @@ FEW = 32
 """Up to this many discs all pairs are kept; above, those within a skin, found by a k-d tree."""
 
 TINY = 1e-12
-
-
-# numpy's own abs and product of complex numbers round differently on different processors.
-
-
-def length(vector: Complex) -> Float:
-    """Return the lengths of vectors."""
-    return np.asarray(np.hypot(vector.real, vector.imag))
-
-
-def dot(a: Complex, b: Complex) -> Float:
-    """Return the scalar products of vectors."""
-    return np.asarray(a.real * b.real + a.imag * b.imag)
 
 
 class Walls:

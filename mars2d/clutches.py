@@ -114,10 +114,10 @@ class Clutches:
             self._space.disengage(i)
         self._engaged = wanted
 
-    def note_effort(self, who: Index, h: float) -> None:
-        """Note how much of their bounds engaged drives have used in a substep of h."""
+    def note_effort(self, who: Index) -> None:
+        """Note how much of their bounds engaged drives have used in the last substep."""
         if len(who):
-            used = self._space.effort(who.tolist(), h)
+            used = self._space.effort(who.tolist())
             self._effort[who] = np.maximum(self._effort[who], used)
 
     def take_effort(self) -> Float:

@@ -12,6 +12,8 @@ from math import cos, inf, sin
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.geometry import dot, length
+
 __all__ = ["ConvexPairs", "Pieces"]
 
 Float = NDArray[np.float64]
@@ -44,7 +46,7 @@ class Pieces:
         self._vertex = _columns(corners, [points[-1] for points in corners])
         self._edge = _columns(edges, [0j] * len(edges))
         self._axis = _columns(axes, [axis[-1] for axis in axes])
-        along = _dot(self._axis[:, None], self._vertex[None])
+        along = dot(self._axis[:, None], self._vertex[None])
         self._reach = np.asarray(along.max(axis=1))  # from the frame's origin, along each axis
 
     def local(self, which: Index) -> tuple[int, Complex, Float]:
@@ -55,7 +57,7 @@ class Pieces:
         """
         k = int(self._corners[which].max(initial=1))
         edge = self._edge[:k, which]
-        square = _dot(edge, edge)
+        square = dot(edge, edge)
         per_length = edge / np.where(square > 0, square, 1.0)
         directions = int(self._directions[which].max(initial=1))
         axis = self._axis[:directions, which]
@@ -100,7 +102,7 @@ class ConvexPairs:
         self._mover = np.maximum(self._bodies, -1)
         self._k, local, self._reach = pieces.local(both)
         self._local_x, self._local_y = local.real.copy(), local.imag.copy()
-        self._lever = _length(local[: self._k])
+        self._lever = length(local[: self._k])
         self._own_radius = pieces.radius(both)
         self._radii = self._own_radius.sum(axis=0)
         self._column = np.arange(len(self._radii))
@@ -265,28 +267,17 @@ def _time_to_close(room: Float, closing: Float, turn: Float) -> Float:
     return np.asarray(twice / (np.where(closing >= 0, total, slow) + TINY))
 
 
-# numpy's own abs and product of complex numbers round differently on different processors.
-
-
-def _length(vector: Complex) -> Float:
-    return np.asarray(np.hypot(vector.real, vector.imag))
-
-
-def _dot(a: Complex, b: Complex) -> Float:
-    return np.asarray(a.real * b.real + a.imag * b.imag)
-
-
 def _axes(edge: Complex) -> Complex:
     """Return the unit vectors in which a piece with these edges (K,) may be parted from another.
 
     They are the outward normals of the edges. A piece without area has directions along it too.
     """
-    edge = edge[_length(edge) > 0]
+    edge = edge[length(edge) > 0]
     if not len(edge):
         return np.array([1, 1j, -1, -1j])
-    along = edge / _length(edge)
+    along = edge / length(edge)
     normal = along.imag - 1j * along.real
-    if np.abs(_dot(along, normal[0])).max() > TINY:
+    if np.abs(dot(along, normal[0])).max() > TINY:
         return normal
     return np.array([normal[0], -normal[0], along[0], -along[0]])
 

@@ -1,22 +1,13 @@
 """Contact physics: bodies moved exactly where nothing touches, by forces where something does.
 
-What a robot's drive asks for is put to it in one of three ways:
-
-- A robot that nothing can reach during the time to come is *carried*: its velocity is that of the
-  chord of its arc, and one step of any length brings it to the exact pose.
-- A robot that may touch something is watched. As long as it does follow, it is primed with the
-  chord's velocity each substep, so that it is exact too.
-- A robot that contact or a joint has thrown off its command *slips*: its velocity is left to the
-  solver, and its drive is *engaged*, a kinematic control body that pulls it through joints of
-  bounded force and torque, until that force has brought it back.
-
-A prop that nothing touches *glides* as the closed form of friction says; else it is left to the
-solver, with the floor's friction as a joint of bounded force.
+What nothing can reach during the time to come is *carried*: robots go to the ends of their arcs and
+props glide, both in closed form, in one step of any length. What may touch something is *near*: it
+is stepped finely, robots by their clutches and props by the floor's grip.
 """
 
 from __future__ import annotations
 
-from math import ceil, inf, sqrt
+from math import ceil, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +16,7 @@ from mars2d.clutches import Clutches
 from mars2d.contact import ContactLog
 from mars2d.encounter import Bounds, Encounter
 from mars2d.grips import Grips
+from mars2d.motion import Motion
 from mars2d.scenario import Scenario
 from mars2d.space import Space
 from mars2d.tethers import Tethers
@@ -63,7 +55,7 @@ shorter than that, they begin anew.
 """
 
 
-class Engine:
+class Engine(Motion):
     """The motion of one world's bodies: robots first, then props."""
 
     def __init__(self, scenario: Scenario) -> None:
@@ -87,7 +79,6 @@ class Engine:
         self._grips = Grips(scenario, self.space, self.bounds)
         self._set_accuracy(scenario, thinnest, iterations)
         self._slipping = np.zeros(self.count, dtype=bool)
-        self._last_step = inf
         self._state = self.space.read().copy()
 
     def _set_accuracy(self, scenario: Scenario, thinnest: float, iterations: int) -> None:
@@ -101,16 +92,6 @@ class Engine:
         self._contact_step = sqrt(0.15 * scenario.max_overlap * iterations / push)
         if self._tethers is not None:
             self._contact_step = min(self._contact_step, self._tethers.longest_step)
-
-    @property
-    def pose(self) -> Float:
-        """The poses (3, N): x, y [m], theta [rad], as a new array."""
-        return self._state[:, :3].T.copy()
-
-    @property
-    def velocity(self) -> Float:
-        """The velocities (3, N): x', y' [m/s], theta' [rad/s], as a new array."""
-        return self._state[:, 3:].T.copy()
 
     def take_effort(self) -> Float:
         """Return the largest share of its bounds that each drive used since the last call, (n,)."""
@@ -146,7 +127,6 @@ class Engine:
         else:
             gone = duration
             self.space.step(duration)
-            self._last_step = duration
             self.contacts.add_nothing()
         self._arrive(twist, ~near, gone, duration)
         return gone
@@ -240,11 +220,10 @@ class Engine:
                 break
             self._aim(twist, everything[who], slipping, who, h)
             self.space.step(h)
-            self._last_step = h
             elapsed = duration if h == left else elapsed + h
             everything = self.space.read().copy()
             robots = np.searchsorted(who, self.n)
-            self._clutches.note_effort(who[:robots][slipping[:robots]], h)
+            self._clutches.note_effort(who[:robots][slipping[:robots]])
         self._slipping[who] = slipping
         return elapsed
 
@@ -290,7 +269,7 @@ class Engine:
         h = left
         slipping |= touching
         if slipping.any():
-            h = min(h, self._contact_step, GROWTH * self._last_step)
+            h = min(h, self._contact_step, GROWTH * self.space.last_step)
             brakes = self._clutches.time_to_brake(twist, state[:r], slipping[:r], who[:r])
             h = float(brakes.min(initial=h))
             returns = np.flatnonzero(slipping[:r] & ~touching[:r])
@@ -320,7 +299,7 @@ class Engine:
         self._clutches.aim(twist, state[:r], slipping[:r], who[:r], h, brief=brief)
         if r < len(who):
             self._grips.aim(state[r:], slipping[r:], who[r:], h)
-        if GROWTH * h < self._last_step and slipping.any():
+        if GROWTH * h < self.space.last_step and slipping.any():
             held = np.zeros(self.count, dtype=bool)
             held[who] = slipping
             self.space.renew(held)

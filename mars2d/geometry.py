@@ -13,20 +13,36 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "bounds_of",
     "distance_to_ring",
+    "dot",
     "edges_of",
     "inside_polygon",
+    "length",
     "outside_polygon",
     "point_segment_distance",
     "wrap",
 ]
 
 Float = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 Point = tuple[float, float]
 Outline = Sequence[Point]
 
 
 ON_THE_EDGE = 1e-9
 """A point as near as this to a polygon's boundary lies on it, metres."""
+
+
+# numpy's own abs and product of complex numbers round differently on different processors.
+
+
+def length(vector: Complex) -> Float:
+    """Return the lengths of vectors x + i y."""
+    return np.asarray(np.hypot(vector.real, vector.imag))
+
+
+def dot(a: Complex, b: Complex) -> Float:
+    """Return the scalar products of vectors x + i y."""
+    return np.asarray(a.real * b.real + a.imag * b.imag)
 
 
 def wrap(angle: ArrayLike) -> Float:

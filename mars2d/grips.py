@@ -35,7 +35,6 @@ class Grips:
         self._floor = Floor(scenario.props)
         self._reach = bounds.reach
         self._grip = np.zeros((len(scenario.props), 2))  # N and N m, what the floor may use now
-        self._last_step = np.inf
 
     def glide(self, state: Float, who: Index, h: float) -> tuple[Float, Float]:
         """Return how far props slide in h seconds, and their velocities then, (m, 3) each."""
@@ -60,13 +59,12 @@ class Grips:
         for row in np.flatnonzero(glides).tolist():
             self._space.place(int(who[row]), *ahead[row].tolist())
         self._hold(state, slipping, who)
-        self._last_step = h
 
     def _hold(self, state: Float, slipping: Mask, who: Index) -> None:
         """Let the floor hold what slips; what rests untouched stays so, and is hit as if free."""
         held = np.zeros((len(who), 2))
         for row in np.flatnonzero(slipping).tolist():
-            held[row] = self._space.held(int(who[row]), self._last_step)
+            held[row] = self._space.held(int(who[row]))
         props = who - self._first
         grip = np.column_stack(self._floor.bounds(state[:, 3:], held, props))
         grip[~slipping] = 0.0

@@ -9,7 +9,7 @@ from mars2d.contact import ContactLog, Solved
 from mars2d.encounter import Bounds, Encounter
 from mars2d.engine import SLOP
 from mars2d.floor import Floor
-from mars2d.motion import chord_velocity
+from mars2d.motion import Motion, chord_velocity, point_velocity
 from mars2d.scenario import Scenario
 from mars2d.space import Space
 
@@ -23,7 +23,7 @@ INWARDS = 1e-9
 """From this speed towards what it touches a body is stopped, m/s."""
 
 
-class Kinematics:
+class Kinematics(Motion):
     """The motion of one world's bodies where ``Scenario.physics`` is "stop" or "ideal".
 
     All follow their commands exactly, props glide on their own. With "stop", what would go into
@@ -45,16 +45,6 @@ class Kinematics:
         self._depth = min(SLOP, min(body.shape.thickness for body in bodies) / 32)
         self._state = self.space.read().copy()
 
-    @property
-    def pose(self) -> Float:
-        """The poses (3, N): x, y [m], theta [rad], as a new array."""
-        return self._state[:, :3].T.copy()
-
-    @property
-    def velocity(self) -> Float:
-        """The velocities (3, N): x', y' [m/s], theta' [rad/s], as a new array."""
-        return self._state[:, 3:].T.copy()
-
     def take_effort(self) -> Float:
         """Return zeros (n,): no drive has to make an effort."""
         return np.zeros(self.n)
@@ -72,7 +62,7 @@ class Kinematics:
         self.bounds.clearance.moved(reach)
         who = np.flatnonzero(near)
         start = self._state
-        self._state, _ = self._moved(twist, start, duration)
+        self._state = self._moved(twist, start, duration)
         if len(who):
             encounter = self.bounds.encounter(center, who, float(reach[who].max()))
             self._state[who] = self._substeps(twist, start, duration, time, who, encounter)[who]
@@ -80,18 +70,22 @@ class Kinematics:
             self.contacts.add_nothing()
         self.space.place_all(self._state[:, :3])
 
-    def _moved(self, twist: Float, state: Float, h: float) -> tuple[Float, Float]:
-        """Return the states (N, 6) after h seconds, and their velocities (N, 3) now."""
-        n = self.n
-        after, now = state.copy(), state[:, 3:].copy()
+    def _now(self, twist: Float, state: Float) -> Float:
+        """Return the velocities (N, 3) now."""
+        now, n = state[:, 3:].copy(), self.n
         now[:n] = chord_velocity(twist, state[:n, 2], 0.0, self._in_robot_frame)
+        return now
+
+    def _moved(self, twist: Float, state: Float, h: float) -> Float:
+        """Return the states (N, 6) after h seconds."""
+        after, n = state.copy(), self.n
         chord = chord_velocity(twist, state[:n, 2], h, self._in_robot_frame)
         after[:n, :3] += h * chord
         after[:n, 3:] = chord
         moved, end = self._floor.glide(state[n:, 3:], self._everyone, h)
         after[n:, :3] += moved
         after[n:, 3:] = end
-        return after, now
+        return after
 
     def _substeps(
         self,
@@ -107,7 +101,7 @@ class Kinematics:
         elapsed = h = 0.0
         while True:
             encounter.measure(state[who])
-            _, now = self._moved(twist, state, 0.0)
+            now = self._now(twist, state)
             if elapsed > 0 and encounter.any_touch:
                 self._note(time + elapsed, h, state, now, encounter)
             elif elapsed > 0:
@@ -118,7 +112,7 @@ class Kinematics:
                 stopped = who[encounter.inwards(now[who]) > INWARDS]
                 twist[:, stopped[stopped < n]] = 0.0
                 state[stopped[stopped >= n], 3:] = 0.0
-                _, now = self._moved(twist, state, 0.0)
+                now = self._now(twist, state)
             bend = np.zeros(len(state))
             arcs = np.abs(np.hypot(twist[0], twist[1]) * twist[2])
             bend[:n] = np.where(self._in_robot_frame, arcs, 0.0)
@@ -129,7 +123,7 @@ class Kinematics:
                 h,
                 encounter.time_to_touch(now[who], bend[who], self._depth, again=self._stops),
             )
-            state, _ = self._moved(twist, state, h)
+            state = self._moved(twist, state, h)
             elapsed = duration if h == left else elapsed + h
 
     def _note(
@@ -138,15 +132,8 @@ class Kinematics:
         """Note who touches whom after a step of h seconds."""
         a, b, point, normal = encounter.touches()
         points, normals = (np.column_stack([z.real, z.imag]) for z in (point, normal))
-        approach = np.zeros((len(a), 2))
-        for body, sign in ((a, -1.0), (b, 1.0)):
-            moves = body >= 0
-            who = body[moves]
-            arm = points[moves] - state[who, :2]
-            vx, vy, spin = velocity[who].T
-            approach[moves] += sign * np.column_stack(
-                [vx - spin * arm[:, 1], vy + spin * arm[:, 0]]
-            )
+        approach = point_velocity(state, velocity, b, points)
+        approach -= point_velocity(state, velocity, a, points)
         nothing = np.zeros((len(a), 2))
         solved = Solved(np.column_stack([a, b]), nothing, normals, points, points, approach)
         self.contacts.add(time, h, solved, (a, b))

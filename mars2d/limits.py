@@ -63,7 +63,7 @@ SHORTEST = 1e-3
 def check_centred(name: str, shape: Shape) -> None:
     """Refuse the shape of a prop whose pose is not that of its centre of mass."""
     x, y = shape.centroid
-    if hypot(x, y) > 1e-6 * reach(shape):
+    if hypot(x, y) > 1e-6 * shape.reach:
         raise InputError(
             f"{name}: its centre of mass lies at ({x:.4g}, {y:.4g}); expected (0, 0), as "
             "shape.moved(-x, -y) makes it"
@@ -107,7 +107,7 @@ def _check_mass(body: Rigid, material: Mapping[str, str]) -> None:
             f"{body.kind}.mass of {body.name}", mass,
             f"a mass >= {LIGHTEST:g} and <= {HEAVIEST:g} [kg]{hint}",
         )  # fmt: skip
-    most = mass * reach(body.shape) ** 2
+    most = mass * body.shape.reach**2
     if not 1e-3 * most <= moment <= most * (1 + 1e-9):
         raise wrong(
             f"{body.kind}.moment of {body.name}", moment,
@@ -125,7 +125,7 @@ def _check_motion(body: Rigid, fastest: float) -> None:
             "friction >= 0 and <= 1000, restitution >= 0 and <= 1",
         )  # fmt: skip
     vx, vy, omega = body.velocity
-    speed = hypot(vx, vy) + abs(omega) * reach(body.shape)
+    speed = hypot(vx, vy) + abs(omega) * body.shape.reach
     if not speed <= fastest:
         why = "" if fastest == FASTEST else f", as max_overlap is {fastest * CROSSING:g} m"
         raise wrong(
@@ -147,16 +147,10 @@ def _by_material(heaviest: Rigid, lightest: Rigid, material: Mapping[str, str]) 
     return ""
 
 
-def reach(shape: Shape) -> float:
-    """Return how far from the origin a shape reaches at most, metres."""
-    center, radius = shape.bound
-    return hypot(*center) + radius
-
-
 def corner(shape: Shape) -> float:
     """Return how far from the origin a corner of a shape lies, metres; a centred disc has none."""
     centred_disc = isinstance(shape, Disc) and shape.center == (0.0, 0.0)
-    return 0.0 if centred_disc else reach(shape)
+    return 0.0 if centred_disc else shape.reach
 
 
 def check_drive(name: str, drive: Drive, arm: float) -> None:
@@ -206,8 +200,8 @@ def check_tie(where: str, tie: Tie, bodies: Sequence[Rigid]) -> None:
     """Refuse a joint that would pull its bodies at once, or more quickly than can be followed."""
     for field, index in (("a", tie.a), ("b", tie.b)):
         anchor = getattr(tie.joint, f"anchor_{field}")
-        if index >= 0 and not hypot(*anchor) <= REACH * reach(bodies[index].shape):
-            most = REACH * reach(bodies[index].shape)
+        if index >= 0 and not hypot(*anchor) <= REACH * bodies[index].shape.reach:
+            most = REACH * bodies[index].shape.reach
             raise wrong(
                 f"{where}.anchor_{field}", anchor,
                 f"a point within {most:.4g} m of {bodies[index].name}'s centre of mass",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from math import cos, hypot, sin
+from math import cos, sin
 from typing import Any, Self
 
 from mars2d import checks
@@ -129,7 +129,7 @@ class Robot(Description):
             )  # fmt: skip
         if self.shape is not None and self.diameter != DIAMETER:
             raise wrong("Robot.diameter", self.diameter, "no diameter, as a shape is given")
-        reach = self.radius if self.shape is None else hypot(*self.shape.bound[0]) + self.radius
+        reach = self.radius if self.shape is None else self.shape.reach
         if abs(self.center_offset) > reach:
             raise wrong(
                 "Robot.center_offset", self.center_offset, f"within the radius, {reach:g} m"

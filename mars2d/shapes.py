@@ -132,6 +132,12 @@ class Shape(Description):
         """The centre (x, y) [m] and the radius [m] of the smallest circle round it."""
         return _circle_round(self.pieces)
 
+    @property
+    def reach(self) -> float:
+        """How far it reaches from the frame's origin at most, metres."""
+        center, radius = self.bound
+        return hypot(*center) + radius
+
     @cached_property
     def thickness(self) -> float:
         """The smallest width of any of its pieces, metres."""

@@ -22,6 +22,7 @@ from mars2d.joints.hinge import Hinge
 from mars2d.joints.rod import Rod
 from mars2d.joints.rope import Rope
 from mars2d.joints.spring import Spring
+from mars2d.motion import point_velocity
 from mars2d.rigid import Rigid
 from mars2d.scenario import Scenario
 from mars2d.tethers import TAUT
@@ -90,7 +91,8 @@ class Space:
         self._ties = scenario.ties
         self._joints = [self._add_joint(tie) for tie in self._ties]
 
-        self._last_step = 1.0
+        self.last_step = inf
+        """The length of the last step, seconds."""
         count = len(self._bodies) + len(self._controls) + 1 + len(self._statics)
         self._state_buffer = batch.Buffer()
         self._arbiter_buffer = batch.Buffer()
@@ -166,9 +168,9 @@ class Space:
         F (2 h - h before), impacts would be undone by half. So those of contacts are scaled where
         they are kept, and the solver is told that both steps are equally long.
         """
-        if h != self._last_step:
-            self._scale_contacts(h / self._last_step)
-            self._last_step = h
+        if h != self.last_step:
+            self._scale_contacts(h / self.last_step)
+            self.last_step = h
             self._renew_ties()
         lib.cpSpaceSetCurrentTimeStep(self._space._space, h)
         batch.set_space_bodies(self._space, _VELOCITY, self._velocity_buffer)
@@ -209,10 +211,10 @@ class Space:
         """Take a robot's joints out again."""
         self._space.remove(*self._clutches[i])
 
-    def effort(self, which: list[int], h: float) -> Float:
-        """Return the shares of their bounds that engaged drives used in the last step of h."""
+    def effort(self, which: list[int]) -> Float:
+        """Return the shares of their bounds that engaged drives used in the last step."""
         used = [(pivot.impulse, gear.impulse) for pivot, gear in (self._clutches[i] for i in which)]
-        return np.asarray((np.array(used) / (self._bounds[which] * h)).max(axis=1))
+        return np.asarray((np.array(used) / (self._bounds[which] * self.last_step)).max(axis=1))
 
     def grip(self, i: int, force: float, torque: float) -> None:
         """Let the floor hold a body with a force [N] and a torque [N m] of friction."""
@@ -222,12 +224,12 @@ class Space:
         pivot, gear = self._grips[i]
         pivot.max_force, gear.max_force = force, torque
 
-    def held(self, i: int, h: float) -> tuple[float, float]:
-        """Return the force [N] and torque [N m] of the floor on a body in the last step of h."""
+    def held(self, i: int) -> tuple[float, float]:
+        """Return the force [N] and torque [N m] of the floor on a body in the last step."""
         if i not in self._grips:
             return 0.0, 0.0
         pivot, gear = self._grips[i]
-        return pivot.impulse / h, gear.impulse / h
+        return pivot.impulse / self.last_step, gear.impulse / self.last_step
 
     def draw_in(self, k: int, speed: float) -> None:
         """Let rope k, which is longer than it ought to be, get shorter by no more than this, m/s.
@@ -277,21 +279,9 @@ class Space:
         first = np.where(two, (values[:, 4:6] + values[:, 8:10]) / 2, values[:, 4:6])
         second = np.where(two, (values[:, 6:8] + values[:, 10:12]) / 2, values[:, 6:8])
         impulse, normal = values[:, 0:2].copy(), values[:, 2:4].copy()
-        velocity = self._point_velocity(state, bodies[:, 1], second)
-        velocity -= self._point_velocity(state, bodies[:, 0], first)
+        velocity = point_velocity(state, self.velocity, bodies[:, 1], second)
+        velocity -= point_velocity(state, self.velocity, bodies[:, 0], first)
         return Solved(bodies, impulse, normal, first, second, velocity)
-
-    def _point_velocity(self, state: Float, body: NDArray[np.int64], point: Float) -> Float:
-        """Return the velocities (k, 2) that points of bodies (k,) had before the last step."""
-        pose = np.zeros((len(body), 2))
-        moves = body >= 0
-        velocity = np.where(moves[:, None], self.velocity[np.maximum(body, 0)], 0.0)
-        pose[moves] = state[body[moves], :2]
-        arm = point - pose
-        result = velocity[:, :2].copy()
-        result[:, 0] -= velocity[:, 2] * arm[:, 1]
-        result[:, 1] += velocity[:, 2] * arm[:, 0]
-        return result
 
     # -- what sensors ask -------------------------------------------------------------------
 

@@ -6,12 +6,14 @@ import argparse
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mars2d.animation import playback_speed
-from mars2d.files import Experiment, examples
+from mars2d.errors import InputError
+from mars2d.files import Experiment, examples, parse_setting
 from mars2d.frame import Frame
 from mars2d.loop import simulate
+from mars2d.output import film
 from mars2d.prediction import Prediction, table
 from mars2d.progress import Progress
 from mars2d.record import Record
@@ -29,6 +31,50 @@ def add_run_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what every verb has that runs an experiment."""
     parser.add_argument("--headless", action="store_true", help="without a window")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of all random streams")
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add what changes an experiment before it is run."""
+    parser.add_argument("--stop-time", type=float, metavar="S", help="seconds to simulate")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", help="override a field"
+    )
+
+
+def options_of(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return the options that `add_options` has asked for, by the names of fields."""
+    options = dict(parse_setting(setting) for setting in arguments.set)
+    if arguments.stop_time is not None:
+        options["stop_time"] = arguments.stop_time
+    return options
+
+
+def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str, ...]]) -> None:
+    """Refuse a file that can't be written before the run, not after it.
+
+    outputs: arguments that name files, and the suffixes that they may have.
+    """
+    for name, suffixes in outputs.items():
+        path: Path | None = getattr(arguments, name)
+        if path is None:
+            continue
+        if path.suffix.lower() not in suffixes:
+            wanted = " or ".join(suffixes)
+            raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
+        if not path.parent.is_dir():
+            raise InputError(f"--{name} {path}: there is no folder {path.parent}")
+        if path.is_dir():
+            raise InputError(f"--{name} {path}: this is a folder")
+    if arguments.video is not None and arguments.video.suffix.lower() == ".mp4":
+        film.require_av(arguments.video)
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder, unless it is there."""
+    try:
+        path.mkdir(exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{path.absolute()}: can't be made: {error.strerror}") from error
 
 
 def add_speed(parser: argparse.ArgumentParser) -> None:
@@ -107,11 +153,9 @@ def save_footage(
     footage: Footage, last: Frame, path: Path, size: tuple[int, int] = (1280, 720)
 ) -> None:
     """Make a film of a run that was watched, with a progress bar."""
-    from mars2d.output.film import save_film
-
     progress = Progress(footage.count(last), "frames")
     try:
-        save_film(
+        film.save_film(
             footage.frames(last),
             path,
             fps=FILM_FPS,

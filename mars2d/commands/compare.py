@@ -12,9 +12,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mars2d.animation import playback_speed
-from mars2d.commands.base import FILM_FPS, SHORT_FILM, film_speed, run_headless
+from mars2d.commands.base import (
+    FILM_FPS,
+    SHORT_FILM,
+    add_options,
+    check_outputs,
+    film_speed,
+    make_folder,
+    options_of,
+    run_headless,
+)
 from mars2d.errors import InputError, Mars2dError
-from mars2d.files import Experiment, open_experiment, parse_setting
+from mars2d.files import Experiment, open_experiment
 from mars2d.output import figure, film
 from mars2d.output.comparison import MODES, Comparison
 from mars2d.progress import Progress
@@ -37,8 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("experiment", metavar="EXPERIMENT", help="a .py file, or the name of an example")
     add("--seed", type=int, default=0, metavar="N", help="of all random streams")
-    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
-    add("--set", action="append", default=[], metavar="KEY=VALUE", help="override a field")
+    add_options(parser)
     add("--figure", type=Path, metavar="OUT", help="the picture: .png, .pdf, .svg")
     add("--video", type=Path, metavar="OUT", help="the film: .gif, .mp4")
     add("--speed", type=_speed, metavar="X", help="of the film: 1 is real time")
@@ -58,7 +66,7 @@ def _speed(text: str) -> float:
 def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment with each physics, and show the runs side by side."""
     start = time.perf_counter()
-    _check_outputs(arguments)
+    check_outputs(arguments, OUTPUTS)
     options, seed = _options(arguments), check_seed(arguments.seed)
     # Opened anew for each run: laws keep state in generators and in their module's globals.
     experiments = {mode: open_experiment(arguments.experiment, options) for mode in MODES}
@@ -82,29 +90,10 @@ def execute(arguments: argparse.Namespace) -> None:
         print(_as_json(comparison, paths, time.perf_counter() - start))
 
 
-def _check_outputs(arguments: argparse.Namespace) -> None:
-    """Refuse a file that can't be written before the runs, not after them."""
-    for name, suffixes in OUTPUTS.items():
-        path: Path | None = getattr(arguments, name)
-        if path is None:
-            continue
-        if path.suffix.lower() not in suffixes:
-            wanted = " or ".join(suffixes)
-            raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
-        if not path.parent.is_dir():
-            raise InputError(f"--{name} {path}: there is no folder {path.parent}")
-        if path.is_dir():
-            raise InputError(f"--{name} {path}: this is a folder")
-    if arguments.video is not None and arguments.video.suffix.lower() == ".mp4":
-        film.require_av(arguments.video)
-
-
 def _options(arguments: argparse.Namespace) -> dict[str, Any]:
-    options = dict(parse_setting(setting) for setting in arguments.set)
+    options = options_of(arguments)
     if "physics" in options:
         raise InputError("--set physics: compare runs each physics by itself")
-    if arguments.stop_time is not None:
-        options["stop_time"] = arguments.stop_time
     return options
 
 
@@ -113,10 +102,7 @@ def _paths(arguments: argparse.Namespace) -> dict[str, Path]:
     wanted = {name: path for name in OUTPUTS if (path := getattr(arguments, name)) is not None}
     if wanted or arguments.json:
         return wanted
-    try:
-        FOLDER.mkdir(exist_ok=True)
-    except OSError as error:
-        raise InputError(f"{FOLDER.absolute()}: can't be made: {error.strerror}") from error
+    make_folder(FOLDER)
     name = Path(arguments.experiment).stem
     return {"figure": FOLDER / f"{name}.png", "video": FOLDER / f"{name}.gif"}
 

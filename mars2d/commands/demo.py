@@ -10,6 +10,7 @@ from mars2d.commands.base import (
     SHORT_FILM,
     add_run_arguments,
     has_display,
+    make_folder,
     print_examples,
     print_predictions,
     run_headless,
@@ -61,10 +62,7 @@ def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
     from mars2d.output.figure import save_figure
     from mars2d.output.footage import Footage
 
-    try:
-        FOLDER.mkdir(exist_ok=True)
-    except OSError as error:
-        raise InputError(f"{FOLDER.absolute()}: can't be made: {error.strerror}") from error
+    make_folder(FOLDER)
     footage = Footage(experiment.scenario, experiment.scenario.stop_time / SHORT_FILM, FILM_FPS)
     world = run_headless(experiment, seed, [footage])
     record = world.record

@@ -11,10 +11,13 @@ from pathlib import Path
 
 from mars2d.commands.base import (
     FILM_FPS,
+    add_options,
     add_run_arguments,
     add_speed,
+    check_outputs,
     film_speed,
     has_display,
+    options_of,
     predictions_of,
     print_predictions,
     run_headless,
@@ -23,7 +26,7 @@ from mars2d.commands.base import (
     warn_unchecked,
 )
 from mars2d.errors import InputError, Mars2dError, counted
-from mars2d.files import Experiment, open_experiment, parse_setting
+from mars2d.files import Experiment, open_experiment
 from mars2d.loop import Interrupted
 from mars2d.output import figure, film
 from mars2d.prediction import Prediction
@@ -40,8 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("experiment", metavar="EXPERIMENT", help="a .py file, or the name of an example")
     add_run_arguments(parser)
     add_speed(parser)
-    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
-    add("--set", action="append", default=[], metavar="KEY=VALUE", help="override a field")
+    add_options(parser)
     add("--record", type=Path, metavar="OUT.npz", help="save all data")
     add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
     add("--at", type=_times, metavar="T1,T2,...", help="snapshots at these times in the figure")
@@ -58,11 +60,10 @@ def _times(text: str) -> list[float]:
 
 def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment, in a window where there is one, and save what is asked for."""
-    _check_outputs(arguments)
-    options = dict(parse_setting(setting) for setting in arguments.set)
-    if arguments.stop_time is not None:
-        options["stop_time"] = arguments.stop_time
-    experiment = open_experiment(arguments.experiment, options)
+    check_outputs(arguments, OUTPUTS)
+    if arguments.at is not None and arguments.figure is None:
+        raise InputError("--at needs --figure OUT")
+    experiment = open_experiment(arguments.experiment, options_of(arguments))
     _check_times(arguments, experiment)
     start = time.perf_counter()
     try:
@@ -85,25 +86,6 @@ def execute(arguments: argparse.Namespace) -> None:
     else:
         print(_as_text(record), flush=True)
         print_predictions(experiment, record)
-
-
-def _check_outputs(arguments: argparse.Namespace) -> None:
-    """Refuse a file that can't be written before the run, not after it."""
-    for name, suffixes in OUTPUTS.items():
-        path: Path | None = getattr(arguments, name)
-        if path is None:
-            continue
-        if path.suffix.lower() not in suffixes:
-            wanted = " or ".join(suffixes)
-            raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
-        if not path.parent.is_dir():
-            raise InputError(f"--{name} {path}: there is no folder {path.parent}")
-        if path.is_dir():
-            raise InputError(f"--{name} {path}: this is a folder")
-    if arguments.video is not None and arguments.video.suffix.lower() == ".mp4":
-        film.require_av(arguments.video)
-    if arguments.at is not None and arguments.figure is None:
-        raise InputError("--at needs --figure OUT")
 
 
 def _check_times(arguments: argparse.Namespace, experiment: Experiment) -> None:

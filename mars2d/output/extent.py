@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import hypot
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -12,7 +11,6 @@ from mars2d.errors import InputError
 
 if TYPE_CHECKING:
     from mars2d.record import Record
-    from mars2d.shapes import Shape
 
 __all__ = ["View"]
 
@@ -43,7 +41,7 @@ class View:
             props = record.prop_pose[: row + 1, :2]
             low = np.hstack([low, props.min(axis=0)])
             high = np.hstack([high, props.max(axis=0)])
-            reach = np.append(reach, [_reach(prop.shape) for prop in record.scenario.props])
+            reach = np.append(reach, [prop.shape.reach for prop in record.scenario.props])
         xmin, xmax, ymin, ymax = record.scenario.bounds
         xmin = min(xmin, float((low[0] - reach).min()))
         xmax = max(xmax, float((high[0] + reach).max()))
@@ -78,9 +76,3 @@ class View:
         """Return the largest (width, height) in the view's proportions that fits, inches."""
         scale = min(width / self.width, height / self.height)
         return scale * self.width, scale * self.height
-
-
-def _reach(shape: Shape) -> float:
-    """Return how far a body reaches from its pose, metres."""
-    (x, y), radius = shape.bound
-    return hypot(x, y) + radius

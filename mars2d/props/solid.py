@@ -16,10 +16,9 @@ CENTRED = 1e-9
 
 def _centred(name: str, value: object) -> Shape:
     shape = known_shape(name, value, "Polygon([(0, 0), (0.4, 0), (0.2, 0.3)])")
-    center, radius = shape.bound
     for _ in range(2):  # the first move leaves the rounding of a shape that was far away
         x, y = shape.centroid
-        if hypot(x, y) <= CENTRED * (hypot(*center) + radius):
+        if hypot(x, y) <= CENTRED * shape.reach:
             break
         shape = shape.moved(-x, -y)
     return shape
