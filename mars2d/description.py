@@ -62,6 +62,7 @@ def number(
     unit: str = "",
     optional: bool = False,
     doc: str = "",
+    kw_only: bool = True,
 ) -> Any:
     """Declare a field that is a finite float: ``low <= value``, ``above < value <= high``."""
     expected = _bounds(low, above, high, unit) + (", or None" if optional else "")
@@ -79,10 +80,17 @@ def number(
             raise wrong(name, value, expected)
         return result
 
-    return entry(default=default, check=check, unit=unit, doc=doc)
+    return entry(default=default, check=check, unit=unit, doc=doc, kw_only=kw_only)
 
 
-def integer(*, default: Any = dataclasses.MISSING, low: int, high: int, doc: str = "") -> Any:
+def integer(
+    *,
+    default: Any = dataclasses.MISSING,
+    low: int,
+    high: int,
+    doc: str = "",
+    kw_only: bool = True,
+) -> Any:
     """Declare a field that is a whole number, ``low <= value <= high``."""
 
     def check(name: str, value: object) -> int:
@@ -93,7 +101,7 @@ def integer(*, default: Any = dataclasses.MISSING, low: int, high: int, doc: str
             raise wrong(name, value, expected)
         return int(value)
 
-    return entry(default=default, check=check, doc=doc)
+    return entry(default=default, check=check, doc=doc, kw_only=kw_only)
 
 
 def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = "") -> Any:

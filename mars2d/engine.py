@@ -80,6 +80,7 @@ class Engine(Motion):
         self._set_accuracy(scenario, thinnest, iterations)
         self._slipping = np.zeros(self.count, dtype=bool)
         self._state = self.space.read().copy()
+        self._twist = np.zeros((3, self.n))
 
     def _set_accuracy(self, scenario: Scenario, thinnest: float, iterations: int) -> None:
         """Work out how deep a body may enter in one substep, and how long one in contact may be."""
@@ -97,6 +98,15 @@ class Engine(Motion):
         """Return the largest share of its bounds that each drive used since the last call, (n,)."""
         return self._clutches.take_effort()
 
+    @property
+    def velocity(self) -> Float:
+        """The velocities (3, N) at this instant: x', y' [m/s], theta' [rad/s], as a new array."""
+        velocity = super().velocity
+        free = np.flatnonzero(~self._slipping[: self.n])  # the engine has chords of these
+        tangent = self._clutches.chord(self._twist, self._state[free], 0.0, free)
+        velocity[:, free] = tangent.T
+        return velocity
+
     # -- motion -----------------------------------------------------------------------------
 
     def drive(self, twist: Float, duration: float, time: float) -> None:
@@ -104,6 +114,7 @@ class Engine(Motion):
 
         time: that of the start, seconds, for the contacts.
         """
+        self._twist = twist
         elapsed = 0.0
         while elapsed < duration:
             left = duration - elapsed

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.contact import CONTACT
-from mars2d.looks import INK, draw_prop, draw_robot, draw_tie, prop_colors, prop_edge
+from mars2d.looks import INK, OBSTACLE, draw_prop, draw_robot, draw_tie, prop_colors, prop_edge
+from mars2d.message import MESSAGE
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene, faded
@@ -32,13 +33,16 @@ __all__ = [
 
 Float = NDArray[np.float64]
 
-OBSTACLE = "#b8c0c8"
 TRAIL_WIDTH = 1.6
 PROP_TRAIL_WIDTH = 1.0
 
 
 def _no_contacts() -> NDArray[np.void]:
     return np.empty(0, dtype=CONTACT)
+
+
+def _no_messages() -> NDArray[np.void]:
+    return np.empty(0, dtype=MESSAGE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +54,7 @@ class Frame:
     add-ons' shapes to a scene, where they are alive. prop_pose: (3, p). contacts: those of the
     control step that led here, and effort (n,) of the drives in it. contact_log: returns all
     contacts so far. prop_path: (k, 3, p) and effort_path: (k, n), as path; both may be left empty.
+    messages: those that were under way in the control step that led here.
     """
 
     scenario: Scenario
@@ -66,6 +71,7 @@ class Frame:
     contact_log: Callable[[], NDArray[np.void]] = _no_contacts
     prop_path: Float = field(default_factory=lambda: np.empty((0, 3, 0)))
     effort_path: Float = field(default_factory=lambda: np.empty((0, 0)))
+    messages: NDArray[np.void] = field(default_factory=_no_messages)
 
 
 def workspace(scenario: Scenario) -> Scene:

@@ -63,6 +63,7 @@ class Kinematics(Motion):
         who = np.flatnonzero(near)
         start = self._state
         self._state = self._moved(twist, start, duration)
+        self._state[:, 3:] = self._now(twist, self._state)
         if len(who):
             encounter = self.bounds.encounter(center, who, float(reach[who].max()))
             self._state[who] = self._substeps(twist, start, duration, time, who, encounter)[who]
@@ -107,6 +108,7 @@ class Kinematics(Motion):
             elif elapsed > 0:
                 self.contacts.add_nothing()
             if elapsed >= duration:
+                state[:, 3:] = now
                 return state
             if self._stops and encounter.any_touch:
                 stopped = who[encounter.inwards(now[who]) > INWARDS]

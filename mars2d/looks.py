@@ -20,11 +20,12 @@ from mars2d.scene import Scene, faded
 from mars2d.shapes import Disc, Rim, Shape
 from mars2d.tie import Tie
 
-__all__ = ["INK", "draw_prop", "draw_robot", "draw_tie", "prop_colors", "prop_edge"]
+__all__ = ["INK", "OBSTACLE", "draw_prop", "draw_robot", "draw_tie", "prop_colors", "prop_edge"]
 
 Float = NDArray[np.float64]
 
 INK = "#3d4852"
+OBSTACLE = "#b8c0c8"
 
 NEUTRAL = "#d8cbb3"
 """The colour of a prop of which neither colour nor material is said."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mars2d.contact import CONTACT
 from mars2d.errors import LawError, shown
+from mars2d.message import MESSAGE, as_of, in_flight
 from mars2d.record import Record
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
@@ -100,11 +101,15 @@ class Recorder:
         self._scenario = scenario
         self._sensors: dict[str, _Column] = {}
         self._contacts: list[NDArray[np.void]] = []
+        self._messages = _Column((), MESSAGE, 64)
+        self._message_count, self._longest_flight = 0, 0.0
+        self._contents: list[str] = []
         self.rows = 0
         self.sensor_robots: dict[str, tuple[int, ...]] = {}
         for i, robot in enumerate(scenario.robots):
             for sensor in robot.sensors:
-                self.sensor_robots[sensor.key] = (*self.sensor_robots.get(sensor.key, ()), i)
+                if sensor.recorded:
+                    self.sensor_robots[sensor.key] = (*self.sensor_robots.get(sensor.key, ()), i)
 
     def write(
         self, time: float, *, readings: Mapping[str, Sequence[Any]], **columns: Float | float
@@ -144,6 +149,23 @@ class Recorder:
             self._contacts = [np.concatenate(self._contacts)]
         return self._contacts[0] if self._contacts else np.empty(0, dtype=CONTACT)
 
+    def write_messages(
+        self, time: float, sender: int, text: str, rows: Sequence[tuple[float, int, int]]
+    ) -> None:
+        """Write one content that was sent, and a row (arrival, receiver, status) a receiver."""
+        size = len(text.encode())
+        for arrival, receiver, status in rows:
+            row = (time, arrival, sender, receiver, size, len(self._contents), status)
+            self._messages.write(self._message_count, row)
+            self._message_count += 1
+            self._longest_flight = max(self._longest_flight, arrival - time)  # not for nan
+        self._contents.append(text)
+
+    def in_flight(self, time: float) -> NDArray[np.void]:
+        """Return the messages that were under way in the control step that led to a time, s."""
+        messages = self._messages.upto(self._message_count)
+        return in_flight(messages, time, self._scenario.sampling_time, self._longest_flight)
+
     def column(self, name: str) -> NDArray[Any]:
         """Return a column so far, as a view that can't be written."""
         return self._columns[name].upto(self.rows)
@@ -152,6 +174,7 @@ class Recorder:
         self, seed: int, over_message: str, finished: bool, filename: str, drawn: Scene
     ) -> Record:
         """Return the record so far; what is written later does not change it."""
+        now = float(self.column("time")[-1]) if self.rows else 0.0
         return Record(
             scenario=self._scenario,
             seed=seed,
@@ -164,6 +187,8 @@ class Recorder:
             sensors={k: column.upto(self.rows).copy() for k, column in self._sensors.items()},
             sensor_robots={k: v for k, v in self.sensor_robots.items() if k in self._sensors},
             contacts=self.contacts(),
+            messages=as_of(self._messages.upto(self._message_count), now),
+            contents=tuple(self._contents),
             over_message=over_message,
             finished=finished,
             filename=filename,

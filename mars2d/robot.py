@@ -84,7 +84,11 @@ class Robot(Description):
     controller: Callable[[Any], Any] | None = entry(
         default=None, check=_controller, doc="its own law, a function or generator of the robot"
     )
-    sees: str = choice(default="full", of=("full", "sensors"), doc="what its law may see")
+    sees: str = choice(
+        default="full", of=("full", "partial", "positions", "sensors"),
+        doc="what its law may see: all; itself and its neighbours; itself and their positions; "
+        "or only what it senses",
+    )  # fmt: skip
     name: str | None = text(default=None, optional=True, doc="its name, else robot0, robot1, ...")
     color: str | None = entry(
         default=None, check=optional_color, doc="its colour, else from base_colors"

@@ -13,11 +13,14 @@ from numpy.typing import NDArray
 
 from mars2d import checks, limits, starts
 from mars2d.addons.base import Addon
+from mars2d.addons.communication import Communication
 from mars2d.animation import Animation
 from mars2d.description import Description, choice, entry, number, text, wrong
+from mars2d.errors import InputError
 from mars2d.geometry import Outline, bounds_of
 from mars2d.joints.base import Joint
 from mars2d.joints.hinge import Hinge
+from mars2d.neighbours import Everyone, Neighbourhood
 from mars2d.props.base import Prop
 from mars2d.registry import snake_case
 from mars2d.rigid import Rigid
@@ -117,6 +120,14 @@ class Scenario(Description):
     addons: Sequence[Addon] = entry(
         default=(), check=checks.listing(Addon, "Map([...])"), doc="maps, measures, games"
     )
+    sees: str = choice(
+        default="full", of=("full", "positions"),
+        doc="what the team's law may see: all, or only positions",
+    )  # fmt: skip
+    neighbours: Neighbourhood = entry(
+        check=checks.instance(Neighbourhood, "Within(2.0)"), factory=Everyone,
+        doc="whom `robot.neighbours` lists",
+    )  # fmt: skip
     animation: Animation = entry(
         check=checks.instance(Animation, "Animation()"), factory=Animation, doc="how it is drawn"
     )
@@ -136,6 +147,8 @@ class Scenario(Description):
         names = [str(robot.name) for robot in robots] + [str(prop.name) for prop in props]
         checks.unique("Scenario.robots and props", names)
         checks.unique("Scenario.addons", [addon.key for addon in self.addons])
+        if sum(isinstance(addon, Communication) for addon in self.addons) > 1:
+            raise InputError("Scenario.addons: two are Communication, and robots talk over one")
         if self.stop_time / self.sampling_time > ROW_LIMIT:
             raise wrong(
                 "Scenario.stop_time", self.stop_time,
@@ -146,6 +159,8 @@ class Scenario(Description):
                 "Scenario.command_delay", self.command_delay,
                 f"at most a million sampling times of {self.sampling_time:g} s",
             )  # fmt: skip
+        self._check_sensors()
+        self.neighbours.check_size(len(self.robots))
         self._check_bodies()
         self._check_joints()
         self._check_starts()
@@ -160,6 +175,12 @@ class Scenario(Description):
             Robot(pose=(x + radius * cos(a), y + radius * sin(a), a + pi if count > 1 else 0.0))
             for a in angles
         )
+
+    def _check_sensors(self) -> None:
+        """Refuse sensors that would measure between control steps, or hold too much back."""
+        for robot in self.robots:
+            for sensor in robot.sensors:
+                sensor.check_timing(f"{type(sensor).__name__} of {robot.name}", self.sampling_time)
 
     def _check_bodies(self) -> None:
         """Refuse bodies that contacts can't hold."""

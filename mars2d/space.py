@@ -7,7 +7,7 @@ order: robots, props, the robots' control bodies, then the static ones, the floo
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from math import cos, inf, sin
+from math import inf
 
 import numpy as np
 import pymunk
@@ -16,13 +16,14 @@ from pymunk import batch
 from pymunk._chipmunk_cffi import lib
 
 from mars2d.contact import Solved
-from mars2d.geometry import Outline, edges_of
+from mars2d.geometry import Outline, Point, edges_of
 from mars2d.joints.base import Joint
 from mars2d.joints.hinge import Hinge
 from mars2d.joints.rod import Rod
 from mars2d.joints.rope import Rope
 from mars2d.joints.spring import Spring
 from mars2d.motion import point_velocity
+from mars2d.rays import BODY, SIGHT, Rays, end_bars
 from mars2d.rigid import Rigid
 from mars2d.scenario import Scenario
 from mars2d.tethers import TAUT
@@ -76,11 +77,14 @@ class Space:
         self._space.collision_slop = slop
         self._space.iterations = iterations
         self.robots = len(scenario.robots)
+        self._shapes: dict[pymunk.Shape, int] = {}
         self._bodies = [self._add_body(rigid, i) for i, rigid in enumerate(scenario.bodies)]
         self._controls = [self._add(_kinematic()) for _ in scenario.robots]
         self._floor = self._add(_static())
         self.obstacles = tuple(s.outline for s in scenario.surfaces)
-        self._statics = [self._add_obstacle(*surface) for surface in scenario.surfaces]
+        self._statics = [
+            self._add_obstacle(-1 - k, *surface) for k, surface in enumerate(scenario.surfaces)
+        ]
         self._clutches: dict[int, Clutch] = {
             i: _clutch(control, self._bodies[i], robot.drive.max_force, robot.drive.max_torque)
             for i, (control, robot) in enumerate(zip(self._controls, scenario.robots, strict=True))
@@ -105,6 +109,8 @@ class Space:
         named = [(body.id, i) for i, body in enumerate(self._bodies)]
         named += [(body.id, -1 - k) for k, body in enumerate(self._statics)]
         self._address, self._name = np.array(sorted(named), dtype=np.int64).T
+        self._rays = Rays(self._space, self._shapes)
+        self._misplaced: set[int] = set()  # their shapes do not know yet where the bodies are
 
     # -- building ---------------------------------------------------------------------------
 
@@ -124,17 +130,27 @@ class Space:
             else:
                 shape = pymunk.Poly(body, vertices)
             shape.friction, shape.elasticity = rigid.surface
-            if i < self.robots:
-                shape.filter = _own(i)  # a robot's rays do not see itself
+            # A robot's rays do not see itself.
+            shape.filter = pymunk.ShapeFilter(i + 1 if i < self.robots else 0, categories=BODY)
             self._space.add(shape)
+            self._shapes[shape] = i
         return body
 
-    def _add_obstacle(self, outline: Outline, friction: float, restitution: float) -> pymunk.Body:
+    def _add_obstacle(
+        self, k: int, outline: Outline, friction: float, restitution: float
+    ) -> pymunk.Body:
         body = self._add(_static())
-        for a, b in edges_of(outline):
-            segment = pymunk.Segment(body, a, b, 0.0)
+        edges = edges_of(outline)
+        segments = [pymunk.Segment(body, a, b, 0.0) for a, b in edges]
+        for segment in segments:
             segment.friction, segment.elasticity = friction, restitution
-            self._space.add(segment)
+        if len(edges) == 1:
+            bars = [pymunk.Segment(body, a, b, 0.0) for a, b in end_bars(*edges[0])]
+            for bar in bars:
+                bar.filter = pymunk.ShapeFilter(categories=SIGHT, mask=SIGHT)
+            segments += bars
+        self._space.add(*segments)
+        self._shapes |= dict.fromkeys(segments, k)
         return body
 
     def _add_joint(self, tie: Tie) -> list[pymunk.Constraint]:
@@ -172,6 +188,7 @@ class Space:
             self._scale_contacts(h / self.last_step)
             self.last_step = h
             self._renew_ties()
+        self._misplaced.clear()
         lib.cpSpaceSetCurrentTimeStep(self._space._space, h)
         batch.set_space_bodies(self._space, _VELOCITY, self._velocity_buffer)
         self._space.step(h)
@@ -186,7 +203,8 @@ class Space:
                     contact.jtAcc *= ratio
 
     def place(self, i: int, x: float, y: float, theta: float | None = None) -> None:
-        """Put a body somewhere; the next step finds it there."""
+        """Put a body somewhere; the next step and the next query find it there."""
+        self._misplaced.add(i)
         self._bodies[i].position = x, y
         if theta is not None:
             self._bodies[i].angle = theta
@@ -285,27 +303,33 @@ class Space:
 
     # -- what sensors ask -------------------------------------------------------------------
 
-    def distance(self, point: tuple[float, float], limit: float, ignore: int) -> float:
+    @property
+    def _seen(self) -> pymunk.Space:
+        """The space, with all shapes where their bodies are."""
+        for i in sorted(self._misplaced):
+            self._space.reindex_shapes_for_body(self._bodies[i])
+        self._misplaced.clear()
+        return self._space
+
+    @property
+    def rays(self) -> Rays:
+        """What casts rays at all that stands and moves here."""
+        _ = self._seen
+        return self._rays
+
+    def distance(self, point: Point, limit: float, ignore: int) -> float:
         """Return the distance to the nearest surface, inf beyond `limit`; see Surroundings."""
-        info = self._space.point_query_nearest(point, limit, _own(ignore))
+        info = self._seen.point_query_nearest(point, limit, _own(ignore))
         return inf if info is None else info.distance
 
-    def nearby(
-        self, point: tuple[float, float], limit: float, ignore: int
-    ) -> Iterator[tuple[float, float]]:
+    def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
         """Yield the nearest point of each surface within `limit`; see Surroundings."""
-        for info in self._space.point_query(point, limit, _own(ignore)):
+        for info in self._seen.point_query(point, limit, _own(ignore)):
             yield info.point.x, info.point.y
-
-    def ray(self, start: tuple[float, float], angle: float, length: float, ignore: int) -> float:
-        """Return how far a ray goes, inf when nothing is hit; see Surroundings."""
-        end = start[0] + length * cos(angle), start[1] + length * sin(angle)
-        info = self._space.segment_query_first(start, end, 0.0, _own(ignore))
-        return inf if info is None else info.alpha * length
 
 
 def _own(robot: int) -> pymunk.ShapeFilter:
-    return pymunk.ShapeFilter(group=robot + 1)
+    return pymunk.ShapeFilter(group=robot + 1, categories=BODY)
 
 
 def _kinematic() -> pymunk.Body:

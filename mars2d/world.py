@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from types import SimpleNamespace
@@ -13,17 +13,11 @@ from numpy.typing import NDArray
 
 from mars2d import checks
 from mars2d.addons.base import HOOKS, Addon
+from mars2d.addons.communication import Communication
 from mars2d.bodies.drives import Drives
+from mars2d.channel import Channel
 from mars2d.contact import CONTACT
-from mars2d.control import (
-    Law,
-    Mind,
-    PropView,
-    RobotView,
-    SensorsOnlyView,
-    commands,
-    team_command,
-)
+from mars2d.control import Law, commands, team_command
 from mars2d.delay import DelayLine
 from mars2d.description import wrong
 from mars2d.engine import Engine
@@ -35,8 +29,11 @@ from mars2d.record import Record
 from mars2d.recorder import History, Recorder
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
+from mars2d.sensing import Device
 from mars2d.streams import check_seed, stream
+from mars2d.surroundings import Around
 from mars2d.usercode import called
+from mars2d.views import VIEWS, Mind, PropView, RobotView, TeamPositionsView
 
 __all__ = ["World"]
 
@@ -109,46 +106,54 @@ class World:
         self._still = np.zeros((2, n))
         self._command = _frozen(self._still)
         self._take_state()
+        self._velocity_at = -1, self._pose
         self._contacts = np.empty(0, dtype=CONTACT)
         self._effort = _frozen(np.zeros(n))
         self.props = tuple(PropView(self, i) for i in range(len(scenario.props)))
-        self._build_sensors()
+        self._minds = [Mind(self, str(robot.name)) for robot in scenario.robots]
+        self._full_views = [RobotView(self, i, mind) for i, mind in enumerate(self._minds)]
+        self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
+        self._driven: list[tuple[float, Float]] = []
+        self._velocity_at = -1, self._pose
         self._build_laws(control)
         self._build_addons()
+        self._build_sensors()
         self._stepping = False
         if self.over:  # an add-on has stopped it at once
             self._close()
 
     def _build_sensors(self) -> None:
-        self._minds = [Mind(self, str(robot.name)) for robot in self.scenario.robots]
-        views = [RobotView(self, i, mind) for i, mind in enumerate(self._minds)]
-        self._sensors = [
-            (sensor, view, self.stream(f"sensor {robot.name} {sensor.key}"), vars(view.sense))
-            for robot, view in zip(self.scenario.robots, views, strict=True)
+        """Put the sensors on the robots; they know all of the world, whatever the laws see."""
+        around = self.surroundings
+        self._devices = [
+            Device(sensor, view, around, self.stream(f"sensor {robot.name} {sensor.key}"))
+            for robot, view in zip(self.scenario.robots, self._full_views, strict=True)
             for sensor in robot.sensors
         ]
-        self._readings: dict[str, list[Any]] = {}
 
     def _build_laws(self, control: Callable[[World], Any] | None) -> None:
         self.robots: list[RobotView] = []
         own: list[Law | None] = []
         for i, robot in enumerate(self.scenario.robots):
-            kind = SensorsOnlyView if robot.sees == "sensors" else RobotView
-            view = kind(self, i, self._minds[i])
+            view = VIEWS[robot.sees](self, i, self._minds[i])
             self.robots.append(view)
             own.append(None if robot.controller is None else Law(robot.controller, view))
         self._own = own
         if control is not None:
             checks.law("control", control, "the world")
-        self._central = None if control is None else Law(control, self, self._still)
+        partial = self.scenario.sees == "positions"
+        seen = TeamPositionsView(self, self._minds) if partial else self
+        self._central = None if control is None else Law(control, seen, self._still)
 
     def _build_addons(self) -> None:
-        live = [a.live(self.stream(f"add-on {a.key}")) for a in self.scenario.addons]
+        live = [a.live(rng=self.stream(f"add-on {a.key}")) for a in self.scenario.addons]
         self.addons = Addons(**{addon.key: addon for addon in live})
         # Only hooks that an add-on has of its own are called.
         self._hooks = {
             hook: [(a.key, getattr(a, hook)) for a in live if _overrides(a, hook)] for hook in HOOKS
         }
+        talk = next((a for a in live if isinstance(a, Communication)), None)
+        self._channel = None if talk is None else Channel(self, talk, self._recorder)
         self._call("on_start", self)
 
     # -- what laws, sensors and add-ons may ask ------------------------------------------------
@@ -164,12 +169,14 @@ class World:
         return self._pose
 
     @property
-    def velocity(self) -> Float:
-        """The bodies' velocities (3, n): x', y' [m/s], theta' [rad/s].
+    def position(self) -> Float:
+        """The positions (2, n): x, y [m]. Read only; new at each step."""
+        return self._pose[:2]
 
-        In free motion those of the last step's chords, in contact what the solver has left.
-        """
-        return self._engine.velocity[:, : len(self.robots)]
+    @property
+    def velocity(self) -> Float:
+        """The robots' velocities (3, n) at this instant: x', y' [m/s], theta' [rad/s]."""
+        return self._velocity[:, : self._pose.shape[1]]
 
     @property
     def prop_pose(self) -> Float:
@@ -179,7 +186,14 @@ class World:
     @property
     def prop_velocity(self) -> Float:
         """The velocities of the props (3, p): x', y' [m/s], theta' [rad/s]."""
-        return self._engine.velocity[:, len(self.robots) :]
+        return self._velocity[:, self._pose.shape[1] :]
+
+    @property
+    def _velocity(self) -> Float:
+        """The velocities of all bodies (3, N), asked of the engine once a control step."""
+        if self._velocity_at[0] != self.iteration:
+            self._velocity_at = self.iteration, _frozen(self._engine.velocity)
+        return self._velocity_at[1]
 
     @property
     def effort(self) -> Float:
@@ -242,19 +256,32 @@ class World:
         if not self.over:
             self.over, self.over_message, self._finished = True, str(why), False
 
-    def distance(self, point: tuple[float, float], limit: float, ignore: int) -> float:
-        """Return the distance to the nearest surface, metres; inf beyond `limit`."""
-        return self._engine.space.distance(point, limit, ignore)
+    def neighbour_indices(self, robot: int) -> Sequence[int]:
+        """Return whom ``Scenario.neighbours`` makes neighbours of a robot now, by index."""
+        asked, found = self._neighbours
+        rule = self.scenario.neighbours
+        if asked < 0 or (asked != self.iteration and not rule.fixed):
+            with called("Scenario.neighbours", rule.of):
+                found = rule.of(self.position)
+            self._neighbours = self.iteration, found
+        return found[robot]
 
-    def nearby(
-        self, point: tuple[float, float], limit: float, ignore: int
-    ) -> Iterator[tuple[float, float]]:
-        """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
-        return self._engine.space.nearby(point, limit, ignore)
+    @property
+    def channel(self) -> Channel:
+        """What carries the robots' messages. Raises LawError if they have nothing to talk by."""
+        if self._channel is None:
+            raise LawError("robots can't talk: add Communication() to Scenario.addons")
+        return self._channel
 
-    def ray(self, start: tuple[float, float], angle: float, length: float, ignore: int) -> float:
-        """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
-        return self._engine.space.ray(start, angle, length, ignore)
+    @cached_property
+    def surroundings(self) -> Around:
+        """What answers sensors and add-ons: rays, distances, what hides what, beacons."""
+        return Around(self, self._engine.space)
+
+    @property
+    def driven(self) -> Sequence[tuple[float, Float]]:
+        """What the drives asked of the wheels in the last control step; see Surroundings."""
+        return self._driven
 
     # -- the control step ----------------------------------------------------------------------
 
@@ -318,23 +345,29 @@ class World:
             self._draw_addons(self._drawn)
         else:
             self._drive()
+        if self._channel is not None:
+            self._channel.transmit()
 
     def _observe(self) -> None:
         if self._observed != self.iteration:
             self._observed = self.iteration
+            if self._channel is not None:
+                self._channel.deliver()
             self._call("on_step", self)
             self._read_sensors()
 
     def _read_sensors(self) -> None:
-        readings: dict[str, list[Any]] = {key: [] for key in self._recorder.sensor_robots}
-        for sensor, view, rng, sense in self._sensors:
-            with called(f"sensor {sensor.key!r}", sensor.read):
-                reading = sensor.read(view, self, rng)
-            if isinstance(reading, (np.ndarray, list, tuple)):
-                reading = _copied(reading)  # a law can't change what is recorded
-            sense[sensor.key] = reading
-            readings[sensor.key].append(reading)
-        self._readings = readings
+        for device in self._devices:
+            device.step(self.iteration)
+
+    @property
+    def _readings(self) -> dict[str, list[tuple[int, Any]]]:
+        """The readings at this control step by the sensors' names: (robot, reading)."""
+        readings: dict[str, list[tuple[int, Any]]] = {}
+        for device in self._devices:
+            if device.reading is not None:
+                readings.setdefault(device.key, []).append((device.robot, device.reading))
+        return readings
 
     def _call(self, hook: str, *args: Any) -> None:
         for key, method in self._hooks[hook]:
@@ -363,8 +396,16 @@ class World:
             command_time=takes_effect,
             prop_pose=self._prop_pose,
             effort=self._effort,
-            readings=self._readings,
+            readings=self._recorded(),
         )
+
+    def _recorded(self) -> dict[str, list[Any]]:
+        """Return the readings that are to be recorded, by the sensors' names."""
+        readings: dict[str, list[Any]] = {key: [] for key in self._recorder.sensor_robots}
+        for device in self._devices:
+            if device.sensor.recorded:
+                readings[device.key].append(device.reading)
+        return readings
 
     def _check_workspace(self) -> None:
         """End the experiment when a robot's centre has left the workspace, if that is asked for."""
@@ -381,8 +422,11 @@ class World:
         """Move the robots for one sampling time under the commands in effect."""
         time = self.time
         self._drives.draw()
+        self._driven = []
         for duration, command in self._delay.send(self._command):
-            self._engine.drive(self._drives.twist(command), duration, time)
+            twist = self._drives.twist(command)
+            self._driven.append((duration, twist))
+            self._engine.drive(twist, duration, time)
             time += duration
         self._contacts = _frozen(self._engine.contacts.take())
         self._recorder.write_contacts(self._contacts)
@@ -412,14 +456,13 @@ class World:
     @property
     def frame(self) -> Frame:
         """What is seen now; the readings are the last ones, see `observe`."""
-        robots = self._recorder.sensor_robots
         return Frame(
             scenario=self.scenario,
             time=self.time,
             iteration=self.iteration,
             pose=self._pose,
             path=self.history.pose[: self.iteration],
-            readings={k: list(zip(robots[k], v, strict=True)) for k, v in self._readings.items()},
+            readings=self._readings,
             over_message=self.over_message,
             draw_addons=self._draw_addons,
             prop_pose=self._prop_pose,
@@ -428,6 +471,7 @@ class World:
             contact_log=self._recorder.contacts,
             prop_path=self.history.prop_pose[: self.iteration],
             effort_path=self.history.effort[: self.iteration],
+            messages=self._recorder.in_flight(self.time),
         )
 
     def _draw_addons(self, scene: Scene) -> None:
@@ -439,14 +483,6 @@ def _frozen(array: NDArray[Any]) -> NDArray[Any]:
     view = array.view()
     view.flags.writeable = False
     return view
-
-
-def _copied(reading: Any) -> Any:
-    """Return a reading as an array that can't be written, if it is one at all."""
-    try:
-        return _frozen(np.array(reading))
-    except ValueError:  # rows of different lengths: the recorder refuses it
-        return reading
 
 
 def _overrides(addon: Addon, hook: str) -> bool:

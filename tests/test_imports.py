@@ -15,15 +15,24 @@ PACKAGE = Path(mars2d.__file__).parent
 LAYERS = [
     {"errors"},
     {"geometry", "description"},
-    {"contact", "delay", "motion", "clearance", "convex", "progress", "streams"},
-    {"registry", "scene", "checks", "materials", "prediction", "usercode"},
+    {"contact", "delay", "motion", "clearance", "convex", "progress", "streams", "live", "rays"},
+    {
+        "registry",
+        "scene",
+        "checks",
+        "materials",
+        "prediction",
+        "usercode",
+        "quantity",
+        "neighbours",
+    },
     {"shapes"},
     {"bodies", "sensors", "addons", "animation", "joints", "rigid"},
-    {"props", "robot", "tie", "starts", "encounter"},
+    {"props", "robot", "tie", "starts", "encounter", "sensing"},
     {"looks", "limits", "floor", "tethers"},
     {"scenario"},
     {"frame", "plain", "files", "pace", "space"},
-    {"clutches", "grips", "record", "control", "forces"},
+    {"clutches", "grips", "record", "control", "forces", "surroundings", "views"},
     {"engine", "recorder"},
     {"kinematics"},
     {"world"},
@@ -118,14 +127,15 @@ def test_who_draws_senses_or_reports_never_touches_the_engine(part: str) -> None
     for path in files:
         modules = {module for module, _ in _own_imports(path)}
         inside = {
-            f"mars2d.{name}" for name in ("clutches", "engine", "grips", "kinematics", "space")
+            f"mars2d.{name}"
+            for name in ("clutches", "engine", "grips", "kinematics", "rays", "space")
         }
         assert not {m for m in modules if m in inside or m.split(".")[0] == "pymunk"}, path
 
 
-def test_one_module_alone_knows_the_engine_library() -> None:
+def test_two_modules_alone_know_the_engine_library() -> None:
     knows = {path.name for path in FILES for m, _ in _own_imports(path) if m.startswith("pymunk")}
-    assert knows == {"space.py"}
+    assert knows == {"rays.py", "space.py"}
 
 
 def test_no_module_imports_anything_heavy_when_it_is_imported() -> None:

@@ -265,12 +265,13 @@ def test_rays_and_distances_of_the_world_are_those_of_geometry():
             robots=[Robot(), Robot(pose=(2, 0, 0), diameter=0.5)], addons=[Map([[(0, 3), (4, 3)]])]
         )
     )
-    assert world.ray((0, 0), 0.0, 5.0, 0) == pytest.approx(1.75)
-    assert world.ray((0, 0), 0.0, 1.0, 0) == np.inf
-    assert world.ray((1, 0), np.pi / 2, 5.0, 0) == pytest.approx(3)
-    assert world.ray((0, 0), 0.0, 5.0, 1) == 0  # seen by robot 1, it starts inside robot 0
-    assert world.distance((0, 0), 5.0, 0) == pytest.approx(1.75)
-    assert world.distance((0, 0), 1.0, 0) == np.inf
-    assert world.distance((0.05, 0), 5.0, 1) == pytest.approx(-0.1)
-    points = sorted(world.nearby((0, 0), 9.0, 0))
+    around = world.surroundings
+    assert around.ray((0, 0), 0.0, 5.0, 0) == pytest.approx(1.75)
+    assert around.ray((0, 0), 0.0, 1.0, 0) == np.inf
+    assert around.ray((1, 0), np.pi / 2, 5.0, 0) == pytest.approx(3)
+    assert around.ray((0, 0), 0.0, 5.0, 1) == 0  # seen by robot 1, it starts inside robot 0
+    assert around.distance((0, 0), 5.0, 0) == pytest.approx(1.75)
+    assert around.distance((0, 0), 1.0, 0) == np.inf
+    assert around.distance((0.05, 0), 5.0, 1) == pytest.approx(-0.1)
+    points = sorted(around.nearby((0, 0), 9.0, 0))
     assert points == [pytest.approx((0, 3)), pytest.approx((1.75, 0))]

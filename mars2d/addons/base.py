@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import copy
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from mars2d import checks
-from mars2d.description import Description, entry, text
+from mars2d.description import entry, text
 from mars2d.errors import InputError, nearest
-from mars2d.geometry import Outline
+from mars2d.geometry import Outline, Point
+from mars2d.live import Live
 from mars2d.materials import surface_friction, surface_restitution
 from mars2d.registry import snake_case
 from mars2d.scene import Scene
@@ -18,13 +19,16 @@ from mars2d.scene import Scene
 if TYPE_CHECKING:
     from mars2d.world import World
 
-__all__ = ["HOOKS", "Addon"]
+__all__ = ["HOOKS", "Addon", "Color"]
+
+Color = tuple[float, float, float]
+"""Red, green and blue from 0 to 1."""
 
 HOOKS = ("on_start", "on_step", "on_draw", "on_stop")
 """All hooks of an add-on: MARS's Addons_suffix Initialize, Loop and Plot, and the end."""
 
 
-class Addon(Description):
+class Addon(Live):
     """The base of all add-ons: derive, declare fields, and write the hooks you need.
 
     >>> class Counter(Addon):
@@ -48,7 +52,6 @@ class Addon(Description):
         default=1.0, check=surface_restitution,
         doc="of its obstacles, a number or a material's name; a contact has the product of both",
     )  # fmt: skip
-    _live: ClassVar[bool] = False
     rng: ClassVar[np.random.Generator]
     """Its own random stream, on the copy that a world works on."""
 
@@ -59,15 +62,6 @@ class Addon(Description):
                     f"{cls.__name__}.{attribute} is no hook of an add-on{nearest(attribute, HOOKS)}"
                 )
         super().__init_subclass__(**kwargs)
-        frozen = cls.__setattr__
-
-        def set_attribute(self: Addon, attribute: str, value: Any) -> None:
-            if self.__dict__.get("_live"):
-                object.__setattr__(self, attribute, value)
-            else:
-                frozen(self, attribute, value)
-
-        cls.__setattr__ = set_attribute  # type: ignore[method-assign, assignment]
 
     @property
     def key(self) -> str:
@@ -77,15 +71,20 @@ class Addon(Description):
     def _validate(self) -> None:
         checks.identifier(f"{type(self).__name__}.name", self.name, "world.addons.")
 
-    def live(self, rng: np.random.Generator) -> Self:
-        """Return the copy that one world works on, with its own random stream."""
-        twin = copy.deepcopy(self)
-        twin.__dict__.update(_live=True, rng=rng)
-        return twin
-
     def obstacles(self) -> tuple[Outline, ...]:
         """Return the outlines that stand in the way: two vertices a wall, more a closed polygon."""
         return ()
+
+    def beacons(self) -> Mapping[str, Point]:
+        """Return where beacons are now, by name, for the sensor Beacon; here, none."""
+        return {}
+
+    def ground(self, point: Point) -> Color | None:  # noqa: ARG002
+        """Return the colour of the floor at a point, red, green and blue from 0 to 1.
+
+        None: it says nothing of it. Of several add-ons the last that says something counts.
+        """
+        return None
 
     def on_start(self, world: World) -> None:
         """Do what is to be done once, before the first step."""

@@ -1,30 +1,60 @@
-"""What a sensor is, and the little of the world that it may ask."""
+"""What a sensor is, what makes it imperfect, and the little of the world that it may ask."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from math import ceil, cos, inf, sin
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mars2d import checks
-from mars2d.description import Description, text
+from mars2d.description import Check, entry, flag, number, real, text, wrong
+from mars2d.errors import InputError, LawError, shown
+from mars2d.geometry import Point
+from mars2d.live import Live
+from mars2d.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 from mars2d.registry import snake_case
 from mars2d.scene import Scene
 
 if TYPE_CHECKING:
-    from mars2d.control import RobotView
+    from mars2d.views import RobotView
 
-__all__ = ["Sensor", "Surroundings"]
+__all__ = [
+    "ANGLE",
+    "COLOR",
+    "DISTANCE",
+    "FLAG",
+    "NOTHING",
+    "NUMBER",
+    "Quantity",
+    "Sensor",
+    "Sighting",
+    "Surroundings",
+    "beam_angles",
+]
 
 Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+
+NOTHING = -(2**31)
+"""What a ray has hit that hits nothing; bodies are >= 0, obstacles -1, -2, ..."""
+
+
+ROUNDING = 1e-9
+"""Times that differ by less are the same, in sampling times."""
+
+MOST_WAITING = 100_000
+"""How many control steps a measurement may be on its way."""
 
 
 class Surroundings(Protocol):
     """What a sensor may ask of the world. Points are (x, y) in metres, in the world's frame.
 
-    `ignore` is the index of the robot that asks: it never sees itself.
+    `ignore` is the index of the robot that asks: it never sees itself. Bodies are numbered robots
+    first, then props; obstacle k is -1 - k.
     """
 
     @property
@@ -32,40 +62,143 @@ class Surroundings(Protocol):
         """The simulated time, seconds."""
 
     @property
+    def sampling_time(self) -> float:
+        """The time between control steps, seconds."""
+
+    @property
     def pose(self) -> Float:
         """The poses of all robots, (3, n)."""
 
-    def distance(self, point: tuple[float, float], limit: float, ignore: int) -> float:
+    @property
+    def prop_pose(self) -> Float:
+        """The poses of all props, (3, p)."""
+
+    @property
+    def beacons(self) -> Mapping[str, Point]:
+        """Where the beacons are, by name."""
+
+    @property
+    def driven(self) -> Sequence[tuple[float, Float]]:
+        """What the drives asked for in the last control step: (seconds, twist (3, n)) in turn.
+
+        A twist is (forward [m/s], left [m/s], spin [rad/s]), linear velocities along the axes of
+        the robot or, for a drive whose `frame` is "world", of the world. Empty at the start.
+        """
+
+    def distance(self, point: Point, limit: float, ignore: int) -> float:
         """Return the distance to the nearest surface, metres; inf when beyond `limit`.
 
         Negative inside a robot.
         """
 
-    def nearby(
-        self, point: tuple[float, float], limit: float, ignore: int
-    ) -> Iterator[tuple[float, float]]:
+    def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
         """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
 
-    def ray(self, start: tuple[float, float], angle: float, length: float, ignore: int) -> float:
+    def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
         """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
 
+    def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
+        """Return how far rays at angles (k,) go, (k,) metres; inf where nothing is hit.
 
-class Sensor(Description):
+        length: of all rays, or (k,). A ray that starts inside something goes 0 m.
+        """
+
+    def sight(
+        self, start: Point, angles: Float, length: ArrayLike, ignore: int
+    ) -> tuple[Float, Int]:
+        """Return how far rays go, as `rays`, and which body each hits, (k,): NOTHING if none."""
+
+    def hidden(
+        self, start: Point, points: Float, bodies: ArrayLike, ignore: int
+    ) -> NDArray[np.bool_]:
+        """Return whether something stands between `start` and points (k, 2).
+
+        bodies: (k,) or one, what a point belongs to and is not hidden by; NOTHING if to none.
+        """
+
+    def color(self, body: int) -> str:
+        """Return the colour of a body or obstacle, ``#rrggbb``."""
+
+    def ground(self, point: Point) -> tuple[float, float, float]:
+        """Return the colour of the floor at a point: red, green and blue from 0 to 1."""
+
+
+class Sighting(NamedTuple):
+    """Where something is seen: range [m], bearing [rad] from ahead, and which robot, if known."""
+
+    range: float
+    bearing: float
+    robot: int | None = None
+
+
+def _spread(what: str) -> Check:
+    """Return a check for a number >= 0, or one for each quantity."""
+
+    def check(name: str, value: object) -> float | tuple[float, ...]:
+        if isinstance(value, (tuple, list, np.ndarray)):
+            each = tuple(real(f"{name}[{i}]", item) for i, item in enumerate(value))
+            if each and min(each) >= 0:
+                return each
+        else:
+            one = real(name, value, f"{what}, or one for each quantity")
+            if one >= 0:
+                return one
+        raise wrong(name, value, f"{what}, or one for each quantity")
+
+    return check
+
+
+class Sensor(Live):
     """The base of all sensors: derive, declare fields, and write `read`.
 
     >>> class Compass(Sensor):
-    ...     error: float = 0.02  # rad, standard deviation
+    ...     quantities = (ANGLE,)
     ...
     ...     def read(self, robot, world, rng):
-    ...         return robot.pose[2] + rng.normal(0, self.error)
-    >>> Compass(error=0.1).key
+    ...         return robot.pose[2]
+    >>> Compass(noise=0.02).key
     'compass'
 
-    name: under which a law finds the reading, ``robot.sense.<name>``; by default the name of the
-    class in snake case.
+    `read` measures perfectly. What makes a device imperfect is done to its reading here, in this
+    order: noise, outliers, limits and wrapping, resolution, drop-outs, latency. `quantities` says
+    what is measured: one `Quantity`, and the reading may have any shape; or several, and the last
+    axis of the reading has one entry for each.
+
+    What is not there, is lost or has not arrived yet reads inf as a distance, False as a flag, and
+    nan otherwise.
+
+    Each robot of each world has a copy of its own: methods may keep things in attributes of self.
     """
 
+    quantities: ClassVar[tuple[Quantity, ...]] = (NUMBER,)
+
     name: str | None = text(default=None, optional=True, doc="the name of the reading")
+    mount: tuple[float, float, float] = entry(
+        default=(0.0, 0.0, 0.0), check=checks.pose, unit="m, m, rad",
+        doc="where it sits on the robot: ahead of its pose, left of it, turned",
+    )  # fmt: skip
+    rate: float | None = number(
+        default=None, above=0, high=1e6, unit="Hz", optional=True,
+        doc="measurements a second; None: one each control step",
+    )  # fmt: skip
+    latency: float = number(
+        default=0.0, low=0, high=1e4, unit="s", doc="from a measurement to its arrival"
+    )
+    noise: float | tuple[float, ...] = entry(
+        default=0.0, check=_spread("a standard deviation >= 0"),
+        doc="standard deviation, in the reading's unit; one number, or one for each quantity",
+    )  # fmt: skip
+    outliers: float = number(
+        default=0.0, low=0, high=1, doc="probability that a value is quite another one"
+    )
+    dropouts: float = number(default=0.0, low=0, high=1, doc="probability that a value is lost")
+    resolution: float | tuple[float, ...] = entry(
+        default=0.0, check=_spread("a step >= 0"),
+        doc="values are rounded to multiples of it; one number, or one for each quantity",
+    )  # fmt: skip
+    recorded: bool = flag(
+        default=True, doc="in the record at each step; else measured only when a law asks"
+    )
 
     @property
     def key(self) -> str:
@@ -73,10 +206,38 @@ class Sensor(Description):
         return self.name or snake_case(type(self).__name__)
 
     def _validate(self) -> None:
-        checks.identifier(f"{type(self).__name__}.name", self.name, "robot.sense.")
+        kind = type(self).__name__
+        checks.identifier(f"{kind}.name", self.name, "robot.sense.")
+        for field, given in (("noise", self.noise), ("resolution", self.resolution)):
+            if isinstance(given, tuple) and len(given) != len(self.quantities):
+                names = ", ".join(f"{q.name} [{q.unit}]" for q in self.quantities)
+                count = len(self.quantities)
+                raise wrong(f"{kind}.{field}", given, f"one number, or {count}: {names}")
+        for quantity, noise, step in zip(self.quantities, *self._spreads, strict=True):
+            if quantity.kind == "flag" and (noise or step):
+                field, given = ("noise", noise) if noise else ("resolution", step)
+                raise wrong(f"{kind}.{field}", given, f"0: {quantity.name} is True or False")
+            if quantity.kind == "distance" and self.outliers and not hasattr(self, "range"):
+                raise InputError(
+                    f"{kind}.outliers = {self.outliers:g}: an outlier of {quantity.name} lies "
+                    f"anywhere within the range, and {kind} has no field range"
+                )
+            if quantity.kind == "number" and self.outliers and not noise:
+                raise InputError(
+                    f"{kind}.outliers = {self.outliers:g}: an outlier of {quantity.name} is ten "
+                    f"times as far off as its noise, which is 0: give {kind}.noise, too"
+                )
+
+    # -- what a sensor of one's own may write -------------------------------------------------
+
+    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:
+        """Do what is to be done once, before the first reading."""
+
+    def on_step(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:
+        """Do what is to be done at each control step, whether a reading is due or not."""
 
     def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Any:
-        """Return the reading now: a number, a bool, or an array whose shape never changes.
+        """Return the perfect reading now: a number, a bool, or an array of a shape that stays.
 
         robot: the robot that carries the sensor, with everything known of it.
         rng: the random stream of this one sensor.
@@ -85,5 +246,130 @@ class Sensor(Description):
             f"{type(self).__name__} needs a method read(self, robot, world, rng)"
         )
 
+    def shown(self, reading: Any) -> Any:
+        """Return what a law finds under ``robot.sense``, made of the reading: here, itself."""
+        return reading
+
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw field of view and reading for a robot at `pose` (3,). By default, nothing."""
+
+    # -- when it measures --------------------------------------------------------------------
+
+    def period(self, sampling_time: float) -> int:
+        """Return how many control steps lie between two measurements."""
+        return 1 if self.rate is None else round(1 / (self.rate * sampling_time))
+
+    def age(self, sampling_time: float) -> int:
+        """Return how many control steps a measurement needs to arrive."""
+        return ceil(self.latency / sampling_time - ROUNDING)
+
+    def check_timing(self, name: str, sampling_time: float) -> None:
+        """Raise InputError if it would measure between control steps, or hold too much back.
+
+        name: of the sensor, for the message. sampling_time: between control steps, seconds.
+        """
+        if self.rate is not None:
+            exact = 1 / (self.rate * sampling_time)
+            if abs(exact - round(exact)) > ROUNDING * exact or round(exact) < 1:
+                steps = max(round(exact), 1)
+                raise InputError(
+                    f"{name}: rate = {self.rate:g} Hz: expected the sampling rate, "
+                    f"{1 / sampling_time:g} Hz, divided by a whole number, as "
+                    f"{1 / (steps * sampling_time):g} Hz"
+                )
+        if self.latency / sampling_time > MOST_WAITING:
+            raise wrong(
+                f"{name}: latency", self.latency,
+                f"at most {MOST_WAITING} sampling times of {sampling_time:g} s",
+            )  # fmt: skip
+
+    # -- what it has ---------------------------------------------------------------------------
+
+    def placed(self, pose: Float) -> Float:
+        """Return the pose (3,) of the sensor on a robot at `pose` (3,)."""
+        ahead, left, turned = self.mount
+        if self.mount == (0.0, 0.0, 0.0):
+            return pose
+        x, y, theta = pose.tolist()
+        c, s = cos(theta), sin(theta)
+        return np.array([x + c * ahead - s * left, y + s * ahead + c * left, theta + turned])
+
+    @cached_property
+    def _spreads(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Noise and resolution, one for each quantity."""
+        each = [
+            value if isinstance(value, tuple) else (value,) * len(self.quantities)
+            for value in (self.noise, self.resolution)
+        ]
+        return each[0], each[1]
+
+    @cached_property
+    def _perfect(self) -> bool:
+        return not (any(map(any, self._spreads)) or self.outliers or self.dropouts)
+
+    def measured(self, reading: Any, rng: np.random.Generator) -> Any:
+        """Return what the device makes of a perfect reading: noise and all but the latency."""
+        if self._perfect:
+            return reading
+        true = self._checked(reading)
+        if len(self.quantities) == 1:
+            result = self._disturbed(true, 0, rng)
+        else:
+            columns = [self._disturbed(true[..., k], k, rng) for k in range(true.shape[-1])]
+            result = np.stack(columns, axis=-1)
+        if self.dropouts:
+            rows = result.shape if len(self.quantities) == 1 else result.shape[:-1]
+            result = np.array(result)
+            result[rng.random(rows) < self.dropouts] = self._missing(result)
+        return result if result.ndim else result.item()
+
+    def lost(self, reading: Any) -> Any:
+        """Return what is read in place of a reading that has not arrived."""
+        result = np.array(reading)
+        result[...] = self._missing(result)
+        return result if result.ndim else result.item()
+
+    def _missing(self, result: NDArray[Any]) -> Any:
+        if result.dtype == bool:
+            return False
+        missing = [quantity.missing for quantity in self.quantities]
+        return missing[0] if len(missing) == 1 else np.array(missing)
+
+    def _checked(self, reading: Any) -> NDArray[Any]:
+        true = np.asarray(reading)
+        count = len(self.quantities)
+        if count > 1 and (true.ndim == 0 or true.shape[-1] != count):
+            raise LawError(
+                f"sensor {self.key!r} read {shown(reading)}: it measures {count} quantities, so "
+                f"the last axis of its reading must have {count} entries"
+            )
+        if true.dtype == bool and any(map(any, self._spreads)):
+            raise LawError(
+                f"sensor {self.key!r} read {shown(reading)}: True or False has neither noise nor "
+                "resolution; give it outliers or drop-outs"
+            )
+        return true
+
+    def _disturbed(self, true: NDArray[Any], k: int, rng: np.random.Generator) -> NDArray[Any]:
+        """Return true values of quantity k with noise, outliers, limits and resolution."""
+        quantity = FLAG if true.dtype == bool else self.quantities[k]
+        noise, step = self._spreads[0][k], self._spreads[1][k]
+        top = getattr(self, "range", inf) if quantity.kind == "distance" else inf
+        values = true + noise * rng.standard_normal(true.shape) if noise else true
+        if self.outliers:
+            struck = rng.random(true.shape) < self.outliers
+            values = np.where(struck, quantity.outlier(true, noise, top, rng), values)
+        values = quantity.tidied(values, top)
+        return np.round(values / step) * step if step else np.asarray(values)
+
+
+def beam_angles(count: int, field_of_view: float) -> Float:
+    """Return the bearings (count,) of evenly spaced beams, from -field_of_view / 2 on [rad].
+
+    Both ends are included; over a full circle the last one is left out, as it would be the first
+    again. A single beam looks ahead.
+    """
+    if count == 1:
+        return np.zeros(1)
+    full = field_of_view >= 2 * np.pi
+    return np.linspace(-field_of_view / 2, field_of_view / 2, count, endpoint=not full)

@@ -12,7 +12,7 @@ from mars2d.scene import Scene, faded
 from mars2d.sensors.base import Float, Sensor, Surroundings
 
 if TYPE_CHECKING:
-    from mars2d.control import RobotView
+    from mars2d.views import RobotView
 
 __all__ = ["Proximity"]
 

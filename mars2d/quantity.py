@@ -1,0 +1,62 @@
+"""What a sensor measures: kinds of numbers, how they look when nothing is there, how they err."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, nan, pi
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.geometry import wrap
+
+__all__ = ["ANGLE", "COLOR", "DISTANCE", "FLAG", "NUMBER", "Quantity"]
+
+Values = NDArray[np.float64] | NDArray[np.bool_]
+
+GROSS = 10.0
+"""An outlier of a number without bounds is so many times further off than its noise."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """One number that a sensor measures: its name, its unit, and its kind.
+
+    kind: "distance" (>= 0, inf when nothing is there), "angle" (in (-pi, pi]), "color" (0 to 1),
+    "flag" (True or False) or "number". Of all but distances and flags, nan says that nothing is
+    there; of a flag, False.
+    """
+
+    name: str
+    unit: str = ""
+    kind: Literal["distance", "angle", "color", "flag", "number"] = "number"
+
+    @property
+    def missing(self) -> float | bool:
+        """What is read when nothing is there: inf, nan or False."""
+        return {"distance": inf, "flag": False}.get(self.kind, nan)
+
+    def outlier(self, true: Values, noise: float, top: float, rng: np.random.Generator) -> Values:
+        """Return values that have nothing to do with the true ones; top: the longest distance."""
+        if self.kind == "flag":
+            return ~true.astype(bool)
+        if self.kind == "number":
+            return np.asarray(true + GROSS * noise * rng.standard_normal(true.shape))
+        low, high = {"distance": (0.0, top), "angle": (-pi, pi), "color": (0.0, 1.0)}[self.kind]
+        return rng.uniform(low, high, true.shape)
+
+    def tidied(self, values: Values, top: float) -> Values:
+        """Return values as the device gives them: within bounds, angles wrapped, or missing."""
+        if self.kind == "distance":
+            return np.where(values > top, inf, np.maximum(values, 0.0))
+        if self.kind == "color":
+            return np.asarray(np.clip(values, 0.0, 1.0), dtype=float)
+        return wrap(values) if self.kind == "angle" else values
+
+
+NUMBER = Quantity("value")
+DISTANCE = Quantity("distance", "m", "distance")
+ANGLE = Quantity("angle", "rad", "angle")
+COLOR = Quantity("color", "", "color")
+FLAG = Quantity("flag", "", "flag")

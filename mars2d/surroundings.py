@@ -1,0 +1,126 @@
+"""What sensors ask, answered by a world: rays, points, colours, beacons."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.addons.base import Addon, Color
+from mars2d.geometry import Point
+from mars2d.looks import OBSTACLE, prop_colors
+from mars2d.sensors.base import NOTHING
+from mars2d.space import Space
+from mars2d.usercode import called
+
+if TYPE_CHECKING:
+    from mars2d.world import World
+
+__all__ = ["Around"]
+
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+
+WHITE = (1.0, 1.0, 1.0)
+"""The colour of a floor of which nothing is said."""
+
+
+class Around:
+    """The Surroundings of one world's sensors; see `mars2d.sensors.Surroundings`."""
+
+    def __init__(self, world: World, space: Space) -> None:
+        self._world = world
+        self._space = space
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds."""
+        return self._world.time
+
+    @property
+    def sampling_time(self) -> float:
+        """The time between control steps, seconds."""
+        return self._world.scenario.sampling_time
+
+    @property
+    def pose(self) -> Float:
+        """The poses of all robots, (3, n)."""
+        return self._world.pose
+
+    @property
+    def prop_pose(self) -> Float:
+        """The poses of all props, (3, p)."""
+        return self._world.prop_pose
+
+    @property
+    def driven(self) -> Sequence[tuple[float, Float]]:
+        """What the drives asked for in the last control step."""
+        return self._world.driven
+
+    # -- rays and points -------------------------------------------------------------------
+
+    def distance(self, point: Point, limit: float, ignore: int) -> float:
+        """Return the distance to the nearest surface, metres; inf beyond `limit`."""
+        return self._space.distance(point, limit, ignore)
+
+    def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
+        """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
+        return self._space.nearby(point, limit, ignore)
+
+    def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
+        """Return how far a ray goes until the first surface, metres; inf if none is hit."""
+        return float(self._space.rays.distances(start, np.array([angle]), length, ignore)[0])
+
+    def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
+        """Return how far rays at angles (k,) go, (k,) metres; inf where nothing is hit."""
+        return self._space.rays.distances(start, angles, length, ignore)
+
+    def sight(
+        self, start: Point, angles: Float, length: ArrayLike, ignore: int
+    ) -> tuple[Float, Int]:
+        """Return how far rays go, and which body each hits, NOTHING if none."""
+        return self._space.rays.sight(start, angles, length, ignore, NOTHING)
+
+    def hidden(
+        self, start: Point, points: Float, bodies: ArrayLike, ignore: int
+    ) -> NDArray[np.bool_]:
+        """Return whether something stands between `start` and points (k, 2)."""
+        return self._space.rays.hidden(start, points, bodies, ignore)
+
+    # -- looks -------------------------------------------------------------------------------
+
+    def color(self, body: int) -> str:
+        """Return the colour of a body or obstacle, ``#rrggbb``."""
+        return OBSTACLE if body < 0 else self._colors[body]
+
+    @cached_property
+    def _colors(self) -> tuple[str, ...]:
+        scenario = self._world.scenario
+        return (*scenario.colors, *prop_colors(scenario.props))
+
+    # -- what add-ons put there ----------------------------------------------------------------
+
+    @cached_property
+    def _addons(self) -> tuple[Addon, ...]:
+        return tuple(vars(self._world.addons).values())
+
+    @property
+    def beacons(self) -> Mapping[str, Point]:
+        """Where the beacons are now, by name."""
+        found: dict[str, Point] = {}
+        for addon in self._addons:
+            with called(f"add-on {addon.key!r}", addon.beacons):
+                found |= addon.beacons()
+        return found
+
+    def ground(self, point: Point) -> Color:
+        """Return the colour of the floor at a point: red, green and blue from 0 to 1."""
+        for addon in reversed(self._addons):
+            with called(f"add-on {addon.key!r}", addon.ground):
+                color = addon.ground(point)
+            if color is not None:
+                return color
+        return WHITE

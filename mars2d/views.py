@@ -1,0 +1,338 @@
+"""What a law may see: the views of a robot, its neighbours, props and the team, by information."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.bodies.base import Drive
+from mars2d.errors import LawError, UnknownNameError, nearest
+from mars2d.geometry import Outline
+from mars2d.message import Message
+from mars2d.sensing import Sense
+
+if TYPE_CHECKING:
+    from mars2d.world import Addons, World
+
+__all__ = [
+    "VIEWS",
+    "Mind",
+    "Neighbour",
+    "PartialView",
+    "PositionsView",
+    "PropView",
+    "RobotView",
+    "SensorsOnlyView",
+    "TeamPositionsView",
+]
+
+Float = NDArray[np.float64]
+
+
+def _unseen(what: str, sees: str, instead: str = "") -> Any:
+    """Return a property that a law may not read that sees no more than `sees`."""
+
+    def refuse(_: object) -> NoReturn:
+        hint = f"; there is {instead}" if instead else ""
+        raise LawError(f"this law sees {sees} only: {what} is not available{hint}")
+
+    return property(refuse, doc=f"Refuse: a law that sees {sees} only does not know it.")
+
+
+def _unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
+    known = [item for item in dir(type(view)) if not item.startswith("_")]
+    raise UnknownNameError(f"{kind} has no {name!r}{nearest(name, [*known, *more])}")
+
+
+class Mind:
+    """What a robot keeps for itself: its readings, its memory between steps, its random stream."""
+
+    def __init__(self, world: World, name: str) -> None:
+        self.sense = Sense()
+        self.memory = SimpleNamespace()
+        self._world, self._name = world, name
+
+    @cached_property
+    def rng(self) -> np.random.Generator:
+        """The robot's own random stream."""
+        return self._world.stream(f"robot {self._name}")
+
+
+class Neighbour:
+    """Another robot, as far as it is seen: its index, name, position (2,) and pose (3,)."""
+
+    def __init__(self, world: World, index: int) -> None:
+        self._world = world
+        self.index = index
+
+    def __getattr__(self, name: str) -> NoReturn:
+        _unknown(self, "a neighbour", name, "index")
+
+    @property
+    def name(self) -> str:
+        """The other robot's name."""
+        return str(self._world.scenario.robots[self.index].name)
+
+    @property
+    def position(self) -> Float:
+        """The other robot's position (2,): x, y [m]."""
+        return self._world.pose[:2, self.index]
+
+    @property
+    def pose(self) -> Float:
+        """The other robot's pose (3,): x, y [m], theta [rad]."""
+        return self._world.pose[:, self.index]
+
+
+class NeighbourPosition(Neighbour):
+    """Another robot of which only the position is seen."""
+
+    pose = _unseen("a neighbour's pose", "positions", "neighbour.position")
+
+
+class PropView:
+    """A prop as laws and add-ons see it: its index in ``scenario.props``, name, pose, velocity."""
+
+    def __init__(self, world: World, index: int) -> None:
+        self._world = world
+        self.index = index
+
+    def __getattr__(self, name: str) -> NoReturn:
+        _unknown(self, "a prop", name, "index")
+
+    @property
+    def name(self) -> str:
+        """The prop's name."""
+        return str(self._world.scenario.props[self.index].name)
+
+    @property
+    def pose(self) -> Float:
+        """The pose (3,) of its centre of mass: x, y [m], theta [rad, not wrapped]."""
+        return self._world.prop_pose[:, self.index]
+
+    @property
+    def velocity(self) -> Float:
+        """Its velocity (3,): x', y' [m/s], theta' [rad/s]."""
+        return self._world.prop_velocity[:, self.index]
+
+
+class RobotView:
+    """What the law of one robot may see and use, with full information.
+
+    index: its column in poses and commands. sense: the readings of its sensors. memory: a place to
+    keep things between steps.
+    """
+
+    _neighbour: type[Neighbour] = Neighbour
+
+    def __init__(self, world: World, index: int, mind: Mind) -> None:
+        self._world = world
+        self._mind = mind
+        self.index = index
+        self.sense = mind.sense
+        self.memory = mind.memory
+        self._found: dict[int, Neighbour] = {}
+
+    def __getattr__(self, name: str) -> NoReturn:
+        _unknown(self, "a robot", name, "index", "sense", "memory")
+
+    @property
+    def name(self) -> str:
+        """The robot's name."""
+        return str(self._world.scenario.robots[self.index].name)
+
+    @property
+    def drive(self) -> Drive:
+        """Its drive, with the bounds of what it can do."""
+        return self._world.scenario.robots[self.index].drive
+
+    @property
+    def radius(self) -> float:
+        """The radius of its chassis, or of a circle round it, metres."""
+        return self._world.scenario.robots[self.index].radius
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds."""
+        return self._world.time
+
+    @property
+    def command(self) -> Float:
+        """The last command (2,) that was issued, after saturation; zeros at first."""
+        return self._world.command[:, self.index]
+
+    @property
+    def effort(self) -> float:
+        """The largest share of its bounds that its drive used in the last step, 0 to 1: slip."""
+        return float(self._world.effort[self.index])
+
+    @property
+    def rng(self) -> np.random.Generator:
+        """The robot's own random stream."""
+        return self._mind.rng
+
+    def send(self, content: Any, to: Any = None) -> None:
+        """Send a message to other robots, by the add-on Communication.
+
+        content: None, True or False, a number, text, an array of these, or a list, tuple or dict
+        of these. to: a robot's index or name, a list of these, or None for all in reach. Raises
+        LawError for anything else, and where there is no such add-on.
+        """
+        self._world.channel.send(self.index, content, to)
+
+    @property
+    def inbox(self) -> tuple[Message, ...]:
+        """The messages that have arrived for this control step, by sender."""
+        return self._world.channel.inbox(self.index)
+
+    @property
+    def world(self) -> World:
+        """The whole world: all poses, props, contacts, obstacles, add-ons."""
+        return self._world
+
+    @property
+    def position(self) -> Float:
+        """The robot's own position (2,): x, y [m]."""
+        return self._world.pose[:2, self.index]
+
+    @property
+    def pose(self) -> Float:
+        """The robot's own pose (3,): x, y [m], theta [rad, not wrapped]."""
+        return self._world.pose[:, self.index]
+
+    @property
+    def velocity(self) -> Float:
+        """The robot's own velocity (3,): x', y' [m/s], theta' [rad/s]."""
+        return self._world.velocity[:, self.index]
+
+    @property
+    def neighbours(self) -> tuple[Neighbour, ...]:
+        """The other robots that ``Scenario.neighbours`` makes its neighbours now."""
+        return tuple(self._neighbour_at(j) for j in self._world.neighbour_indices(self.index))
+
+    def _neighbour_at(self, index: int) -> Neighbour:
+        if index not in self._found:
+            self._found[index] = self._neighbour(self._world, index)
+        return self._found[index]
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """The contacts of this robot since the last step: rows as in ``record.contacts``.
+
+        Normals and tangential impulses are those on b, which may be this robot or the other body.
+        """
+        rows = self._world.contacts
+        return np.asarray(rows[(rows["a"] == self.index) | (rows["b"] == self.index)])
+
+
+class PartialView(RobotView):
+    """What a law may use that sees its own state and its neighbours, but not the whole world."""
+
+    world = _unseen("robot.world", "itself and its neighbours", "robot.neighbours")
+
+
+class PositionsView(PartialView):
+    """What a law may use that sees its own pose, and of its neighbours their positions alone."""
+
+    _neighbour = NeighbourPosition
+    world = _unseen("robot.world", "itself and its neighbours' positions", "robot.neighbours")
+
+
+class SensorsOnlyView(RobotView):
+    """What a law may use that sees sensors only: no pose, no other robots, no points of contact."""
+
+    world = _unseen("robot.world", "sensors")
+    position = _unseen("robot.position", "sensors")
+    pose = _unseen("robot.pose", "sensors")
+    velocity = _unseen("robot.velocity", "sensors")
+    neighbours = _unseen("robot.neighbours", "sensors")
+    contacts = _unseen("robot.contacts", "sensors")
+
+
+VIEWS: dict[str, type[RobotView]] = {
+    "full": RobotView,
+    "partial": PartialView,
+    "positions": PositionsView,
+    "sensors": SensorsOnlyView,
+}
+"""What a robot's law is given, by ``Robot.sees``."""
+
+
+class RobotPositionView(PositionsView):
+    """A robot as the law of a team sees it that sees positions only."""
+
+    pose = _unseen("robot.pose", "positions", "robot.position")
+    velocity = _unseen("robot.velocity", "positions", "robot.position")
+    contacts = _unseen("robot.contacts", "positions", "robot.position")
+    world = _unseen("robot.world", "positions")
+
+
+class TeamPositionsView:
+    """What the law of a team may use that sees positions only: no headings, no velocities."""
+
+    def __init__(self, world: World, minds: list[Mind]) -> None:
+        self._world = world
+        self.robots = tuple(RobotPositionView(world, i, mind) for i, mind in enumerate(minds))
+
+    def __getattr__(self, name: str) -> NoReturn:
+        if hasattr(type(self._world), name) or name in vars(self._world):
+            raise LawError(
+                f"this law sees positions only: world.{name} is not available; "
+                "there is world.position"
+            )
+        _unknown(self, "a world", name, "robots")
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds."""
+        return self._world.time
+
+    @property
+    def iteration(self) -> int:
+        """The number of control steps done."""
+        return self._world.iteration
+
+    @property
+    def position(self) -> Float:
+        """The positions (2, n): x, y [m]."""
+        return self._world.position
+
+    @property
+    def command(self) -> Float:
+        """The last command (2, n) that was issued, after saturation; zeros at first."""
+        return self._world.command
+
+    @property
+    def workspace(self) -> Outline | None:
+        """The polygon in which the robots move, or None."""
+        return self._world.workspace
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
+        return self._world.bounds
+
+    @property
+    def obstacles(self) -> tuple[Outline, ...]:
+        """The outlines of all obstacles."""
+        return self._world.obstacles
+
+    @property
+    def addons(self) -> Addons:
+        """The add-ons by name: the law may ask what the experiment has put there."""
+        return self._world.addons
+
+    @property
+    def rng(self) -> np.random.Generator:
+        """The random stream of the team's law."""
+        return self._world.rng
+
+    @property
+    def stop(self) -> Callable[[str], None]:
+        """What ends the experiment: ``world.stop("why")``."""
+        return self._world.stop
