@@ -42,8 +42,23 @@ class Everyone(Neighbourhood):
 
     def of(self, position: Float) -> Neighbours:
         """Return all but oneself."""
-        n = position.shape[1]
-        return [[j for j in range(n) if j != i] for i in range(n)]
+        return _Others(position.shape[1])
+
+
+class _Others(Sequence[Sequence[int]]):
+    """For each of n robots all others, listed when they are asked for: they are n^2 in all."""
+
+    def __init__(self, n: int) -> None:
+        self._n = n
+        self._listed: dict[int, Sequence[int]] = {}
+
+    def __len__(self) -> int:
+        return self._n
+
+    def __getitem__(self, i: Any) -> Any:
+        if i not in self._listed:
+            self._listed[i] = (*range(i), *range(i + 1, self._n))
+        return self._listed[i]
 
 
 class Within(Neighbourhood):

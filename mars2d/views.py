@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -137,6 +137,7 @@ class RobotView:
         self.sense = mind.sense
         self.memory = mind.memory
         self._found: dict[int, Neighbour] = {}
+        self._listed: tuple[Sequence[int], tuple[Neighbour, ...]] = ((), ())
 
     def __getattr__(self, name: str) -> NoReturn:
         _unknown(self, "a robot", name, "index", "sense", "memory")
@@ -213,7 +214,10 @@ class RobotView:
     @property
     def neighbours(self) -> tuple[Neighbour, ...]:
         """The other robots that ``Scenario.neighbours`` makes its neighbours now."""
-        return tuple(self._neighbour_at(j) for j in self._world.neighbour_indices(self.index))
+        indices = self._world.neighbour_indices(self.index)
+        if indices is not self._listed[0]:
+            self._listed = indices, tuple(self._neighbour_at(j) for j in indices)
+        return self._listed[1]
 
     def _neighbour_at(self, index: int) -> Neighbour:
         if index not in self._found:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import mars2d
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, Unicycle, World
-from mars2d.addons import Addon
+from mars2d.addons import Addon, Map
 from mars2d.props import Ball, Box, Puck
 from mars2d.sensors import Sensor
 
@@ -358,10 +358,30 @@ def test_a_world_tells_what_mars_tells():
     assert [view.name for view in world.robots] == ["robot0"]
 
 
-def test_velocity_is_that_of_the_chord():
-    world = World(Scenario(robots=[Robot(pose=(0, 0, 0.5))]))
-    world.step([[0.3], [0]])
-    assert world.velocity.ravel() == pytest.approx([0.3 * np.cos(0.5), 0.3 * np.sin(0.5), 0])
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@pytest.mark.parametrize("delay", [0.0, 0.25])
+def test_velocity_is_that_of_the_instant_not_of_the_last_chord(physics, delay):
+    far = Robot(pose=(0, 4, 0), drive=Holonomic())
+    scenario = Scenario(
+        robots=[Robot(), far], physics=physics, command_delay=delay, sampling_time=0.5
+    )
+    world = World(scenario)
+    assert not world.velocity.any()
+    for _ in range(5):
+        world.step([[0.3, 0.1], [1.2, -0.2]])
+    theta = world.pose[2, 0]
+    expected = [[0.3 * np.cos(theta), 0.1], [0.3 * np.sin(theta), -0.2], [1.2, 0]]
+    assert world.velocity == pytest.approx(np.array(expected), abs=1e-12)
+    assert world.robots[0].velocity == pytest.approx(world.velocity[:, 0])
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop"])
+def test_a_robot_that_a_wall_holds_has_no_velocity(physics):
+    wall = Map([[(0.4, -1), (0.4, 1)]])
+    world = World(Scenario(robots=[Robot()], addons=[wall], physics=physics, sampling_time=0.1))
+    for _ in range(20):
+        world.step([[0.3], [0.0]])
+    assert world.velocity == pytest.approx(np.zeros((3, 1)), abs=1e-6)
 
 
 def test_the_frame_shows_the_readings_of_this_instant_once_it_is_observed():
