@@ -21,15 +21,25 @@ from mars2d import (
     Robot,
     Scenario,
     Unicycle,
+    addons,
+    sensors,
 )
-from mars2d.addons import Map
+from mars2d.addons import Addon, Burst, Communication, Floor, Map
 from mars2d.description import Description
 from mars2d.errors import InputError
 from mars2d.joints import Hinge, Joint, Rod, Rope, Spring
 from mars2d.materials import MATERIALS
 from mars2d.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.registry import summary
-from mars2d.sensors import Proximity
+from mars2d.sensors import (
+    Ground,
+    Imu,
+    Odometry,
+    Pose,
+    Proximity,
+    RangeBearing,
+    Sensor,
+)
 from mars2d.shapes import Compound, Disc, Polygon
 
 KINDS: tuple[type[Description], ...] = (
@@ -38,10 +48,12 @@ KINDS: tuple[type[Description], ...] = (
     Disc, Polygon, Compound,
     Prop, Box, Bar, Ball, Puck, Gate, Solid,
     Joint, Rope, Rod, Spring, Hinge,
-    Proximity, Map, Prediction,
+    Sensor, Proximity, RangeBearing, sensors.Beacon, Pose, Odometry, Imu, Ground,
+    Addon, Map, addons.Beacon, Floor, Communication, Burst,
+    Prediction,
 )  # fmt: skip
 
-BASES: tuple[type[Description], ...] = (Drive, Prop, Joint)
+BASES: tuple[type[Description], ...] = (Drive, Prop, Joint, Sensor, Addon)
 """Classes derived from one of these state only the fields that it has not, or not so."""
 
 HEAD = """\
@@ -102,9 +114,16 @@ def fields_of(kind: type[Description]) -> list[dataclasses.Field[Any]]:
     ]
 
 
+def title(kind: type[Description]) -> str:
+    """Return a class's name, with its family if another one has the same name."""
+    if [each.__name__ for each in KINDS].count(kind.__name__) == 1:
+        return kind.__name__
+    return f"{kind.__name__}, the {'sensor' if issubclass(kind, Sensor) else 'add-on'}"
+
+
 def section(kind: type[Description]) -> str:
     """Return the part about one class."""
-    text = f"\n## {kind.__name__}\n\n{summary(kind)}\n"
+    text = f"\n## {title(kind)}\n\n{summary(kind)}\n"
     base, fields = base_of(kind), fields_of(kind)
     if base is not None:
         link = f"[{base.__name__}](#{base.__name__.lower()})"

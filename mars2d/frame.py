@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.addons.floor import Floor
 from mars2d.contact import CONTACT
 from mars2d.looks import INK, OBSTACLE, draw_prop, draw_robot, draw_tie, prop_colors, prop_edge
 from mars2d.message import MESSAGE
@@ -19,6 +20,7 @@ from mars2d.usercode import called
 
 __all__ = [
     "Frame",
+    "floor",
     "initial_poses",
     "joints",
     "obstacles",
@@ -85,6 +87,17 @@ def workspace(scenario: Scenario) -> Scene:
             stroke=INK if wall else faded(INK, 0.55),
             width=2.5 if wall else 1.2,
         )
+    return scene
+
+
+def floor(scenario: Scenario) -> Scene:
+    """Return the colours of the floor, which lie on the workspace and beneath the grid."""
+    scene = Scene()
+    xmin, xmax, ymin, ymax = scenario.bounds
+    corners = ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
+    for addon in scenario.addons:
+        if isinstance(addon, Floor):
+            addon.paint(scene, scenario.workspace or corners)
     return scene
 
 

@@ -11,17 +11,19 @@ from mars2d.addons.map import Map
 from mars2d.animation import Animation
 from mars2d.bodies.base import Drive
 from mars2d.bodies.unicycle import Unicycle
+from mars2d.burst import Burst
 from mars2d.description import Description
 from mars2d.errors import InputError
 from mars2d.joints.base import Joint
+from mars2d.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.props.base import Prop
 from mars2d.props.solid import Solid
-from mars2d.registry import members
+from mars2d.registry import members, package_of, plugin
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.shapes import Compound, Disc, Polygon, Shape
 
-__all__ = ["MOVING", "from_description", "to_scenario"]
+__all__ = ["MOVING", "from_description", "to_scenario", "to_value"]
 
 
 def from_description(value: Any) -> Any:
@@ -29,12 +31,15 @@ def from_description(value: Any) -> Any:
     if isinstance(value, Description):
         kind = type(value)
         if kind.__module__.startswith("mars2d."):
-            return {"type": kind.__name__, **_fields(value)}
+            return {"type": _type_of(kind), **_fields(value)}
         for base in (Scenario, Robot, Animation):  # one derived from these is one of them
             if isinstance(value, base):
                 return {"type": base.__name__, **_fields(value, base)}
         family = next(name for name, base in _FAMILIES.items() if isinstance(value, base))
-        return {"type": kind.__name__, "own": family, **_fields(value), **_moving(value)}
+        package = package_of(_FOLDERS[family], kind) if family in _FOLDERS else None
+        shipped = {} if package is None else {"from": package}
+        own = {"type": kind.__name__, "own": family, **shipped}
+        return own | _fields(value) | _moving(value)
     if isinstance(value, (list, tuple)):
         return [from_description(item) for item in value]
     if value is None or isinstance(value, (bool, int, float, str)):
@@ -75,9 +80,15 @@ _FAMILIES: dict[str, type[Description]] = {
     "joint": Joint,
     "shape": Shape,
     "add-on": Addon,
+    "neighbourhood": Neighbourhood,
     "sensor": Description,
 }
 """What parts of the user's own are called."""
+
+_FOLDERS = {
+    "drive": "bodies", "prop": "props", "joint": "joints", "add-on": "addons", "sensor": "sensors",
+}  # fmt: skip
+"""Of those, the families in which another package can ship a part by an entry point."""
 
 MOVING = ("drive", "joint", "shape")
 """Without such parts of the user's own a scenario does not move as it did."""
@@ -88,8 +99,10 @@ def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
 
     Laws do not come back, nor does what is of the user's own: sensors and joints are left out, of
     add-ons only the obstacles stay. A prop is replaced by a Solid of its shape, mass and surface, a
-    shape by the parts that were drawn of it, a drive by a Unicycle. All are named in the second
-    value, as ``sensor Eyes``. Raises InputError for anything that is no scenario.
+    shape by the parts that were drawn of it, a drive by a Unicycle, a neighbourhood by Everyone.
+    All are named in the second value, as ``sensor Eyes``. A part that a package ships by an entry
+    point comes back where that package is installed, else it is named with it, as
+    ``sensor Lidar (of the package acme)``. Raises InputError for anything that is no scenario.
     """
     missing: list[str] = []
     result = _to_description(data, missing)
@@ -98,31 +111,74 @@ def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
     return result, tuple(dict.fromkeys(missing))
 
 
+def to_value(data: Any) -> Any:
+    """Return what `from_description` made plain of one field; LookupError if that is lost."""
+    missing: list[str] = []
+    value = _to_description(data, missing)
+    if missing:
+        raise LookupError(", ".join(missing))
+    return value
+
+
 def _to_description(value: Any, missing: list[str]) -> Any:
     if isinstance(value, list):
         items = [_to_description(item, missing) for item in value]
         return [item for item in items if item is not _LEFT_OUT]
     if not isinstance(value, dict):
         return value
-    unread = ("type", "own", "controller")
+    if "from" in value:
+        shipped = _shipped(value, missing)
+        if shipped is not None:
+            return shipped
+    unread = ("type", "own", "from", "controller")
     fields = {k: _to_description(v, missing) for k, v in value.items() if k not in unread}
     if "own" in value:
-        missing.append(f"{value['own']} {value['type']}")
+        package = f" (of the package {value['from']})" if "from" in value else ""
+        missing.append(f"{value['own']} {value['type']}{package}")
         if value["own"] == "prop":
             missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
         return _stand_in(value["own"], fields)
     return _kinds()[value["type"]](**fields)
 
 
+def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:
+    """Return a part of another package; None if it is not installed, or has other fields now."""
+    kind = plugin(_FOLDERS[value["own"]], value["type"], value["from"])
+    if kind is None:
+        return None
+    lost: list[str] = []
+    fields = {
+        f.name: _to_description(value[f.name], lost)
+        for f in dataclasses.fields(kind)
+        if f.name in value
+    }
+    try:
+        part = kind(**fields)
+    except Exception:  # another version's fields, or checks
+        return None
+    missing.extend(lost)
+    return part
+
+
 @cache
 def _kinds() -> dict[str, type[Description]]:
     kinds: dict[str, type[Description]] = {kind.__name__: kind for kind in _KNOWN}
     for family in ("bodies", "sensors", "addons", "props", "joints"):
-        kinds |= members(family)
+        for name, kind in members(family).items():
+            kinds[f"{family}.{name}" if name in kinds else name] = kind
     return kinds
 
 
-_KNOWN = (Scenario, Robot, Animation, Disc, Polygon, Compound)
+def _type_of(kind: type[Description]) -> str:
+    """Return how a class is called in a file: its name, with its family if two have the name."""
+    own = f"{kind.__module__.split('.')[1]}.{kind.__name__}"
+    return own if own in _kinds() else kind.__name__
+
+
+_KNOWN = (
+    Scenario, Robot, Animation, Disc, Polygon, Compound, Burst,
+    Everyone, Within, Nearest, Delaunay, Graph,
+)  # fmt: skip
 
 
 def _stand_in(family: str, fields: dict[str, Any]) -> Any:
@@ -134,6 +190,8 @@ def _stand_in(family: str, fields: dict[str, Any]) -> Any:
         return Solid(fields["shape"], **kept)
     if family == "shape":
         return Compound(fields["parts"])
+    if family == "neighbourhood":
+        return Everyone()
     if family == "add-on" and fields["obstacles"]:
         kept = {f.name: fields[f.name] for f in dataclasses.fields(Addon)}
         return Map(fields["obstacles"], **kept)

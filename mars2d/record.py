@@ -7,6 +7,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,7 @@ from mars2d import plain
 from mars2d.contact import CONTACT
 from mars2d.errors import InputError, counted
 from mars2d.frame import Frame
+from mars2d.message import MESSAGE, in_flight
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
 
@@ -27,7 +29,7 @@ __all__ = ["FORMAT", "Record", "load"]
 
 Float = NDArray[np.float64]
 
-FORMAT = 2
+FORMAT = 3
 """The version of the file format; files of another one are refused."""
 
 _COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
@@ -42,9 +44,11 @@ class Record:
     (T, n), the largest share of its bounds that a drive used in the control step before. sensors:
     for each sensor's name an array (T, m, ...) of readings, of the m robots in
     ``sensor_robots[name]``. contacts: one row a pair and control step, with the fields of
-    `mars2d.contact.CONTACT`. over_message: why the run ended. finished: False when an error or
-    Ctrl-C ended it, or while it is not over. drawn: what the add-ons drew at its end, which a file
-    does not keep. missing: parts of the user's own that a file did not hold.
+    `mars2d.contact.CONTACT`. messages: one row a message and receiver, with the fields of
+    `mars2d.message.MESSAGE`; contents: the JSON texts of what was sent, which their field `content`
+    numbers. over_message: why the run ended. finished: False when an error or Ctrl-C ended it, or
+    while it is not over. drawn: what the add-ons drew at its end, which a file does not keep.
+    missing: parts of the user's own that a file did not hold.
     """
 
     scenario: Scenario
@@ -58,6 +62,8 @@ class Record:
     sensors: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     sensor_robots: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     contacts: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=CONTACT))
+    messages: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=MESSAGE))
+    contents: tuple[str, ...] = ()
     over_message: str = ""
     finished: bool = True
     filename: str = ""
@@ -66,7 +72,7 @@ class Record:
     missing: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        for name in (*_COLUMNS, "contacts"):
+        for name in (*_COLUMNS, "contacts", "messages"):
             object.__setattr__(self, name, _unwritable(getattr(self, name)))
         sensors = {name: _unwritable(values) for name, values in self.sensors.items()}
         object.__setattr__(self, "sensors", sensors)
@@ -99,6 +105,11 @@ class Record:
         columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
         # Field by field, since a structured array holds undefined bytes between its fields.
         columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
+        if self.contents:
+            texts = [text.encode() for text in self.contents]
+            columns |= {f"message:{name}": self.messages[name] for name in MESSAGE.names or ()}
+            columns["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
+            columns["content_sizes"] = np.array([len(text) for text in texts], dtype=np.int64)
         return columns
 
     def frame(self, row: int) -> Frame:
@@ -123,6 +134,7 @@ class Record:
             prop_path=self.prop_pose[:row],
             effort_path=self.effort[:row],
             contact_log=lambda: self.contacts[: np.searchsorted(self._contact_rows, row, "right")],
+            messages=self._messages_before(row),
             draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
         )
 
@@ -142,6 +154,16 @@ class Record:
         """Return the contacts of the control step that led to a row."""
         ends = np.searchsorted(self._contact_rows, [row, row + 1])
         return self.contacts[ends[0] : ends[1]]
+
+    def _messages_before(self, row: int) -> NDArray[np.void]:
+        """Return the messages that were under way in the control step that led to a row."""
+        time, dt = float(self.time[row]), self.scenario.sampling_time
+        return in_flight(self.messages, time, dt, self._longest_flight)
+
+    @cached_property
+    def _longest_flight(self) -> float:
+        flight = self.messages["arrival"] - self.messages["time"]
+        return float(np.nanmax(flight, initial=0.0))
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the paths: initial poses hollow, final poses filled, obstacles and grid.
@@ -165,6 +187,7 @@ class Record:
             "finished": self.finished,
             "filename": self.filename,
             "versions": dict(self.versions),
+            "messages": bool(self.contents),
             "sensor_robots": {name: list(robots) for name, robots in self.sensor_robots.items()},
             "digest": self.digest,
         }
@@ -211,7 +234,19 @@ def _of_another_format(header: Any) -> str:
 def _names(header: Any) -> list[str]:
     """Return the names of the columns that a file with this header holds."""
     contacts = [f"contact:{name}" for name in CONTACT.names or ()]
-    return [*_COLUMNS, *contacts, *(f"sensor:{name}" for name in header["sensor_robots"])]
+    messages = [*(f"message:{name}" for name in MESSAGE.names or ()), "contents", "content_sizes"]
+    sensors = [f"sensor:{name}" for name in header["sensor_robots"]]
+    return [*_COLUMNS, *contacts, *sensors, *(messages if header["messages"] else ())]
+
+
+def _messages(columns: dict[str, NDArray[Any]]) -> tuple[NDArray[np.void], tuple[str, ...]]:
+    """Return the messages and their contents that a file held."""
+    messages = np.zeros(len(columns["message:time"]), dtype=MESSAGE)
+    for name in MESSAGE.names or ():
+        messages[name] = columns[f"message:{name}"]
+    text, ends = columns["contents"].tobytes(), np.cumsum(columns["content_sizes"]).tolist()
+    contents = [text[start:end].decode() for start, end in pairwise([0, *ends])]
+    return messages, tuple(contents)
 
 
 def _assemble(header: Any, columns: dict[str, NDArray[Any]]) -> Record:
@@ -219,6 +254,7 @@ def _assemble(header: Any, columns: dict[str, NDArray[Any]]) -> Record:
     contacts = np.zeros(len(columns["contact:time"]), dtype=CONTACT)
     for name in CONTACT.names or ():
         contacts[name] = columns[f"contact:{name}"]
+    messages, contents = _messages(columns) if header["messages"] else (np.zeros(0, MESSAGE), ())
     robots = {name: tuple(indices) for name, indices in header["sensor_robots"].items()}
     scenario, missing = plain.to_scenario(header["scenario"])
     rows, n, props = len(columns["time"]), len(scenario.robots), len(scenario.props)
@@ -240,6 +276,8 @@ def _assemble(header: Any, columns: dict[str, NDArray[Any]]) -> Record:
         sensors={name: columns[f"sensor:{name}"] for name in robots},
         sensor_robots=robots,
         contacts=contacts,
+        messages=messages,
+        contents=contents,
         over_message=header["over_message"],
         finished=header["finished"],
         filename=header["filename"],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -44,6 +44,13 @@ def _unseen(what: str, sees: str, instead: str = "") -> Any:
     return property(refuse, doc=f"Refuse: a law that sees {sees} only does not know it.")
 
 
+def _alone(values: Float) -> Float:
+    """Return a copy that can't be written. A view would lead, as its `base`, to all robots."""
+    copy = values.copy()
+    copy.setflags(write=False)
+    return copy
+
+
 def _unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
     known = [item for item in dir(type(view)) if not item.startswith("_")]
     raise UnknownNameError(f"{kind} has no {name!r}{nearest(name, [*known, *more])}")
@@ -64,29 +71,47 @@ class Mind:
 
 
 class Neighbour:
-    """Another robot, as far as it is seen: its index, name, position (2,) and pose (3,)."""
+    """Another robot, as far as it is seen: its index, name, position (2,) and pose (3,).
 
-    def __init__(self, world: World, index: int) -> None:
-        self._world = world
-        self.index = index
+    A law may keep it, and finds it where it is at each step, as long as it is a neighbour.
+    """
+
+    def __init__(self, world: World, index: int, whose: int) -> None:
+        """Take the world, its index, and that of the robot whose neighbour it is."""
+        self._world, self._index, self._whose = world, index, whose
+        self._listed: Sequence[int] = ()  # the list in which it was last found
 
     def __getattr__(self, name: str) -> NoReturn:
-        _unknown(self, "a neighbour", name, "index")
+        _unknown(self, "a neighbour", name)
+
+    def _seen(self) -> Float:
+        """Return its pose (3,). Raises LawError if it is a neighbour no more."""
+        indices = self._world.neighbour_indices(self._whose)
+        if indices is not self._listed:
+            if self._index not in indices:
+                raise LawError(f"{self.name} is no neighbour any more: ask robot.neighbours again")
+            self._listed = indices
+        return self._world.pose[:, self._index]
+
+    @property
+    def index(self) -> int:
+        """Its column in poses and commands."""
+        return self._index
 
     @property
     def name(self) -> str:
         """The other robot's name."""
-        return str(self._world.scenario.robots[self.index].name)
+        return str(self._world.scenario.robots[self._index].name)
 
     @property
     def position(self) -> Float:
         """The other robot's position (2,): x, y [m]."""
-        return self._world.pose[:2, self.index]
+        return _alone(self._seen()[:2])
 
     @property
     def pose(self) -> Float:
         """The other robot's pose (3,): x, y [m], theta [rad]."""
-        return self._world.pose[:, self.index]
+        return _alone(self._seen())
 
 
 class NeighbourPosition(Neighbour):
@@ -99,63 +124,70 @@ class PropView:
     """A prop as laws and add-ons see it: its index in ``scenario.props``, name, pose, velocity."""
 
     def __init__(self, world: World, index: int) -> None:
-        self._world = world
-        self.index = index
+        self._world, self._index = world, index
 
     def __getattr__(self, name: str) -> NoReturn:
-        _unknown(self, "a prop", name, "index")
+        _unknown(self, "a prop", name)
+
+    @property
+    def index(self) -> int:
+        """Its index in ``scenario.props``."""
+        return self._index
 
     @property
     def name(self) -> str:
         """The prop's name."""
-        return str(self._world.scenario.props[self.index].name)
+        return str(self._world.scenario.props[self._index].name)
 
     @property
     def pose(self) -> Float:
         """The pose (3,) of its centre of mass: x, y [m], theta [rad, not wrapped]."""
-        return self._world.prop_pose[:, self.index]
+        return self._world.prop_pose[:, self._index]
 
     @property
     def velocity(self) -> Float:
         """Its velocity (3,): x', y' [m/s], theta' [rad/s]."""
-        return self._world.prop_velocity[:, self.index]
+        return self._world.prop_velocity[:, self._index]
 
 
 class RobotView:
     """What the law of one robot may see and use, with full information.
 
-    index: its column in poses and commands. sense: the readings of its sensors. memory: a place to
-    keep things between steps.
+    sense: the readings of its sensors. memory: a place to keep things between steps.
     """
 
     _neighbour: type[Neighbour] = Neighbour
 
     def __init__(self, world: World, index: int, mind: Mind) -> None:
-        self._world = world
+        self._world, self._index = world, index
         self._mind = mind
-        self.index = index
         self.sense = mind.sense
         self.memory = mind.memory
         self._found: dict[int, Neighbour] = {}
         self._listed: tuple[Sequence[int], tuple[Neighbour, ...]] = ((), ())
 
     def __getattr__(self, name: str) -> NoReturn:
-        _unknown(self, "a robot", name, "index", "sense", "memory")
+        _unknown(self, "a robot", name, "sense", "memory")
+
+    @property
+    def index(self) -> int:
+        """Its column in poses and commands."""
+        return self._index
 
     @property
     def name(self) -> str:
         """The robot's name."""
-        return str(self._world.scenario.robots[self.index].name)
+        return str(self._world.scenario.robots[self._index].name)
 
     @property
     def drive(self) -> Drive:
         """Its drive, with the bounds of what it can do."""
-        return self._world.scenario.robots[self.index].drive
+        return self._world.scenario.robots[self._index].drive
 
     @property
     def radius(self) -> float:
         """The radius of its chassis, or of a circle round it, metres."""
-        return self._world.scenario.robots[self.index].radius
+        return self._world.scenario.robots[self._index].radius
 
     @property
     def time(self) -> float:
@@ -165,12 +197,12 @@ class RobotView:
     @property
     def command(self) -> Float:
         """The last command (2,) that was issued, after saturation; zeros at first."""
-        return self._world.command[:, self.index]
+        return _alone(self._world.command[:, self._index])
 
     @property
     def effort(self) -> float:
         """The largest share of its bounds that its drive used in the last step, 0 to 1: slip."""
-        return float(self._world.effort[self.index])
+        return float(self._world.effort[self._index])
 
     @property
     def rng(self) -> np.random.Generator:
@@ -184,12 +216,12 @@ class RobotView:
         of these. to: a robot's index or name, a list of these, or None for all in reach. Raises
         LawError for anything else, and where there is no such add-on.
         """
-        self._world.channel.send(self.index, content, to)
+        self._world.channel.send(self._index, content, to)
 
     @property
     def inbox(self) -> tuple[Message, ...]:
         """The messages that have arrived for this control step, by sender."""
-        return self._world.channel.inbox(self.index)
+        return self._world.channel.inbox(self._index)
 
     @property
     def world(self) -> World:
@@ -199,29 +231,29 @@ class RobotView:
     @property
     def position(self) -> Float:
         """The robot's own position (2,): x, y [m]."""
-        return self._world.pose[:2, self.index]
+        return _alone(self._world.pose[:2, self._index])
 
     @property
     def pose(self) -> Float:
         """The robot's own pose (3,): x, y [m], theta [rad, not wrapped]."""
-        return self._world.pose[:, self.index]
+        return _alone(self._world.pose[:, self._index])
 
     @property
     def velocity(self) -> Float:
         """The robot's own velocity (3,): x', y' [m/s], theta' [rad/s]."""
-        return self._world.velocity[:, self.index]
+        return _alone(self._world.velocity[:, self._index])
 
     @property
     def neighbours(self) -> tuple[Neighbour, ...]:
         """The other robots that ``Scenario.neighbours`` makes its neighbours now."""
-        indices = self._world.neighbour_indices(self.index)
+        indices = self._world.neighbour_indices(self._index)
         if indices is not self._listed[0]:
             self._listed = indices, tuple(self._neighbour_at(j) for j in indices)
         return self._listed[1]
 
     def _neighbour_at(self, index: int) -> Neighbour:
         if index not in self._found:
-            self._found[index] = self._neighbour(self._world, index)
+            self._found[index] = self._neighbour(self._world, index, self._index)
         return self._found[index]
 
     @property
@@ -231,7 +263,7 @@ class RobotView:
         Normals and tangential impulses are those on b, which may be this robot or the other body.
         """
         rows = self._world.contacts
-        return np.asarray(rows[(rows["a"] == self.index) | (rows["b"] == self.index)])
+        return np.asarray(rows[(rows["a"] == self._index) | (rows["b"] == self._index)])
 
 
 class PartialView(RobotView):
@@ -284,7 +316,8 @@ class TeamPositionsView:
         self.robots = tuple(RobotPositionView(world, i, mind) for i, mind in enumerate(minds))
 
     def __getattr__(self, name: str) -> NoReturn:
-        if hasattr(type(self._world), name) or name in vars(self._world):
+        world = vars(self).get("_world")  # None in a copy that is not yet filled
+        if hasattr(type(world), name) or (world is not None and name in vars(world)):
             raise LawError(
                 f"this law sees positions only: world.{name} is not available; "
                 "there is world.position"
@@ -304,12 +337,17 @@ class TeamPositionsView:
     @property
     def position(self) -> Float:
         """The positions (2, n): x, y [m]."""
-        return self._world.position
+        return _alone(self._world.position)
 
     @property
     def command(self) -> Float:
         """The last command (2, n) that was issued, after saturation; zeros at first."""
-        return self._world.command
+        return _alone(self._world.command)
+
+    @property
+    def effort(self) -> Float:
+        """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1."""
+        return _alone(self._world.effort)
 
     @property
     def workspace(self) -> Outline | None:
@@ -336,7 +374,6 @@ class TeamPositionsView:
         """The random stream of the team's law."""
         return self._world.rng
 
-    @property
-    def stop(self) -> Callable[[str], None]:
-        """What ends the experiment: ``world.stop("why")``."""
-        return self._world.stop
+    def stop(self, why: str) -> None:
+        """End the experiment, with the present control step, and say why."""
+        self._world.stop(why)

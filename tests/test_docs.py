@@ -33,11 +33,11 @@ import pytest
 
 import mars2d
 from mars2d import addons, bodies, cli, joints, props, sensors, shapes
-from mars2d.control import PropView, RobotView
 from mars2d.files import examples, open_experiment
 from mars2d.registry import members
 from mars2d.scene import Scene
 from mars2d.view import keys
+from mars2d.views import PropView, RobotView
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -318,7 +318,8 @@ def test_each_drive_prop_and_joint_is_documented(document):
 
 
 def test_each_example_that_checks_itself_is_a_lesson_with_a_picture():
-    text = (ROOT / "docs" / "contact.md").read_text(encoding="utf-8")
+    courses = ("contact.md", "communication.md")
+    text = "\n".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in courses)
     lessons = set(re.findall(r"^mars2d run (\w+) .*--figure", text, flags=re.M))
     checked = {name for name, path in examples().items() if open_experiment(path).checks}
     assert checked <= lessons
@@ -329,6 +330,15 @@ def test_the_columns_of_contacts_are_those_of_a_record():
     section = text.partition("## Contacts")[2].partition("\n## ")[0]
     names = [row[0].strip("`") for row in table(section)[1:]]
     assert names == list(mars2d.contact.CONTACT.names)
+
+
+def test_the_columns_of_messages_and_their_states_are_those_of_a_record():
+    text = (ROOT / "docs" / "record.md").read_text(encoding="utf-8")
+    rows = table(text.partition("## Messages")[2].partition("\n## ")[0])
+    start = rows.index(["number", "word", "what"])
+    assert [row[0].strip("`") for row in rows[1:start]] == list(mars2d.message.MESSAGE.names)
+    stated = {int(number): word for number, word, _ in rows[start + 1 :]}
+    assert stated == dict(enumerate(mars2d.message.STATUS))
 
 
 def test_options_named_anywhere_exist():
@@ -403,7 +413,7 @@ OWNERS: dict[str, Any] = {
     "PropView": PropView,
     **{kind.__name__: kind for family in (bodies, sensors, props, joints, shapes)
        for kind in vars(family).values() if isinstance(kind, type)},
-    "Map": addons.Map,
+    **{name: getattr(addons, name) for name in ("Burst", "Communication", "Map")},
 }  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mars2d.scene import (
     Arrow,
     Circle,
+    Image,
     Line,
     Polygon,
     Scene,
@@ -66,6 +67,8 @@ def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) 
             _polygon(shape, ax, scale, level)
         elif isinstance(shape, Arrow):
             _arrow(shape, ax, scale, level, ppm)
+        elif isinstance(shape, Image):
+            _image(shape, ax, level)
         else:
             _text(shape, ax, scale, level)
     if scene.shapes:
@@ -77,6 +80,8 @@ def _corners(shape: Shape) -> Float:
     """Return points (k, 2) within whose bounds a shape lies, metres."""
     if isinstance(shape, Circle):
         return np.add(shape.center, [[-shape.radius] * 2, [shape.radius] * 2])
+    if isinstance(shape, Image):
+        return np.reshape(shape.bounds, (2, 2)).T
     if isinstance(shape, Arrow):
         return np.array([shape.tail, shape.tip])
     return np.reshape(shape.position, (1, 2)) if isinstance(shape, Text) else shape.points
@@ -137,6 +142,15 @@ def _arrow(shape: Arrow, ax: Axes, scale: float, level: float, ppm: float) -> No
             points, closed=True, joinstyle="round", zorder=level, facecolor=shape.fill, **style
         )
         _add(patch, ax)
+
+
+def _image(shape: Image, ax: Axes, level: float) -> None:
+    from matplotlib.image import AxesImage
+
+    image = AxesImage(ax, extent=shape.bounds, origin="upper", zorder=level)
+    image.set_data(shape.pixels)
+    image.set_in_layout(False)
+    ax.add_artist(image)
 
 
 def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None:

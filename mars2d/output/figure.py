@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d import frame as seen
 from mars2d.errors import InputError, shown
 from mars2d.forces import FORCE, LABEL_SIZE, force_scale, forces, in_newtons, round_force
+from mars2d.links import messages
 from mars2d.output.artists import paint, points_per_metre
 from mars2d.output.extent import View
 from mars2d.scene import Line, Polygon, Scene, Shape, Text, faded
@@ -218,6 +219,7 @@ def dress(ax: Axes, scenario: Scenario, view: View) -> None:
             for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
                 line.set_clip_path(ax.patches[-1])
             paint(Scene([replace(shape, fill=None)]), ax, scale=0.75)
+    paint(seen.floor(scenario), ax, level=WORKSPACE)
     paint(seen.obstacles(scenario), ax, scale=0.6)
 
 
@@ -261,6 +263,7 @@ def paint_row(ax: Axes, record: Record, row: int) -> None:
         paint(trails, ax, scale=0.55 if few else 0.4)
     if scenario.animation.show_initial_pose:
         paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75))
+    paint(messages(now), ax, scale=max(0.4, scale))
     paint(seen.props(now), ax, scale=min(scale, 0.6))
     paint(seen.robots(now), ax, scale=scale)
     paint(seen.joints(now), ax, scale=max(0.4, scale))

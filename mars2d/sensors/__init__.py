@@ -1,6 +1,30 @@
 """What robots perceive: the virtual sensors."""
 
 from mars2d.sensors.base import Sensor, Surroundings
+from mars2d.sensors.beacon import Beacon
+from mars2d.sensors.bumper import Bumper
+from mars2d.sensors.ground import Ground
+from mars2d.sensors.imu import Imu
+from mars2d.sensors.line_camera import LineCamera
+from mars2d.sensors.odometry import Odometry
+from mars2d.sensors.pose import Pose
 from mars2d.sensors.proximity import Proximity
+from mars2d.sensors.range_bearing import RangeBearing
+from mars2d.sensors.range_finder import RangeFinder
+from mars2d.sensors.sonar_ring import SonarRing
 
-__all__ = ["Proximity", "Sensor", "Surroundings"]
+__all__ = [
+    "Beacon",
+    "Bumper",
+    "Ground",
+    "Imu",
+    "LineCamera",
+    "Odometry",
+    "Pose",
+    "Proximity",
+    "RangeBearing",
+    "RangeFinder",
+    "Sensor",
+    "SonarRing",
+    "Surroundings",
+]

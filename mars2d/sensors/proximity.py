@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from math import cos, hypot, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from mars2d.description import number
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import Float, Sensor, Surroundings
+from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -20,20 +20,22 @@ __all__ = ["Proximity"]
 class Proximity(Sensor):
     """Tells whether an obstacle or another robot is within range and field of view.
 
-    The reading is True or False. range: metres from the robot's pose (not from its rim).
-    field_of_view: radians, centred on the heading, 2 pi by default. The nearest point of each
-    surface counts, so nothing slips between beams.
+    The reading is True or False. range: metres from the sensor, which sits at the robot's pose (not
+    at its rim) unless it is mounted elsewhere. field_of_view: radians, centred on the heading, 2 pi
+    by default. The nearest point of each surface counts, so nothing slips between beams.
     Source: Casini & Garulli (2016), section 4.
     """
 
-    range: float = number(above=0, high=1e6, unit="m", doc="how far it sees, from the robot's pose")
+    quantities: ClassVar[tuple[Quantity, ...]] = (FLAG,)
+
+    range: float = number(above=0, high=1e6, unit="m", doc="how far it sees, from its mount")
     field_of_view: float = number(
         default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about the heading"
     )
 
     def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> bool:  # noqa: ARG002
         """Return whether something is within range and field of view."""
-        x, y, theta = robot.pose.tolist()
+        x, y, theta = self.placed(robot.pose).tolist()
         me = robot.index
         if self.field_of_view >= 2 * pi:
             return world.distance((x, y), self.range, me) < self.range
@@ -51,7 +53,7 @@ class Proximity(Sensor):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, filled while something is seen."""
         scene.sector(
-            pose,
+            self.placed(pose),
             self.range,
             self.field_of_view,
             fill=faded("#d55e00" if reading else color, 0.22 if reading else 0.07),

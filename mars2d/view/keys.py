@@ -29,6 +29,7 @@ KEYS = (
     Key("grid", ("g",), ("G",), "grid on and off"),
     Key("trails", ("t",), ("T",), "trails on and off"),
     Key("sensors", ("s",), ("S",), "sensors on and off"),
+    Key("messages", ("m",), ("M",), "messages between robots on and off"),
     Key("forces", ("c",), ("C",), "forces of contacts, and who slips, on and off"),
     Key("select", ("tab",), ("Tab",), "select the next robot or prop: the force on it over time"),
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),

@@ -17,6 +17,7 @@ class Layers:
     grid: bool = True
     trails: bool = True
     sensors: bool = True
+    messages: bool = True
     forces: bool = False
 
     @classmethod

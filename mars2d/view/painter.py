@@ -8,12 +8,23 @@ sprites, at quarters of a pixel so that slow movement stays smooth.
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
+from math import ceil, floor
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from mars2d.scene import Arrow, Circle, Line, Polygon, Shape, Text, arrow_outline, split_wake_style
+from mars2d.scene import (
+    Arrow,
+    Circle,
+    Image,
+    Line,
+    Polygon,
+    Shape,
+    Text,
+    arrow_outline,
+    split_wake_style,
+)
 from mars2d.view import brushes
 from mars2d.view.brushes import Draw, Rgba, rgba
 from mars2d.view.camera import Camera
@@ -65,6 +76,8 @@ class Painter:
                 self._polygon(surface, shape, camera)
             elif isinstance(shape, Arrow):
                 self._arrow(surface, shape, camera)
+            elif isinstance(shape, Image):
+                _image(surface, shape, camera)
             else:
                 self._text(surface, shape, camera)
 
@@ -282,6 +295,46 @@ class Painter:
         self._sprites[key] = sprite
         self._kept += area
         return sprite
+
+
+def _image(surface: pygame.Surface, shape: Image, camera: Camera) -> None:
+    """Draw the part of an image that is in sight: larger pixels sharp, smaller ones averaged."""
+    xmin, xmax, ymin, ymax = shape.bounds
+    rows, columns, _ = shape.pixels.shape
+    sight = surface.get_clip()
+    left, wide = camera.x + camera.scale * xmin, camera.scale * (xmax - xmin) / columns
+    top, high = camera.y - camera.scale * ymax, camera.scale * (ymax - ymin) / rows
+    across = _cells(left, wide, columns, sight.left, sight.right)
+    down = _cells(top, high, rows, sight.top, sight.bottom)
+    if across is None or down is None:
+        return
+    place = across[0][0], down[0][0]
+    seen = shape.pixels[down[1]][:, across[1]].swapaxes(0, 1)
+    part = pygame.surfarray.make_surface(np.ascontiguousarray(seen))
+    size = across[0][1] - across[0][0], down[0][1] - down[0][0]
+    if part.get_size() != size:
+        part = pygame.transform.smoothscale(part, size)
+    surface.blit(part, place)
+
+
+def _cells(
+    start: float, size: float, count: int, low: int, high: int
+) -> tuple[tuple[int, int], NDArray[np.int64]] | None:
+    """Return which screen pixels (first, end) an image takes along one axis, and which of its own.
+
+    start, size: of the image's first pixel on the screen, in screen pixels. count: of the image's
+    pixels. low, high: the screen pixels in sight. Each screen pixel has one of the image's, the
+    one at its middle; where those are smaller, all are returned, to be averaged.
+    """
+    first, end = max(low, round(start)), min(high, round(start + size * count))
+    if first >= end:
+        return None
+    if size >= 1:
+        own = ((np.arange(first, end) + 0.5 - start) / size).astype(int).clip(0, count - 1)
+    else:
+        low, high = floor((first - start) / size), ceil((end - start) / size)
+        own = np.arange(max(low, 0), min(high, count))
+    return (first, end), own
 
 
 def _around(reach: int) -> list[tuple[int, int]]:

@@ -197,8 +197,8 @@ class Player:
 def between(first: Frame, second: Frame, time: float) -> Frame:
     """Return what is seen at a time [s] between two frames: poses linear, all else of the first.
 
-    Only contacts and efforts are the second's: those of the control step that leads there. A time
-    before or after both is taken as the first's or the second's.
+    Only contacts, efforts and messages are the second's: those of the control step that leads
+    there. A time before or after both is taken as the first's or the second's.
     """
     span = second.time - first.time
     if span <= 0 or time >= second.time:
@@ -215,6 +215,7 @@ def between(first: Frame, second: Frame, time: float) -> Frame:
         effort=second.effort,
         contact_log=second.contact_log,
         effort_path=second.effort_path,
+        messages=second.messages,
     )
 
 

@@ -12,6 +12,7 @@ import pygame
 from mars2d import frame as scenes
 from mars2d.forces import forces
 from mars2d.frame import Frame
+from mars2d.links import messages
 from mars2d.scenario import Scenario
 from mars2d.scene import Polygon, Scene, Shape
 from mars2d.view.camera import Camera
@@ -83,6 +84,8 @@ class Stage:
             frame.draw_addons(moving)
         if layers.sensors:
             moving.extend(scenes.sensors(frame).shapes)
+        if layers.messages:
+            moving.extend(messages(frame).shapes)
         for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):
             moving.extend(scene.shapes)
         moving.extend(marks)
@@ -130,6 +133,10 @@ class Stage:
             still.set_clip(plot)
             still.fill(PAGE)
             self.painter.paint(still, scenes.workspace(scenario).shapes, camera)
+            floor = scenes.floor(scenario).shapes
+            if floor:
+                self.painter.paint(still, floor, camera)
+                self._edge(still, scenario, camera)
             self._labels = []
             if layers.grid:
                 self._grid(still, scenario, camera)
@@ -145,11 +152,14 @@ class Stage:
         if scenario.workspace is None or scenario.on_exit == "ignore":
             bounds = camera.view(still.get_size())
         draw_grid(still, camera, bounds, self.painter.ui)
-        if scenario.workspace is not None:  # its edge lies on the grid
-            shapes = scenes.workspace(scenario).shapes
-            edge = [replace(s, fill=None) for s in shapes if isinstance(s, Polygon)]
-            self.painter.paint(still, edge, camera)
+        self._edge(still, scenario, camera)
         self._labels = labels(still.get_clip(), camera, bounds, self.painter.fonts, self.painter.ui)
+
+    def _edge(self, still: pygame.Surface, scenario: Scenario, camera: Camera) -> None:
+        """Draw the workspace's edge again, over the floor or the grid."""
+        shapes = scenes.workspace(scenario).shapes
+        edge = [replace(s, fill=None) for s in shapes if isinstance(s, Polygon)]
+        self.painter.paint(still, edge, camera)
 
     def _with_trails(self, still: pygame.Surface, frame: Frame, camera: Camera) -> pygame.Surface:
         paths = (frame.prop_path, frame.path)

@@ -85,6 +85,7 @@ class Window:
             "grid": lambda: self._toggle("grid"),
             "trails": lambda: self._toggle("trails"),
             "sensors": lambda: self._toggle("sensors"),
+            "messages": lambda: self._toggle("messages"),
             "forces": lambda: self._toggle("forces"),
             "select": self._select_next,
             "fit": self._fit,

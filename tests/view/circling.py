@@ -8,6 +8,7 @@ from mars2d.animation import Animation
 from mars2d.contact import CONTACT
 from mars2d.errors import LawError
 from mars2d.frame import Frame
+from mars2d.message import LOST, MESSAGE
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.sensors import Proximity
@@ -28,7 +29,8 @@ def circling_scenario(sampling_time=0.1, rows=100, robots=2, animation=None, **c
 class Circling:
     """Robots go round the origin at 0.5 rad/s; frame k is at k sampling times.
 
-    pressed: something pushes robot 0 back all the time, and all drives slip.
+    pressed: something pushes robot 0 back all the time, and all drives slip. talking: robot 0 says
+    something to robot 1 at each step, which is lost.
     """
 
     def __init__(
@@ -38,10 +40,11 @@ class Circling:
         message="the circle is closed",
         fails_at=None,
         pressed=False,
+        talking=False,
     ):
         self.scenario = scenario or circling_scenario(rows=rows)
         self.rows, self.message, self.fails_at = rows, message, fails_at
-        self.pressed = pressed
+        self.pressed, self.talking = pressed, talking
         self.row = self.restarts = 0
         angle = 0.5 * self.scenario.sampling_time * np.arange(rows + 1)[:, None]
         radius = np.array([robot.pose[0] for robot in self.scenario.robots])
@@ -63,6 +66,7 @@ class Circling:
             contacts=self.contacts(k, k),
             effort=np.full(len(self.scenario.robots), 1.0 if self.pressed and k else 0.0),
             contact_log=lambda: self.contacts(1, k),
+            messages=self.messages(k),
             effort_path=np.full((k, len(self.scenario.robots)), 1.0 if self.pressed else 0.0),
         )
 
@@ -74,6 +78,13 @@ class Circling:
         rows["time"], rows["b"], rows["normal"] = dt * (steps - 0.5), -1, (1.0, 0.0)
         rows["point"] = self.path[steps, :2, 0] + (0.3, 0.0)
         rows["impulse"] = rows["normal_impulse"] = 5.0 * dt
+        return rows
+
+    def messages(self, row):
+        """Return the message of the step that led to a row."""
+        rows = np.zeros(1 if self.talking and row else 0, dtype=MESSAGE)
+        rows["time"], rows["arrival"] = self.scenario.sampling_time * (row - 1), np.nan
+        rows["receiver"], rows["status"] = 1, LOST
         return rows
 
     @property

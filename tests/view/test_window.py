@@ -234,6 +234,7 @@ def test_layers_begin_as_the_animation_says(open_window):
         "grid": False,
         "trails": False,
         "sensors": True,
+        "messages": True,
         "forces": False,
     }
     before = window.still()
@@ -254,6 +255,20 @@ def test_c_shows_forces_and_who_slips(open_window):
     assert window.shows(lambda seen: has(seen, FORCE) and has(seen, SLIP))
     window.press("c")
     window.until(lambda s: not s["layers"]["forces"])
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+
+
+@needs_screen
+def test_m_hides_messages_and_shows_them_again(open_window):
+    window = open_window(0, talking=True)
+    window.press("Right", "Right")
+    window.until(lambda s: s["row"] == 2)
+    before = window.still()
+    window.press("m")
+    window.until(lambda s: not s["layers"]["messages"])
+    assert window.shows(lambda seen: differing(before, seen) > 50)  # a broken line and a cross
+    window.press("m")
+    window.until(lambda s: s["layers"]["messages"])
     assert window.shows(lambda seen: differing(before, seen) == 0)
 
 

@@ -1,0 +1,118 @@
+"""Beacons: lamps that stand or move, for the sensor of the same name."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Mapping
+from itertools import accumulate, pairwise
+from math import hypot
+from typing import TYPE_CHECKING
+
+from mars2d import checks
+from mars2d.addons.base import Addon
+from mars2d.description import entry, number, wrong
+from mars2d.errors import InputError
+from mars2d.geometry import Outline, Point
+from mars2d.scene import Scene, color, faded
+
+if TYPE_CHECKING:
+    from mars2d.world import World
+
+__all__ = ["Beacon"]
+
+AT = "a point (x, y) in metres, or None"
+PATH = "at least two points, as [(x, y), ...] in metres, or None"
+
+
+def _at(name: str, value: object) -> Point | None:
+    return None if value is None else checks.point(name, value)
+
+
+def _path(name: str, value: object) -> Outline | None:
+    """Check a closed path: unlike an obstacle it may cross itself."""
+    if value is None:
+        return None
+    if not isinstance(value, (tuple, list)) or len(value) < 2:
+        raise wrong(name, value, PATH)
+    points = [checks.point(f"{name}[{i}]", item) for i, item in enumerate(value)]
+    if len(points) > 2 and points[0] == points[-1]:
+        points.pop()  # a ring written closed
+    for i, (a, b) in enumerate(zip(points, [*points[1:], points[0]], strict=True)):
+        if a == b:
+            raise InputError(f"{name}: points {i} and {(i + 1) % len(points)} are the same, {a}")
+    return tuple(points)
+
+
+class Beacon(Addon):
+    """A lamp that robots find with the sensor Beacon. It stands still, or moves along a path.
+
+    >>> Beacon(path=[(0, 0), (2, 0), (2, 1)], speed=0.5).where(5.0)
+    (2.0, 0.5)
+
+    Its name is that of the add-on. It is in nobody's way. Give `at`, or else `path` and `speed`: it
+    starts at the first point of the path, goes to the next, and from the last one back to the
+    first, on and on. Two points are a way there and back.
+    """
+
+    at: Point | None = entry(
+        default=None, check=_at, unit="m", kw_only=False, doc="where it stands"
+    )
+    path: Outline | None = entry(
+        default=None, check=_path, unit="m", doc="the corners of the closed path that it moves on"
+    )
+    speed: float | None = number(
+        default=None, above=0, high=1e3, unit="m/s", optional=True, doc="its speed along the path"
+    )
+    color: str = entry(default="#e8c500", check=color, doc="its colour, for pictures only")
+
+    def _validate(self) -> None:
+        super()._validate()
+        if (self.at is None) == (self.path is None):
+            raise InputError(
+                "Beacon: expected where it stands, as at=(1, 2), or its path, as "
+                "path=[(0, 0), (2, 0)], speed=0.5"
+            )
+        if self.path is not None and self.speed is None:
+            raise InputError("Beacon.speed is missing: how fast it moves along its path, m/s")
+        if self.path is None and self.speed is not None:
+            raise InputError(
+                f"Beacon.speed = {self.speed:g}: a beacon with `at` stands; to move it needs `path`"
+            )
+
+    def where(self, time: float) -> Point:
+        """Return where it is at a time [s]: (x, y) in metres."""
+        if self.path is None or self.speed is None:
+            assert self.at is not None
+            return self.at
+        corners = [*self.path, self.path[0]]
+        sides = [hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(corners)]
+        ends = [0.0, *accumulate(sides)]
+        gone = (self.speed * time) % ends[-1]
+        k = min(bisect_right(ends, gone) - 1, len(sides) - 1)
+        (ax, ay), (bx, by) = corners[k], corners[k + 1]
+        share = (gone - ends[k]) / sides[k]
+        return ax + share * (bx - ax), ay + share * (by - ay)
+
+    @property
+    def position(self) -> Point:
+        """Where it is now: (x, y) in metres. In a scenario, where it starts."""
+        world = self.__dict__.get("_world")
+        return self.where(0.0 if world is None else world.time)
+
+    def beacons(self) -> Mapping[str, Point]:
+        """Return where it is now, by its name."""
+        return {self.key: self.position}
+
+    def on_start(self, world: World) -> None:
+        """Take the world's clock."""
+        self._world = world
+
+    def on_draw(self, world: World, scene: Scene) -> None:
+        """Draw a lamp with its name, and its path."""
+        if self.path is not None:
+            ring = [*self.path, self.path[0]]
+            scene.line(ring, stroke=faded(self.color, 0.6), width=1.0, style=":")
+        here = self.where(world.time)
+        scene.circle(here, 0.0, fill=faded(self.color, 0.3), pixels=9.0)
+        scene.circle(here, 0.0, fill=self.color, stroke="#444444", width=1.0, pixels=4.5)
+        scene.text((here[0], here[1]), f"{self.key}\n", size=10.0, anchor="above", halo="#ffffff")

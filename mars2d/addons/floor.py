@@ -1,0 +1,207 @@
+"""Floors with colours: lines to follow, places to find."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d import checks
+from mars2d.addons.base import Addon, Color
+from mars2d.description import entry, real, wrong
+from mars2d.errors import InputError, LawError
+from mars2d.geometry import Outline, Point, bounds_of, inside_polygon
+from mars2d.scene import LARGEST_IMAGE, Scene
+from mars2d.scene import color as checked_color
+
+if TYPE_CHECKING:
+    from mars2d.world import World
+
+__all__ = ["Floor"]
+
+Pixels = NDArray[np.uint8]
+Bounds = tuple[float, float, float, float]
+
+
+def _opaque(name: str, value: object) -> str:
+    """Check a colour that lets nothing through."""
+    result = checked_color(name, value)
+    if len(result) > 7:
+        raise wrong(name, value, "a colour without opacity, '#rrggbb' or a name")
+    return result
+
+
+def _patches(name: str, value: object) -> tuple[tuple[Outline, str], ...]:
+    expected = "a list of patches, each (outline, colour), as [([(0, 0), (1, 0), (0, 1)], 'red')]"
+    if not isinstance(value, (tuple, list)):
+        raise wrong(name, value, expected)
+    patches = []
+    for i, patch in enumerate(value):
+        if not isinstance(patch, (tuple, list)) or len(patch) != 2:
+            raise wrong(f"{name}[{i}]", patch, "a patch (outline, colour)")
+        outline = checks.outline(f"{name}[{i}][0]", patch[0], least=3)
+        patches.append((outline, _opaque(f"{name}[{i}][1]", patch[1])))
+    return tuple(patches)
+
+
+def _image(name: str, value: object) -> str | None:
+    if value is None:
+        return None
+    if not isinstance(value, (str, os.PathLike)) or Path(value).suffix.lower() != ".png":
+        raise wrong(name, value, "the name of a file that ends in .png, or None")
+    return str(value)
+
+
+def _bounds(name: str, value: object) -> Bounds | None:
+    expected = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"
+    if value is None:
+        return None
+    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 4:
+        xmin, xmax, ymin, ymax = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
+        far = max(map(abs, (xmin, xmax, ymin, ymax))) > checks.LIMIT
+        if xmin < xmax and ymin < ymax and not far:
+            return xmin, xmax, ymin, ymax
+    raise wrong(name, value, expected)
+
+
+def _rgb(color: str) -> Color:
+    red, green, blue = (int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return red, green, blue
+
+
+class Floor(Addon):
+    """The colours of the floor, for the sensor Ground: one everywhere, an image on it, patches.
+
+    >>> Floor(patches=[([(0, 0), (1, 0), (1, 1)], "black")]).ground((0.9, 0.5))
+    (0.0, 0.0, 0.0)
+
+    Of patches that overlap the later one lies on top. The image covers `bounds`, its upper row at
+    ymax; a point has the colour of the pixel that it lies in, and where a pixel is transparent
+    `color` is seen through it. Nothing of it is in anybody's way.
+
+    A relative name of an image is looked for in the current folder; a file beside the experiment is
+    ``Path(__file__).with_name("line.png")``. It is read when a world is made, PNG with 8 bits a
+    channel and up to 4096 x 4096 pixels.
+    """
+
+    patches: Sequence[tuple[Outline, str]] = entry(
+        default=(), check=_patches, unit="m", doc="polygons and their colours: (outline, colour)"
+    )
+    image: str | None = entry(default=None, check=_image, doc="a file with the floor's picture")
+    bounds: Bounds | None = entry(
+        default=None, check=_bounds, unit="m", doc="where the image lies: (xmin, xmax, ymin, ymax)"
+    )
+    color: str = entry(default="#ffffff", check=_opaque, doc="the colour of the rest")
+
+    def _validate(self) -> None:
+        super()._validate()
+        if self.image is not None and self.bounds is None:
+            raise InputError(
+                "Floor.bounds is missing: where the image lies, (xmin, xmax, ymin, ymax) in metres"
+            )
+        if self.image is None and self.bounds is not None:
+            raise InputError(f"Floor.bounds = {self.bounds}: given without an image")
+
+    @cached_property
+    def pixels(self) -> Pixels:
+        """The image's pixels (rows, columns, 3), the upper row first; red, green, blue to 255.
+
+        Raises InputError if the file is not there, is no such image, or is too large.
+        """
+        assert self.image is not None
+        return _over(_read_png("Floor.image", Path(self.image)), self.color)
+
+    @cached_property
+    def _colored(self) -> tuple[tuple[Bounds, NDArray[np.float64], Color], ...]:
+        """The patches, from the upper one down: bounds, corners (k, 2), colour."""
+        return tuple(
+            (bounds_of(outline), np.array(outline), _rgb(color))
+            for outline, color in reversed(self.patches)
+        )
+
+    def ground(self, point: Point) -> Color:
+        """Return the colour of the floor at a point: red, green and blue from 0 to 1."""
+        x, y = point
+        for (xmin, xmax, ymin, ymax), corners, color in self._colored:
+            near = xmin <= x <= xmax and ymin <= y <= ymax
+            if near and inside_polygon(np.array([x]), np.array([y]), corners)[0]:
+                return color
+        if self.bounds is not None:
+            xmin, xmax, ymin, ymax = self.bounds
+            if xmin <= x <= xmax and ymin <= y <= ymax:
+                rows, columns, _ = self.pixels.shape
+                row = min(int((ymax - y) / (ymax - ymin) * rows), rows - 1)
+                column = min(int((x - xmin) / (xmax - xmin) * columns), columns - 1)
+                red, green, blue = (self.pixels[row, column] / 255).tolist()
+                return red, green, blue
+        return _rgb(self.color)
+
+    def on_start(self, world: World) -> None:  # noqa: ARG002
+        """Read the image, so that what is wrong with it is said at once."""
+        if self.image is not None:
+            try:
+                self.pixels  # noqa: B018
+            except InputError as error:
+                raise LawError(str(error)) from None
+
+    def paint(self, scene: Scene, area: Outline) -> None:
+        """Add the floor of an area to what lies beneath everything else.
+
+        Where the image can't be read any more, as that of a record may be, its name is written.
+        """
+        if self.color != "#ffffff":
+            scene.polygon(area, fill=self.color)
+        if self.bounds is not None:
+            try:
+                scene.image(self.pixels, self.bounds)
+            except InputError:
+                xmin, xmax, ymin, ymax = self.bounds
+                corners = [(xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax)]
+                scene.polygon(corners, fill="#e6e9ed")
+                name = Path(str(self.image)).name
+                scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), f"{name} is not there")
+        for outline, color in self.patches:
+            scene.polygon(outline, fill=color)
+
+
+def _read_png(name: str, path: Path) -> Pixels:
+    """Return the pixels (rows, columns, 4) of a PNG. Raises InputError, beginning with `name`."""
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        with Image.open(path, formats=["PNG"]) as image:
+            wide, high = image.size
+            if max(wide, high) > LARGEST_IMAGE:
+                raise InputError(
+                    f"{name} = {str(path)!r}: {wide} x {high} pixels; expected at most "
+                    f"{LARGEST_IMAGE} x {LARGEST_IMAGE}"
+                )
+            if image.mode.startswith(("I", "F")):
+                raise InputError(
+                    f"{name} = {str(path)!r}: 16 bits a channel; save it with 8 bits a channel"
+                )
+            return np.asarray(image.convert("RGBA"))
+    except FileNotFoundError:
+        where = "" if path.is_absolute() else f" in {Path.cwd()}"
+        hint = f"; beside the experiment it is Path(__file__).with_name({path.name!r})"
+        raise InputError(f"{name} = {str(path)!r}: there is no such file{where}{hint}") from None
+    except UnidentifiedImageError:
+        raise InputError(f"{name} = {str(path)!r}: this is no PNG image") from None
+    except Image.DecompressionBombError:
+        raise InputError(
+            f"{name} = {str(path)!r}: expected at most {LARGEST_IMAGE} x {LARGEST_IMAGE} pixels"
+        ) from None
+    except (OSError, SyntaxError, ValueError) as error:
+        raise InputError(f"{name} = {str(path)!r}: can't be read, {error}") from None
+
+
+def _over(pixels: Pixels, color: str) -> Pixels:
+    """Return pixels (rows, columns, 4) laid over a colour, (rows, columns, 3)."""
+    opacity = pixels[..., 3:] / 255
+    beneath = 255 * np.array(_rgb(color))
+    return np.round(pixels[..., :3] * opacity + beneath * (1 - opacity)).astype(np.uint8)

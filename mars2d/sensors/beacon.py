@@ -1,0 +1,159 @@
+"""Where are the lamps? Range and bearing of beacons, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import cos, inf, isfinite, pi, sin
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mars2d.bearings import BEARING, RANGE, hold_missing, sighted
+from mars2d.description import entry, flag, number, wrong
+from mars2d.errors import InputError, LawError, UnknownNameError, nearest, shown
+from mars2d.scene import Scene, faded
+from mars2d.sensors.base import NOTHING, Float, Quantity, Sensor, Sighting, Surroundings
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["Beacon", "Sightings"]
+
+FAR = 50.0
+"""A field of view that reaches further is not drawn to its end, metres."""
+
+
+class Sightings(Mapping[str, Sighting]):
+    """Where each beacon is seen, by name; one that is not seen has range inf and bearing nan.
+
+    Raises UnknownNameError for a name that no beacon has.
+    """
+
+    def __init__(self, sightings: Mapping[str, Sighting]) -> None:
+        self._sightings = dict(sightings)
+
+    def __getitem__(self, name: str) -> Sighting:
+        if name not in self._sightings:
+            raise UnknownNameError(f"there is no beacon {name!r}{nearest(name, self._sightings)}")
+        return self._sightings[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._sightings
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._sightings)
+
+    def __len__(self) -> int:
+        return len(self._sightings)
+
+    def __repr__(self) -> str:
+        return repr(self._sightings)
+
+
+def _names(name: str, value: object) -> tuple[str, ...] | None:
+    if value is None:
+        return None
+    expected = "a list of beacons' names, as ['lamp'], or None"
+    if not isinstance(value, (tuple, list)) or not value:
+        raise wrong(name, value, expected)
+    for item in value:
+        if not isinstance(item, str):
+            raise wrong(name, value, expected)
+        if value.count(item) > 1:
+            raise InputError(f"{name}: {item!r} stands there twice")
+    return tuple(value)
+
+
+def _place(name: str, place: Any) -> tuple[float, float]:
+    """Return where an add-on says that a beacon is, if that is a place."""
+    try:
+        x, y = place
+        return float(x), float(y)
+    except (TypeError, ValueError):
+        raise LawError(
+            f"beacon {name!r} is at {shown(place)}: expected of beacons() of an add-on points "
+            "(x, y) by name"
+        ) from None
+
+
+class Beacon(Sensor):
+    """Measures range and bearing of the world's beacons, which the add-on Beacon puts there.
+
+    A law finds a mapping from each beacon's name to a `Sighting`; one that is not seen has range
+    inf and bearing nan. The record has rows (range [m], bearing [rad]), (k, 2), in the order of
+    `names` or else of the alphabet. Bearings are from straight ahead, counter-clockwise, in
+    (-pi, pi].
+
+    A beacon is seen if nothing but the robot that looks lies before it: no obstacle, no prop, no
+    other robot. What is not seen has neither noise nor outliers.
+
+    Source: Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 6.6.
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (RANGE, BEARING)
+
+    range: float = number(default=100.0, above=0, high=1e6, unit="m", doc="how far it sees")
+    field_of_view: float = number(
+        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about its heading"
+    )
+    through_walls: bool = flag(
+        default=False, doc="whether it sees beacons that something stands before"
+    )
+    names: tuple[str, ...] | None = entry(
+        default=None, check=_names, doc="the beacons that it looks for; None: all that there are"
+    )
+
+    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+        """Take which beacons there are."""
+        known = sorted(world.beacons)
+        if not known:
+            raise LawError(
+                f"{robot.name} looks for beacons and there are none: add "
+                "mars2d.addons.Beacon(at=(x, y)) to Scenario.addons"
+            )
+        self._beacons: tuple[str, ...] = tuple(known) if self.names is None else self.names
+        for name in self._beacons:
+            if name not in known:
+                raise LawError(
+                    f"Beacon.names of {robot.name}: there is no beacon {name!r}"
+                    f"{nearest(name, known)}"
+                )
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return rows (k, 2) of range and bearing, (inf, nan) for what is not seen."""
+        there = world.beacons
+        points = np.array([_place(name, there.get(name, (inf, inf))) for name in self._beacons])
+        return sighted(
+            self.placed(robot.pose),
+            points,
+            self.range,
+            self.field_of_view,
+            None if self.through_walls else world,
+            np.full(len(points), NOTHING),
+            robot.index,
+        )
+
+    def measured(self, reading: Float, rng: np.random.Generator) -> Float:
+        """Return what the device makes of a perfect reading; what is not seen stays so."""
+        rows = super().measured(reading, rng)
+        return rows if rows is reading else hold_missing(rows, reading)
+
+    def shown(self, reading: Float) -> Sightings:
+        """Return where each beacon is seen, by name."""
+        rows = zip(self._beacons, reading.tolist(), strict=True)
+        return Sightings({name: Sighting(*row) for name, row in rows})
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
+        """Draw the field of view, and a line to each beacon where it is measured to be."""
+        here = self.placed(pose)
+        rows = [row for row in np.asarray(reading).reshape(-1, 2).tolist() if isfinite(row[0])]
+        reach = self.range if self.range <= FAR else max((row[0] for row in rows), default=0.0)
+        if reach and (self.range <= FAR or self.field_of_view < 2 * pi):
+            fill, stroke = faded(color, 0.05), faded(color, 0.25)
+            scene.sector(here, reach, self.field_of_view, fill=fill, stroke=stroke)
+        x, y, theta = here.tolist()
+        for distance, bearing in rows:
+            angle = theta + bearing
+            there = (x + distance * cos(angle), y + distance * sin(angle))
+            scene.line([(x, y), there], stroke=faded(color, 0.7), width=1.0)
+            scene.circle(there, 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)

@@ -1,0 +1,100 @@
+"""Has the robot been touched, and on which side? A ring of switches."""
+
+from __future__ import annotations
+
+from collections import deque
+from functools import cached_property
+from math import atan2, floor, pi
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.description import integer, number
+from mars2d.scene import Scene, faded
+from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["Bumper"]
+
+LIT = "#d55e00"
+
+
+class Bumper(Sensor):
+    """Tells in which sectors the robot has been touched since the last measurement.
+
+    The reading is an array (sectors,) of True and False. The sectors share the field of view
+    evenly, from the right to the left of the heading: two over pi are the right and the left side
+    of the front. What counts is the bearing of the point of contact from the sensor, which is best
+    mounted in the middle of the robot.
+
+    >>> Bumper(sectors=2, field_of_view=3.0).angles.tolist()
+    [-0.75, 0.75]
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (FLAG,)
+
+    sectors: int = integer(default=4, low=1, high=10_000, doc="how many switches it has")
+    field_of_view: float = number(
+        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle that they share"
+    )
+    radius: float = number(
+        default=0.15, above=0, high=1e6, unit="m", doc="how far from its mount it is drawn"
+    )
+
+    @cached_property
+    def angles(self) -> Float:
+        """The bearings of the sectors' middles (sectors,): radians from the sensor's heading."""
+        angles = ((np.arange(self.sectors) + 0.5) / self.sectors - 0.5) * self.field_of_view
+        angles.flags.writeable = False
+        return angles
+
+    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+        """Begin untouched."""
+        self._pose = robot.pose
+        self._touches: deque[NDArray[np.bool_]] = deque(maxlen=self.period(world.sampling_time))
+
+    def on_step(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+        """Note in which sectors the robot was touched in the last control step."""
+        touched = np.zeros(self.sectors, dtype=bool)
+        step = world.sampling_time
+        for contact in robot.contacts:
+            # The point is where it was then: so must be the robot.
+            share = min(max(1 - (world.time - float(contact["time"])) / step, 0.0), 1.0)
+            pose = self.placed((1 - share) * self._pose + share * robot.pose)
+            bearing = _bearing(contact["point"].tolist(), pose.tolist())
+            if abs(bearing) <= self.field_of_view / 2:
+                sector = floor((bearing / self.field_of_view + 0.5) * self.sectors)
+                touched[min(sector, self.sectors - 1)] = True
+        self._pose = robot.pose
+        self._touches.append(touched)
+
+    def read(
+        self,
+        robot: RobotView,  # noqa: ARG002
+        world: Surroundings,  # noqa: ARG002
+        rng: np.random.Generator,  # noqa: ARG002
+    ) -> NDArray[np.bool_]:
+        """Return which sectors (sectors,) were touched since the last measurement."""
+        return np.asarray(np.any(self._touches, axis=0))
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
+        """Draw the sectors as arcs round the robot, lit where it was touched."""
+        x, y, theta = self.placed(pose).tolist()
+        width = self.field_of_view / self.sectors
+        across = np.linspace(-0.46, 0.46, max(2, int(width / 0.1) + 2)) * width
+        for angle, touched in zip(theta + self.angles, np.asarray(reading).tolist(), strict=True):
+            arc = angle + across
+            radius = 1.15 * self.radius
+            points = np.column_stack([x + radius * np.cos(arc), y + radius * np.sin(arc)])
+            if touched:
+                scene.line(points, stroke=LIT, width=4.0)
+            else:
+                scene.line(points, stroke=faded(color, 0.45), width=1.5)
+
+
+def _bearing(point: list[float], pose: list[float]) -> float:
+    """Return the bearing of a point from a pose, in [-pi, pi)."""
+    return (atan2(point[1] - pose[1], point[0] - pose[0]) - pose[2] + pi) % (2 * pi) - pi

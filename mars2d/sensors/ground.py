@@ -1,0 +1,47 @@
+"""What colour is the floor beneath me? For lines to follow and places to find."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mars2d.errors import LawError, shown
+from mars2d.scene import Scene
+from mars2d.sensors.base import COLOR, Float, Quantity, Sensor, Surroundings
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["Ground"]
+
+
+class Ground(Sensor):
+    """Measures the colour of the floor beneath its mount: red, green and blue from 0 to 1.
+
+    The reading is an array (3,). Where no add-on says anything of the floor it is white; the add-on
+    Floor paints it. It looks at a point, and sees the floor beneath robots, props and obstacles.
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (COLOR,)
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return red, green and blue, (3,), from 0 to 1."""
+        x, y, _ = self.placed(robot.pose).tolist()
+        found = world.ground((x, y))
+        try:
+            color = np.array(found, dtype=float)
+        except (TypeError, ValueError):
+            color = np.empty(0)
+        if color.shape != (3,) or not ((color >= 0) & (color <= 1)).all():
+            raise LawError(
+                f"the floor at ({x:.3g}, {y:.3g}) is {shown(found)}: expected of ground(point) of "
+                "an add-on: red, green and blue from 0 to 1, or None"
+            )
+        return color
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
+        """Draw a disc of the colour that is read where it looks."""
+        values = np.nan_to_num(np.asarray(reading, dtype=float), nan=0.5)
+        fill = "#" + "".join(f"{round(255 * value):02x}" for value in values.tolist())
+        scene.circle(self.placed(pose), 0.0, fill=fill, stroke="#d55e00", width=1.2, pixels=3.5)

@@ -1,0 +1,113 @@
+"""How do I accelerate, how do I turn? The inertial measurement unit."""
+
+from __future__ import annotations
+
+from math import cos, sin, sqrt
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mars2d.description import entry, real, wrong
+from mars2d.scene import Scene
+from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["Imu"]
+
+ARROW = 0.2
+"""An acceleration is drawn as an arrow of so many metres for each m/s^2."""
+
+
+def _three(name: str, value: object) -> tuple[float, float, float]:
+    expected = "three numbers, for (ax, ay) [m/s^2] and omega [rad/s]"
+    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 3:
+        ax, ay, omega = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
+        if max(abs(ax), abs(ay), abs(omega)) <= 1e6:
+            return ax, ay, omega
+    raise wrong(name, value, expected)
+
+
+def _three_spreads(name: str, value: object) -> tuple[float, float, float]:
+    three = _three(name, value)
+    if min(three) < 0:
+        raise wrong(name, value, "three numbers >= 0, for (ax, ay) and omega")
+    return three
+
+
+class Imu(Sensor):
+    """Measures acceleration ahead and to the left [m/s^2] and spin [rad/s], in its own frame.
+
+    The reading is an array (3,) = (ax, ay, omega), means over the last control step. With (u, w)
+    the mount's velocity ahead and to the left, omega is the change of heading over the sampling
+    time T, and ax = (change of u) / T - omega w, ay = (change of w) / T + omega u, with u and w at
+    the end of the step. That is exact where velocities change at control steps only, as they do in
+    free motion, and else to the first order of T. At the start there is no last step: all are 0.
+
+    Two constant errors are added: `bias`, and a random walk that begins at 0 and gains a standard
+    deviation of `bias_walk` times the root of the time.
+
+    The robot stands upright on a level floor: there is no gravity in it.
+
+    Source: Titterton and Weston, Strapdown Inertial Navigation Technology (2004), sections 3.4 and
+    4.4.
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("ax", "m/s^2"),
+        Quantity("ay", "m/s^2"),
+        Quantity("omega", "rad/s"),
+    )
+
+    bias: tuple[float, float, float] = entry(
+        default=(0.0, 0.0, 0.0), check=_three, unit="m/s^2, m/s^2, rad/s", doc="constant errors"
+    )
+    bias_walk: tuple[float, float, float] = entry(
+        default=(0.0, 0.0, 0.0), check=_three_spreads, unit="m/s^2, m/s^2, rad/s",
+        doc="standard deviation that the errors gain in one second; it grows with the root of it",
+    )  # fmt: skip
+
+    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+        """Begin without a step before."""
+        self._last: tuple[float, float, float] | None = None
+        self._mean = np.zeros(3)
+        self._walked = np.zeros(3)
+
+    def on_step(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:
+        """Take the means over the last control step."""
+        heading = float(self.placed(robot.pose)[2])
+        ahead, left = self._speed(robot, heading)
+        if self._last is not None:
+            seconds = world.sampling_time
+            had_ahead, had_left, had_heading = self._last
+            omega = (heading - had_heading) / seconds
+            ax = (ahead - had_ahead) / seconds - omega * left
+            ay = (left - had_left) / seconds + omega * ahead
+            self._mean = np.array([ax, ay, omega])
+            if any(self.bias_walk):
+                step = np.array(self.bias_walk) * sqrt(seconds)
+                self._walked = self._walked + step * rng.standard_normal(3)
+        self._last = ahead, left, heading
+
+    def _speed(self, robot: RobotView, heading: float) -> tuple[float, float]:
+        """Return the mount's velocity [m/s] ahead and to the left of its own heading."""
+        vx, vy, omega = robot.velocity.tolist()
+        x, y = (self.placed(robot.pose) - robot.pose)[:2].tolist()
+        vx, vy = vx - omega * y, vy + omega * x
+        c, s = cos(heading), sin(heading)
+        return c * vx + s * vy, c * vy - s * vx
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return the means (3,) over the last control step, with the bias."""
+        return self._mean + self.bias + self._walked
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
+        """Draw the acceleration as an arrow, a metre for 5 m/s^2."""
+        x, y, theta = self.placed(pose).tolist()
+        ax, ay, _ = np.asarray(reading, dtype=float).tolist()
+        size = float(np.hypot(ax, ay))
+        if 1e-3 < size < np.inf:
+            c, s = ARROW * cos(theta), ARROW * sin(theta)
+            tip = (x + c * ax - s * ay, y + s * ax + c * ay)
+            scene.arrow((x, y), tip, fill="#d55e00", stroke="#ffffff", width=2.0)

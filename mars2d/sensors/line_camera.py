@@ -1,0 +1,95 @@
+"""What colour has what is seen? A camera with one line of pixels."""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+from math import isnan, nan, pi
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mars2d.description import integer, number
+from mars2d.scene import Scene, faded
+from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Sensor, Surroundings, beam_angles
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["LineCamera"]
+
+NEAR, FAR = 0.07, 0.085
+"""Between these shares of the range the line of pixels is drawn."""
+
+
+class LineCamera(Sensor):
+    """Sees the colours of robots, props and obstacles in a line of pixels, over an angle.
+
+    The reading is an array (pixels, 3) of red, green and blue, from 0 to 1; nan where nothing is
+    within range. The first pixel looks half the field of view to the right of the heading. All
+    things are lit evenly and hide what is behind them.
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (COLOR,)
+
+    pixels: int = integer(default=64, low=1, high=100_000, doc="how many pixels it has")
+    range: float = number(default=10.0, above=0, high=1e6, unit="m", doc="how far it sees")
+    field_of_view: float = number(
+        default=pi / 2, above=0, high=2 * pi, unit="rad", doc="the angle from first to last pixel"
+    )
+
+    @cached_property
+    def angles(self) -> Float:
+        """The bearings of the pixels (pixels,): radians from the sensor's heading."""
+        angles = beam_angles(self.pixels, self.field_of_view)
+        angles.flags.writeable = False
+        return angles
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return the colours (pixels, 3) of what the pixels see."""
+        x, y, theta = self.placed(robot.pose).tolist()
+        _, bodies = world.sight((x, y), theta + self.angles, self.range, robot.index)
+        seen, which = np.unique(bodies, return_inverse=True)
+        missing = (nan, nan, nan)
+        colors = [missing if b == NOTHING else _rgb(world.color(b)) for b in seen.tolist()]
+        return np.array(colors)[which.ravel()]
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
+        """Draw the pixels as a strip of colours in front of the camera."""
+        placed = self.placed(pose)
+        x, y, theta = placed.tolist()
+        near, far = NEAR * self.range, FAR * self.range
+        scene.sector(placed, near, self.field_of_view, fill=faded(color, 0.1))
+        step = self.field_of_view / max(self.pixels - (self.field_of_view < 2 * pi), 1)
+        names = [_name(pixel) for pixel in np.asarray(reading).tolist()]
+        for first, last, name in _runs(names):
+            if name is not None:
+                angles = theta + self.angles[first : last + 1]
+                arc = np.concatenate([angles - step / 2, angles[-1:] + step / 2])
+                rim = np.column_stack([np.cos(arc), np.sin(arc)])
+                strip = np.vstack([near * rim, far * rim[::-1]]) + np.array([x, y])
+                scene.polygon(strip, fill=name)
+
+
+@lru_cache(maxsize=1024)
+def _rgb(color: str) -> tuple[float, float, float]:
+    """Return a colour ``#rrggbb`` as numbers from 0 to 1."""
+    red, green, blue = (int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return red, green, blue
+
+
+def _name(pixel: list[float]) -> str | None:
+    """Return a pixel's colour as ``#rrggbb``, None if it sees nothing."""
+    if any(map(isnan, pixel)):
+        return None
+    return "#" + "".join(f"{round(255 * value):02x}" for value in pixel)
+
+
+def _runs(names: list[str | None]) -> list[tuple[int, int, str | None]]:
+    """Return neighbouring pixels of the same colour: (first, last, colour)."""
+    runs: list[tuple[int, int, str | None]] = []
+    for k, name in enumerate(names):
+        if runs and runs[-1][2] == name:
+            runs[-1] = (runs[-1][0], k, name)
+        else:
+            runs.append((k, k, name))
+    return runs

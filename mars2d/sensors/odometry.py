@@ -1,0 +1,197 @@
+"""How far have I come? Dead reckoning from what the wheels turn."""
+
+from __future__ import annotations
+
+from math import cos, isfinite, sin, sqrt
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mars2d.description import choice, entry, number, real, wrong
+from mars2d.scene import Scene, faded
+from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["Odometry", "odometry_covariance"]
+
+
+def _scales(name: str, value: object) -> tuple[float, float]:
+    expected = "two scales (left, right), each > 0 and <= 10"
+    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 2:
+        left, right = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
+        if 0 < left <= 10 and 0 < right <= 10:
+            return left, right
+    raise wrong(name, value, expected)
+
+
+class Odometry(Sensor):
+    """Estimates its own pose from the turning of its wheels: x [m], y [m], theta [rad].
+
+    The reading is an array (3,); theta is not wrapped. It integrates exactly, as arcs, what the
+    drive made the wheels do. So where the wheels slip, the estimate goes on and the robot does not.
+
+    On a drive of two wheels, their rims turn by v -+ wheel_semiaxis * omega. On any other drive
+    three wheels roll along that measure only: two as far to the left and right of the pose as the
+    robot's radius (or the drive's own `wheel_semiaxis`), one across. Each wheel's travel s is read
+    as scale * s + drift * sqrt(|s|) * n with n a number of the standard normal distribution, and
+    the spin is the difference of the two, divided by the distance that the wheels are believed to
+    have. That across has the scale 1.
+
+    The shared fields `noise`, `outliers` and `resolution` concern the reading and don't add up.
+
+    Sources: Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots (2011),
+    section 5.2.4; Chong and Kleeman, Accurate odometry and error modelling for a mobile robot
+    (ICRA 1997).
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("x", "m"),
+        Quantity("y", "m"),
+        Quantity("theta", "rad"),
+    )
+
+    drift: float = number(
+        default=0.0, low=0, high=1e3, unit="sqrt(m)",
+        doc="standard deviation of a wheel's travel after one metre; it grows with the root of it",
+    )  # fmt: skip
+    wheel_scale: tuple[float, float] = entry(
+        default=(1.0, 1.0), check=_scales,
+        doc="radius of the left and the right wheel as it is believed, over the true one",
+    )  # fmt: skip
+    semiaxis_scale: float = number(
+        default=1.0, low=1e-3, high=1e3,
+        doc="distance of the wheels as it is believed, over the true one",
+    )  # fmt: skip
+    encoder_step: float = number(
+        default=0.0, low=0, high=1e3, unit="m",
+        doc="travel of a rim from one tick of its encoder to the next; 0: no ticks are seen",
+    )  # fmt: skip
+    origin: str = choice(
+        default="start", of=("start", "world"),
+        doc="what the estimate is relative to: the pose at the start, or the world's frame",
+    )  # fmt: skip
+
+    def _validate(self) -> None:
+        super()._validate()
+        if self.mount != (0.0, 0.0, 0.0):
+            raise wrong("Odometry.mount", self.mount, "(0, 0, 0): it measures at the wheels")
+
+    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+        """Begin at the origin."""
+        own = getattr(robot.drive, "wheel_semiaxis", None)
+        self._semiaxis = robot.radius if own is None else float(own)
+        x, y, theta = robot.pose.tolist()
+        self._estimate = (0.0, 0.0, 0.0) if self.origin == "start" else (x, y, theta)
+        self._heading = theta
+        self._turned = [0.0, 0.0, 0.0]  # what the wheels did in all: left, right, across
+        self._counted = [0.0, 0.0, 0.0]
+
+    def on_step(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:
+        """Add what the wheels turned in the last control step."""
+        for seconds, twist in world.driven:
+            forward, left, spin = (seconds * twist[:, robot.index]).tolist()
+            if robot.drive.frame == "world":
+                forward, left = _arc_of(forward, left, self._heading, spin)
+            self._heading += spin
+            b = self._semiaxis
+            self._roll([forward - b * spin, forward + b * spin, left], rng)
+        self._heading = float(robot.pose[2])
+
+    def _roll(self, travel: list[float], rng: np.random.Generator) -> None:
+        """Add what the wheels (left, right, across) have truly turned by, metres."""
+        if self.encoder_step:
+            travel = [self._ticks(wheel, way) for wheel, way in enumerate(travel)]
+        left, right, across = (
+            travel[0] * self.wheel_scale[0],
+            travel[1] * self.wheel_scale[1],
+            travel[2],
+        )
+        if self.drift:
+            errors = rng.standard_normal(3).tolist()
+            off = [self.drift * sqrt(abs(s)) * n for s, n in zip(travel, errors, strict=True)]
+            left, right, across = left + off[0], right + off[1], across + off[2]
+        spin = (right - left) / (2 * self._semiaxis * self.semiaxis_scale)
+        self._estimate = _moved(self._estimate, (left + right) / 2, across, spin)
+
+    def _ticks(self, wheel: int, travel: float) -> float:
+        """Return how far a wheel's encoder has counted on, metres."""
+        self._turned[wheel] += travel
+        counted = round(self._turned[wheel] / self.encoder_step) * self.encoder_step
+        more, self._counted[wheel] = counted - self._counted[wheel], counted
+        return more
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return the estimate (3,)."""
+        return np.array(self._estimate)
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
+        """Draw where it takes itself to be in the world, if that is what it estimates."""
+        x, y, theta = np.asarray(reading, dtype=float).tolist()
+        if self.origin == "world" and isfinite(x + y + theta):
+            scene.circle((x, y), 0.0, stroke=color, fill=faded(color, 0.15), width=1.2, pixels=6.0)
+            ahead = (x + 0.3 * cos(theta), y + 0.3 * sin(theta))
+            scene.line([(x, y), ahead], stroke=color, width=1.2)
+
+
+def _sinc(angle: float) -> float:
+    return sin(angle) / angle if angle else 1.0
+
+
+def _moved(
+    pose: tuple[float, float, float], forward: float, left: float, spin: float
+) -> tuple[float, float, float]:
+    """Return the pose at the end of an arc.
+
+    forward, left: metres along it in the frame that moves; spin: radians.
+    """
+    x, y, theta = pose
+    middle, chord = theta + spin / 2, _sinc(spin / 2)
+    c, s = chord * cos(middle), chord * sin(middle)
+    return x + c * forward - s * left, y + s * forward + c * left, theta + spin
+
+
+def _arc_of(dx: float, dy: float, theta: float, spin: float) -> tuple[float, float]:
+    """Return (forward, left) [m] along the arc that moves by (dx, dy) [m] from heading theta."""
+    middle, chord = theta + spin / 2, _sinc(spin / 2)
+    if abs(chord) < 1e-9:  # a whole turn: no arc leads there
+        chord = 1.0
+    c, s = cos(middle) / chord, sin(middle) / chord
+    return c * dx + s * dy, c * dy - s * dx
+
+
+def odometry_covariance(
+    covariance: ArrayLike, theta: float, left: float, right: float, semiaxis: float, drift: float
+) -> Float:
+    """Return the covariance (3, 3) of dead reckoning after one more step, to first order.
+
+    covariance: (3, 3) of (x, y, theta) before. theta: the heading before, radians. left, right:
+    what the rims travelled, metres. semiaxis: half the distance between the wheels, metres. drift:
+    the field of `Odometry`, sqrt(m).
+
+    >>> after = odometry_covariance(np.zeros((3, 3)), 0.0, 1.0, 1.0, 0.5, 0.1)
+    >>> after.diagonal().round(6).tolist()
+    [0.005, 0.005, 0.02]
+
+    Source: Siegwart, Nourbakhsh and Scaramuzza (2011), equations 5.8 to 5.12, with the exact arc in
+    place of the chord of the mean heading.
+    """
+    before = np.asarray(covariance, dtype=float)
+    forward, spin = (left + right) / 2, (right - left) / (2 * semiaxis)
+    middle, half = theta + spin / 2, spin / 2
+    chord = _sinc(half)
+    # d(chord) / d(spin); the series where the difference would cancel.
+    bend = -spin / 12 if abs(spin) < 1e-3 else (cos(half) - chord) / spin
+    c, s = cos(middle), sin(middle)
+    dx, dy = chord * forward * c, chord * forward * s
+    by_pose = np.array([[1.0, 0.0, -dy], [0.0, 1.0, dx], [0.0, 0.0, 1.0]])
+    by_spin = np.array(
+        [forward * (bend * c - chord * s / 2), forward * (bend * s + chord * c / 2), 1]
+    )
+    by_forward = np.array([chord * c, chord * s, 0.0])
+    per_left = by_forward / 2 - by_spin / (2 * semiaxis)
+    per_right = by_forward / 2 + by_spin / (2 * semiaxis)
+    by_rims = drift * np.column_stack([sqrt(abs(left)) * per_left, sqrt(abs(right)) * per_right])
+    return np.asarray(by_pose @ before @ by_pose.T + by_rims @ by_rims.T)

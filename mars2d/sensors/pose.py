@@ -1,0 +1,46 @@
+"""Where am I? Position and heading, as a GPS and a compass give them."""
+
+from __future__ import annotations
+
+from math import cos, isfinite, sin
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mars2d.scene import Scene, faded
+from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["Pose"]
+
+
+class Pose(Sensor):
+    """Measures its own pose in the world: x [m], y [m], theta [rad], as a GPS and a compass do.
+
+    The reading is an array (3,), nan when lost. It is the pose of the mount: with the default one,
+    that of the robot. theta is not wrapped, as in ``robot.pose``. `noise` is white: one number for
+    each, as ``noise=(0.5, 0.5, 0.05)``.
+
+    Source: Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots (2011),
+    sections 4.1.4 and 4.1.5.
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("x", "m"),
+        Quantity("y", "m"),
+        Quantity("theta", "rad"),
+    )
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return the pose (3,) of the mount."""
+        return self.placed(robot.pose)
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
+        """Draw a ring where it takes itself to be, with its heading."""
+        x, y, theta = np.asarray(reading, dtype=float).tolist()
+        if isfinite(x + y + theta):
+            scene.circle((x, y), 0.0, stroke=color, fill=faded(color, 0.15), width=1.2, pixels=6.0)
+            ahead = (x + 0.3 * cos(theta), y + 0.3 * sin(theta))
+            scene.line([(x, y), ahead], stroke=color, width=1.2)

@@ -1,0 +1,96 @@
+"""Where are the others? Range and bearing of the robots in view."""
+
+from __future__ import annotations
+
+from math import cos, inf, isfinite, pi, sin
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mars2d.bearings import BEARING, RANGE, hold_missing, sighted
+from mars2d.description import flag, number
+from mars2d.scene import Scene, faded
+from mars2d.sensors.base import Float, Quantity, Sensor, Sighting, Surroundings
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["RangeBearing"]
+
+
+class RangeBearing(Sensor):
+    """Measures range and bearing of the other robots in view, from the sensor to their poses.
+
+    A law finds a tuple of `Sighting`, nearest first, of the robots that are seen. The record has
+    rows (range [m], bearing [rad]), (inf, nan) for what is not seen: with identity (n, 2), row i
+    for robot i, its own always missing; without it (n - 1, 2), nearest first. Bearings are from
+    straight ahead, counter-clockwise, in (-pi, pi].
+
+    A robot is seen if nothing but the robot that looks lies on the line to its pose: no obstacle,
+    no prop, no other robot. What is not seen has neither noise nor outliers.
+
+    Sources: Casini & Garulli (2016), section 6.4; Ceccarelli et al. (2008).
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (RANGE, BEARING)
+
+    range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")
+    field_of_view: float = number(
+        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about its heading"
+    )
+    through_walls: bool = flag(
+        default=False, doc="whether it sees robots that something stands before"
+    )
+    identity: bool = flag(default=True, doc="whether it knows which robot it sees")
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return rows of range and bearing: of robot i, or without identity nearest first."""
+        everyone = np.arange(world.pose.shape[1])
+        rows = sighted(
+            self.placed(robot.pose),
+            world.pose[:2].T,
+            self.range,
+            self.field_of_view,
+            None if self.through_walls else world,
+            everyone,
+            robot.index,
+        )
+        if self.identity:
+            rows[robot.index] = inf, np.nan
+            return rows
+        return _nearest_first(rows[everyone != robot.index])
+
+    def measured(self, reading: Float, rng: np.random.Generator) -> Float:
+        """Return what the device makes of a perfect reading; what is not seen stays so."""
+        rows: Float = super().measured(reading, rng)
+        if rows is reading:
+            return reading
+        rows = hold_missing(rows, reading)
+        return rows if self.identity else _nearest_first(rows)
+
+    def shown(self, reading: Float) -> tuple[Sighting, ...]:
+        """Return what is seen, nearest first."""
+        seen = [
+            Sighting(distance, bearing, i if self.identity else None)
+            for i, (distance, bearing) in enumerate(reading.tolist())
+            if isfinite(distance)
+        ]
+        return tuple(sorted(seen, key=lambda each: each[:2]))
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
+        """Draw the field of view, and a line to each robot where it is measured to be."""
+        here = self.placed(pose)
+        fill, stroke = faded(color, 0.05), faded(color, 0.25)
+        scene.sector(here, self.range, self.field_of_view, fill=fill, stroke=stroke)
+        x, y, theta = here.tolist()
+        for distance, bearing in np.asarray(reading).reshape(-1, 2).tolist():
+            if isfinite(distance):
+                angle = theta + bearing
+                there = (x + distance * cos(angle), y + distance * sin(angle))
+                scene.line([(x, y), there], stroke=faded(color, 0.7), width=1.0)
+                scene.circle(there, 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)
+
+
+def _nearest_first(rows: Float) -> Float:
+    """Return rows (k, 2) in the order of range, then bearing; missing ones last."""
+    return rows[np.lexsort((rows[:, 1], rows[:, 0]))]

@@ -1,0 +1,67 @@
+"""How far is it in many directions? A laser scanner."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import pi
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mars2d.description import integer, number
+from mars2d.scene import Scene, faded
+from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings, beam_angles
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["RangeFinder"]
+
+
+class RangeFinder(Sensor):
+    """Measures along evenly spaced beams how far it is to the first surface: a laser scanner.
+
+    The reading is an array (beams,), metres from the sensor; inf where nothing is within range. The
+    first beam points half the field of view to the right of the heading, the last one as much to
+    the left; of a full circle it is left out. A single beam points ahead.
+
+    >>> RangeFinder(beams=4).angles.round(2).tolist()
+    [-3.14, -1.57, 0.0, 1.57]
+
+    Source: S. Thrun, W. Burgard, D. Fox, Probabilistic Robotics, section 6.3 (2005).
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (DISTANCE,)
+
+    beams: int = integer(default=180, low=1, high=100_000, doc="how many beams it has")
+    range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")
+    field_of_view: float = number(
+        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle from first to last beam"
+    )
+
+    @cached_property
+    def angles(self) -> Float:
+        """The bearings of the beams (beams,): radians from the sensor's heading."""
+        angles = beam_angles(self.beams, self.field_of_view)
+        angles.flags.writeable = False
+        return angles
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return the distances (beams,) to the first surfaces."""
+        x, y, theta = self.placed(robot.pose).tolist()
+        return world.rays((x, y), theta + self.angles, self.range, robot.index)
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
+        """Draw what the beams sweep, and a dot where one has met something."""
+        x, y, theta = self.placed(pose).tolist()
+        angles = theta + self.angles
+        far = np.minimum(reading, self.range)
+        ends = np.column_stack([x + far * np.cos(angles), y + far * np.sin(angles)])
+        if self.field_of_view >= 2 * pi and self.beams > 2:
+            area = ends
+        else:
+            area = np.vstack([[x, y], ends])
+        scene.polygon(area, fill=faded(color, 0.1))
+        hits = ends[np.isfinite(reading)]
+        if len(hits):
+            scene.line(hits, stroke=faded(color, 0.9), style=".")

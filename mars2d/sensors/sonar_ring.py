@@ -1,0 +1,78 @@
+"""How far is the nearest thing in each of several cones? A ring of sonars."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import cos, inf, pi
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mars2d.description import integer, number
+from mars2d.scene import Scene, faded
+from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings, beam_angles
+
+if TYPE_CHECKING:
+    from mars2d.views import RobotView
+
+__all__ = ["SonarRing"]
+
+
+class SonarRing(Sensor):
+    """Measures in each of several cones how far it is to the nearest surface: a ring of sonars.
+
+    The reading is an array (sonars,), metres from the sensor; inf where nothing is within range.
+    The cones' axes are spaced as the beams of a RangeFinder. The nearest point of each surface
+    counts, so nothing slips through a cone.
+
+    >>> SonarRing(sonars=3, field_of_view=3.0).angles.tolist()
+    [-1.5, 0.0, 1.5]
+
+    Source: R. Siegwart, I. Nourbakhsh, Introduction to Autonomous Mobile Robots, section 4.1.6
+    (2004).
+    """
+
+    quantities: ClassVar[tuple[Quantity, ...]] = (DISTANCE,)
+
+    sonars: int = integer(default=8, low=1, high=10_000, doc="how many sonars it has")
+    cone: float = number(
+        default=0.35, above=0, high=2 * pi, unit="rad", doc="the angle in which each one hears"
+    )
+    range: float = number(default=3.0, above=0, high=1e6, unit="m", doc="how far it hears")
+    field_of_view: float = number(
+        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle from first to last axis"
+    )
+
+    @cached_property
+    def angles(self) -> Float:
+        """The bearings of the cones' axes (sonars,): radians from the sensor's heading."""
+        angles = beam_angles(self.sonars, self.field_of_view)
+        angles.flags.writeable = False
+        return angles
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return the distances (sonars,) to the nearest surfaces."""
+        x, y, theta = self.placed(robot.pose).tolist()
+        axes, half = theta + self.angles, self.cone / 2
+        # All surfaces are convex pieces: their point nearest to us within a cone is either the
+        # nearest of all, or lies where an edge of the cone first meets them.
+        edges = np.concatenate([axes - half, axes + half])
+        rays = world.rays((x, y), edges, self.range, robot.index)
+        near = np.array(list(world.nearby((x, y), self.range, robot.index))).reshape(-1, 2)
+        dx, dy = near[:, :1] - x, near[:, 1:] - y
+        distance = np.hypot(dx, dy)
+        inside = dx * np.cos(axes) + dy * np.sin(axes) >= distance * cos(half)
+        nearest = np.where(inside, distance, inf).min(axis=0, initial=inf)
+        return np.asarray(np.minimum(nearest, rays.reshape(2, -1).min(axis=0)))
+
+    def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
+        """Draw each cone as far as it is free, and an arc where it ends at something."""
+        x, y, theta = self.placed(pose).tolist()
+        steps = np.linspace(-self.cone / 2, self.cone / 2, max(2, int(self.cone / 0.1) + 2))
+        for angle, distance in zip(theta + self.angles, np.asarray(reading).tolist(), strict=True):
+            far = min(distance, self.range)
+            scene.sector((x, y, angle), far, self.cone, fill=faded(color, 0.1))
+            if distance <= self.range:
+                arc = angle + steps
+                ends = np.column_stack([x + far * np.cos(arc), y + far * np.sin(arc)])
+                scene.line(ends, stroke=faded(color, 0.9), width=2.0)
