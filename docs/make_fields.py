@@ -14,13 +14,18 @@ from typing import Any
 from mars2d import (
     Animation,
     Car,
+    Delaunay,
     Differential,
     Drive,
+    Everyone,
+    Graph,
     Holonomic,
+    Nearest,
     Prediction,
     Robot,
     Scenario,
     Unicycle,
+    Within,
     addons,
     sensors,
 )
@@ -32,13 +37,17 @@ from mars2d.materials import MATERIALS
 from mars2d.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.registry import summary
 from mars2d.sensors import (
+    Bumper,
     Ground,
     Imu,
+    LineCamera,
     Odometry,
     Pose,
     Proximity,
     RangeBearing,
+    RangeFinder,
     Sensor,
+    SonarRing,
 )
 from mars2d.shapes import Compound, Disc, Polygon
 
@@ -48,8 +57,10 @@ KINDS: tuple[type[Description], ...] = (
     Disc, Polygon, Compound,
     Prop, Box, Bar, Ball, Puck, Gate, Solid,
     Joint, Rope, Rod, Spring, Hinge,
-    Sensor, Proximity, RangeBearing, sensors.Beacon, Pose, Odometry, Imu, Ground,
-    Addon, Map, addons.Beacon, Floor, Communication, Burst,
+    Sensor, Proximity, RangeFinder, SonarRing, Bumper, LineCamera,
+    RangeBearing, sensors.Beacon, Pose, Odometry, Imu, Ground,
+    Addon, Map, addons.Beacon, Floor, Communication, Burst, addons.Estimate,
+    Everyone, Within, Nearest, Delaunay, Graph,
     Prediction,
 )  # fmt: skip
 
@@ -144,7 +155,7 @@ def row(kind: type[Description], field: dataclasses.Field[Any]) -> str:
 def default(field: dataclasses.Field[Any]) -> str:
     """Return a field's default as it is written in Python."""
     if field.default is not dataclasses.MISSING:
-        known = {2 * pi: "2 * pi", (-pi / 2, pi / 2): "(-pi / 2, pi / 2)"}
+        known = {2 * pi: "2 * pi", pi / 2: "pi / 2", (-pi / 2, pi / 2): "(-pi / 2, pi / 2)"}
         return f"`{known.get(field.default, repr(field.default))}`"
     if field.default_factory is not dataclasses.MISSING:
         return f"`{field.default_factory()!r}`"

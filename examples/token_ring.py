@@ -50,7 +50,7 @@ def scenario(loss: float = 0.3, acknowledge: bool = True):
 
 
 def checks(record):
-    p, steps = record.scenario.addons[0].loss, len(record) - 1
+    p, steps = min(record.scenario.addons[0].loss, 0.999), len(record) - 1
     spins = record.command[:, 1] > 0  # (T, n)
     _, who = np.nonzero(np.diff(spins, axis=0, prepend=False) & spins)  # begins, in order
     turn = SPIN + FLIGHT + REPEAT * p / (1 - p)

@@ -13,6 +13,7 @@ from mars2d.animation import Animation
 from mars2d.bodies import Car, Differential, Drive, Holonomic, Unicycle
 from mars2d.errors import InputError, LawError, Mars2dError
 from mars2d.files import load_law
+from mars2d.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.prediction import Prediction
 from mars2d.record import Record, load
 from mars2d.robot import Robot
@@ -27,18 +28,24 @@ __all__ = [
     "Addon",
     "Animation",
     "Car",
+    "Delaunay",
     "Differential",
     "Drive",
+    "Everyone",
+    "Graph",
     "Holonomic",
     "InputError",
     "LawError",
     "Mars2dError",
+    "Nearest",
+    "Neighbourhood",
     "Prediction",
     "Record",
     "Robot",
     "Scenario",
     "Sensor",
     "Unicycle",
+    "Within",
     "World",
     "__version__",
     "load",

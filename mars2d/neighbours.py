@@ -1,28 +1,50 @@
-"""Who is whose neighbour: everyone, those within range, the nearest, Voronoi's, a graph's."""
+"""Who is whose neighbour: everyone, those within range, the nearest, Delaunay's, a graph's."""
 
 from __future__ import annotations
 
+import functools
 import numbers
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
+from math import hypot
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.description import Description, entry, integer, number, wrong
-from mars2d.errors import InputError
+from mars2d.errors import InputError, LawError, counted, shown
 
-__all__ = ["Everyone", "Graph", "Nearest", "Neighbourhood", "Voronoi", "Within"]
+__all__ = ["Delaunay", "Everyone", "Graph", "Nearest", "Neighbourhood", "Within"]
 
 Float = NDArray[np.float64]
 Neighbours = Sequence[Sequence[int]]
+Edges = tuple[tuple[int, int], ...]
+
+FLAT = 1e-9
+"""Robots that lie off a line by less than this share of its length stand on it."""
 
 
 class Neighbourhood(Description):
-    """The base of all rules that say who is whose neighbour: derive and write `of`."""
+    """The base of all rules that say who is whose neighbour: derive and write `of`.
+
+    >>> class Ring(Neighbourhood):
+    ...     def of(self, position):
+    ...         n = position.shape[1]
+    ...         return [[(i + 1) % n] for i in range(n)]
+    >>> Ring().of(np.zeros((2, 3)))
+    [[1], [2], [0]]
+
+    What a user's `of` returns is checked: for each robot a list of others' indices, each once.
+    """
 
     fixed: ClassVar[bool] = False
     """Whether it gives the same at all positions, so that it is asked once."""
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        if "of" in vars(cls) and cls.__module__ != __name__:  # of the user's own
+            cls.of = _checked(cls.of)  # type: ignore[method-assign, assignment]
 
     def of(self, position: Float) -> Neighbours:
         """Return, for each robot, the indices of its neighbours in order.
@@ -33,6 +55,40 @@ class Neighbourhood(Description):
 
     def check_size(self, robots: int) -> None:
         """Raise InputError if the rule is for another number of robots."""
+
+
+def _checked(of: Callable[[Any, Float], Neighbours]) -> Callable[[Any, Float], Neighbours]:
+    """Wrap a rule's `of` so that what can't be used is a LawError; returns lists of its own."""
+
+    @functools.wraps(of)
+    def checked(self: Neighbourhood, position: Float) -> Neighbours:
+        name, n = f"{type(self).__name__}.of(position)", position.shape[1]
+        found = of(self, position)
+        try:
+            rows = [list(row) for row in found]
+        except TypeError:
+            raise LawError(
+                f"{name} returned {shown(found)}: expected for each robot a list of its "
+                "neighbours' indices"
+            ) from None
+        if len(rows) != n:
+            raise LawError(f"{name} returned {len(rows)} lists: expected {n}, one for each robot")
+        return [_indices(f"{name} for robot {i}", i, row, n) for i, row in enumerate(rows)]
+
+    return checked
+
+
+def _indices(name: str, robot: int, row: list[Any], robots: int) -> list[int]:
+    """Return a robot's neighbours as integers. Raises LawError for anything else."""
+    for j in row:
+        whole = isinstance(j, numbers.Integral) and not isinstance(j, bool)
+        if not whole or not 0 <= j < robots:
+            raise LawError(f"{name} lists {shown(j)}: expected an index from 0 to {robots - 1}")
+        if j == robot:
+            raise LawError(f"{name} lists {j}: no robot is its own neighbour")
+    if len(set(row)) < len(row):
+        raise LawError(f"{name} lists {shown(row)}: expected each neighbour once")
+    return [int(j) for j in row]
 
 
 class Everyone(Neighbourhood):
@@ -56,6 +112,8 @@ class _Others(Sequence[Sequence[int]]):
         return self._n
 
     def __getitem__(self, i: Any) -> Any:
+        if not 0 <= i < self._n:
+            raise IndexError(i)
         if i not in self._listed:
             self._listed[i] = (*range(i), *range(i + 1, self._n))
         return self._listed[i]
@@ -67,12 +125,20 @@ class Within(Neighbourhood):
     range: float = number(above=0, high=1e6, unit="m", kw_only=False, doc="the largest distance")
 
     def of(self, position: Float) -> Neighbours:
-        """Return those within range, the bound included."""
+        """Return those within range, the bound included, by their indices."""
         from scipy.spatial import cKDTree
 
+        # The tree compares squares, which are rounded otherwise than distances.
         tree = cKDTree(position.T)
-        found: Any = tree.query_ball_point(position.T, self.range, return_sorted=True)
-        return [[j for j in near if j != i] for i, near in enumerate(found)]
+        near = tree.query_pairs(self.range * (1 + 1e-9), output_type="ndarray")
+        points = position.T.tolist()
+        found: list[list[int]] = [[] for _ in points]
+        for i, j in near.tolist():
+            (x, y), (u, v) = points[i], points[j]
+            if hypot(u - x, v - y) <= self.range:
+                found[i].append(j)
+                found[j].append(i)
+        return [sorted(others) for others in found]
 
 
 class Nearest(Neighbourhood):
@@ -81,7 +147,7 @@ class Nearest(Neighbourhood):
     count: int = integer(low=1, high=10_000, kw_only=False, doc="how many")
 
     def of(self, position: Float) -> Neighbours:
-        """Return the nearest ones."""
+        """Return the nearest ones; all others, where they are fewer."""
         x, y = position
         n, k = len(x), min(self.count, len(x) - 1)
         result = []
@@ -92,20 +158,20 @@ class Nearest(Neighbourhood):
         return result
 
 
-class Voronoi(Neighbourhood):
+class Delaunay(Neighbourhood):
     """Those whose Voronoi cells share an edge with one's own: the edges of Delaunay's triangles.
 
-    The cells are those of the whole plane. Robots on one line are neighbours in their order. Where
-    more than three cells meet in a point, which of the opposite ones are neighbours is up to the
-    triangulation.
+    The cells are those of the whole plane, so that robots at the rim have neighbours far away, too.
+    Robots on one line are neighbours in their order. Where more than three cells meet in a point,
+    which of the opposite ones are neighbours is up to the triangulation. Of several robots in one
+    place, all but one have only that one.
 
     Source: de Berg et al., Computational Geometry (2008), chapters 7 and 9.
     """
 
     def of(self, position: Float) -> Neighbours:
-        """Return the neighbours in Delaunay's triangulation."""
-        n = position.shape[1]
-        found: list[set[int]] = [set() for _ in range(n)]
+        """Return the neighbours in Delaunay's triangulation, by their indices."""
+        found: list[set[int]] = [set() for _ in range(position.shape[1])]
         for i, j in _delaunay_edges(position):
             found[i].add(j)
             found[j].add(i)
@@ -113,81 +179,153 @@ class Voronoi(Neighbourhood):
 
 
 def _delaunay_edges(position: Float) -> list[tuple[int, int]]:
-    from scipy.spatial import Delaunay, QhullError
+    from scipy.spatial import Delaunay as Triangles
 
-    n = position.shape[1]
-    if n < 3:
-        return [(0, 1)] if n == 2 else []
-    try:
-        triangles = Delaunay(position.T)
-    except QhullError:  # all on one line
-        order = np.lexsort(position).tolist()
-        return list(zip(order[:-1], order[1:], strict=True))
-    pointers, neighbours = triangles.vertex_neighbor_vertices
-    edges = [(i, int(j)) for i in range(n) for j in neighbours[pointers[i] : pointers[i + 1]]]
+    x, y = position - position[:, :1]
+    far = int(np.argmax(np.hypot(x, y)))
+    length = float(np.hypot(x[far], y[far]))
+    if np.abs(x * y[far] - y * x[far]).max() <= FLAT * length**2:  # all on one line
+        order = np.argsort(x * x[far] + y * y[far], kind="stable").tolist()
+        return list(pairwise(order))
+    points = np.array([x, y]).T
+    triangles = Triangles(points)
+    edges = _without_flat(triangles.simplices, points, FLAT * length)
     # Robots in one place: all but one of them are left out of the triangles.
-    return edges + [(int(i), int(k)) for i, _, k in triangles.coplanar]
+    return edges + [(i, k) for i, _, k in triangles.coplanar.tolist()]
 
 
-class Graph(Neighbourhood):
-    """A fixed graph: a networkx graph of 0 to n - 1, or an adjacency matrix (n, n).
+def _without_flat(simplices: NDArray[Any], points: Float, least: float) -> list[tuple[int, int]]:
+    """Return the edges of triangles (m, 3), but for the long sides of flat ones at the rim.
 
-    >>> Graph([[0, 1, 0], [1, 0, 1], [0, 1, 0]]).of(np.zeros((2, 3)))
-    [[1], [0, 2], [1]]
-
-    Row i of the matrix is not zero where robot i has a neighbour: whom it sees, and may hear. An
-    edge of a directed graph goes from the robot that sees to the one that is seen.
+    Rounding makes such triangles of robots in a row: cells that meet a million kilometres away.
+    least: the height of a triangle that is not flat, metres.
     """
+    owners: dict[tuple[int, int], set[int]] = {}
+    flat: dict[int, list[tuple[int, int]]] = {}  # their sides, the longest first
+    for t, (a, b, c) in enumerate(np.sort(simplices).tolist()):
+        (ax, ay), (bx, by), (cx, cy) = points[[a, b, c]].tolist()
+        sides = {
+            (a, b): hypot(bx - ax, by - ay),
+            (b, c): hypot(cx - bx, cy - by),
+            (a, c): hypot(cx - ax, cy - ay),
+        }
+        for edge in sides:
+            owners.setdefault(edge, set()).add(t)
+        ordered = sorted(sides, key=sides.__getitem__, reverse=True)
+        height = abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / sides[ordered[0]]
+        if height <= least:
+            flat[t] = ordered
+    todo = list(flat)
+    while todo:
+        t = todo.pop()
+        if t in flat and owners[flat[t][0]] == {t}:
+            long, *others = flat.pop(t)
+            del owners[long]
+            for edge in others:
+                owners[edge].discard(t)
+                todo += owners[edge]
+    return list(owners)
 
-    fixed = True
 
-    graph: Any = entry(check=lambda name, value: _adjacency(name, value), kw_only=False,
-                       doc="an adjacency matrix (n, n), or a networkx graph of 0 to n - 1")  # fmt: skip
-
-    def of(self, position: Float) -> Neighbours:  # noqa: ARG002
-        """Return those that a robot has an edge to."""
-        return [np.flatnonzero(row).tolist() for row in self.graph]
-
-    def check_size(self, robots: int) -> None:
-        """Raise InputError if the graph has another number of nodes than there are robots."""
-        if len(self.graph) != robots:
-            raise InputError(
-                f"Scenario.neighbours: the graph has {len(self.graph)} nodes, and there are "
-                f"{robots} robots: expected one node for each"
-            )
-
-
-def _adjacency(name: str, value: Any) -> tuple[tuple[int, ...], ...]:
-    expected = "an adjacency matrix (n, n) of numbers, or a networkx graph of the nodes 0 to n - 1"
+def _edges(name: str, value: Any) -> tuple[int, Edges]:
+    """Check a graph, and return the number of its nodes and its edges in order."""
     if hasattr(value, "nodes") and hasattr(value, "is_directed"):
         return _of_networkx(name, value)
+    if isinstance(value, (list, tuple)) and len(value) == 2 and _whole(value[0]):
+        return _of_pairs(name, *value)
+    return _of_matrix(name, value)
+
+
+def _of_matrix(name: str, value: Any) -> tuple[int, Edges]:
+    expected = (
+        "an adjacency matrix (n, n) of numbers, a networkx graph of the nodes 0 to n - 1, or a "
+        "pair (n, edges)"
+    )
     try:
         matrix = np.asarray(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError):  # such as rows of different lengths
         raise wrong(name, value, expected) from None
     if matrix.dtype.kind not in "biuf" or matrix.ndim != 2:
         raise wrong(name, value, expected)
     n, columns = matrix.shape
-    if n != columns or not np.isfinite(matrix).all():
-        raise InputError(f"{name}: a matrix {n} x {columns}: expected {expected}")
-    if np.diagonal(matrix).any():
-        i = int(np.flatnonzero(np.diagonal(matrix))[0])
-        raise InputError(f"{name}[{i}][{i}] = {matrix[i, i]:g}: no robot is its own neighbour")
-    return tuple(tuple(row) for row in (matrix != 0).astype(int).tolist())
+    if n != columns or n == 0:
+        raise InputError(f"{name}: a matrix {n} x {columns}: expected as many columns as rows")
+    for i, j in np.argwhere(~np.isfinite(matrix))[:1].tolist():
+        raise wrong(f"{name}[{i}][{j}]", matrix[i, j].item(), "a finite number, 0 for no edge")
+    return _of_pairs(name, n, np.argwhere(matrix != 0).tolist())
 
 
-def _of_networkx(name: str, graph: Any) -> tuple[tuple[int, ...], ...]:
+def _of_networkx(name: str, graph: Any) -> tuple[int, Edges]:
     nodes = list(graph.nodes)
     n = len(nodes)
-    whole = all(isinstance(v, numbers.Integral) for v in nodes)
-    if not whole or sorted(int(v) for v in nodes) != list(range(n)):
+    if not all(map(_whole, nodes)) or {int(v) for v in nodes} != {*range(n)} or n == 0:
         raise InputError(
-            f"{name}: its nodes are {nodes[:5]!r}...: expected 0 to {n - 1}, the robots' indices; "
+            f"{name}: its nodes are {shown(nodes)}: expected 0, 1, 2, ..., the robots' indices; "
             "networkx.convert_node_labels_to_integers makes them so"
         )
-    matrix = np.zeros((n, n), dtype=int)
-    for i, j in graph.edges():
-        matrix[i, j] = 1
-        if not graph.is_directed():
-            matrix[j, i] = 1
-    return _adjacency(name, matrix)
+    edges = list(graph.edges())
+    if not graph.is_directed():
+        edges += [(j, i) for i, j in edges]
+    return _of_pairs(name, n, edges)
+
+
+def _of_pairs(name: str, nodes: Any, edges: Any) -> tuple[int, Edges]:
+    n = int(nodes)
+    if n < 1:
+        raise wrong(name, (nodes, edges), "at least one node")
+    expected = f"a list of edges (i, j), with i and j from 0 to {n - 1}"
+    if isinstance(edges, (str, bytes, dict)) or not isinstance(edges, Iterable):
+        raise wrong(f"{name}: edges", edges, expected)
+    found = set()
+    for edge in edges:
+        try:
+            i, j = edge
+        except (TypeError, ValueError):
+            raise wrong(f"{name}: edge", edge, expected) from None
+        if not (_whole(i) and _whole(j) and 0 <= i < n and 0 <= j < n):
+            raise wrong(f"{name}: edge", edge, expected)
+        if i == j:
+            raise InputError(f"{name}: an edge from {i} to {j}: no robot is its own neighbour")
+        found.add((int(i), int(j)))
+    return n, tuple(sorted(found))
+
+
+def _whole(value: object) -> bool:
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
+
+
+class Graph(Neighbourhood):
+    """A fixed graph: an adjacency matrix (n, n), a networkx graph, or the edges.
+
+    >>> Graph([[0, 1, 0], [1, 0, 1], [0, 1, 0]]).of(np.zeros((2, 3)))
+    [[1], [0, 2], [1]]
+
+    Entry (i, j) of the matrix is not zero where robot j is a neighbour of robot i, which sees it,
+    and may talk to it. A networkx graph has the nodes 0 to n - 1; an edge of a directed one goes
+    from the robot that sees to the one that is seen. The third form is a pair (n, edges), each edge
+    so directed; as that it is kept.
+
+    >>> Graph((3, [(0, 1), (2, 1)])).of(np.zeros((2, 3)))
+    [[1], [], [1]]
+    """
+
+    fixed = True
+
+    graph: Any = entry(check=_edges, kw_only=False, doc="who sees whom")
+
+    def of(self, position: Float) -> Neighbours:  # noqa: ARG002
+        """Return those that a robot has an edge to, by their indices."""
+        nodes, edges = self.graph
+        found: list[list[int]] = [[] for _ in range(nodes)]
+        for i, j in edges:
+            found[i].append(j)
+        return found
+
+    def check_size(self, robots: int) -> None:
+        """Raise InputError if the graph has another number of nodes than there are robots."""
+        if self.graph[0] != robots:
+            raise InputError(
+                f"Scenario.neighbours: the graph has {counted(self.graph[0], 'node')}, and there "
+                f"{'is' if robots == 1 else 'are'} {counted(robots, 'robot')}: expected one node "
+                "for each"
+            )

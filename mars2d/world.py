@@ -111,10 +111,9 @@ class World:
         self._effort = _frozen(np.zeros(n))
         self.props = tuple(PropView(self, i) for i in range(len(scenario.props)))
         self._minds = [Mind(self, str(robot.name)) for robot in scenario.robots]
-        self._full_views = [RobotView(self, i, mind) for i, mind in enumerate(self._minds)]
+        self.robots = [RobotView(self, i, mind) for i, mind in enumerate(self._minds)]
         self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
         self._driven: list[tuple[float, Float]] = []
-        self._velocity_at = -1, self._pose
         self._build_laws(control)
         self._build_addons()
         self._build_sensors()
@@ -127,18 +126,17 @@ class World:
         around = self.surroundings
         self._devices = [
             Device(sensor, view, around, self.stream(f"sensor {robot.name} {sensor.key}"))
-            for robot, view in zip(self.scenario.robots, self._full_views, strict=True)
+            for robot, view in zip(self.scenario.robots, self.robots, strict=True)
             for sensor in robot.sensors
         ]
 
     def _build_laws(self, control: Callable[[World], Any] | None) -> None:
-        self.robots: list[RobotView] = []
-        own: list[Law | None] = []
-        for i, robot in enumerate(self.scenario.robots):
-            view = VIEWS[robot.sees](self, i, self._minds[i])
-            self.robots.append(view)
-            own.append(None if robot.controller is None else Law(robot.controller, view))
-        self._own = own
+        self._own = [
+            None
+            if robot.controller is None
+            else Law(robot.controller, VIEWS[robot.sees](self, i, self._minds[i]))
+            for i, robot in enumerate(self.scenario.robots)
+        ]
         if control is not None:
             checks.law("control", control, "the world")
         partial = self.scenario.sees == "positions"

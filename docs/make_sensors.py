@@ -1,0 +1,207 @@
+"""Draw the pictures of the sensors' pages, and write the tables of their fields.
+
+python docs/make_sensors.py
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import sys
+from collections.abc import Callable, Sequence
+from math import pi
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import make_fields
+import numpy as np
+from PIL import Image
+
+from mars2d import Robot, Scenario, Unicycle, World, addons, sensors
+from mars2d.addons import Addon, Floor, Map
+from mars2d.props import Ball, Box
+from mars2d.registry import snake_case
+from mars2d.scene import Scene
+from mars2d.sensors import (
+    Bumper,
+    Ground,
+    Imu,
+    LineCamera,
+    Odometry,
+    Pose,
+    Proximity,
+    RangeBearing,
+    RangeFinder,
+    Sensor,
+    SonarRing,
+)
+from mars2d.view.picture import paint_frame, save_png
+
+DOCS = Path(__file__).parent
+SIZE = (760, 560)
+COLORS = 128
+
+ROOM = [(-2.0, -1.5), (-2.0, 1.5), (2.0, 1.5), (2.0, -1.5)]
+FURNITURE = [[(1.0, -1.0), (1.5, -1.0), (1.5, -0.3), (1.0, -0.3)], [(-1.4, 0.9), (-0.5, 1.2)]]
+
+BALL = Ball(pose=(0.6, 0.75, 0), diameter=0.35)
+BOX = Box(pose=(-1.3, -0.9, 0.4), width=0.5, height=0.3)
+
+
+def room(*robots: Robot, steps: int = 0) -> World:
+    """Return a world in a small room after some control steps at 0.2 m/s."""
+    scenario = Scenario(
+        title=type(robots[0].sensors[0]).__name__,
+        robots=robots,
+        workspace=ROOM,
+        on_exit="wall",
+        props=[BALL, BOX],
+        addons=[Map(FURNITURE)],
+    )
+    world = World(scenario)
+    for _ in range(steps):
+        world.step([[0.2] + [0.0] * (len(robots) - 1), [0.0] * len(robots)])
+    return world
+
+
+def _proximity() -> World:
+    far = Robot(pose=(-0.9, 0.1, 0.6), sensors=[Proximity(range=0.7, field_of_view=2.0)])
+    near = Robot(pose=(0.1, -0.55, 0.2), sensors=[Proximity(range=1.1, field_of_view=2.0)])
+    return room(near, far)
+
+
+def _range_finder() -> World:
+    robot = Robot(pose=(-0.4, -0.2, 0.3), sensors=[RangeFinder(range=2.0)])
+    return room(robot, Robot(pose=(0.3, -0.9, 1)))
+
+
+def _sonar_ring() -> World:
+    robot = Robot(pose=(-0.2, -0.1, 0.3), sensors=[SonarRing(range=1.5)])
+    return room(robot, Robot(pose=(0.5, -0.9, 1)))
+
+
+def _bumper() -> World:
+    robot = Robot(pose=(0.53, -0.68, 0.4), sensors=[Bumper(sectors=6)])
+    return room(robot, Robot(pose=(0.82, 0.1, 1)), steps=20)
+
+
+def _line_camera() -> World:
+    robot = Robot(pose=(-1.0, 0.1, 0.0), sensors=[LineCamera()])
+    return room(robot, Robot(pose=(1.2, 0.4, 2)), Robot(pose=(0.6, -0.35, 1)))
+
+
+class Believed(Addon):
+    """Draws where a sensor took its robot to be, at each control step."""
+
+    sensor: str
+
+    def on_draw(self, world: World, scene: Scene) -> None:
+        """Draw dots."""
+        for x, y, _ in world.record.sensors[self.sensor][:, 0]:
+            scene.circle((x, y), 0.0, fill="#d55e00", pixels=2.0)
+
+
+def alone(
+    *robots: Robot, steps: int, command: Sequence[float], things: Sequence[Addon] = ()
+) -> World:
+    """Return a world in the room without furniture, after some control steps."""
+    title = ", ".join(dict.fromkeys(type(s).__name__ for robot in robots for s in robot.sensors))
+    world = World(Scenario(title=title, robots=robots, workspace=ROOM, addons=things))
+    for _ in range(steps):
+        world.step(np.tile(np.reshape(command, (2, 1)), len(robots)))
+    return world
+
+
+def _range_bearing() -> World:
+    eyes = RangeBearing(range=2.6, field_of_view=2.0)
+    others = [(0.1, 1.0, 2.0), (0.6, -0.9, 1.0), (0.7, 0.3, 3.0), (-1.7, 1.1, 0.0)]
+    robots = [Robot(pose=(-1.6, -0.5, 0.3), sensors=[eyes]), *(Robot(pose=at) for at in others)]
+    return alone(*robots, steps=0, command=(0, 0), things=[Map([[(-0.2, -0.4), (0.1, 0.5)]])])
+
+
+def _pose() -> World:
+    robot = Robot(pose=(-1.0, -1.0, 0.2), sensors=[Pose(noise=(0.15, 0.15, 0.2))])
+    return alone(robot, steps=63, command=(0.35, 0.3), things=[Believed(sensor="pose")])
+
+
+def _odometry() -> World:
+    robot = Robot(pose=(-1.7, -1.0, 0.3), sensors=[Odometry(origin="world", drift=0.015)])
+    things = [Believed(sensor="odometry"), Map([[(0.7, -1.2), (0.7, 1.2)]])]
+    return alone(robot, steps=85, command=(0.4, 0), things=things)
+
+
+def _imu() -> World:
+    robot = Robot(pose=(-1, -1, 0), drive=Unicycle(max_linear_speed=2), sensors=[Imu()])
+    return alone(robot, steps=16, command=(1.4, 1.4))
+
+
+def _beacon() -> World:
+    robot = Robot(pose=(-1.2, -0.6, 0.4), sensors=[sensors.Beacon()])
+    things = [
+        addons.Beacon(at=(1.5, 0.9), name="lamp"),
+        addons.Beacon(at=(1.2, -0.9), name="door"),
+        addons.Beacon(path=[(-1.7, 1.0), (0, 1.0)], speed=0.3, name="ferry"),
+        Map([[(0.2, -1.3), (0.2, -0.4)]]),
+    ]
+    return alone(robot, steps=40, command=(0, 0), things=things)
+
+
+def _ground() -> World:
+    turns = np.linspace(0, 2 * pi, 80, endpoint=False)
+    ring = np.column_stack([1.4 * np.cos(turns), np.sin(turns)])
+    track = Floor(patches=[((1.06 * ring).tolist(), "black"), ((0.94 * ring).tolist(), "white")])
+    eyes = [
+        Ground(name=name, mount=(0.22, side, 0)) for name, side in (("left", 0.1), ("right", -0.1))
+    ]
+    return alone(
+        Robot(pose=(1.4, -0.1, pi / 2), sensors=eyes), steps=16, command=(0.3, 0.4), things=[track]
+    )
+
+
+SCENES: dict[type[Sensor], Callable[[], World]] = {
+    Proximity: _proximity,
+    RangeFinder: _range_finder,
+    SonarRing: _sonar_ring,
+    Bumper: _bumper,
+    LineCamera: _line_camera,
+    RangeBearing: _range_bearing,
+    Pose: _pose,
+    Odometry: _odometry,
+    Imu: _imu,
+    sensors.Beacon: _beacon,
+    Ground: _ground,
+}
+"""For each sensor a world that shows what it does."""
+
+
+def page(kind: type[Sensor]) -> Path:
+    """Return the page of a sensor."""
+    return DOCS / "sensors" / f"{snake_case(kind.__name__)}.md"
+
+
+def with_table(text: str, kind: type[Sensor]) -> str:
+    """Return a page's text with the table of the sensor's own fields between its marks."""
+    rows = "".join(make_fields.row(kind, field) for field in make_fields.fields_of(kind))
+    table = make_fields.TABLE_HEAD + rows if rows else "It has the fields of all sensors alone.\n"
+    made = f"<!-- fields -->\n\n{table}\n<!-- /fields -->"
+    new, count = re.subn(r"<!-- fields -->.*<!-- /fields -->", lambda _: made, text, flags=re.S)
+    assert count == 1, f"{page(kind).name} has no marks for the table of fields"
+    return new
+
+
+def draw(kind: type[Sensor]) -> None:
+    """Save the picture of a sensor at work."""
+    world = SCENES[kind]()
+    world.observe()
+    png = DOCS / "pictures" / f"sensor_{snake_case(kind.__name__)}.png"
+    save_png(paint_frame(world.frame, SIZE, sensors=True), png)
+    few = Image.open(io.BytesIO(png.read_bytes())).convert("RGB").quantize(COLORS, kmeans=1)
+    few.save(png, optimize=True)
+
+
+if __name__ == "__main__":
+    for kind in SCENES:
+        path = page(kind)
+        path.write_text(with_table(path.read_text(encoding="utf-8"), kind), encoding="utf-8")
+        draw(kind)
