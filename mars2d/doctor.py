@@ -36,6 +36,7 @@ def examine() -> Iterator[Finding]:
         yield _library(name)
     yield _display()
     yield _films()
+    yield from _plugins()
     yield _physics()
 
 
@@ -60,6 +61,18 @@ def _films() -> Finding:
     except importlib.metadata.PackageNotFoundError:
         return Finding("films", '.gif; for .mp4 as well: pip install "mars2d[video]"', ok=None)
     return Finding("films", f".gif and .mp4 (PyAV {version})")
+
+
+def _plugins() -> Iterator[Finding]:
+    """Say what other packages ship; that one of theirs is broken is not a fault of MARS2D's."""
+    from mars2d.registry import BASES, misspelt_groups, plugins
+
+    for part in (part for family in BASES for part in plugins(family)):
+        text = f"{part.name}, {part.family}, of {part.package} {part.version}"
+        problem = f": not usable: {part.problem}" if part.problem else ""
+        yield Finding("plug-in", text + problem, ok=None if problem else True)
+    for group in misspelt_groups():
+        yield Finding("plug-in", f"an entry point of the group {group}", ok=None)
 
 
 def _physics() -> Finding:

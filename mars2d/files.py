@@ -26,7 +26,14 @@ from mars2d.usercode import called
 if TYPE_CHECKING:
     from mars2d.record import Record
 
-__all__ = ["Experiment", "examples", "load_law", "open_experiment", "parse_setting"]
+__all__ = [
+    "Experiment",
+    "examples",
+    "load_law",
+    "open_experiment",
+    "open_module",
+    "parse_setting",
+]
 
 _counter = itertools.count()
 
@@ -116,6 +123,11 @@ def open_experiment(
     law = own if control is None else control
     summary = (module.__doc__ or "").strip().partition("\n")[0]
     return Experiment(scenario, law, Path(name).name, check, summary)
+
+
+def open_module(source: str | Path) -> ModuleType:
+    """Run a file, or the shipped example of that name, and return it as a module."""
+    return _load(_find(source))
 
 
 def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:

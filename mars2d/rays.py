@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Mapping
 from itertools import repeat
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ __all__ = ["BODY", "SIGHT", "Rays", "end_bars"]
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
+Addresses = NDArray[np.uintp]
 
 _HIT = np.dtype([("shape", np.uintp), ("point", float, 2), ("normal", float, 2), ("alpha", float)])
 """The engine's answer to one ray."""
@@ -32,6 +34,9 @@ BODY = _ALL & ~SIGHT
 
 BAR = 1e-9
 """Half the length of a bar across the end of a wall, metres."""
+
+GRAZING = 1e-7
+"""A ray at a smaller angle to an edge is looked at again, rad: rounding decides where it hits."""
 
 AT_THE_END = 1e-9
 """What a ray hits so near to its end does not hide the end, metres."""
@@ -57,6 +62,8 @@ class Rays:
 
     def __init__(self, space: pymunk.Space, bodies: Mapping[pymunk.Shape, int]) -> None:
         """Take the space, and the number of the body that each shape belongs to."""
+        self._public = space
+        self._bodies_of = bodies
         self._space: Any = space._space
         named = [(int(ffi.cast("uintptr_t", shape._shape)), body) for shape, body in bodies.items()]
         pairs = np.array(sorted(named), dtype=np.int64).reshape(-1, 2)
@@ -73,10 +80,12 @@ class Rays:
         self._end_of = [ends[k] for k in range(count)]
         self._hit_of = [hits + k for k in range(count)]
         self._ends = np.frombuffer(ffi.buffer(ends), dtype=np.float64).reshape(-1, 2)
-        self._hits = np.frombuffer(ffi.buffer(hits), dtype=_HIT)
+        answers = np.frombuffer(ffi.buffer(hits), dtype=_HIT)
+        self._shape, self._alpha = answers["shape"], answers["alpha"]
+        self._normal_x, self._normal_y = answers["normal"].T
 
-    def _cast(self, start: Point, ends: Float, ignore: int) -> NDArray[np.void]:
-        """Send rays from `start` to ends (k, 2), and return the engine's answers, (k,)."""
+    def _cast(self, start: Point, ends: Float, ignore: int) -> tuple[Addresses, Float]:
+        """Send rays from `start` to ends (k, 2); see `_sweep`."""
         count = len(ends)
         if count > self._count:
             self._reserve(2 * count)
@@ -93,38 +102,90 @@ class Rays:
             self._hit_of,
         )
         deque(answers, maxlen=0)
-        return self._hits[:count]
+        return self._shape[:count], self._alpha[:count]
+
+    def _sweep(
+        self, start: Point, angles: Float, reach: ArrayLike, ignore: int
+    ) -> tuple[Addresses, Float]:
+        """Send rays at angles (k,), and return what shapes they hit, 0 if none, and how far."""
+        far = np.asarray(reach, dtype=float)
+        c, s = np.cos(angles), np.sin(angles)
+        ends = np.empty((len(angles), 2))
+        np.add(start[0], far * c, out=ends[:, 0])
+        np.add(start[1], far * s, out=ends[:, 1])
+        shapes, alpha = self._cast(start, ends, ignore)
+        distance = np.asarray(alpha * far)
+        hit = shapes != 0
+        distance[~hit] = np.inf
+        count = len(angles)
+        along = np.abs(self._normal_x[:count] * c + self._normal_y[:count] * s) < GRAZING
+        for k in np.flatnonzero(along & hit).tolist():
+            shapes[k], distance[k] = self._grazing(start, (c[k], s[k]), ends[k], ignore)
+        return shapes, distance
+
+    def _grazing(self, start: Point, way: Point, end: Float, ignore: int) -> tuple[int, float]:
+        """Return what a ray hits that runs along an edge, and how far that is.
+
+        The engine divides two roundings where a ray lies in an edge. It meets the edge's near end.
+        way: its direction.
+        """
+        own = pymunk.ShapeFilter(group=ignore + 1)
+        reach = float(np.hypot(end[0] - start[0], end[1] - start[1]))
+        found = [(inf, 0, 0)]
+        for info in self._public.segment_query(start, (float(end[0]), float(end[1])), 0.0, own):
+            shape = info.shape
+            assert shape is not None
+            distance = info.alpha * reach
+            if info.alpha > 0 and not isinstance(shape, pymunk.Circle):
+                corners = [point for point in _corners(shape) if _beside(start, way, point) < BAR]
+                if len(corners) > 1:
+                    distance = _nearest_ahead(start, way, corners)
+            address = int(ffi.cast("uintptr_t", shape._shape))
+            found.append((distance, self._bodies_of[shape], address))
+        distance, _, address = min(found)
+        return address, distance
 
     def distances(self, start: Point, angles: Float, reach: ArrayLike, ignore: int) -> Float:
         """Return how far rays at angles (k,) go, inf where nothing is hit; see Surroundings."""
-        hits = self._cast(start, _ends(start, angles, reach), ignore)
-        return np.where(hits["shape"] == 0, np.inf, hits["alpha"] * reach)
+        return self._sweep(start, angles, reach, ignore)[1]
 
     def sight(
         self, start: Point, angles: Float, reach: ArrayLike, ignore: int, nothing: int
     ) -> tuple[Float, Int]:
         """Return how far rays go, and the bodies that they hit; see Surroundings."""
-        hits = self._cast(start, _ends(start, angles, reach), ignore)
-        none = hits["shape"] == 0
-        distance = np.where(none, np.inf, hits["alpha"] * reach)
-        return distance, np.where(none, nothing, self._bodies(hits))
+        shapes, distance = self._sweep(start, angles, reach, ignore)
+        return distance, np.where(shapes == 0, nothing, self._bodies(shapes))
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:
         """Return whether something stands before points (k, 2); see Surroundings."""
         points = np.asarray(points, dtype=float).reshape(-1, 2)
-        hits = self._cast(start, points, ignore)
+        shapes, alpha = self._cast(start, points, ignore)
         apart = length(points[:, 0] - start[0] + 1j * (points[:, 1] - start[1]))
-        before = (hits["shape"] != 0) & ((1 - hits["alpha"]) * apart > AT_THE_END)
-        return np.asarray(before & (self._bodies(hits) != bodies))
+        before = (shapes != 0) & ((1 - alpha) * apart > AT_THE_END)
+        return np.asarray(before & (self._bodies(shapes) != bodies))
 
-    def _bodies(self, hits: NDArray[np.void]) -> Int:
+    def _bodies(self, shapes: Addresses) -> Int:
         """Return the bodies of shapes; of no shape, any."""
-        rows = np.searchsorted(self._address, hits["shape"])
+        rows = np.searchsorted(self._address, shapes)
         return self._body[np.minimum(rows, len(self._body) - 1)]
 
 
-def _ends(start: Point, angles: Float, reach: ArrayLike) -> Float:
-    reach = np.asarray(reach, dtype=float)
-    return np.column_stack([start[0] + reach * np.cos(angles), start[1] + reach * np.sin(angles)])
+def _corners(shape: pymunk.Shape) -> list[Point]:
+    """Return the ends of a segment, or the corners of a polygon, in the world."""
+    assert isinstance(shape, (pymunk.Segment, pymunk.Poly))
+    local = [shape.a, shape.b] if isinstance(shape, pymunk.Segment) else shape.get_vertices()
+    assert shape.body is not None
+    return [(x, y) for x, y in map(shape.body.local_to_world, local)]
+
+
+def _beside(start: Point, way: Point, point: Point) -> float:
+    """Return how far a point lies beside a ray."""
+    return abs(way[0] * (point[1] - start[1]) - way[1] * (point[0] - start[0]))
+
+
+def _nearest_ahead(start: Point, way: Point, points: list[Point]) -> float:
+    """Return how far a ray goes to what lies in it between some points; inf if that is behind."""
+    along = [way[0] * (x - start[0]) + way[1] * (y - start[1]) for x, y in points]
+    return inf if max(along) < 0 else max(min(along), 0.0)

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mars2d.addons.map import Map
 from mars2d.contact import CONTACT
 from mars2d.errors import InputError
 from mars2d.plain import MOVING
 from mars2d.record import Record
+from mars2d.scenario import Scenario
 from mars2d.world import World
 
 __all__ = ["Departure", "rerun"]
@@ -34,7 +36,7 @@ def rerun(record: Record) -> Departure | None:
         raise InputError(f"can't be run again: the file does not hold the {', '.join(needed)}")
     # The workspace and the stop time have ended the run, or not: the record says how long it was.
     longer = (len(record) + 1) * record.scenario.sampling_time
-    scenario = record.scenario.replace(stop_time=longer)
+    scenario = _in_motion(record.scenario).replace(stop_time=longer)
     if scenario.on_exit == "stop":
         scenario = scenario.replace(on_exit="ignore")
     world = World(scenario, seed=record.seed)
@@ -45,6 +47,24 @@ def rerun(record: Record) -> Departure | None:
         if row < len(record) - 1:
             world.step(command)
     return _contacts_depart(record, world.record)
+
+
+def _in_motion(scenario: Scenario) -> Scenario:
+    """Return a scenario with all that matters to motion: of add-ons that is their obstacles.
+
+    What add-ons do else may need laws, which are not there, and end the experiment.
+    """
+    addons = [
+        Map(
+            addon.obstacles(),
+            name=addon.key,
+            friction=addon.friction,
+            restitution=addon.restitution,
+        )
+        for addon in scenario.addons
+        if addon.obstacles()
+    ]
+    return scenario.replace(addons=addons, robots=[r.replace(sensors=()) for r in scenario.robots])
 
 
 def _departs(row: int, world: World, record: Record) -> Departure | None:

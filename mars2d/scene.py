@@ -15,13 +15,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.errors import InputError, nearest
+from mars2d.errors import InputError, nearest, shown
 from mars2d.geometry import Outline
 
 __all__ = [
     "PALETTE",
     "Arrow",
     "Circle",
+    "Image",
     "Line",
     "Polygon",
     "Scene",
@@ -173,7 +174,21 @@ class Arrow:
     width: float = 3.0
 
 
-Shape = Circle | Polygon | Line | Text | Arrow
+@dataclass(frozen=True, slots=True)
+class Image:
+    """Pixels (rows, columns, 3), red, green and blue to 255, over (xmin, xmax, ymin, ymax) [m].
+
+    The first row is the upper one.
+    """
+
+    pixels: NDArray[np.uint8]
+    bounds: tuple[float, float, float, float]
+
+
+Shape = Circle | Polygon | Line | Text | Arrow | Image
+
+LARGEST_IMAGE = 4096
+"""The most pixels along a side of an image."""
 
 
 @dataclass(slots=True)
@@ -244,6 +259,23 @@ class Scene:
         (ax, ay), (bx, by) = (np.asarray(end, dtype=float)[:2].tolist() for end in (tail, tip))
         fill, stroke = _checked("fill", fill), _paint(stroke, "stroke")
         self.shapes.append(Arrow((ax, ay), (bx, by), fill, stroke, width))
+
+    def image(self, pixels: ArrayLike, bounds: Sequence[float]) -> None:
+        """Add an image: pixels (rows, columns, 3) from 0 to 255, the upper row first.
+
+        bounds: (xmin, xmax, ymin, ymax) in metres. It has 4096 rows and columns at most.
+        """
+        given = np.asarray(pixels)
+        fits = given.ndim == 3 and given.shape[2] == 3 and min(given.shape) > 0
+        if not fits or max(given.shape) > LARGEST_IMAGE or given.dtype != np.uint8:
+            raise InputError(
+                f"pixels of shape {given.shape}, {given.dtype}: expected (rows, columns, 3) of "
+                f"uint8, up to {LARGEST_IMAGE} rows and columns"
+            )
+        xmin, xmax, ymin, ymax = np.asarray(bounds, dtype=float).tolist()
+        if not (xmin < xmax and ymin < ymax):
+            raise InputError(f"bounds = {shown(bounds)}: expected (xmin, xmax, ymin, ymax) [m]")
+        self.shapes.append(Image(given, (xmin, xmax, ymin, ymax)))
 
     def sector(
         self,

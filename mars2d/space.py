@@ -60,6 +60,9 @@ _ARBITER = (
 _IN_TOUCH = (0, 1)
 """The engine's states of contacts that are not over: just begun, going on."""
 
+GOLDEN = (5**0.5 - 1) / 2
+"""Multiples of it, less their whole part, lie evenly scattered from 0 to 1."""
+
 JOINT_BIAS = 0.7**1000
 """What is left after a second of the error of a joint: 30 % of it go in 1 ms."""
 
@@ -85,6 +88,7 @@ class Space:
         self._statics = [
             self._add_obstacle(-1 - k, *surface) for k, surface in enumerate(scenario.surfaces)
         ]
+        self._space.add(*_scattered([s for s, body in self._shapes.items() if body < 0]))
         self._clutches: dict[int, Clutch] = {
             i: _clutch(control, self._bodies[i], robot.drive.max_force, robot.drive.max_torque)
             for i, (control, robot) in enumerate(zip(self._controls, scenario.robots, strict=True))
@@ -149,7 +153,6 @@ class Space:
             for bar in bars:
                 bar.filter = pymunk.ShapeFilter(categories=SIGHT, mask=SIGHT)
             segments += bars
-        self._space.add(*segments)
         self._shapes |= dict.fromkeys(segments, k)
         return body
 
@@ -330,6 +333,16 @@ class Space:
 
 def _own(robot: int) -> pymunk.ShapeFilter:
     return pymunk.ShapeFilter(group=robot + 1, categories=BODY)
+
+
+def _scattered(shapes: list[pymunk.Shape]) -> list[pymunk.Shape]:
+    """Return shapes in an order in which neighbours lie far apart, always the same.
+
+    The engine sorts shapes into a tree as they come. Neighbours one after the other make it
+    lopsided, and rays through it up to twice as slow.
+    """
+    order = sorted(range(len(shapes)), key=lambda k: k * GOLDEN % 1.0)
+    return [shapes[k] for k in order]
 
 
 def _kinematic() -> pymunk.Body:

@@ -12,7 +12,7 @@ from typing import Any
 
 from mars2d.errors import LawError, described
 
-__all__ = ["called", "definition"]
+__all__ = ["called", "definition", "users_line"]
 
 _PACKAGE = Path(__file__).parent
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
@@ -36,7 +36,7 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
     ) -> None:
         if error is None or not isinstance(error, (Exception, SystemExit)):
             return  # nothing, or Ctrl-C
-        where = _users_line(tb) or definition(self._function)
+        where = users_line(traceback.extract_tb(tb)) or definition(self._function)
         if isinstance(error, LawError):
             error.where = error.where or where
             return
@@ -45,23 +45,27 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
         raise wrapped from error
 
 
-def _users_line(tb: TracebackType | None) -> str | None:
-    """Return the innermost place of a traceback that lies in the user's own code."""
-    steps = [step for step in traceback.extract_tb(tb) if _is_users(Path(step.filename))]
+def users_line(stack: traceback.StackSummary) -> str | None:
+    """Return the innermost place of a traceback or stack that lies in the user's own code."""
+    steps = [step for step in stack if _is_users(Path(step.filename))]
     return _place(steps[-1].filename, steps[-1].lineno or 0) if steps else None
 
 
 def _is_users(path: Path) -> bool:
-    if path.is_relative_to(_PACKAGE / "examples"):
-        return True
-    others = path.is_relative_to(_PACKAGE) or path.is_relative_to(_STANDARD_LIBRARY)
+    others = _is_ours(path) or path.is_relative_to(_STANDARD_LIBRARY)
     return not (others or "site-packages" in path.parts or str(path).startswith("<"))
 
 
+def _is_ours(path: Path) -> bool:
+    return path.is_relative_to(_PACKAGE) and not path.is_relative_to(_PACKAGE / "examples")
+
+
 def definition(function: Callable[..., Any]) -> str | None:
-    """Return where a function is defined, if it is Python's."""
+    """Return where a function is defined, if it is Python's and not our own."""
     code = getattr(inspect.unwrap(function), "__code__", None)
-    return None if code is None else _place(code.co_filename, code.co_firstlineno)
+    if code is None or _is_ours(Path(code.co_filename)):
+        return None
+    return _place(code.co_filename, code.co_firstlineno)
 
 
 def _place(filename: str, line: int) -> str:

@@ -3,8 +3,9 @@
 from mars2d.addons.base import HOOKS, Addon
 from mars2d.addons.beacon import Beacon
 from mars2d.addons.communication import Communication
+from mars2d.addons.estimate import Estimate
 from mars2d.addons.floor import Floor
 from mars2d.addons.map import Map
 from mars2d.burst import Burst
 
-__all__ = ["HOOKS", "Addon", "Beacon", "Burst", "Communication", "Floor", "Map"]
+__all__ = ["HOOKS", "Addon", "Beacon", "Burst", "Communication", "Estimate", "Floor", "Map"]

@@ -110,7 +110,7 @@ class Beacon(Addon):
     def on_draw(self, world: World, scene: Scene) -> None:
         """Draw a lamp with its name, and its path."""
         if self.path is not None:
-            ring = [*self.path, self.path[0]]
+            ring = [*self.path, self.path[0]] if len(self.path) > 2 else self.path
             scene.line(ring, stroke=faded(self.color, 0.6), width=1.0, style=":")
         here = self.where(world.time)
         scene.circle(here, 0.0, fill=faded(self.color, 0.3), pixels=9.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
@@ -143,11 +144,16 @@ class Floor(Addon):
 
     def on_start(self, world: World) -> None:  # noqa: ARG002
         """Read the image, so that what is wrong with it is said at once."""
+        try:
+            self._prepare()
+        except InputError as error:
+            raise LawError(str(error)) from None
+
+    def _prepare(self) -> None:
+        """Work out what is kept, so that looking at the floor changes nothing of it."""
+        self._colored  # noqa: B018
         if self.image is not None:
-            try:
-                self.pixels  # noqa: B018
-            except InputError as error:
-                raise LawError(str(error)) from None
+            self.pixels  # noqa: B018
 
     def paint(self, scene: Scene, area: Outline) -> None:
         """Add the floor of an area to what lies beneath everything else.
@@ -173,31 +179,33 @@ def _read_png(name: str, path: Path) -> Pixels:
     """Return the pixels (rows, columns, 4) of a PNG. Raises InputError, beginning with `name`."""
     from PIL import Image, UnidentifiedImageError
 
+    quiet = warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning)
     try:
-        with Image.open(path, formats=["PNG"]) as image:
-            wide, high = image.size
-            if max(wide, high) > LARGEST_IMAGE:
-                raise InputError(
-                    f"{name} = {str(path)!r}: {wide} x {high} pixels; expected at most "
-                    f"{LARGEST_IMAGE} x {LARGEST_IMAGE}"
-                )
-            if image.mode.startswith(("I", "F")):
-                raise InputError(
-                    f"{name} = {str(path)!r}: 16 bits a channel; save it with 8 bits a channel"
-                )
-            return np.asarray(image.convert("RGBA"))
+        with quiet, Image.open(path, formats=["PNG"]) as image:
+            problem = _problem(image.size, image.mode)
+            if not problem:
+                return np.asarray(image.convert("RGBA"))
     except FileNotFoundError:
         where = "" if path.is_absolute() else f" in {Path.cwd()}"
-        hint = f"; beside the experiment it is Path(__file__).with_name({path.name!r})"
-        raise InputError(f"{name} = {str(path)!r}: there is no such file{where}{hint}") from None
+        beside = f"Path(__file__).with_name({path.name!r})"
+        problem = f"there is no such file{where}; beside the experiment it is {beside}"
     except UnidentifiedImageError:
-        raise InputError(f"{name} = {str(path)!r}: this is no PNG image") from None
+        problem = "this is no PNG image"
     except Image.DecompressionBombError:
-        raise InputError(
-            f"{name} = {str(path)!r}: expected at most {LARGEST_IMAGE} x {LARGEST_IMAGE} pixels"
-        ) from None
+        problem = f"it has more than {LARGEST_IMAGE} x {LARGEST_IMAGE} pixels"
     except (OSError, SyntaxError, ValueError) as error:
-        raise InputError(f"{name} = {str(path)!r}: can't be read, {error}") from None
+        problem = f"can't be read, {error}"
+    raise InputError(f"{name} = {str(path)!r}: {problem}")
+
+
+def _problem(size: tuple[int, int], mode: str) -> str:
+    """Return why an image of this size [pixels] and kind can't be used, or nothing."""
+    if max(size) > LARGEST_IMAGE:
+        most = f"{LARGEST_IMAGE} x {LARGEST_IMAGE}"
+        return f"{size[0]} x {size[1]} pixels; expected at most {most}"
+    if mode.startswith(("I", "F")):
+        return "16 bits a channel; save it with 8 bits a channel"
+    return ""
 
 
 def _over(pixels: Pixels, color: str) -> Pixels:

@@ -1,6 +1,16 @@
 """What robots perceive: the virtual sensors."""
 
-from mars2d.sensors.base import Sensor, Surroundings
+from mars2d.sensors.base import (
+    ANGLE,
+    COLOR,
+    DISTANCE,
+    FLAG,
+    NUMBER,
+    Quantity,
+    Sensor,
+    Sighting,
+    Surroundings,
+)
 from mars2d.sensors.beacon import Beacon
 from mars2d.sensors.bumper import Bumper
 from mars2d.sensors.ground import Ground
@@ -14,6 +24,11 @@ from mars2d.sensors.range_finder import RangeFinder
 from mars2d.sensors.sonar_ring import SonarRing
 
 __all__ = [
+    "ANGLE",
+    "COLOR",
+    "DISTANCE",
+    "FLAG",
+    "NUMBER",
     "Beacon",
     "Bumper",
     "Ground",
@@ -22,9 +37,11 @@ __all__ = [
     "Odometry",
     "Pose",
     "Proximity",
+    "Quantity",
     "RangeBearing",
     "RangeFinder",
     "Sensor",
+    "Sighting",
     "SonarRing",
     "Surroundings",
 ]

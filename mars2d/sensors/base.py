@@ -208,6 +208,10 @@ class Sensor(Live):
     def _validate(self) -> None:
         kind = type(self).__name__
         checks.identifier(f"{kind}.name", self.name, "robot.sense.")
+        known = isinstance(self.quantities, tuple) and self.quantities
+        if not (known and all(isinstance(quantity, Quantity) for quantity in self.quantities)):
+            expected = "a tuple of quantities, as (DISTANCE,); a single one needs the comma"
+            raise wrong(f"{kind}.quantities", self.quantities, expected)
         for field, given in (("noise", self.noise), ("resolution", self.resolution)):
             if isinstance(given, tuple) and len(given) != len(self.quantities):
                 names = ", ".join(f"{q.name} [{q.unit}]" for q in self.quantities)

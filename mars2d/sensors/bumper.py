@@ -27,11 +27,14 @@ class Bumper(Sensor):
 
     The reading is an array (sectors,) of True and False. The sectors share the field of view
     evenly, from the right to the left of the heading: two over pi are the right and the left side
-    of the front. What counts is the bearing of the point of contact from the sensor, which is best
-    mounted in the middle of the robot.
+    of the front. Over a full circle the first one is in the middle of the back: four are back,
+    right, front and left. What counts is the bearing of the point of contact from the sensor, which
+    is best mounted in the middle of the robot.
 
     >>> Bumper(sectors=2, field_of_view=3.0).angles.tolist()
     [-0.75, 0.75]
+    >>> Bumper(sectors=4).angles.round(2).tolist()
+    [-3.14, -1.57, 0.0, 1.57]
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (FLAG,)
@@ -47,7 +50,8 @@ class Bumper(Sensor):
     @cached_property
     def angles(self) -> Float:
         """The bearings of the sectors' middles (sectors,): radians from the sensor's heading."""
-        angles = ((np.arange(self.sectors) + 0.5) / self.sectors - 0.5) * self.field_of_view
+        first = 0.0 if self.field_of_view >= 2 * pi else 0.5
+        angles = ((np.arange(self.sectors) + first) / self.sectors - 0.5) * self.field_of_view
         angles.flags.writeable = False
         return angles
 
@@ -66,8 +70,11 @@ class Bumper(Sensor):
             pose = self.placed((1 - share) * self._pose + share * robot.pose)
             bearing = _bearing(contact["point"].tolist(), pose.tolist())
             if abs(bearing) <= self.field_of_view / 2:
-                sector = floor((bearing / self.field_of_view + 0.5) * self.sectors)
-                touched[min(sector, self.sectors - 1)] = True
+                width = self.field_of_view / self.sectors
+                sector = floor((bearing - float(self.angles[0])) / width + 0.5)
+                # The left end of all belongs to the last one, or to the first of a full circle.
+                full = self.field_of_view >= 2 * pi
+                touched[sector % self.sectors if full else min(sector, self.sectors - 1)] = True
         self._pose = robot.pose
         self._touches.append(touched)
 

@@ -80,7 +80,8 @@ class RangeBearing(Sensor):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, and a line to each robot where it is measured to be."""
         here = self.placed(pose)
-        fill, stroke = faded(color, 0.05), faded(color, 0.25)
+        full = self.field_of_view >= 2 * pi  # a crowd's full circles would pile up
+        fill, stroke = None if full else faded(color, 0.05), faded(color, 0.25)
         scene.sector(here, self.range, self.field_of_view, fill=fill, stroke=stroke)
         x, y, theta = here.tolist()
         for distance, bearing in np.asarray(reading).reshape(-1, 2).tolist():

@@ -61,7 +61,7 @@ class RangeFinder(Sensor):
             area = ends
         else:
             area = np.vstack([[x, y], ends])
-        scene.polygon(area, fill=faded(color, 0.1))
+        scene.polygon(area, fill=faded(color, 0.07))
         hits = ends[np.isfinite(reading)]
         if len(hits):
             scene.line(hits, stroke=faded(color, 0.9), style=".")

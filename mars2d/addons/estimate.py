@@ -1,0 +1,166 @@
+"""What a robot believes of its pose by its odometry, drawn with the ellipse of its doubt."""
+
+from __future__ import annotations
+
+from math import cos, floor, log, pi, sin, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.addons.base import Addon
+from mars2d.description import entry, number, text, wrong
+from mars2d.errors import InputError, nearest
+from mars2d.scene import Scene, color, faded
+from mars2d.sensors.odometry import Odometry, odometry_covariance
+
+if TYPE_CHECKING:
+    from mars2d.world import World
+
+__all__ = ["Estimate", "covariances", "ellipse"]
+
+Float = NDArray[np.float64]
+
+CORNERS = 72
+"""Of an ellipse that is drawn."""
+
+ROUNDING = 1e-9
+"""Times that differ by less are the same, in shares of `every`."""
+
+SMALLEST = 1e-12
+"""An ellipse is at least so thick, m^2: at the start it is a point."""
+
+
+def covariances(path: ArrayLike, semiaxis: float, drift: float) -> Float:
+    """Return the covariances (T, 3, 3) of poses (T, 3) that odometry tells one after the other.
+
+    path: x [m], y [m], theta [rad, not wrapped], at each control step. semiaxis: half the distance
+    between the wheels, metres. drift: the field of Odometry, sqrt(m). The first pose is certain.
+
+    >>> straight = [(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)]
+    >>> covariances(straight, 0.5, 0.1)[-1].diagonal().round(3).tolist()
+    [0.01, 0.05, 0.04]
+    """
+    poses = np.asarray(path, dtype=float).reshape(-1, 3)
+    found = np.zeros((len(poses), 3, 3))
+    for k in range(1, len(poses)):
+        found[k] = _grown(found[k - 1], poses[k - 1], poses[k], semiaxis, drift)
+    return found
+
+
+def _grown(spread: Float, before: Float, after: Float, semiaxis: float, drift: float) -> Float:
+    """Return the covariance after an arc from one pose (3,) to another."""
+    theta = float(before[2])
+    dx, dy, turn = (after - before).tolist()
+    middle, half = theta + turn / 2, turn / 2
+    chord = sin(half) / half if half else 1.0
+    way = (cos(middle) * dx + sin(middle) * dy) / chord
+    rims = (way - semiaxis * turn, way + semiaxis * turn)
+    return odometry_covariance(spread, theta, *rims, semiaxis, drift)
+
+
+def ellipse(center: ArrayLike, covariance: ArrayLike, probability: float = 0.95) -> Float:
+    """Return the corners (72, 2) of the ellipse that holds a normal distribution's points.
+
+    center: (2,) metres. covariance: (2, 2), of which only x and y count if it is larger.
+    probability: of a point to lie within, 0 < probability < 1.
+
+    >>> ellipse((1, 0), [[0.04, 0], [0, 0.01]], 0.393469).max(axis=0).round(6).tolist()
+    [1.2, 0.1]
+    """
+    spread = np.asarray(covariance, dtype=float)[:2, :2] + SMALLEST * np.eye(2)
+    angles = np.linspace(0, 2 * pi, CORNERS, endpoint=False)
+    circle = sqrt(-2 * log(1 - probability)) * np.array([np.cos(angles), np.sin(angles)])
+    return np.asarray(np.asarray(center, dtype=float)[:2] + (np.linalg.cholesky(spread) @ circle).T)
+
+
+class Estimate(Addon):
+    """Draws where a robot believes to be by its odometry, and the ellipse of how unsure that is.
+
+    The ellipse is that of the covariance, which grows with each turn of the wheels by the sensor's
+    `drift`. It is kept every so often, so that one sees it grow. The robot needs a sensor Odometry
+    and wheels on one axle.
+
+    Source: R. Siegwart, I. Nourbakhsh, D. Scaramuzza, Introduction to Autonomous Mobile Robots
+    (2011), section 5.2.4.
+    """
+
+    robot: str | None = text(
+        default=None, optional=True, doc="whose; None: the first one with odometry"
+    )
+    probability: float = number(
+        default=0.95, above=0, high=1 - 1e-9, doc="of the robot to be within the ellipse"
+    )
+    every: float = number(
+        default=10.0, above=0, high=1e6, unit="s", doc="from one ellipse that is kept to the next"
+    )
+    color: str = entry(default="#d55e00", check=color, doc="its colour")
+
+    def on_start(self, world: World) -> None:
+        """Find the robot and its sensor; raise InputError if there is none."""
+        self._index, self._sensor = self._found(world)
+        robot = world.scenario.robots[self._index]
+        axle = getattr(robot.drive, "wheel_semiaxis", None)
+        if axle is None:
+            raise InputError(
+                f"Estimate: {robot.name} drives by {type(robot.drive).__name__}, which has no two "
+                "wheels on one axle; give it a Unicycle() or Differential()"
+            )
+        self._semiaxis = float(axle)
+        start = self._sensor.origin == "start"
+        self._origin = np.array(robot.pose if start else (0.0, 0.0, 0.0))
+        self._path: list[Float] = []
+        self._kept: list[Float] = []
+        self.covariance = np.zeros((3, 3))
+
+    def _found(self, world: World) -> tuple[int, Odometry]:
+        """Return the robot's index, and its sensor."""
+        robots = world.scenario.robots
+        names = [str(robot.name) for robot in robots]
+        if self.robot is not None and self.robot not in names:
+            raise wrong("Estimate.robot", self.robot, f"a robot's name{nearest(self.robot, names)}")
+        for index, robot in enumerate(robots):
+            for sensor in robot.sensors:
+                if isinstance(sensor, Odometry) and self.robot in (None, robot.name):
+                    return index, sensor
+        raise InputError(f"Estimate: {self.robot or 'no robot'} has no sensor Odometry to draw")
+
+    def on_step(self, world: World) -> None:
+        """Take in what was read at the control step before."""
+        if world.iteration > 0:
+            self._follow(world)
+            if len(self._kept) < floor(world.time / self.every + ROUNDING):
+                self._kept.append(self._ellipse())
+
+    def _follow(self, world: World) -> None:
+        """Take in the latest reading, once."""
+        reading = getattr(world.robots[self._index].sense, self._sensor.key)
+        if not np.isfinite(reading).all():  # lost, or not yet there
+            return
+        if self._path:
+            before, drift = self._path[-1], self._sensor.drift
+            self.covariance = _grown(self.covariance, before, reading, self._semiaxis, drift)
+        self._path.append(np.array(reading))
+
+    def _ellipse(self) -> Float:
+        """Return the corners of the ellipse now, in the world's frame."""
+        center = self._path[-1] if self._path else np.zeros(3)
+        return self._placed(ellipse(center, self.covariance, self.probability))
+
+    def _placed(self, points: ArrayLike) -> Float:
+        """Return points (k, 2) of the estimate's frame in that of the world."""
+        x, y, theta = self._origin.tolist()
+        ahead, left = np.asarray(points, dtype=float)[:, :2].T
+        c, s = cos(theta), sin(theta)
+        return np.column_stack([x + c * ahead - s * left, y + s * ahead + c * left])
+
+    def on_draw(self, world: World, scene: Scene) -> None:  # noqa: ARG002
+        """Draw the path as it is believed, the ellipses that were kept, and the last one."""
+        if not self._path:
+            return
+        for rim in self._kept:
+            scene.polygon(rim, fill=faded(self.color, 0.1), stroke=self.color, width=1.2)
+        scene.polygon(self._ellipse(), fill=faded(self.color, 0.15), stroke=self.color, width=1.6)
+        path = self._placed(np.array(self._path))
+        scene.line(path, stroke=self.color, width=1.6, style="--")
+        scene.circle(path[-1], 0.0, fill=self.color, stroke="#ffffff", pixels=4.5)
