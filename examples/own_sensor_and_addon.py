@@ -7,32 +7,33 @@ I = sum of 1 / d^2, and turns towards the brighter side (Braitenberg's vehicle).
 import numpy as np
 
 from mars2d import Addon, Robot, Scenario, Sensor
+from mars2d.description import number
+from mars2d.sensors import Quantity
 
 
 class Eyes(Sensor):
-    """The light felt at the left and the right front of the robot, 1/m^2."""
+    """The light felt at the left and the right front of the robot; noise is added by `noise`."""
 
-    noise: float = 0.02  # relative, standard deviation
+    quantities = (Quantity("light", "1/m^2"),)
 
     def read(self, robot, world, rng):
-        x, y, theta = robot.pose
+        x, y, theta = self.placed(robot.pose)
         sides = theta + np.array([0.8, -0.8])
         dx, dy = LAMPS[:, :1] - x - 0.15 * np.cos(sides), LAMPS[:, 1:] - y - 0.15 * np.sin(sides)
-        return (1 / (dx**2 + dy**2)).sum(axis=0) * (1 + self.noise * rng.normal(size=2))
+        return (1 / (dx**2 + dy**2)).sum(axis=0)
 
 
 class Lamps(Addon):
     """Draws the lamps, notes which were reached, and ends the experiment when all were."""
 
-    reach: float = 0.3  # m
+    reach: float = number(default=0.3, above=0, unit="m", doc="how near it must be come to")
 
     def on_start(self, world):
         self.found = np.zeros(len(LAMPS), dtype=bool)
 
     def on_step(self, world):
         x, y, _ = world.pose
-        near = np.hypot(LAMPS[:, :1] - x, LAMPS[:, 1:] - y) < self.reach
-        self.found |= near.any(axis=1)
+        self.found |= (np.hypot(LAMPS[:, :1] - x, LAMPS[:, 1:] - y) < self.reach).any(axis=1)
         if self.found.all():
             world.stop(f"All {len(LAMPS)} lamps were found after {world.time:.1f} s")
 
@@ -49,11 +50,11 @@ def seek(robot):
     return 0.4, 4.0 * (left - right) / (left + right)
 
 
-seeker = Robot(sensors=[Eyes()], controller=seek, sees="sensors")
+seeker = Robot(sensors=[Eyes(noise=0.01)], controller=seek, sees="sensors")
 scenario = Scenario(
     title="Light seekers",
     robots=[seeker.at(-4, -4, 1.0), seeker.at(4, -4, 2.0), seeker.at(0, 4, -2.5)],
     on_exit="wall",
-    stop_time=60.0,
+    stop_time=120.0,
     addons=[Lamps()],
 )

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import argparse
+import os
+import sys
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 from mars2d.commands.base import run_headless
 from mars2d.errors import InputError, Mars2dError, counted
-from mars2d.files import Experiment, open_experiment
+from mars2d.files import Experiment, open_experiment, open_module
 from mars2d.joints import Joint
 from mars2d.record import load
 from mars2d.rerun import rerun
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
+from mars2d.testing.deadline import PATIENCE, Deadline, Late
+from mars2d.testing.file import trials
+from mars2d.testing.finding import Finding
 
 NAME = "check"
 
@@ -21,11 +28,19 @@ TRIAL = 10
 
 SHOWN = 8
 
+BAD_INPUT = 2
+
+LOADING = 60.0
+"""Seconds that a file may take to be loaded."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument(
-        "file", metavar="FILE", help="an experiment (.py or an example's name), a record (.npz)"
+        "file",
+        metavar="FILE",
+        help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
+        "or a record (.npz)",
     )
 
 
@@ -35,20 +50,87 @@ def execute(arguments: argparse.Namespace) -> None:
     if path.suffix == ".npz":
         _check_record(path)
     elif path.suffix in ("", ".py"):
-        _check_experiment(arguments.file)
+        _check_code(arguments.file)
     else:
-        raise InputError(f"{path}: expected an experiment (.py) or a record (.npz)")
+        raise InputError(f"{path}: expected a Python file (.py) or a record (.npz)")
 
 
-def _check_experiment(source: str) -> None:
-    experiment = open_experiment(source)
-    for name, text in _description(experiment):
-        print(f"{name:<12}{text}")
+def _check_code(source: str) -> None:
+    """Check what a Python file holds: parts, laws, an experiment, or several of these."""
+    module, experiment = _opened(source)
+    limit = Deadline(PATIENCE, _give_up(source))
+    if experiment is not None:
+        for name, text in _description(experiment):
+            print(f"{name:<12}{text}")
+    wrong = _try_all(module, experiment, limit)
+    if len(wrong) == 1:
+        name = Path(source).name
+        place = "" if wrong[0].text.startswith(f"{name}, line") else f"{name}: "
+        raise InputError(place + wrong[0].text)
+    if wrong:
+        raise InputError(f"{source}: {len(wrong)} things are wrong, as said above")
+    if experiment is not None:
+        print(f"sound: {counted(_run(experiment, source, limit), 'control step')} done")
+
+
+def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
+    """Return a file as a module, and the experiment in it, None if it has parts or laws alone."""
+    limit = Deadline(LOADING, _give_up(source))
+    try:
+        with limit:
+            module = open_module(source)
+            if not hasattr(module, "scenario") and any(True for _ in trials(module, None)):
+                return module, None
+            return module, open_experiment(module)
+    except Late:
+        raise _late(source, limit) from None
+
+
+def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline) -> list[Finding]:
+    """Try all parts and laws, say what was found, and return what is wrong."""
+    wrong: list[Finding] = []
+    said: set[Finding] = set()
+    for trial in trials(module, experiment, limit):
+        print(f"{trial.name} {trial.where}".rstrip(), end=": ", flush=True)
+        findings = [finding for finding in trial.findings() if finding not in said]
+        said |= {*findings}
+        faults = [finding for finding in findings if finding.kind == "wrong"]
+        hints = len(findings) - len(faults)
+        verdict = f"{counted(len(faults), 'thing')} wrong" if faults else "sound"
+        print(trial.untried or ", ".join([verdict, *([counted(hints, "hint")] if hints else [])]))
+        for finding in findings:
+            print(f"  {finding.kind:<6}{finding.text}")
+        wrong += faults
+    return wrong
+
+
+def _run(experiment: Experiment, source: str, limit: Deadline) -> int:
+    """Do some control steps and return how many."""
     scenario = experiment.scenario
     stop_time = min(TRIAL * scenario.sampling_time, scenario.stop_time)
     trial = Experiment(scenario.replace(stop_time=stop_time), experiment.control)
-    world = run_headless(trial, seed=0)
-    print(f"sound: {counted(len(world.history), 'control step')} done")
+    try:
+        with limit:
+            return len(run_headless(trial, 0, [lambda _: limit.alive()]).history)
+    except Late:
+        raise _late(source, limit) from None
+
+
+def _late(source: str, limit: Deadline) -> InputError:
+    where = f" at {limit.where}" if limit.where else ""
+    return InputError(f"{source}: did not come to an end within {limit.patience:g} s{where}")
+
+
+def _give_up(source: str) -> Callable[[str], None]:
+    """Return what to do when code can't even be broken off: to say so, and to leave."""
+
+    def leave(where: str) -> None:
+        place = f" at {where}" if where else ""
+        print(f"\nmars2d: {source}: does not come to an end{place}", file=sys.stderr, flush=True)
+        sys.stdout.flush()
+        os._exit(BAD_INPUT)
+
+    return leave
 
 
 def _description(experiment: Experiment) -> list[tuple[str, str]]:

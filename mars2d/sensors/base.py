@@ -311,9 +311,14 @@ class Sensor(Live):
     def _perfect(self) -> bool:
         return not (any(map(any, self._spreads)) or self.outliers or self.dropouts)
 
+    @cached_property
+    def _unbounded(self) -> bool:
+        """Whether there is nothing to limit or wrap."""
+        return all(quantity.kind in ("number", "flag") for quantity in self.quantities)
+
     def measured(self, reading: Any, rng: np.random.Generator) -> Any:
         """Return what the device makes of a perfect reading: noise and all but the latency."""
-        if self._perfect:
+        if self._perfect and self._unbounded:
             return reading
         true = self._checked(reading)
         if len(self.quantities) == 1:

@@ -135,8 +135,8 @@ class Beacon(Sensor):
 
     def measured(self, reading: Float, rng: np.random.Generator) -> Float:
         """Return what the device makes of a perfect reading; what is not seen stays so."""
-        rows = super().measured(reading, rng)
-        return rows if rows is reading else hold_missing(rows, reading)
+        rows: Float = super().measured(reading, rng)
+        return rows if self._perfect else hold_missing(rows, reading)
 
     def shown(self, reading: Float) -> Sightings:
         """Return where each beacon is seen, by name."""

@@ -63,8 +63,8 @@ class RangeBearing(Sensor):
     def measured(self, reading: Float, rng: np.random.Generator) -> Float:
         """Return what the device makes of a perfect reading; what is not seen stays so."""
         rows: Float = super().measured(reading, rng)
-        if rows is reading:
-            return reading
+        if self._perfect:
+            return rows
         rows = hold_missing(rows, reading)
         return rows if self.identity else _nearest_first(rows)
 

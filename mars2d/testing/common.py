@@ -1,0 +1,234 @@
+"""What is asked of every part: its methods' arguments, its fields, whether runs are repeatable."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import inspect
+import json
+import pickle
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from mars2d import plain
+from mars2d.description import Description
+from mars2d.errors import described, shown
+from mars2d.scenario import Scenario
+from mars2d.testing.deadline import Deadline, Late
+from mars2d.testing.state import Places
+from mars2d.testing.trial import Difference, Run, Trial, as_input_error, difference
+from mars2d.testing.witness import Noted, Notes
+from mars2d.world import World
+
+__all__ = [
+    "check_fields",
+    "check_methods",
+    "check_places",
+    "check_repeatable",
+    "first_run",
+    "is_own",
+    "run_ended",
+]
+
+ControlLaw = Callable[[Any], Any]
+
+SHARES = "worlds and robots that run in one process would disturb each other"
+
+
+def is_own(part: Description, method: str, base: type[Description]) -> bool:
+    """Return whether a part has a method of its own, not that of its family's base."""
+    return getattr(type(part), method, None) is not getattr(base, method)
+
+
+def check_methods(
+    part: Description,
+    base: type[Description],
+    methods: Mapping[str, Sequence[str]],
+    notes: Notes,
+) -> bool:
+    """Say which of a part's own methods can't be called with their arguments; False if any."""
+    own = [method for method in methods if is_own(part, method, base)]
+    callables = [_check_arguments(part, method, methods[method], notes) for method in own]
+    return all(callables)
+
+
+def _check_arguments(
+    part: Description, method: str, arguments: Sequence[str], notes: Notes
+) -> bool:
+    """Say if a method can't be called with these arguments; return whether it can."""
+    function = getattr(part, method)
+    expected = f"expected {method}({', '.join(['self', *arguments])})"
+    if not callable(function):
+        notes.report.wrong(f"{notes.name}.{method} = {shown(function)}: {expected}")
+        return False
+    try:
+        signature = inspect.signature(function)
+    except ValueError:  # a built-in: the first call will tell
+        return True
+    names = list(signature.parameters)
+    with_self = f"({', '.join(['self', *names])})"
+    try:
+        signature.bind(*arguments)
+    except TypeError:
+        notes.report.wrong(f"{notes.name}.{method} has the arguments {with_self}: {expected}")
+        return False
+    if names != [*arguments] and sorted(names) == sorted(arguments):
+        notes.report.wrong(
+            f"{notes.name}.{method} has the arguments {with_self} in another order than they are "
+            f"given: {expected}"
+        )
+        return False
+    return True
+
+
+def check_fields(part: Description, base: type[Description], notes: Notes) -> bool:
+    """Say which fields can't be copied, sent to another process or kept in a file.
+
+    Returns whether all can be copied, as each world needs a copy of its own.
+    """
+    report, name, copies = notes.report, notes.name, True
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        for what, attempt in (("copied", copy.deepcopy), ("sent to another process", pickle.dumps)):
+            try:
+                attempt(value)
+            except Exception as error:  # whatever a user's object raises
+                copies = copies and what != "copied"
+                report.wrong(
+                    f"{name}.{field.name} = {shown(value)} can't be {what} ({described(error)}): "
+                    "a field holds numbers, text, lists and descriptions; make the rest in "
+                    "on_start"
+                )
+                break
+        else:
+            _check_in_file(part, field.name, value, notes)
+    inherited = {field.name for field in dataclasses.fields(base)}
+    for field in dataclasses.fields(part):
+        if field.name in inherited or field.type not in ("float", float):
+            continue
+        if not (field.metadata.get("unit") or field.metadata.get("doc")):
+            report.hint(
+                f"{name}.{field.name} says neither its unit nor its bounds: declare it as "
+                f"`{field.name}: float = number(default=..., low=..., unit=..., doc=...)`, "
+                "by mars2d.description"
+            )
+    return copies
+
+
+def _check_in_file(part: Description, field: str, value: Any, notes: Notes) -> None:
+    try:
+        kept = json.loads(json.dumps(plain.from_description(value)))
+        back = part.replace(**{field: plain.to_value(kept)})
+        same = bool(getattr(back, field) == value)
+    except Exception:  # whatever a user's own check raises at what it does not know
+        same = False
+    if not same:
+        notes.report.wrong(
+            f"{notes.name}.{field} = {shown(value)} does not come back from a record's file: a "
+            "field holds numbers, text, lists and descriptions, and a check of its own must take "
+            "what it returned"
+        )
+
+
+def check_places(places: Places, notes: Notes) -> None:
+    """Hint at attributes of a class that can be changed: all its objects share them."""
+    for place in places.of_classes():
+        notes.report.hint(
+            f"{place}, is shared by all objects and worlds: what is written there is seen "
+            f"everywhere. {notes.keep}"
+        )
+
+
+def run_ended(run: Run, notes: Notes) -> bool:
+    """Say why a run did not come to its end, if it didn't; return whether it did."""
+    if run.late is not None:
+        where = f"{run.late}: " if run.late else ""
+        notes.report.wrong(
+            f"{where}{notes.name} did not come to an end within {run.patience:g} s, and was "
+            "broken off. Is there a loop that never ends? A law that waits yields at each step"
+        )
+    elif run.error is not None and not isinstance(run.error, Noted):
+        notes.report.wrong(str(run.error))
+    return not run.failed
+
+
+Place = Callable[[Scenario | None, ControlLaw | None], tuple[Scenario, ControlLaw | None]]
+
+
+def first_run(
+    place: Place,
+    scenario: Scenario | None,
+    control: ControlLaw | None,
+    looked: Callable[[World], None],
+    deadline: Deadline,
+    notes: Notes,
+) -> tuple[Trial, Run] | None:
+    """Run a part for the first time; None, with a finding, if that does not come to its end.
+
+    place: returns the scenario with the part in it, or the small world for None, and the law of the
+    team. Where the scenario fails for another reason than the part, the small world is taken.
+    """
+    run, trial = Run(), None
+    try:
+        tried, law = place(scenario, control)
+        trial = Trial(tried, law, deadline, looked=looked)
+        run = trial.run()
+    except Late:
+        run.late, run.patience = deadline.arrived(), deadline.patience
+    except Exception as error:  # whatever a user's object raises
+        run.error = as_input_error(error)
+    if scenario is not None and run.error is not None and not isinstance(run.error, Noted):
+        notes.report.hint(
+            f"{notes.name} was tried in a small world, as its scenario does not run: {run.error}"
+        )
+        return first_run(place, None, None, looked, deadline, notes)
+    ended = run_ended(run, notes)
+    return (trial, run) if ended and trial is not None else None
+
+
+def check_repeatable(
+    trial: Trial, first: Run, places: Places, notes: Notes, own: tuple[str, ...]
+) -> None:
+    """Say if the same seed does not give the same run, alone or beside another world.
+
+    first: a run of the trial that was done. own: what the part answers for in `Run.rows` begins so.
+    """
+    again, tick = trial.shortened(first), trial.scenario.sampling_time
+    found = difference(first, again.run(noise=2), tick)
+    between = difference(first, again.interleaved(), tick)
+    changed = places.changed()
+    kept = f"keeps something in {' and in '.join(changed)}" if changed else ""
+    if "generator" in kept:
+        kept += f" (draw from {notes.own})"
+    if not _answers(found, own):
+        found = None
+    if not _answers(between, own):
+        between = None
+    name, report = notes.name, notes.report
+    if found and changed:
+        report.wrong(
+            f"{name} {kept}: the same seed does not give the same run, {_what(found)}; "
+            f"{SHARES}. {notes.keep}"
+        )
+    elif found and not notes.shared_randomness:
+        report.wrong(
+            f"{name} is not repeatable: the same seed gives another run, {_what(found)}. Is there "
+            f"a clock, a generator without a seed, or something kept elsewhere than in a part of "
+            f"the world? Draw from {notes.own}. {notes.keep}"
+        )
+    elif between and not found:
+        what = kept or "shares something between worlds"
+        report.wrong(
+            f"{name} {what}: beside a second world the run is another one, {_what(between)}. "
+            f"{notes.keep}"
+        )
+    elif changed and not found:
+        report.hint(f"{name} {kept}: {SHARES}, if it matters to anything. {notes.keep}")
+
+
+def _answers(found: Difference | None, own: tuple[str, ...]) -> bool:
+    return found is not None and found.what.startswith((*own, "the end"))
+
+
+def _what(found: Difference) -> str:
+    return f"from {found.time:g} s on ({found.what})"
