@@ -46,7 +46,7 @@ ROOM = [(-2.0, -1.5), (-2.0, 1.5), (2.0, 1.5), (2.0, -1.5)]
 FURNITURE = [[(1.0, -1.0), (1.5, -1.0), (1.5, -0.3), (1.0, -0.3)], [(-1.4, 0.9), (-0.5, 1.2)]]
 
 BALL = Ball(pose=(0.6, 0.75, 0), diameter=0.35)
-BOX = Box(pose=(-1.3, -0.9, 0.4), width=0.5, height=0.3)
+BOX = Box(pose=(-1.3, -0.9, 0.4), length=0.5, width=0.3)
 
 
 def room(*robots: Robot, steps: int = 0) -> World:

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 import pymunk
 from numpy.typing import ArrayLike, NDArray
+from pymunk import batch
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.geometry import Point, length
+from mars2d.geometry import Point
 
 __all__ = ["BODY", "SIGHT", "Rays", "end_bars"]
 
@@ -23,6 +24,8 @@ Addresses = NDArray[np.uintp]
 
 _HIT = np.dtype([("shape", np.uintp), ("point", float, 2), ("normal", float, 2), ("alpha", float)])
 """The engine's answer to one ray."""
+
+_POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 
 _ALL = 0xFFFFFFFF
 
@@ -37,6 +40,9 @@ BAR = 1e-9
 
 GRAZING = 1e-7
 """A ray at a smaller angle to an edge is looked at again, rad: rounding decides where it hits."""
+
+CORNER = 1e-13
+"""A ray passes so near to a corner that it is aimed at, by rounding, per metre and one."""
 
 AT_THE_END = 1e-9
 """What a ray hits so near to its end does not hide the end, metres."""
@@ -72,6 +78,16 @@ class Rays:
         self._start = ffi.new("cpVect *")
         self._filter = ffi.new("cpShapeFilter *", (0, _ALL, _ALL))
         self._reserve(64)
+        corners = [
+            (body, address, corner)
+            for (shape, body), (address, _) in zip(bodies.items(), named, strict=True)
+            if isinstance(shape, pymunk.Poly)
+            for corner in shape.get_vertices()
+        ]
+        self._corner_body = np.array([body for body, _, _ in corners], dtype=np.int64)
+        self._corner_shape = np.array([address for _, address, _ in corners], dtype=np.uintp)
+        self._corner = np.array([corner for _, _, corner in corners]).reshape(-1, 2)
+        self._pose_buffer = batch.Buffer()
 
     def _reserve(self, count: int) -> None:
         """Make room for so many rays at once."""
@@ -113,15 +129,62 @@ class Rays:
         ends = np.empty((len(angles), 2))
         np.add(start[0], far * c, out=ends[:, 0])
         np.add(start[1], far * s, out=ends[:, 1])
+        return self._met(start, (c, s), far, ends, ignore)
+
+    def _met(
+        self, start: Point, way: tuple[Float, Float], far: Float, ends: Float, ignore: int
+    ) -> tuple[Addresses, Float]:
+        """Return what shapes rays hit, 0 if none, and how far they go, (k,) each.
+
+        way: their directions, two (k,). far: their lengths, (k,) or one. ends: (k, 2).
+        """
         shapes, alpha = self._cast(start, ends, ignore)
         distance = np.asarray(alpha * far)
         hit = shapes != 0
         distance[~hit] = np.inf
-        count = len(angles)
+        c, s = way
+        count = len(ends)
         along = np.abs(self._normal_x[:count] * c + self._normal_y[:count] * s) < GRAZING
         for k in np.flatnonzero(along & hit).tolist():
             shapes[k], distance[k] = self._grazing(start, (c[k], s[k]), ends[k], ignore)
+        if len(self._corner):
+            self._meet_corners(start, way, far, ignore, shapes, distance)
         return shapes, distance
+
+    def _meet_corners(
+        self,
+        start: Point,
+        way: tuple[Float, Float],
+        far: Float,
+        ignore: int,
+        shapes: Addresses,
+        distance: Float,
+    ) -> None:
+        """Let rays that are aimed at corners of bodies meet them.
+
+        The engine looks at each side of a polygon alone: by rounding such a ray may miss both.
+        """
+        buffer = self._pose_buffer
+        buffer.clear()
+        batch.get_space_bodies(self._public, _POSE, buffer)
+        pose = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, 3)
+        at_x, at_y, angle = pose[self._corner_body].T
+        turn_c, turn_s = np.cos(angle), np.sin(angle)
+        dx = at_x + turn_c * self._corner[:, 0] - turn_s * self._corner[:, 1] - start[0]
+        dy = at_y + turn_s * self._corner[:, 0] + turn_c * self._corner[:, 1] - start[1]
+        apart = np.hypot(dx, dy)
+        near = np.flatnonzero((apart <= far.max(initial=0.0)) & (self._corner_body != ignore))
+        offset = np.column_stack([dy[near], -dx[near]])
+        beside = offset @ np.array(way)  # rounded as the processor likes: looked at again below
+        reach = CORNER * (1 + apart[near])
+        for row in np.flatnonzero(np.abs(beside).min(axis=1, initial=inf) < 2 * reach).tolist():
+            x, y = float(dx[near[row]]), float(dy[near[row]])
+            for k in np.flatnonzero(np.abs(beside[row]) < 2 * reach[row]).tolist():
+                c, s = float(way[0][k]), float(way[1][k])
+                along, most = x * c + y * s, float(far[k] if far.ndim else far)
+                aimed = abs(y * c - x * s) < reach[row] and 0 <= along <= most
+                if aimed and along < distance[k]:
+                    shapes[k], distance[k] = self._corner_shape[near[row]], along
 
     def _grazing(self, start: Point, way: Point, end: Float, ignore: int) -> tuple[int, float]:
         """Return what a ray hits that runs along an edge, and how far that is.
@@ -161,9 +224,11 @@ class Rays:
     ) -> NDArray[np.bool_]:
         """Return whether something stands before points (k, 2); see Surroundings."""
         points = np.asarray(points, dtype=float).reshape(-1, 2)
-        shapes, alpha = self._cast(start, points, ignore)
-        apart = length(points[:, 0] - start[0] + 1j * (points[:, 1] - start[1]))
-        before = (shapes != 0) & ((1 - alpha) * apart > AT_THE_END)
+        dx, dy = points[:, 0] - start[0], points[:, 1] - start[1]
+        apart = np.hypot(dx, dy)
+        unit = np.where(apart > 0, apart, 1.0)
+        shapes, distance = self._met(start, (dx / unit, dy / unit), apart, points, ignore)
+        before = apart - distance > AT_THE_END
         return np.asarray(before & (self._bodies(shapes) != bodies))
 
     def _bodies(self, shapes: Addresses) -> Int:

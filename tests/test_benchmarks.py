@@ -26,3 +26,10 @@ def test_the_control_loop_is_compared_with_bare_pymunk(tmp_path):
 def test_the_start_is_timed(tmp_path):
     result = run("start.py", "--rounds", "1", cwd=tmp_path)
     assert result["import mars2d"] > result["bare python"]
+
+
+def test_rays_are_timed_and_are_those_of_the_public_method(tmp_path):
+    result = run("rays.py", "--sizes", "20", "200", "--rounds", "1", cwd=tmp_path)
+    assert [row["segments"] for row in result["rays"]] == [20, 200]
+    assert all(row["the_same"] for row in result["rays"])
+    assert result["team"]["readings"] == [201, 20, 180]

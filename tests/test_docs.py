@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import contextlib
 import doctest
+import importlib
 import importlib.util
 import inspect
 import io
@@ -227,7 +228,7 @@ def test_each_sensor_has_a_page_in_the_index_of_the_sensors():
 @pytest.mark.parametrize("name", sorted(members("sensors")))
 def test_a_sensors_page_has_its_picture_and_the_table_of_its_fields(name, monkeypatch):
     monkeypatch.syspath_prepend(ROOT / "docs")
-    made = module(ROOT / "docs" / "make_sensors.py")
+    made = importlib.import_module("make_sensors")
     kind = getattr(sensors, name)
     text = made.page(kind).read_text(encoding="utf-8")
     assert text == made.with_table(text, kind), "run: python docs/make_sensors.py"
@@ -341,7 +342,7 @@ def test_each_drive_prop_and_joint_is_documented(document):
 
 
 def test_each_example_that_checks_itself_is_a_lesson_with_a_picture():
-    courses = ("contact.md", "communication.md", "information.md")
+    courses = ("contact.md", "communication.md", "information.md", "sensing.md")
     text = "\n".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in courses)
     lessons = set(re.findall(r"^mars2d run (\w+) .*--figure", text, flags=re.M))
     checked = {name for name, path in examples().items() if open_experiment(path).checks}

@@ -1,0 +1,209 @@
+"""How many rays a second range finders cast, against pymunk's method, and how fast a team runs.
+
+    python benchmarks/rays.py [--json OUT.json] [--sizes N ...] [--rounds N]
+
+Rays: 20 robots with 180 beams of 5 m among boxes that stand 1.5 m apart on average, of 20, 200 and
+2000 segments in all. `mars2d`: `RangeFinder.read`. `pymunk`: `Space.segment_query_first` for each
+beam, on the same space. Both take turns in one process, so that the ratio holds on a noisy machine;
+that they find the same is part of the benchmark.
+
+Team: 20 such robots wander among 50 obstacles by what they see, at 10 Hz, with contacts and
+recording; the real-time factor is simulated time over wall time.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import statistics
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pymunk
+from numpy.typing import NDArray
+
+from mars2d import Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.sensors import RangeFinder
+
+Float = NDArray[np.float64]
+Outline = list[tuple[float, float]]
+
+ROBOTS, BEAMS, RANGE, RADIUS = 20, 180, 5.0, 0.15
+SPACING = 1.5
+SIZES = (20, 200, 2000)
+ROUNDS = 7
+SECONDS = 20.0
+SPEED, NEAR = 0.3, 0.6
+
+
+def boxes(count: int, rng: np.random.Generator) -> tuple[list[Outline], float]:
+    """Return turned boxes on a jittered grid round the origin, and half the side of the square."""
+    per_row = int(np.ceil(np.sqrt(count)))
+    half = SPACING * (per_row + 1) / 2
+    outlines = []
+    for k in range(count):
+        center = (np.array([k % per_row, k // per_row]) + 1.0) * SPACING - half
+        center += rng.uniform(-0.2, 0.2, 2)
+        angle, length = rng.uniform(0, np.pi), rng.uniform(0.1, 0.35, 2)
+        along = np.array([np.cos(angle), np.sin(angle)]) * length[0]
+        across = np.array([-np.sin(angle), np.cos(angle)]) * length[1]
+        corners = [along + across, across - along, -along - across, along - across]
+        outlines.append([(float(x), float(y)) for x, y in (center + corner for corner in corners)])
+    return outlines, half
+
+
+def free_places(outlines: list[Outline], half: float, rng: np.random.Generator) -> Float:
+    """Return poses (ROBOTS, 3) that touch neither boxes nor each other."""
+    import shapely
+
+    taken = [shapely.Polygon(outline) for outline in outlines]
+    reach = min(half, 4 * SPACING) - RADIUS  # among the boxes, not out of the way
+    poses: list[tuple[float, float, float]] = []
+    while len(poses) < ROBOTS:
+        x, y = rng.uniform(-reach, reach, 2)
+        place = shapely.Point(x, y).buffer(1.1 * RADIUS)
+        if not shapely.intersects(place, taken).any():
+            taken.append(place)
+            poses.append((x, y, rng.uniform(-np.pi, np.pi)))
+    return np.array(poses)
+
+
+def wander(robot: Any) -> Iterator[tuple[float, float]]:
+    """Drive on, and turn away from what is near ahead."""
+    sensor = RangeFinder(beams=BEAMS)
+    ahead = np.abs(sensor.angles) < 0.6
+    while True:
+        if robot.sense.range_finder[ahead].min() > NEAR:
+            yield SPEED, 0.0
+        else:
+            turn = robot.rng.choice([-1.5, 1.5])
+            for _ in range(5):
+                yield 0.0, turn
+
+
+def team(count: int, *, law: Callable[[Any], Any] | None = None, stop: float = 1e6) -> World:
+    """Return a world of robots with range finders among boxes."""
+    rng = np.random.default_rng(count)
+    outlines, half = boxes(count, rng)
+    robot = Robot(
+        diameter=2 * RADIUS, sensors=[RangeFinder(beams=BEAMS, range=RANGE)], controller=law
+    )
+    scenario = Scenario(
+        robots=[robot.at(*pose) for pose in free_places(outlines, half, rng).tolist()],
+        workspace=[(-half, -half), (-half, half), (half, half), (half, -half)],
+        on_exit="wall" if law else "stop",
+        addons=[Map(outlines)],
+        sampling_time=0.1,
+        stop_time=stop,
+    )
+    return World(scenario, seed=1)
+
+
+def ours(world: World) -> Callable[[], Float]:
+    """Return a function that reads all range finders, (ROBOTS, BEAMS)."""
+    rng = world.stream("benchmark")
+    (sensor,) = world.scenario.robots[0].sensors
+    return lambda: np.array([sensor.read(robot, world.surroundings, rng) for robot in world.robots])
+
+
+def public(world: World) -> Callable[[], Float]:
+    """Return a function that does the same by pymunk's public method."""
+    space: pymunk.Space = world._engine.space._space  # the same shapes
+    (sensor,) = world.scenario.robots[0].sensors
+    assert isinstance(sensor, RangeFinder)
+
+    def read() -> Float:
+        distances = np.full((ROBOTS, BEAMS), np.inf)
+        for robot in world.robots:
+            x, y, theta = robot.pose.tolist()
+            own = pymunk.ShapeFilter(group=robot.index + 1)
+            angles = theta + sensor.angles
+            ends_x, ends_y = x + RANGE * np.cos(angles), y + RANGE * np.sin(angles)
+            for k, end in enumerate(zip(ends_x.tolist(), ends_y.tolist(), strict=True)):
+                hit = space.segment_query_first((x, y), end, 0.0, own)
+                if hit is not None:
+                    distances[robot.index, k] = hit.alpha * RANGE
+        return distances
+
+    return read
+
+
+def seconds(action: Callable[[], object], times: int) -> float:
+    """Return how long one of several calls takes."""
+    start = time.perf_counter()
+    for _ in range(times):
+        action()
+    return (time.perf_counter() - start) / times
+
+
+def compare(segments: int, rounds: int) -> dict[str, Any]:
+    """Cast the same rays by both and return million rays per second and their ratio."""
+    world = team(segments // 4)
+    quick, slow = ours(world), public(world)
+    same = bool(np.array_equal(quick(), slow()))
+    pairs = [(seconds(quick, 10), seconds(slow, 2)) for _ in range(rounds)]
+    million = ROBOTS * BEAMS / 1e6
+    return {
+        "segments": segments,
+        "mars2d_million_rays_per_s": round(million / statistics.median(a for a, _ in pairs), 3),
+        "pymunk_million_rays_per_s": round(million / statistics.median(b for _, b in pairs), 3),
+        "times_as_fast": round(statistics.median(b / a for a, b in pairs), 2),
+        "the_same": same,
+    }
+
+
+def real_time(rounds: int) -> dict[str, Any]:
+    """Return how much faster than time a team wanders about, with all that belongs to it."""
+    factors = []
+    for _ in range(rounds):
+        world = team(50, law=wander, stop=SECONDS)
+        start = time.perf_counter()
+        while not world.over:
+            world.step()
+        factors.append(SECONDS / (time.perf_counter() - start))
+    readings = world.record.sensors["range_finder"]
+    return {
+        "robots": ROBOTS,
+        "obstacles": 50,
+        "readings": list(readings.shape),
+        "real_time_factor": round(statistics.median(factors), 1),
+    }
+
+
+def main() -> None:
+    """Run the benchmark, print a table, and write JSON where it is asked for."""
+    parser = argparse.ArgumentParser(description="Rays against pymunk's, and a team's speed.")
+    parser.add_argument("--json", type=Path, metavar="OUT.json", help="write the figures")
+    parser.add_argument("--sizes", type=int, nargs="*", default=SIZES, help="numbers of segments")
+    parser.add_argument("--rounds", type=int, default=ROUNDS, help="how often all is timed")
+    arguments = parser.parse_args()
+    print(f"{'segments':>8} {'mars2d':>7} {'pymunk':>7}  million rays/s")
+    rows = []
+    for segments in arguments.sizes:
+        row = compare(segments, arguments.rounds)
+        print(
+            f"{segments:>8} {row['mars2d_million_rays_per_s']:>7.2f}"
+            f" {row['pymunk_million_rays_per_s']:>7.2f}  {row['times_as_fast']:.1f} times as fast,"
+            f" {'the same' if row['the_same'] else 'NOT THE SAME'} distances"
+        )
+        rows.append(row)
+    wandering = real_time(arguments.rounds)
+    print(
+        f"{ROBOTS} robots with {BEAMS} beams among {wandering['obstacles']} obstacles:"
+        f" {wandering['real_time_factor']:.0f} times as fast as time"
+    )
+    result = {"rays": rows, "team": wandering}
+    if arguments.json is not None:
+        arguments.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+    else:
+        json.dump(result, sys.stdout)
+        print()
+
+
+if __name__ == "__main__":
+    main()
