@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.errors import LawError, shown
-from mars2d.usercode import called, definition
+from mars2d.usercode import called, definition, name_of
 
 __all__ = ["Law", "commands", "robot_command", "team_command"]
 
@@ -36,7 +36,7 @@ class Law:
         self._subject = subject
         self._still = still
         self._running: Iterator[Any] | None = None
-        self.name = getattr(function, "__name__", type(function).__name__)
+        self.name = name_of(function)
 
     def command(self) -> Any:
         """Return what the law commands now, unchecked. Raises LawError where the law raises."""

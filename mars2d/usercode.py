@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import sysconfig
 import traceback
@@ -12,7 +13,7 @@ from typing import Any
 
 from mars2d.errors import LawError, described
 
-__all__ = ["called", "definition", "users_line"]
+__all__ = ["called", "definition", "name_of", "users_line"]
 
 _PACKAGE = Path(__file__).parent
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
@@ -60,9 +61,22 @@ def _is_ours(path: Path) -> bool:
     return path.is_relative_to(_PACKAGE) and not path.is_relative_to(_PACKAGE / "examples")
 
 
+def name_of(function: Callable[..., Any]) -> str:
+    """Return the name of a function, also of one in a functools.partial; else that of its class."""
+    function = _whole(function)
+    return str(getattr(function, "__name__", type(function).__name__))
+
+
+def _whole(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the function that a functools.partial calls; any other as it is."""
+    while isinstance(function, functools.partial):
+        function = function.func
+    return function
+
+
 def definition(function: Callable[..., Any]) -> str | None:
     """Return where a function is defined, if it is Python's and not our own."""
-    code = getattr(inspect.unwrap(function), "__code__", None)
+    code = getattr(inspect.unwrap(_whole(function)), "__code__", None)
     if code is None or _is_ours(Path(code.co_filename)):
         return None
     return _place(code.co_filename, code.co_firstlineno)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -171,6 +173,16 @@ def test_a_law_that_raises_is_shown_with_its_innermost_own_line():
     line = helper.__code__.co_firstlineno + 1
     assert raised.value.where == f"test_control.py, line {line}"
     assert isinstance(raised.value.__cause__, np.linalg.LinAlgError)
+
+
+def test_a_law_of_which_parameters_were_set_is_called_by_its_own_name():
+    def hurry(robot, speed):
+        return None if speed > 1 else (speed, 0.0)
+
+    scenario = Scenario(robots=[Robot(controller=partial(partial(hurry), speed=2.0))])
+    with pytest.raises(LawError, match="hurry returned nothing") as caught:
+        World(scenario).step()
+    assert str(caught.value.where).startswith("test_control.py, line ")
 
 
 def test_a_generator_that_raises_is_shown_as_well():

@@ -5,7 +5,8 @@ import pytest
 
 from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Estimate
-from mars2d.addons.estimate import covariances, ellipse
+from mars2d.addons.estimate import ellipse
+from mars2d.reckoning import covariances
 from mars2d.scene import Scene
 from mars2d.sensors import Odometry
 
@@ -64,6 +65,13 @@ def test_the_addon_knows_what_the_function_says():
 
 def test_one_that_stands_stays_sure():
     assert not covariances(np.ones((5, 3)), AXLE, DRIFT).any()
+
+
+def test_to_turn_on_the_spot_makes_one_unsure_of_the_heading_alone():
+    turns = [(1.0, 2.0, angle) for angle in (0.0, np.pi, 3 * np.pi)]  # the last a whole turn
+    spread = covariances(turns, AXLE, DRIFT)[-1]
+    assert spread[2, 2] == pytest.approx(DRIFT**2 * 3 * np.pi * AXLE / (2 * AXLE**2))
+    assert spread[0, 0] == pytest.approx(0.0, abs=DRIFT**2)
 
 
 # -- the ellipse --------------------------------------------------------------------------------

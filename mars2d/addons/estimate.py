@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import cos, floor, log, pi, sin, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,13 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.addons.base import Addon
 from mars2d.description import entry, number, text, wrong
 from mars2d.errors import InputError, nearest
+from mars2d.reckoning import grown
 from mars2d.scene import Scene, color, faded
-from mars2d.sensors.odometry import Odometry, odometry_covariance
 
 if TYPE_CHECKING:
+    from mars2d.sensors.odometry import Odometry
     from mars2d.world import World
 
-__all__ = ["Estimate", "covariances", "ellipse"]
+__all__ = ["Estimate", "ellipse"]
 
 Float = NDArray[np.float64]
 
@@ -29,34 +30,6 @@ ROUNDING = 1e-9
 
 SMALLEST = 1e-12
 """An ellipse is at least so thick, m^2: at the start it is a point."""
-
-
-def covariances(path: ArrayLike, semiaxis: float, drift: float) -> Float:
-    """Return the covariances (T, 3, 3) of poses (T, 3) that odometry tells one after the other.
-
-    path: x [m], y [m], theta [rad, not wrapped], at each control step. semiaxis: half the distance
-    between the wheels, metres. drift: the field of Odometry, sqrt(m). The first pose is certain.
-
-    >>> straight = [(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)]
-    >>> covariances(straight, 0.5, 0.1)[-1].diagonal().round(3).tolist()
-    [0.01, 0.05, 0.04]
-    """
-    poses = np.asarray(path, dtype=float).reshape(-1, 3)
-    found = np.zeros((len(poses), 3, 3))
-    for k in range(1, len(poses)):
-        found[k] = _grown(found[k - 1], poses[k - 1], poses[k], semiaxis, drift)
-    return found
-
-
-def _grown(spread: Float, before: Float, after: Float, semiaxis: float, drift: float) -> Float:
-    """Return the covariance after an arc from one pose (3,) to another."""
-    theta = float(before[2])
-    dx, dy, turn = (after - before).tolist()
-    middle, half = theta + turn / 2, turn / 2
-    chord = sin(half) / half if half else 1.0
-    way = (cos(middle) * dx + sin(middle) * dy) / chord
-    rims = (way - semiaxis * turn, way + semiaxis * turn)
-    return odometry_covariance(spread, theta, *rims, semiaxis, drift)
 
 
 def ellipse(center: ArrayLike, covariance: ArrayLike, probability: float = 0.95) -> Float:
@@ -109,6 +82,7 @@ class Estimate(Addon):
         self._semiaxis = float(axle)
         start = self._sensor.origin == "start"
         self._origin = np.array(robot.pose if start else (0.0, 0.0, 0.0))
+        self._last: Float | None = None
         self._path: list[Float] = []
         self._kept: list[Float] = []
         self.covariance = np.zeros((3, 3))
@@ -121,9 +95,11 @@ class Estimate(Addon):
             raise wrong("Estimate.robot", self.robot, f"a robot's name{nearest(self.robot, names)}")
         for index, robot in enumerate(robots):
             for sensor in robot.sensors:
-                if isinstance(sensor, Odometry) and self.robot in (None, robot.name):
-                    return index, sensor
-        raise InputError(f"Estimate: {self.robot or 'no robot'} has no sensor Odometry to draw")
+                reckons = hasattr(sensor, "drift") and hasattr(sensor, "origin")
+                if reckons and self.robot in (None, robot.name):
+                    return index, cast("Odometry", sensor)
+        who = "no robot has a" if self.robot is None else f"{self.robot} has no"
+        raise InputError(f"Estimate: {who} sensor Odometry, whose estimate could be drawn")
 
     def on_step(self, world: World) -> None:
         """Take in what was read at the control step before."""
@@ -132,14 +108,19 @@ class Estimate(Addon):
             if len(self._kept) < floor(world.time / self.every + ROUNDING):
                 self._kept.append(self._ellipse())
 
+    def on_stop(self, world: World) -> None:
+        """Take in the last reading."""
+        self._follow(world)
+
     def _follow(self, world: World) -> None:
         """Take in the latest reading, once."""
         reading = getattr(world.robots[self._index].sense, self._sensor.key)
-        if not np.isfinite(reading).all():  # lost, or not yet there
+        if reading is self._last or not np.isfinite(reading).all():  # lost, or not yet there
             return
+        self._last = reading
         if self._path:
             before, drift = self._path[-1], self._sensor.drift
-            self.covariance = _grown(self.covariance, before, reading, self._semiaxis, drift)
+            self.covariance = grown(self.covariance, before, reading, self._semiaxis, drift)
         self._path.append(np.array(reading))
 
     def _ellipse(self) -> Float:
@@ -154,8 +135,11 @@ class Estimate(Addon):
         c, s = cos(theta), sin(theta)
         return np.column_stack([x + c * ahead - s * left, y + s * ahead + c * left])
 
-    def on_draw(self, world: World, scene: Scene) -> None:  # noqa: ARG002
+    def on_draw(self, world: World, scene: Scene) -> None:
         """Draw the path as it is believed, the ellipses that were kept, and the last one."""
+        if world.iteration == 0:
+            return
+        self._follow(world)
         if not self._path:
             return
         for rim in self._kept:

@@ -6,9 +6,9 @@ from math import cos, isfinite, sin, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mars2d.description import choice, entry, number, real, wrong
+from mars2d.reckoning import odometry_covariance, sinc
 from mars2d.scene import Scene, faded
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
 
@@ -136,10 +136,6 @@ class Odometry(Sensor):
             scene.line([(x, y), ahead], stroke=color, width=1.2)
 
 
-def _sinc(angle: float) -> float:
-    return sin(angle) / angle if angle else 1.0
-
-
 def _moved(
     pose: tuple[float, float, float], forward: float, left: float, spin: float
 ) -> tuple[float, float, float]:
@@ -148,50 +144,15 @@ def _moved(
     forward, left: metres along it in the frame that moves; spin: radians.
     """
     x, y, theta = pose
-    middle, chord = theta + spin / 2, _sinc(spin / 2)
+    middle, chord = theta + spin / 2, sinc(spin / 2)
     c, s = chord * cos(middle), chord * sin(middle)
     return x + c * forward - s * left, y + s * forward + c * left, theta + spin
 
 
 def _arc_of(dx: float, dy: float, theta: float, spin: float) -> tuple[float, float]:
     """Return (forward, left) [m] along the arc that moves by (dx, dy) [m] from heading theta."""
-    middle, chord = theta + spin / 2, _sinc(spin / 2)
+    middle, chord = theta + spin / 2, sinc(spin / 2)
     if abs(chord) < 1e-9:  # a whole turn: no arc leads there
         chord = 1.0
     c, s = cos(middle) / chord, sin(middle) / chord
     return c * dx + s * dy, c * dy - s * dx
-
-
-def odometry_covariance(
-    covariance: ArrayLike, theta: float, left: float, right: float, semiaxis: float, drift: float
-) -> Float:
-    """Return the covariance (3, 3) of dead reckoning after one more step, to first order.
-
-    covariance: (3, 3) of (x, y, theta) before. theta: the heading before, radians. left, right:
-    what the rims travelled, metres. semiaxis: half the distance between the wheels, metres. drift:
-    the field of `Odometry`, sqrt(m).
-
-    >>> after = odometry_covariance(np.zeros((3, 3)), 0.0, 1.0, 1.0, 0.5, 0.1)
-    >>> after.diagonal().round(6).tolist()
-    [0.005, 0.005, 0.02]
-
-    Source: Siegwart, Nourbakhsh and Scaramuzza (2011), equations 5.8 to 5.12, with the exact arc in
-    place of the chord of the mean heading.
-    """
-    before = np.asarray(covariance, dtype=float)
-    forward, spin = (left + right) / 2, (right - left) / (2 * semiaxis)
-    middle, half = theta + spin / 2, spin / 2
-    chord = _sinc(half)
-    # d(chord) / d(spin); the series where the difference would cancel.
-    bend = -spin / 12 if abs(spin) < 1e-3 else (cos(half) - chord) / spin
-    c, s = cos(middle), sin(middle)
-    dx, dy = chord * forward * c, chord * forward * s
-    by_pose = np.array([[1.0, 0.0, -dy], [0.0, 1.0, dx], [0.0, 0.0, 1.0]])
-    by_spin = np.array(
-        [forward * (bend * c - chord * s / 2), forward * (bend * s + chord * c / 2), 1]
-    )
-    by_forward = np.array([chord * c, chord * s, 0.0])
-    per_left = by_forward / 2 - by_spin / (2 * semiaxis)
-    per_right = by_forward / 2 + by_spin / (2 * semiaxis)
-    by_rims = drift * np.column_stack([sqrt(abs(left)) * per_left, sqrt(abs(right)) * per_right])
-    return np.asarray(by_pose @ before @ by_pose.T + by_rims @ by_rims.T)
