@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import keyword
 from collections import Counter
 from collections.abc import Iterable
 from itertools import pairwise
@@ -176,5 +177,7 @@ def law(name: str, value: object, subject: str) -> object:
 
 def identifier(name: str, value: str | None, prefix: str) -> None:
     """Refuse a part's name that can't follow the `prefix` under which a law finds it."""
-    if value is not None and not value.isidentifier():
-        raise wrong(name, value, f"letters, digits and _, as it follows {prefix}")
+    if value is None:
+        return
+    if not value.isidentifier() or value.startswith("_") or keyword.iskeyword(value):
+        raise wrong(name, value, f"letters, digits and _, a letter first, as it follows {prefix}")

@@ -52,11 +52,12 @@ class Frame:
     """What is seen at one instant.
 
     pose: (3, n) now. path: (k, 3, n), the poses at all sampling times before, from the start on.
-    readings: for each sensor's name the pairs (robot index, reading). draw_addons: adds the
-    add-ons' shapes to a scene, where they are alive. prop_pose: (3, p). contacts: those of the
-    control step that led here, and effort (n,) of the drives in it. contact_log: returns all
-    contacts so far. prop_path: (k, 3, p) and effort_path: (k, n), as path; both may be left empty.
-    messages: those that were under way in the control step that led here.
+    readings: for each sensor's name the pairs (robot index, reading). sensed: (3, n), the poses at
+    which they were read, where these are others than `pose`. draw_addons: adds the add-ons' shapes
+    to a scene, where they are alive. prop_pose: (3, p). contacts: those of the control step that
+    led here, and effort (n,) of the drives in it. contact_log: returns all contacts so far.
+    prop_path: (k, 3, p) and effort_path: (k, n), as path; both may be left empty. messages: those
+    that were under way in the control step that led here.
     """
 
     scenario: Scenario
@@ -66,6 +67,7 @@ class Frame:
     path: Float
     readings: Mapping[str, Sequence[tuple[int, Any]]] = field(default_factory=dict)
     over_message: str = ""
+    sensed: Float | None = None
     draw_addons: Callable[[Scene], None] | None = None
     prop_pose: Float = field(default_factory=lambda: np.empty((3, 0)))
     contacts: NDArray[np.void] = field(default_factory=_no_contacts)
@@ -191,11 +193,13 @@ def sensors(frame: Frame) -> Scene:
     """Return what the sensors see, each drawn by itself."""
     scene = Scene()
     colors = frame.scenario.colors
+    sensed = frame.pose if frame.sensed is None else frame.sensed
     carried = [{sensor.key: sensor for sensor in r.sensors} for r in frame.scenario.robots]
     for key, readings in frame.readings.items():
         for i, reading in readings:
             sensor = carried[i].get(key)  # a loaded record lacks sensors of the user's own
             if sensor is not None:
                 with called(f"sensor {key!r}", sensor.draw):
-                    sensor.draw(scene, frame.pose[:, i], reading, colors[i])
+                    pose = sensed if sensor.stays else frame.pose
+                    sensor.draw(scene, pose[:, i], reading, colors[i])
     return scene

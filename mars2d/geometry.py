@@ -51,7 +51,8 @@ def wrap(angle: ArrayLike) -> Float:
     >>> float(wrap(3 * np.pi))
     3.141592653589793
     """
-    return np.asarray(-((np.pi - np.asarray(angle, dtype=float)) % (2 * np.pi) - np.pi))
+    turned = (np.pi - np.asarray(angle, dtype=float)) % (2 * np.pi)
+    return np.asarray(-(turned - np.pi) + 0.0)  # 0, not -0
 
 
 def bounds_of(points: Sequence[Point] | Float) -> tuple[float, float, float, float]:

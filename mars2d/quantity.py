@@ -46,13 +46,21 @@ class Quantity:
         low, high = {"distance": (0.0, top), "angle": (-pi, pi), "color": (0.0, 1.0)}[self.kind]
         return rng.uniform(low, high, true.shape)
 
-    def tidied(self, values: Values, top: float) -> Values:
+    def limited(self, values: Values, top: float) -> Values:
         """Return values as the device gives them: within bounds, angles wrapped, or missing."""
         if self.kind == "distance":
             return np.where(values > top, inf, np.maximum(values, 0.0))
         if self.kind == "color":
             return np.asarray(np.clip(values, 0.0, 1.0), dtype=float)
         return wrap(values) if self.kind == "angle" else values
+
+    def rounded(self, values: Values, step: float, top: float) -> Values:
+        """Return values within their limits at multiples of a step, or at the limit itself."""
+        result = np.round(values / step) * step
+        if self.kind == "distance":  # not up to beyond the range
+            beyond = (result > top) & (values <= top)
+            result = np.where(beyond, np.floor(values / step) * step, result)
+        return self.limited(result, top)
 
 
 NUMBER = Quantity("value")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import platform
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from mars2d.contact import CONTACT
 from mars2d.errors import LawError, shown
+from mars2d.imperfection import as_numbers
 from mars2d.message import MESSAGE, as_of, in_flight
 from mars2d.record import Record
 from mars2d.scenario import Scenario
@@ -22,11 +24,16 @@ __all__ = ["History", "Recorder"]
 Float = NDArray[np.float64]
 
 
+RESERVED = 2**25
+"""How much memory a column takes before it grows, bytes."""
+
+
 class _Column:
     """An array that rows are appended to, its capacity doubling."""
 
     def __init__(self, shape: tuple[int, ...], dtype: Any, capacity: int) -> None:
-        self._rows = np.zeros((capacity, *shape), dtype=dtype)
+        row = max(1, prod(shape) * np.dtype(dtype).itemsize)
+        self._rows = np.zeros((max(1, min(capacity, RESERVED // row)), *shape), dtype=dtype)
         self.shape, self.dtype = shape, self._rows.dtype
 
     def write(self, row: int, value: Any) -> None:
@@ -35,6 +42,14 @@ class _Column:
             grown[:row] = self._rows[:row]
             self._rows = grown
         self._rows[row] = value
+
+    def write_block(self, row: int, values: NDArray[Any]) -> None:
+        end = row + len(values)
+        if end > len(self._rows):
+            grown = np.zeros((2 * end, *self._rows.shape[1:]), dtype=self._rows.dtype)
+            grown[:row] = self._rows[:row]
+            self._rows = grown
+        self._rows[row:end] = values
 
     def upto(self, count: int) -> NDArray[Any]:
         view = self._rows[:count]
@@ -149,17 +164,17 @@ class Recorder:
             self._contacts = [np.concatenate(self._contacts)]
         return self._contacts[0] if self._contacts else np.empty(0, dtype=CONTACT)
 
-    def write_messages(
-        self, time: float, sender: int, text: str, rows: Sequence[tuple[float, int, int]]
-    ) -> None:
-        """Write one content that was sent, and a row (arrival, receiver, status) a receiver."""
-        size = len(text.encode())
-        for arrival, receiver, status in rows:
-            row = (time, arrival, sender, receiver, size, len(self._contents), status)
-            self._messages.write(self._message_count, row)
-            self._message_count += 1
-            self._longest_flight = max(self._longest_flight, arrival - time)  # not for nan
+    def write_messages(self, text: str, rows: NDArray[np.void]) -> None:
+        """Write one content that was sent, and its rows (k,) of MESSAGE, one a receiver.
+
+        Which content it is, their field `content`, is filled in here.
+        """
+        rows["content"] = len(self._contents)
         self._contents.append(text)
+        self._messages.write_block(self._message_count, rows)
+        self._message_count += len(rows)
+        flights = rows["arrival"] - rows["time"]
+        self._longest_flight = float(np.fmax.reduce(flights, initial=self._longest_flight))
 
     def in_flight(self, time: float) -> NDArray[np.void]:
         """Return the messages that were under way in the control step that led to a time, s."""
@@ -199,16 +214,23 @@ class Recorder:
 
 def _as_reading(name: str, values: Sequence[Any]) -> NDArray[Any]:
     """Return the readings of the robots that carry sensor `name` as one array (m, ...)."""
-    try:
-        given = np.asarray(values)
-    except ValueError:  # of different shapes
-        given = np.empty(0, dtype=object)
-    if given.dtype.kind not in "bifu":
+    given = as_numbers(
+        name, values,
+        "a number, True or False, or an array of them, of the same shape on each robot (else give "
+        "the sensors other names)",
+    )  # fmt: skip
+    if given.dtype != bool and any(_is_flag(value) for value in values):
         raise LawError(
-            f"sensor {name!r} read {shown(values)}: a reading is a number, True or False, or an "
-            "array of them, of the same shape on each robot (else give the sensors other names)"
+            f"sensor {name!r} read {shown(values)}: True or False on one robot and numbers on "
+            "another; give the sensors other names"
         )
     return given
+
+
+def _is_flag(value: Any) -> bool:
+    return isinstance(value, (bool, np.bool_)) or (
+        isinstance(value, np.ndarray) and value.dtype.kind == "b"
+    )
 
 
 def _kind(dtype: np.dtype[Any], shape: tuple[int, ...]) -> str:

@@ -23,24 +23,35 @@ __all__ = ["Device", "Sense"]
 class Sense(SimpleNamespace):
     """The readings of one robot's sensors now, as attributes: ``robot.sense.proximity``."""
 
-    def __init__(self) -> None:
-        super().__init__(_due={})
+    __slots__ = ("_due", "_names")
 
-    def expect(self, name: str, measure: Callable[[], Any]) -> None:
+    def __init__(self) -> None:
+        super().__init__()
+        self._names: list[str] = []  # of all sensors
+        self._due: dict[str, Callable[[], Any]] = {}  # what measures when it is asked for
+
+    def _expect(self, name: str, measure: Callable[[], Any]) -> None:
         """Let a reading be measured when it is asked for."""
         vars(self).pop(name, None)
         self._due[name] = measure
 
     def __getattr__(self, name: str) -> Any:
-        due = vars(self).get("_due", {})
-        if name not in due:
+        if name not in self._due:
             self._refuse(name)
-        due.pop(name)()
+        self._due[name]()
+        del self._due[name]
         return vars(self)[name]
 
+    def __dir__(self) -> list[str]:
+        return [*vars(self), *self._due]
+
     def _refuse(self, name: str) -> NoReturn:
-        known = [key for key in (*vars(self), *self._due) if key != "_due"]
-        raise UnknownNameError(f"this robot has no sensor {name!r}{nearest(name, known)}")
+        if name in self._names:
+            raise UnknownNameError(
+                f"sensor {name!r} has no reading now: at each control step sensors are read after "
+                "the add-ons' on_step; World.observe() reads them at once"
+            )
+        raise UnknownNameError(f"this robot has no sensor {name!r}{nearest(name, self._names)}")
 
 
 class Device:
@@ -50,52 +61,68 @@ class Device:
     """
 
     def __init__(
-        self, sensor: Sensor, robot: RobotView, world: Surroundings, rng: np.random.Generator
+        self,
+        sensor: Sensor,
+        robot: RobotView,
+        world: Surroundings,
+        stream: Callable[[str], np.random.Generator],
     ) -> None:
+        """Take the sensor, its robot and world, and what makes a random stream of a name."""
         self.sensor = sensor.live()
         self.key, self.robot = sensor.key, robot.index
         self.reading: Any = None
-        self._robot, self._world, self._rng = robot, world, rng
+        self._robot, self._world = robot, world
+        self._stream, self._name = stream, f"sensor {robot.name} {sensor.key}"
+        self._rng = stream(self._name)
         self._sense: Sense = robot.sense
+        self._sense._names.append(self.key)
         self._period = sensor.period(world.sampling_time)
         self._age = sensor.age(world.sampling_time)
         self._on_its_way: deque[tuple[int, Any]] = deque()
-        self._when_asked = not sensor.recorded and self._period == 1 and self._age == 0
-        self._follows = type(sensor).on_step is not Sensor.on_step
+        self.when_asked = not sensor.recorded and self._period == 1 and self._age == 0
+        self.follows = type(sensor).on_step is not Sensor.on_step
         with called(f"sensor {self.key!r}", self.sensor.on_start):
-            self.sensor.on_start(robot, world, rng)
+            self.sensor.on_start(robot, world, self._rng)
+
+    def follow(self) -> None:
+        """Do what the sensor does at each control step, whether it is read or not."""
+        with called(f"sensor {self.key!r}", self.sensor.on_step):
+            self.sensor.on_step(self._robot, self._world, self._rng)
 
     def step(self, iteration: int) -> None:
-        """Do what a control step asks for: measure, if it is time, and show what has arrived."""
-        if self._follows:
-            with called(f"sensor {self.key!r}", self.sensor.on_step):
-                self.sensor.on_step(self._robot, self._world, self._rng)
-        if self._when_asked:
+        """Measure, if it is time, and show what has arrived."""
+        if self.when_asked:
             self.reading = None
-            self._sense.expect(self.key, self._measure_now)
+            self._sense._expect(self.key, lambda: self._take(self._measured_when_asked(iteration)))
         elif self._age == 0:
             if iteration % self._period == 0:
-                self._measure_now()
+                self._take(self._measured(self._rng))
         else:
             self._wait(iteration)
+
+    def close(self) -> None:
+        """Let nothing of this control step be measured any more, since things begin to move."""
+        self._sense._due.pop(self.key, None)
 
     def _wait(self, iteration: int) -> None:
         """Measure, if it is time, for later, and take what arrives now."""
         if iteration % self._period == 0:
-            measured = self._measured()
+            measured = self._measured(self._rng)
             if self.reading is None:
-                self._take(self.sensor.lost(measured))
+                with called(f"sensor {self.key!r}", self.sensor.read):
+                    self._take(self.sensor.lost(measured))
             self._on_its_way.append((iteration + self._age, measured))
         if self._on_its_way and self._on_its_way[0][0] <= iteration:
             self._take(self._on_its_way.popleft()[1])
 
-    def _measure_now(self) -> None:
-        self._take(self._measured())
+    def _measured_when_asked(self, iteration: int) -> Any:
+        """Measure with random numbers of this control step's own: asking changes nothing later."""
+        return self._measured(self._stream(f"{self._name} {iteration}"))
 
-    def _measured(self) -> Any:
+    def _measured(self, rng: np.random.Generator) -> Any:
         with called(f"sensor {self.key!r}", self.sensor.read):
-            reading = self.sensor.read(self._robot, self._world, self._rng)
-            return _kept(self.sensor.measured(reading, self._rng))
+            reading = self.sensor.read(self._robot, self._world, rng)
+            return _kept(self.sensor.measured(reading, rng))
 
     def _take(self, reading: Any) -> None:
         """Let this be the reading from now on."""

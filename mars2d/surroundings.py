@@ -17,7 +17,7 @@ from mars2d.space import Space
 from mars2d.usercode import called
 
 if TYPE_CHECKING:
-    from mars2d.world import World
+    from mars2d.world import Addons, World
 
 __all__ = ["Around"]
 
@@ -106,6 +106,11 @@ class Around:
     @cached_property
     def _addons(self) -> tuple[Addon, ...]:
         return tuple(vars(self._world.addons).values())
+
+    @property
+    def addons(self) -> Addons:
+        """The add-ons by name, as ``world.addons``."""
+        return self._world.addons
 
     @property
     def beacons(self) -> Mapping[str, Point]:

@@ -21,7 +21,7 @@ from mars2d.control import Law, commands, team_command
 from mars2d.delay import DelayLine
 from mars2d.description import wrong
 from mars2d.engine import Engine
-from mars2d.errors import InputError, LawError, UnknownNameError, nearest
+from mars2d.errors import InputError, LawError, UnknownNameError, described, nearest
 from mars2d.frame import Frame
 from mars2d.geometry import Outline, outside_polygon
 from mars2d.kinematics import Kinematics
@@ -125,10 +125,12 @@ class World:
         """Put the sensors on the robots; they know all of the world, whatever the laws see."""
         around = self.surroundings
         self._devices = [
-            Device(sensor, view, around, self.stream(f"sensor {robot.name} {sensor.key}"))
+            Device(sensor, view, around, self.stream)
             for robot, view in zip(self.scenario.robots, self.robots, strict=True)
             for sensor in robot.sensors
         ]
+        self._following = [device for device in self._devices if device.follows]
+        self._when_asked = [device for device in self._devices if device.when_asked]
 
     def _build_laws(self, control: Callable[[World], Any] | None) -> None:
         self._own = [
@@ -299,7 +301,7 @@ class World:
 
         All robots are sensed before any is commanded. To be called again does nothing.
         """
-        if self._observed != self.iteration:
+        if self._observed != self.iteration and not self.over:
             with self._busy():
                 self._observe()
             if self.over:  # an add-on has stopped it
@@ -307,7 +309,7 @@ class World:
 
     @contextmanager
     def _busy(self) -> Iterator[None]:
-        """Refuse to be entered from within; an error of the user's code ends the experiment."""
+        """Refuse to be entered from within; what breaks a step off ends the experiment."""
         if self._stepping:
             raise InputError(
                 "world.step() was called from within a step: by a law, sensor or add-on"
@@ -318,6 +320,14 @@ class World:
         except LawError as error:
             self.break_off(f"Error: {error}")
             error.record = self.record
+            raise
+        except InputError:  # of what was given to step(): it may be called again
+            raise
+        except KeyboardInterrupt:
+            self.break_off("Interrupted by Ctrl-C")
+            raise
+        except BaseException as error:  # a step that was not finished can't be gone on from
+            self.break_off(f"Error: {described(error)}")
             raise
         finally:
             self._stepping = False
@@ -355,6 +365,8 @@ class World:
             self._read_sensors()
 
     def _read_sensors(self) -> None:
+        for device in self._following:
+            device.follow()
         for device in self._devices:
             device.step(self.iteration)
 
@@ -418,6 +430,8 @@ class World:
 
     def _drive(self) -> None:
         """Move the robots for one sampling time under the commands in effect."""
+        for device in self._when_asked:
+            device.close()
         time = self.time
         self._drives.draw()
         self._driven = []

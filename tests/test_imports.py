@@ -38,7 +38,7 @@ LAYERS = [
         "quantity",
         "neighbours",
     },
-    {"shapes", "bearings", "reckoning"},
+    {"shapes", "bearings", "imperfection", "reckoning"},
     {"bodies", "sensors", "addons", "animation", "joints", "rigid"},
     {"props", "robot", "tie", "starts", "encounter", "sensing"},
     {"looks", "limits", "floor", "tethers"},

@@ -12,7 +12,7 @@ import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.sensors import Proximity, RangeFinder, Sensor, SonarRing
-from mars2d.sensors.base import ANGLE, COLOR, DISTANCE, FLAG, NUMBER
+from mars2d.sensors.base import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 
 MANY = 40_000
 
@@ -384,3 +384,203 @@ def test_a_reading_without_its_quantities_is_refused():
 
     with pytest.raises(LawError, match="it measures 2 quantities, so the last axis"):
         measured(Flat(noise=0.1))
+
+
+# -- what a review has found ---------------------------------------------------------------------
+
+
+class Pairs(Sensor):
+    """Reads two whole numbers."""
+
+    quantities: ClassVar = (Quantity("a"), Quantity("b"))
+
+    def read(self, robot, world, rng):
+        return [1, 2]
+
+
+class Three(Sensor):
+    def read(self, robot, world, rng):
+        return 3
+
+
+@pytest.mark.parametrize("kind", [Pairs, Three])
+@pytest.mark.parametrize("faults", [{"latency": 0.2}, {"dropouts": 1.0}])
+def test_whole_numbers_that_are_lost_or_late_read_nan(kind, faults):
+    sensor = kind(**faults)
+    record = mars2d.run(Scenario(robots=[Robot(sensors=[sensor])], stop_time=0.1))
+    assert np.isnan(record.sensors[sensor.key]).all()
+
+
+@pytest.mark.parametrize("faults", [{}, {"latency": 0.2}, {"dropouts": 0.5}, {"noise": 0.1}])
+@pytest.mark.parametrize("reading", [[[1], [2, 3]], "near", None])
+def test_what_is_no_reading_is_a_named_error_whatever_is_done_to_it(faults, reading):
+    class Odd(Sensor):
+        def read(self, robot, world, rng):
+            return reading
+
+    with pytest.raises(LawError, match=r"sensor 'odd' read .*: a reading is a number"):
+        mars2d.run(Scenario(robots=[Robot(sensors=[Odd(**faults)])], stop_time=1))
+
+
+def test_rounding_does_not_leave_the_limits():
+    assert measured(Distances(value=0.5, range=0.5, resolution=0.3, count=1)) == [0.3]
+    assert measured(Distances(value=0.4, range=0.5, resolution=0.3, count=1)) == [0.3]
+    assert measured(Angles(value=3.1, resolution=0.65, count=1)) == pytest.approx([3.25 - 2 * pi])
+    assert measured(Colors(value=0.9, resolution=0.6, count=3)).tolist() == [1, 1, 1]
+
+
+def test_a_heading_straight_ahead_is_zero_and_not_minus_zero():
+    assert not np.signbit(measured(Angles(value=0.0, count=1)))[0]
+    assert not np.signbit(measured(Angles(value=2 * pi, count=1)))[0]
+
+
+def test_an_outlier_makes_no_angle_and_no_colour_of_nothing():
+    for kind in (Angles, Colors):
+        assert np.isnan(measured(Missing(kind=kind.__name__, outliers=0.5))).all()
+
+
+class Missing(Constant):
+    """Reads nan, of the quantity of another class."""
+
+    kind: str = "Angles"
+
+    @property
+    def quantities(self):
+        return {"Angles": Angles, "Colors": Colors}[self.kind].quantities
+
+    def read(self, robot, world, rng):
+        return np.full((self.count, 3), nan)
+
+
+def test_a_pixel_is_lost_and_struck_as_a_whole():
+    class Camera(Constant):
+        quantities: ClassVar = (COLOR,)
+
+        def read(self, robot, world, rng):
+            return np.full((self.count, 3), 0.5)
+
+    lost = np.isnan(measured(Camera(dropouts=0.3)))
+    assert lost.any(axis=1).mean() == pytest.approx(0.3, abs=0.02)
+    assert (lost.any(axis=1) == lost.all(axis=1)).all()
+    struck = measured(Camera(outliers=0.3)) != 0.5
+    assert (struck.any(axis=1) == struck.all(axis=1)).all()
+    assert struck.any(axis=1).mean() == pytest.approx(0.3, abs=0.02)
+
+
+@pytest.mark.parametrize("rate", [1e-310, 5e-324, 1e-5])
+def test_a_rate_of_next_to_nothing_is_refused(rate):
+    with pytest.raises(
+        InputError, match=r"Proximity of robot0: rate = .*one measurement in at most"
+    ):
+        Scenario(robots=[Robot(sensors=[Proximity(range=1, rate=rate)])])
+
+
+@pytest.mark.parametrize("field", ["noise", "resolution"])
+@pytest.mark.parametrize("value", [1e308, 1e-320, (0.1, 1e300)])
+def test_noise_and_resolution_are_numbers_that_can_be_reckoned_with(field, value):
+    with pytest.raises(InputError, match=rf"{field} = .*expected a .*: 0, or from 1e-12 to 1e6"):
+        RangeFinder(**{field: value})
+
+
+@pytest.mark.parametrize("name", ["_due", "__class__", "class", "_expect", "two words"])
+def test_a_sensor_can_not_have_a_name_that_no_law_could_write(name):
+    with pytest.raises(InputError, match=r"Proximity\.name = "):
+        Proximity(range=1, name=name)
+
+
+def test_asking_a_sensor_that_is_not_recorded_changes_nothing_later():
+    """Its noise is that of the control step, however often and by whom it was asked before."""
+    noisy = Constant(count=1, noise=0.1, recorded=False)
+
+    def readings(asked):
+        world = World(Scenario(robots=[Robot(sensors=[noisy])]), seed=1)
+        found = {}
+        for step in range(8):
+            world.observe()
+            if step in asked:
+                found[step] = float(world.robots[0].sense.constant[0])
+                assert found[step] == float(world.robots[0].sense.constant[0])
+            world.step([[0], [0]])
+        return found
+
+    often, seldom = readings(range(8)), readings([3, 6])
+    assert seldom == {step: often[step] for step in (3, 6)}
+    assert len(set(often.values())) == 8
+
+
+def test_a_sensor_that_was_not_asked_in_its_control_step_has_no_reading_after_it():
+    world = World(Scenario(robots=[Robot(sensors=[Constant(count=1, recorded=False)])]))
+    world.step([[0], [0]])
+    with pytest.raises(AttributeError, match="'constant' has no reading now"):
+        _ = world.robots[0].sense.constant
+    assert dir(world.robots[0].sense) == []
+
+
+def test_a_reading_that_fails_when_it_is_asked_for_can_be_asked_for_again():
+    class Bad(Sensor):
+        def read(self, robot, world, rng):
+            raise RuntimeError("no")
+
+    world = World(Scenario(robots=[Robot(sensors=[Bad(recorded=False)])]))
+    world.observe()
+    for _ in range(2):
+        with pytest.raises(LawError, match="sensor 'bad' raised RuntimeError: no"):
+            _ = world.robots[0].sense.bad
+
+
+def test_an_add_on_that_comes_before_the_first_reading_is_told_so():
+    class Early(mars2d.Addon):
+        def on_step(self, world):
+            _ = world.robots[0].sense.constant
+
+    robot = Robot(sensors=[Constant(count=1)])
+    with pytest.raises(LawError, match=r"'constant' has no reading now.*after the add-ons"):
+        mars2d.run(Scenario(robots=[robot], addons=[Early()]))
+
+
+def test_a_sensor_may_ask_the_add_ons():
+    class Gas(mars2d.Addon):
+        amount: float = 3.0
+
+    class Nose(Sensor):
+        def read(self, robot, world, rng):
+            return world.addons.gas.amount
+
+    record = mars2d.run(Scenario(robots=[Robot(sensors=[Nose()])], addons=[Gas()], stop_time=0.1))
+    assert (record.sensors["nose"] == 3).all()
+
+
+def test_all_sensors_follow_before_any_is_read():
+    """What one keeps in its add-on or class is the same for whoever reads it in a control step."""
+    seen = []
+
+    class Follower(Sensor):
+        def on_step(self, robot, world, rng):
+            seen.append(("step", robot.index))
+
+        def read(self, robot, world, rng):
+            seen.append(("read", robot.index))
+            return 0.0
+
+    follower = Robot(sensors=[Follower()])
+    World(Scenario(robots=[follower.at(0, 0), follower.at(1, 0)])).observe()
+    assert seen == [("step", 0), ("step", 1), ("read", 0), ("read", 1)]
+
+
+def test_truth_values_and_numbers_under_one_name_are_refused():
+    class Odd(Sensor):
+        def read(self, robot, world, rng):
+            return robot.index == 0 if robot.index == 0 else 3.0
+
+    odd = Robot(sensors=[Odd()])
+    with pytest.raises(LawError, match="True or False on one robot and numbers on another"):
+        mars2d.run(Scenario(robots=[odd.at(0, 0), odd.at(1, 0)], stop_time=1))
+
+
+def test_a_record_takes_no_more_memory_than_its_first_rows_need():
+    wide = Robot(sensors=[RangeFinder(beams=10_000)])
+    robots = [wide.at(0.4 * i, 0) for i in range(10)]
+    world = World(Scenario(robots=robots, stop_time=1e4, workspace=None))
+    world.step(np.zeros((2, 10)))
+    column = world._recorder._sensors["range_finder"]._rows
+    assert column.nbytes <= 2**25

@@ -489,3 +489,46 @@ def test_a_frame_shows_props_contacts_and_efforts_of_this_instant():
     assert frame.contacts.tobytes() == world.contacts.tobytes()
     assert frame.effort.tolist() == world.effort.tolist()
     assert len(frame.contact_log()) == len(world.record.contacts) > len(frame.contacts) == 1
+
+
+# -- a step that is broken off --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("hook", ["on_step", "law"])
+def test_a_world_that_was_interrupted_within_a_step_is_over(hook):
+    class Stop(Addon):
+        def on_step(self, world):
+            if hook == "on_step" and world.iteration == 2:
+                raise KeyboardInterrupt
+
+    def law(robot):
+        if hook == "law" and robot.time > 0.15:
+            raise KeyboardInterrupt
+        return 0.1, 0.0
+
+    world = World(Scenario(robots=[Robot(controller=law)], addons=[Stop()]))
+    world.step()
+    world.step()
+    with pytest.raises(KeyboardInterrupt):
+        world.step()
+    assert world.over
+    assert world.over_message == "Interrupted by Ctrl-C"
+    assert len(world.record) == 2
+    with pytest.raises(InputError, match="the experiment is over"):
+        world.step()
+
+
+def test_a_command_that_is_refused_does_not_end_the_experiment():
+    world = World(Scenario())
+    with pytest.raises(InputError, match="was given"):
+        world.step("fast")
+    world.step([[0.1], [0]])
+    assert len(world.record) == 1
+
+
+def test_to_observe_a_world_that_was_broken_off_does_nothing():
+    world = World(Scenario())
+    world.step([[0], [0]])
+    world.break_off("enough")
+    world.observe()
+    assert len(world.record) == 1

@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d import checks
 from mars2d.description import Check, entry, flag, number, real, text, wrong
-from mars2d.errors import InputError, LawError, shown
+from mars2d.errors import InputError
 from mars2d.geometry import Point
+from mars2d.imperfection import Imperfection
 from mars2d.live import Live
 from mars2d.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 from mars2d.registry import snake_case
@@ -21,6 +22,7 @@ from mars2d.scene import Scene
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
+    from mars2d.world import Addons
 
 __all__ = [
     "ANGLE",
@@ -47,7 +49,7 @@ ROUNDING = 1e-9
 """Times that differ by less are the same, in sampling times."""
 
 MOST_WAITING = 100_000
-"""How many control steps a measurement may be on its way."""
+"""How many control steps may lie between measurements, or one may be on its way."""
 
 
 class Surroundings(Protocol):
@@ -72,6 +74,10 @@ class Surroundings(Protocol):
     @property
     def prop_pose(self) -> Float:
         """The poses of all props, (3, p)."""
+
+    @property
+    def addons(self) -> Addons:
+        """The add-ons by name: what of the experiment's own there is to measure."""
 
     @property
     def beacons(self) -> Mapping[str, Point]:
@@ -100,7 +106,8 @@ class Surroundings(Protocol):
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
         """Return how far rays at angles (k,) go, (k,) metres; inf where nothing is hit.
 
-        length: of all rays, or (k,). A ray that starts inside something goes 0 m.
+        length: of all rays, or (k,). A ray that starts inside a robot or prop goes 0 m. Obstacles
+        are outlines: within one of them a ray goes on to its edge.
         """
 
     def sight(
@@ -132,18 +139,17 @@ class Sighting(NamedTuple):
 
 
 def _spread(what: str) -> Check:
-    """Return a check for a number >= 0, or one for each quantity."""
+    """Return a check for 0 or a number from 1e-12 to 1e6, or one for each quantity."""
+    expected = f"{what}: 0, or from 1e-12 to 1e6; one number, or one for each quantity"
 
     def check(name: str, value: object) -> float | tuple[float, ...]:
         if isinstance(value, (tuple, list, np.ndarray)):
             each = tuple(real(f"{name}[{i}]", item) for i, item in enumerate(value))
-            if each and min(each) >= 0:
-                return each
         else:
-            one = real(name, value, f"{what}, or one for each quantity")
-            if one >= 0:
-                return one
-        raise wrong(name, value, f"{what}, or one for each quantity")
+            each = (real(name, value, expected),)
+        if not each or not all(one == 0 or 1e-12 <= one <= 1e6 for one in each):
+            raise wrong(name, value, expected)
+        return each if isinstance(value, (tuple, list, np.ndarray)) else each[0]
 
     return check
 
@@ -172,6 +178,12 @@ class Sensor(Live):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (NUMBER,)
 
+    stays: ClassVar[bool] = False
+    """Whether what it draws lies where things are, as the points that a laser has met.
+
+    Then a film that shows a robot between control steps draws it where it was when it measured.
+    """
+
     name: str | None = text(default=None, optional=True, doc="the name of the reading")
     mount: tuple[float, float, float] = entry(
         default=(0.0, 0.0, 0.0), check=checks.pose, unit="m, m, rad",
@@ -185,7 +197,7 @@ class Sensor(Live):
         default=0.0, low=0, high=1e4, unit="s", doc="from a measurement to its arrival"
     )
     noise: float | tuple[float, ...] = entry(
-        default=0.0, check=_spread("a standard deviation >= 0"),
+        default=0.0, check=_spread("a standard deviation"),
         doc="standard deviation, in the reading's unit; one number, or one for each quantity",
     )  # fmt: skip
     outliers: float = number(
@@ -193,7 +205,7 @@ class Sensor(Live):
     )
     dropouts: float = number(default=0.0, low=0, high=1, doc="probability that a value is lost")
     resolution: float | tuple[float, ...] = entry(
-        default=0.0, check=_spread("a step >= 0"),
+        default=0.0, check=_spread("a step"),
         doc="values are rounded to multiples of it; one number, or one for each quantity",
     )  # fmt: skip
     recorded: bool = flag(
@@ -273,6 +285,11 @@ class Sensor(Live):
         name: of the sensor, for the message. sampling_time: between control steps, seconds.
         """
         if self.rate is not None:
+            if self.rate * sampling_time * MOST_WAITING < 1:
+                raise wrong(
+                    f"{name}: rate", self.rate,
+                    f"one measurement in at most {MOST_WAITING} x {sampling_time:g} s",
+                )  # fmt: skip
             exact = 1 / (self.rate * sampling_time)
             if abs(exact - round(exact)) > ROUNDING * exact or round(exact) < 1:
                 steps = max(round(exact), 1)
@@ -308,68 +325,24 @@ class Sensor(Live):
         return each[0], each[1]
 
     @cached_property
-    def _perfect(self) -> bool:
-        return not (any(map(any, self._spreads)) or self.outliers or self.dropouts)
+    def _imperfection(self) -> Imperfection:
+        noise, resolution = self._spreads
+        top = float(getattr(self, "range", inf))
+        return Imperfection(
+            self.key, self.quantities, noise, resolution, self.outliers, self.dropouts, top
+        )
 
-    @cached_property
-    def _unbounded(self) -> bool:
-        """Whether there is nothing to limit or wrap."""
-        return all(quantity.kind in ("number", "flag") for quantity in self.quantities)
+    @property
+    def _perfect(self) -> bool:
+        return self._imperfection.none
 
     def measured(self, reading: Any, rng: np.random.Generator) -> Any:
         """Return what the device makes of a perfect reading: noise and all but the latency."""
-        if self._perfect and self._unbounded:
-            return reading
-        true = self._checked(reading)
-        if len(self.quantities) == 1:
-            result = self._disturbed(true, 0, rng)
-        else:
-            columns = [self._disturbed(true[..., k], k, rng) for k in range(true.shape[-1])]
-            result = np.stack(columns, axis=-1)
-        if self.dropouts:
-            rows = result.shape if len(self.quantities) == 1 else result.shape[:-1]
-            result = np.array(result)
-            result[rng.random(rows) < self.dropouts] = self._missing(result)
-        return result if result.ndim else result.item()
+        return self._imperfection.of(reading, rng)
 
     def lost(self, reading: Any) -> Any:
         """Return what is read in place of a reading that has not arrived."""
-        result = np.array(reading)
-        result[...] = self._missing(result)
-        return result if result.ndim else result.item()
-
-    def _missing(self, result: NDArray[Any]) -> Any:
-        if result.dtype == bool:
-            return False
-        missing = [quantity.missing for quantity in self.quantities]
-        return missing[0] if len(missing) == 1 else np.array(missing)
-
-    def _checked(self, reading: Any) -> NDArray[Any]:
-        true = np.asarray(reading)
-        count = len(self.quantities)
-        if count > 1 and (true.ndim == 0 or true.shape[-1] != count):
-            raise LawError(
-                f"sensor {self.key!r} read {shown(reading)}: it measures {count} quantities, so "
-                f"the last axis of its reading must have {count} entries"
-            )
-        if true.dtype == bool and any(map(any, self._spreads)):
-            raise LawError(
-                f"sensor {self.key!r} read {shown(reading)}: True or False has neither noise nor "
-                "resolution; give it outliers or drop-outs"
-            )
-        return true
-
-    def _disturbed(self, true: NDArray[Any], k: int, rng: np.random.Generator) -> NDArray[Any]:
-        """Return true values of quantity k with noise, outliers, limits and resolution."""
-        quantity = FLAG if true.dtype == bool else self.quantities[k]
-        noise, step = self._spreads[0][k], self._spreads[1][k]
-        top = getattr(self, "range", inf) if quantity.kind == "distance" else inf
-        values = true + noise * rng.standard_normal(true.shape) if noise else true
-        if self.outliers:
-            struck = rng.random(true.shape) < self.outliers
-            values = np.where(struck, quantity.outlier(true, noise, top, rng), values)
-        values = quantity.tidied(values, top)
-        return np.round(values / step) * step if step else np.asarray(values)
+        return self._imperfection.lost(reading)
 
 
 def beam_angles(count: int, field_of_view: float) -> Float:

@@ -91,6 +91,7 @@ class Beacon(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (RANGE, BEARING)
+    stays: ClassVar[bool] = True
 
     range: float = number(default=100.0, above=0, high=1e6, unit="m", doc="how far it sees")
     field_of_view: float = number(

@@ -30,6 +30,7 @@ class LineCamera(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (COLOR,)
+    stays: ClassVar[bool] = True
 
     pixels: int = integer(default=64, low=1, high=100_000, doc="how many pixels it has")
     range: float = number(default=10.0, above=0, high=1e6, unit="m", doc="how far it sees")

@@ -32,6 +32,7 @@ class RangeFinder(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (DISTANCE,)
+    stays: ClassVar[bool] = True
 
     beams: int = integer(default=180, low=1, high=100_000, doc="how many beams it has")
     range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")

@@ -33,6 +33,7 @@ class SonarRing(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (DISTANCE,)
+    stays: ClassVar[bool] = True
 
     sonars: int = integer(default=8, low=1, high=10_000, doc="how many sonars it has")
     cone: float = number(

@@ -208,6 +208,7 @@ def between(first: Frame, second: Frame, time: float) -> Frame:
         first,
         time=max(time, first.time),
         pose=first.pose + share * (second.pose - first.pose),
+        sensed=first.pose,
         path=second.path,
         prop_pose=first.prop_pose + share * (second.prop_pose - first.prop_pose),
         prop_path=second.prop_path,

@@ -5,7 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mars2d import Robot, Scenario, World
+from mars2d.addons import Map
 from mars2d.errors import InputError, LawError
+from mars2d.frame import sensors
+from mars2d.sensors import Proximity, RangeFinder
 from mars2d.view import keys
 from mars2d.view.player import SPEEDS, Player, between
 from tests.view.circling import Circling, circling_scenario
@@ -197,6 +201,25 @@ def test_between_two_frames_props_move_and_contacts_are_those_under_way():
 
 
 # -- keys -----------------------------------------------------------------------------------------
+
+
+def test_between_two_frames_what_a_laser_has_met_stays_where_it_is():
+    laser = RangeFinder(beams=4, range=3.0)
+    wall = Map([[(2, -5), (2, 5)]])
+    robot = Robot(sensors=[laser, Proximity(range=0.5)])
+    world = World(Scenario(robots=[robot], addons=[wall], sampling_time=1.0))
+    frames = []
+    for _ in range(2):
+        world.observe()
+        frames.append(world.frame)
+        world.step([[0.4], [0.5]])
+    between_them = between(frames[0], frames[1], 0.5)
+    fan, hits, sector = sensors(frames[0]).shapes
+    fan_later, hits_later, sector_later = sensors(between_them).shapes
+    assert np.array_equal(hits.points, hits_later.points)
+    assert np.array_equal(fan.points, fan_later.points)
+    assert sector_later.center == pytest.approx(between_them.pose[:2, 0])
+    assert sector_later.center != sector.center
 
 
 def test_every_key_has_its_own_command():
