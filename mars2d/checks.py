@@ -24,6 +24,7 @@ __all__ = [
     "outline",
     "outlines",
     "point",
+    "polylines",
     "pose",
     "unique",
 ]
@@ -81,12 +82,19 @@ def outline(name: str, value: object, least: int = 2) -> Outline:
         points.pop()  # a ring written closed
     if len(points) < least:
         raise wrong(name, value, f"{expected}, at least {least} different ones")
-    for i, (a, b) in enumerate(pairwise([*points, points[0]] if len(points) > 2 else points)):
-        if np.hypot(a[0] - b[0], a[1] - b[1]) < 1e-6:
-            raise InputError(f"{name}: vertices {i} and {(i + 1) % len(points)} are the same, {a}")
+    _check_apart(name, [*points, points[0]] if len(points) > 2 else points)
     if len(points) > 2:
         _check_ring(name, points)
     return tuple(points)
+
+
+def _check_apart(name: str, points: list[Point]) -> None:
+    """Refuse vertices one after the other that are the same; the first one may end the list."""
+    last = len(points) - 1
+    for i, (a, b) in enumerate(pairwise(points)):
+        if np.hypot(a[0] - b[0], a[1] - b[1]) < 1e-6:
+            after = 0 if i + 1 == last and points[last] is points[0] else i + 1
+            raise InputError(f"{name}: vertices {i} and {after} are the same, {a}")
 
 
 def _check_ring(name: str, points: list[Point]) -> None:
@@ -104,6 +112,23 @@ def _check_ring(name: str, points: list[Point]) -> None:
         )
     if straight or ring.area < 1e-9:
         raise wrong(name, points, "a polygon with an area; its vertices lie on one line")
+
+
+def polylines(name: str, value: object) -> tuple[Outline, ...]:
+    """Check a list of open lines, each of two or more vertices."""
+    items = _items(name, value, "a list of walls, each [(x, y), ...] in metres")
+    if items and _is_point(items[0]):
+        raise wrong(name, value, "a list of walls: put one more pair of brackets round it")
+    return tuple(_polyline(f"{name}[{i}]", item) for i, item in enumerate(items))
+
+
+def _polyline(name: str, value: object) -> Outline:
+    expected = "a wall's vertices, as [(x, y), ...] in metres, at least 2"
+    points = [point(f"{name}[{i}]", p) for i, p in enumerate(_items(name, value, expected))]
+    if len(points) < 2:
+        raise wrong(name, value, expected)
+    _check_apart(name, points)
+    return tuple(points)
 
 
 def outlines(name: str, value: object) -> tuple[Outline, ...]:

@@ -20,6 +20,7 @@ from mars2d.usercode import called
 
 __all__ = [
     "Frame",
+    "addons",
     "floor",
     "initial_poses",
     "joints",
@@ -41,6 +42,17 @@ PROP_TRAIL_WIDTH = 1.0
 
 def _no_contacts() -> NDArray[np.void]:
     return np.empty(0, dtype=CONTACT)
+
+
+def addons(frame: Frame) -> Scene:
+    """Return what the add-ons draw: by their fields and the time, and where they are alive."""
+    scene = Scene()
+    for addon in frame.scenario.addons:
+        with called(f"add-on {addon.key!r}", addon.draw):
+            addon.draw(scene, frame.time)
+    if frame.draw_addons is not None:
+        frame.draw_addons(scene)
+    return scene
 
 
 def _no_messages() -> NDArray[np.void]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import numbers
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from math import hypot
 from typing import Any, ClassVar
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mars2d.description import Description, entry, integer, number, wrong
 from mars2d.errors import InputError, LawError, counted, shown
 
-__all__ = ["Delaunay", "Everyone", "Graph", "Nearest", "Neighbourhood", "Within"]
+__all__ = ["Delaunay", "Everyone", "Graph", "Nearest", "Neighbourhood", "Within", "within"]
 
 Float = NDArray[np.float64]
 Neighbours = Sequence[Sequence[int]]
@@ -23,6 +23,12 @@ Edges = tuple[tuple[int, int], ...]
 
 FLAT = 1e-9
 """Robots that lie off a line by less than this share of its length stand on it."""
+
+ROUNDING = 1e-9
+"""Distances that differ by less than this share of them may be one, but for rounding."""
+
+FEW = 64
+"""Of so many robots all are sorted, as that is quicker than to look for the near ones."""
 
 
 class Neighbourhood(Description):
@@ -119,6 +125,18 @@ class _Others(Sequence[Sequence[int]]):
         return self._listed[i]
 
 
+def within(dx: Float, dy: Float, distance: float) -> NDArray[np.bool_]:
+    """Return which vectors (k,), (k,) [m] are no longer than a distance, the bound included.
+
+    Where rounding decides, Python's hypot does, whose result is the same wherever it runs.
+    """
+    apart = np.hypot(dx, dy)
+    near = np.asarray(apart <= distance)
+    for k in np.flatnonzero(np.abs(apart - distance) <= ROUNDING * distance).tolist():
+        near[k] = hypot(dx[k], dy[k]) <= distance
+    return near
+
+
 class Within(Neighbourhood):
     """Those whose poses lie within a range [m]: the disc graph."""
 
@@ -130,14 +148,12 @@ class Within(Neighbourhood):
 
         # The tree compares squares, which are rounded otherwise than distances.
         tree = cKDTree(position.T)
-        near = tree.query_pairs(self.range * (1 + 1e-9), output_type="ndarray")
-        points = position.T.tolist()
-        found: list[list[int]] = [[] for _ in points]
-        for i, j in near.tolist():
-            (x, y), (u, v) = points[i], points[j]
-            if hypot(u - x, v - y) <= self.range:
-                found[i].append(j)
-                found[j].append(i)
+        pairs = tree.query_pairs(self.range * (1 + ROUNDING), output_type="ndarray")
+        dx, dy = position[:, pairs[:, 1]] - position[:, pairs[:, 0]]
+        found: list[list[int]] = [[] for _ in range(position.shape[1])]
+        for i, j in pairs[within(dx, dy, self.range)].tolist():
+            found[i].append(j)
+            found[j].append(i)
         return [sorted(others) for others in found]
 
 
@@ -149,22 +165,42 @@ class Nearest(Neighbourhood):
     def of(self, position: Float) -> Neighbours:
         """Return the nearest ones; all others, where they are fewer."""
         x, y = position
-        n, k = len(x), min(self.count, len(x) - 1)
+        k = min(self.count, len(x) - 1)
         result = []
-        for i in range(n):
-            apart = np.hypot(x - x[i], y - y[i])
-            apart[i] = np.inf
-            result.append(np.argsort(apart, kind="stable")[:k].tolist())
+        for i, near in enumerate(_candidates(position, k)):
+            apart = np.hypot(x[near] - x[i], y[near] - y[i])
+            apart[near == i] = np.inf
+            result.append(near[np.argsort(apart, kind="stable")[:k]].tolist())
         return result
+
+
+def _candidates(position: Float, k: int) -> Iterator[NDArray[np.int64]]:
+    """Yield, for each robot, indices in order with itself and its k nearest robots among them.
+
+    So all that are as far away as the last of them are in it, too.
+    """
+    n = position.shape[1]
+    if n <= FEW or 4 * k > n:
+        yield from [np.arange(n)] * n
+        return
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(position.T)
+    far = np.asarray(tree.query(position.T, k=[k + 1])[0])[:, 0]  # the nearest is oneself
+    # The tree compares squares, which are rounded otherwise than distances, and may be 0.
+    reach = far * (1 + ROUNDING) + 1e-150
+    for near in tree.query_ball_point(position.T, reach, return_sorted=True):
+        yield np.array(near, dtype=np.int64)
 
 
 class Delaunay(Neighbourhood):
     """Those whose Voronoi cells share an edge with one's own: the edges of Delaunay's triangles.
 
     The cells are those of the whole plane, so that robots at the rim have neighbours far away, too.
-    Robots on one line are neighbours in their order. Where more than three cells meet in a point,
-    which of the opposite ones are neighbours is up to the triangulation. Of several robots in one
-    place, all but one have only that one.
+    Robots on one line are neighbours in their order, those in one place by their indices; so they
+    are if all are in one place. Else, of several robots in one place, all but one have only that
+    one. Where more than three cells meet in a point, which of the opposite ones are neighbours is
+    up to the triangulation.
 
     Source: de Berg et al., Computational Geometry (2008), chapters 7 and 9.
     """
@@ -227,6 +263,12 @@ def _without_flat(simplices: NDArray[Any], points: Float, least: float) -> list[
     return list(owners)
 
 
+EXPECTED = (
+    "an adjacency matrix (n, n) of numbers, a networkx graph of the nodes 0 to n - 1, or a pair "
+    "(n, edges)"
+)
+
+
 def _edges(name: str, value: Any) -> tuple[int, Edges]:
     """Check a graph, and return the number of its nodes and its edges in order."""
     if hasattr(value, "nodes") and hasattr(value, "is_directed"):
@@ -237,16 +279,12 @@ def _edges(name: str, value: Any) -> tuple[int, Edges]:
 
 
 def _of_matrix(name: str, value: Any) -> tuple[int, Edges]:
-    expected = (
-        "an adjacency matrix (n, n) of numbers, a networkx graph of the nodes 0 to n - 1, or a "
-        "pair (n, edges)"
-    )
     try:
         matrix = np.asarray(value)
     except (TypeError, ValueError):  # such as rows of different lengths
-        raise wrong(name, value, expected) from None
+        raise wrong(name, value, EXPECTED) from None
     if matrix.dtype.kind not in "biuf" or matrix.ndim != 2:
-        raise wrong(name, value, expected)
+        raise wrong(name, value, EXPECTED)
     n, columns = matrix.shape
     if n != columns or n == 0:
         raise InputError(f"{name}: a matrix {n} x {columns}: expected as many columns as rows")
@@ -256,15 +294,18 @@ def _of_matrix(name: str, value: Any) -> tuple[int, Edges]:
 
 
 def _of_networkx(name: str, graph: Any) -> tuple[int, Edges]:
-    nodes = list(graph.nodes)
+    try:
+        nodes, edges = list(graph.nodes), [(i, j) for i, j in graph.edges()]
+        directed = bool(graph.is_directed())
+    except (TypeError, ValueError, AttributeError):  # of something that only looks like one
+        raise wrong(name, graph, EXPECTED) from None
     n = len(nodes)
     if not all(map(_whole, nodes)) or {int(v) for v in nodes} != {*range(n)} or n == 0:
         raise InputError(
             f"{name}: its nodes are {shown(nodes)}: expected 0, 1, 2, ..., the robots' indices; "
             "networkx.convert_node_labels_to_integers makes them so"
         )
-    edges = list(graph.edges())
-    if not graph.is_directed():
+    if not directed:
         edges += [(j, i) for i, j in edges]
     return _of_pairs(name, n, edges)
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import cos, isfinite, sin, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["covariances", "grown", "odometry_covariance", "sinc"]
+from mars2d.scene import Scene, faded
+
+__all__ = ["covariances", "draw_pose", "grown", "odometry_covariance", "sinc"]
 
 Float = NDArray[np.float64]
 
@@ -64,6 +66,15 @@ def grown(spread: Float, before: Float, after: Float, semiaxis: float, drift: fl
     way = straight / chord if abs(chord) > 1e-9 else 0.0  # a whole turn: no arc leads anywhere
     rims = (way - semiaxis * turn, way + semiaxis * turn)
     return odometry_covariance(spread, theta, *rims, semiaxis, drift)
+
+
+def draw_pose(scene: Scene, pose: ArrayLike, color: str) -> None:
+    """Draw a ring with a heading where something takes itself to be, a pose (3,); nan: nowhere."""
+    x, y, theta = np.asarray(pose, dtype=float).tolist()
+    if isfinite(x + y + theta):
+        scene.circle((x, y), 0.0, stroke=color, fill=faded(color, 0.15), width=1.2, pixels=6.0)
+        ahead = (x + 0.3 * cos(theta), y + 0.3 * sin(theta))
+        scene.line([(x, y), ahead], stroke=color, width=1.2)
 
 
 def covariances(path: ArrayLike, semiaxis: float, drift: float) -> Float:

@@ -29,8 +29,10 @@ __all__ = [
     "Text",
     "arrow_outline",
     "color",
+    "color_of",
     "faded",
     "optional_color",
+    "rgb",
     "wake_style",
 ]
 
@@ -87,6 +89,26 @@ def _paint(value: str | None, field: str = "fill") -> str | None:
 def faded(value: str, opacity: float) -> str:
     """Return the colour ``#rrggbb`` at an opacity from 0 to 1."""
     return f"{value[:7]}{round(255 * opacity):02x}"
+
+
+@lru_cache(maxsize=1024)
+def rgb(color: str) -> tuple[float, float, float]:
+    """Return red, green and blue, from 0 to 1, of a colour ``#rrggbb``.
+
+    >>> rgb("#ff0033")
+    (1.0, 0.0, 0.2)
+    """
+    red, green, blue = (int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return red, green, blue
+
+
+def color_of(values: Iterable[float]) -> str:
+    """Return the colour ``#rrggbb`` of red, green and blue; beyond 0 to 1 they are clipped.
+
+    >>> color_of((1.0, -0.5, 0.2))
+    '#ff0033'
+    """
+    return "#" + "".join(f"{round(255 * min(max(value, 0.0), 1.0)):02x}" for value in values)
 
 
 def wake_style(name: str, value: object) -> str:

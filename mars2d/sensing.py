@@ -38,7 +38,7 @@ class Sense(SimpleNamespace):
     def __getattr__(self, name: str) -> Any:
         if name not in self._due:
             self._refuse(name)
-        self._due[name]()
+        vars(self)[name] = self._due[name]()
         del self._due[name]
         return vars(self)[name]
 
@@ -49,7 +49,8 @@ class Sense(SimpleNamespace):
         if name in self._names:
             raise UnknownNameError(
                 f"sensor {name!r} has no reading now: at each control step sensors are read after "
-                "the add-ons' on_step; World.observe() reads them at once"
+                "the add-ons' on_step and before their on_sensed; between steps World.observe() "
+                "reads them"
             )
         raise UnknownNameError(f"this robot has no sensor {name!r}{nearest(name, self._names)}")
 
@@ -71,6 +72,7 @@ class Device:
         self.sensor = sensor.live()
         self.key, self.robot = sensor.key, robot.index
         self.reading: Any = None
+        self._shown: Any = None  # what a law gets of it
         self._robot, self._world = robot, world
         self._stream, self._name = stream, f"sensor {robot.name} {sensor.key}"
         self._rng = stream(self._name)
@@ -93,12 +95,17 @@ class Device:
         """Measure, if it is time, and show what has arrived."""
         if self.when_asked:
             self.reading = None
-            self._sense._expect(self.key, lambda: self._take(self._measured_when_asked(iteration)))
-        elif self._age == 0:
-            if iteration % self._period == 0:
-                self._take(self._measured(self._rng))
-        else:
+            self._sense._expect(self.key, lambda: self._measured_when_asked(iteration))
+            return
+        if self._age > 0:
             self._wait(iteration)
+        elif iteration % self._period == 0:
+            self._take(self._measured(self._rng))
+        vars(self._sense)[self.key] = self._shown
+
+    def hide(self) -> None:
+        """Let nobody take the reading of the control step before for that of this one."""
+        vars(self._sense).pop(self.key, None)
 
     def close(self) -> None:
         """Let nothing of this control step be measured any more, since things begin to move."""
@@ -117,7 +124,8 @@ class Device:
 
     def _measured_when_asked(self, iteration: int) -> Any:
         """Measure with random numbers of this control step's own: asking changes nothing later."""
-        return self._measured(self._stream(f"{self._name} {iteration}"))
+        self._take(self._measured(self._stream(f"{self._name} {iteration}")))
+        return self._shown
 
     def _measured(self, rng: np.random.Generator) -> Any:
         with called(f"sensor {self.key!r}", self.sensor.read):
@@ -128,7 +136,7 @@ class Device:
         """Let this be the reading from now on."""
         self.reading = reading
         with called(f"sensor {self.key!r}", self.sensor.shown):
-            vars(self._sense)[self.key] = self.sensor.shown(reading)
+            self._shown = self.sensor.shown(reading)
 
 
 def _kept(reading: Any) -> Any:

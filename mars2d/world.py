@@ -361,8 +361,11 @@ class World:
             self._observed = self.iteration
             if self._channel is not None:
                 self._channel.deliver()
+            for device in self._devices:
+                device.hide()
             self._call("on_step", self)
             self._read_sensors()
+            self._call("on_sensed", self)
 
     def _read_sensors(self) -> None:
         for device in self._following:

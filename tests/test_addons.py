@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 
+import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, LawError, Robot, Scenario, World
-from mars2d.addons import HOOKS, Addon, Map
+from mars2d import InputError, LawError, Robot, Scenario, Sensor, World, frame
+from mars2d.addons import HOOKS, Addon, Beacon, Map
+from mars2d.scene import Circle, Text
 
 
 class Counter(Addon):
@@ -46,7 +48,7 @@ def test_an_unknown_hook_is_an_error_when_the_class_is_written(hook, meant):
 
 
 def test_the_hooks_are_these():
-    assert HOOKS == ("on_start", "on_step", "on_draw", "on_stop")
+    assert HOOKS == ("on_start", "on_step", "on_sensed", "on_draw", "on_stop")
 
 
 def test_in_a_scenario_an_addon_is_frozen_and_in_a_world_it_is_not():
@@ -160,3 +162,64 @@ def test_a_subclass_of_an_addon_keeps_its_hooks():
     world = World(Scenario(addons=[Double()]))
     world.step()
     assert world.addons.double.steps == 2
+
+
+# -- sensors and replays ------------------------------------------------------------------------
+
+
+def test_an_add_on_finds_the_readings_of_this_step_in_on_sensed_and_none_before():
+    class Watch(Addon):
+        def on_start(self, world):
+            self.seen = []
+
+        def on_step(self, world):
+            with pytest.raises(AttributeError, match="'clock' has no reading now"):
+                _ = world.robots[0].sense.clock
+
+        def on_sensed(self, world):
+            self.seen.append((world.time, world.robots[0].sense.clock))
+
+    class Clock(Sensor):
+        def read(self, robot, world, rng):
+            return world.time
+
+    world = World(Scenario(robots=[Robot(sensors=[Clock()])], addons=[Watch()]))
+    for _ in range(3):
+        world.step([[0], [0]])
+    assert world.addons.watch.seen == [(t, t) for t in (0.0, 0.1, 0.2)]
+
+
+def test_what_an_add_on_draws_of_its_fields_and_the_time_is_in_a_replay(tmp_path):
+    ferry = Beacon(path=[(1, 0), (2, 0)], speed=0.5, name="ferry")
+    record = mars2d.run(Scenario(addons=[ferry], stop_time=2))
+    loaded = mars2d.load(record.save(tmp_path / "ferry.npz"))
+    scene = frame.addons(loaded.frame(10))
+    lamps = [shape for shape in scene.shapes if isinstance(shape, Circle)]
+    assert lamps[-1].center == pytest.approx((1.5, 0))
+    assert "ferry" in [s.text.strip() for s in scene.shapes if isinstance(s, Text)]
+
+
+def test_a_map_takes_walls_of_several_corners_that_stay_open():
+    corridor = Map(walls=[[(-5, 1), (2, 1), (2, 5)], [(-5, -1), (4, -1), (4, 5)]])
+    assert corridor.obstacles() == (
+        ((-5, 1), (2, 1)), ((2, 1), (2, 5)), ((-5, -1), (4, -1)), ((4, -1), (4, 5)),
+    )  # fmt: skip
+    world = World(Scenario(addons=[corridor]))
+    assert world.surroundings.ray((0, 0), 0.0, 9.0, 0) == pytest.approx(4)
+    assert world.surroundings.ray((0, 0), np.pi / 2, 9.0, 0) == pytest.approx(1)
+
+
+def test_a_wall_is_checked_as_outlines_are_but_may_cross_itself():
+    Map(walls=[[(0, 0), (2, 2), (2, 0), (0, 2)]])
+    for walls, message in [
+        ([(0, 0), (1, 0)], "one more pair of brackets"),
+        ([[(0, 0)]], "at least 2"),
+        ([[(0, 0), (0, 0), (1, 1)]], "vertices 0 and 1 are the same"),
+    ]:
+        with pytest.raises(InputError, match=rf"Map\.walls.*{message}"):
+            Map(walls=walls)
+
+
+def test_a_map_without_anything_is_an_error():
+    with pytest.raises(InputError, match="Map: expected outlines or walls"):
+        Map()

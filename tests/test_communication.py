@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+import time
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ from mars2d.message import (
     Message,
     as_text,
 )
-from mars2d.neighbours import Graph, Nearest, Within
+from mars2d.neighbours import Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.output.figure import plot_paths
 from mars2d.rerun import rerun
 from mars2d.scene import Arrow, Line
@@ -37,6 +38,14 @@ from mars2d.view.picture import paint_frame
 from mars2d.view.player import between
 
 STILL = (0.0, 0.0)
+
+
+class Ahead(Neighbourhood):
+    """Each robot sees the two that come after it."""
+
+    def of(self, position):
+        n = position.shape[1]
+        return [[(i + 1) % n, (i + 2) % n] for i in range(n)]
 
 
 def team(count=3, gap=1.0, **fields) -> Scenario:
@@ -294,6 +303,33 @@ def test_each_receiver_has_a_copy_of_its_own():
     assert json.loads(world.record.contents[0]) == [1, 2]
 
 
+def test_in_one_control_step_a_message_is_the_same_object_at_each_look():
+    world = World(team(2))
+    world.robots[0].send([1])
+    stand(world)
+    world.observe()
+    assert world.robots[1].inbox[0] is world.robots[1].inbox[0]
+
+
+def test_a_content_is_parsed_once_and_only_if_somebody_looks(monkeypatch):
+    texts = []
+
+    def loads(text):
+        texts.append(text)
+        return parsed(text)
+
+    parsed = json.loads
+    monkeypatch.setattr(json, "loads", loads)
+    world = World(team(9))
+    for content in (3, [1, 2]):
+        world.robots[0].send(content)
+    stand(world)
+    world.observe()
+    assert texts == []
+    assert [contents(robot) for robot in world.robots[1:]] == 8 * [[3, [1, 2]]]
+    assert texts == ["3", "[1,2]"]
+
+
 # -- in reach -------------------------------------------------------------------------------------
 
 
@@ -370,6 +406,50 @@ def test_by_default_neighbours_do_not_matter():
     assert heard(world) == [[], ["x"], ["x"]]
 
 
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("rule", [Within(1.2), Nearest(3), Ahead(), Everyone()], ids=repr)
+def test_a_message_reaches_those_in_range_whose_neighbour_its_sender_is(rule, seed):
+    grid = np.stack(np.divmod(np.arange(169), 13), axis=1) / 4  # many are equally far apart
+    places = np.random.default_rng(seed).permutation(grid)[:25]
+    robots = [Robot(pose=(x, y, 0), diameter=0.01) for x, y in places.tolist()]
+    talk = Communication(range=0.75, neighbours_only=True)
+    world = World(team(robots=robots, addons=[talk], neighbours=rule, physics="ideal"))
+    for robot in world.robots:
+        robot.send("all")
+        robot.send("you", to=[i for i in (3, 17) if i != robot.index])
+    stand(world)
+
+    def reached(sender, i):
+        near = math.dist(places[sender], places[i]) <= 0.75
+        return near and sender in world.neighbour_indices(i)
+
+    rows = world.record.messages
+    for sender in range(25):
+        of = rows[rows["sender"] == sender]
+        broadcast = [i for i in range(25) if i != sender and reached(sender, i)]
+        named = [i for i in (3, 17) if i != sender]
+        assert of["receiver"].tolist() == broadcast + named
+        status = [ON_ITS_WAY if reached(sender, i) else OUT_OF_REACH for i in named]
+        assert of["status"].tolist() == len(broadcast) * [ON_ITS_WAY] + status
+
+
+@pytest.mark.parametrize("rule", [Everyone(), Within(2.0)], ids=repr)
+@pytest.mark.parametrize("near", [None, 3.0])
+def test_a_crowd_of_three_hundred_may_all_speak_at_each_control_step(rule, near):
+    talk = Communication(range=near, neighbours_only=True)
+    robots = [Robot(pose=(i % 20, i // 20, 0), diameter=0.1) for i in range(300)]
+    world = World(team(robots=robots, addons=[talk], neighbours=rule, physics="ideal"))
+    times = []
+    for _ in range(4):
+        start = time.perf_counter()
+        for robot in world.robots:
+            robot.send({"at": [1.0, 2.0]})
+        stand(world)
+        times.append(time.perf_counter() - start)
+    assert min(times) < 0.1
+    assert len(world.robots[150].inbox) in (299, 28, 12)
+
+
 # -- delay ----------------------------------------------------------------------------------------
 
 
@@ -431,6 +511,16 @@ def test_a_lost_message_never_arrives_and_the_sender_is_not_told():
     assert heard(world) == [[], []]
     assert world.record.messages["status"].tolist() == [LOST]
     assert np.isnan(world.record.messages["arrival"]).all()
+
+
+def test_losses_are_drawn_link_by_link_in_the_order_of_senders_and_receivers():
+    def say(world):
+        for i in (2, 0, 1):
+            world.robots[i].send(i)
+
+    record = talking(team(4, talk=Communication(loss=0.3, range=2.0), stop_time=3.0), say, seed=8)
+    drawn = World(record.scenario, seed=8).stream("add-on communication")
+    assert lost(record).tolist() == [drawn.random() < 0.3 for _ in record.messages]
 
 
 def test_each_receiver_loses_a_message_by_itself():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from math import nan
 
 import numpy as np
@@ -64,10 +65,68 @@ def test_the_later_patch_and_the_later_floor_lie_on_top():
     assert read_at((0, 0), below, above) == [1, 0, 0]
 
 
+FLOORS = {
+    "one": [Floor(patches=[(SQUARE, "#ff0000")])],
+    "two": [Floor(color="#ff0000"), Floor(name="upper", patches=[(SQUARE, "#0000ff")])],
+    "white over red": [Floor(color="#ff0000"), Floor(name="upper", color="#ffffff")],
+    "nothing over red": [Floor(patches=[(SQUARE, "#ff0000")]), Floor(name="upper")],
+}
+
+
+@pytest.mark.parametrize("floors", FLOORS)
+def test_what_is_read_is_what_is_seen(floors):
+    floors = FLOORS[floors]
+    scene = Scene()
+    for floor in floors:
+        floor.paint(scene, [(-5, -5), (5, -5), (5, 5), (-5, 5)])
+    seen = painted(scene)
+    for x, y in ((1, 1), (3, 1), (-3, -3)):
+        color = (seen[int(50 - 10 * y), int(50 + 10 * x)] / 255).tolist()
+        assert read_at((x, y), *floors) == color
+
+
+def test_through_a_transparent_pixel_white_is_seen_where_there_is_no_colour(tmp_path):
+    values = np.array([[[255, 0, 0, 0], [255, 0, 0, 255]]], dtype=np.uint8)
+    Image.fromarray(values).save(tmp_path / "p.png")
+    floor = Floor(image=tmp_path / "p.png", bounds=(0, 2, 0, 1))
+    assert [floor.ground((x, 0.5)) for x in (0.5, 1.5, 2.5)] == [(1.0, 1.0, 1.0), RED, None]
+
+
+def test_an_image_is_read_once_for_all_worlds_until_it_changes(picture, monkeypatch):
+    looks, opened = [], Image.open
+
+    def watched(path, **more):
+        looks.append(path)
+        return opened(path, **more)
+
+    monkeypatch.setattr(Image, "open", watched)
+    scenario = Scenario(addons=[Floor(image="p.png", bounds=(0, 3, 0, 2))])
+    first, again = (World(scenario).addons.floor.pixels for _ in range(2))
+    floor_of(scenario)
+    assert len(looks) == 1
+    assert first is again
+    with pytest.raises(ValueError, match="read-only"):
+        first[0] = 0
+    Image.fromarray(picture[:, ::-1]).save("p.png", compress_level=0)
+    changed = World(Scenario(addons=[Floor(image="p.png", bounds=(0, 3, 0, 2))]))
+    assert (changed.addons.floor.pixels == picture[:, ::-1]).all()
+    assert len(looks) == 2
+
+
+def test_a_large_image_without_transparent_pixels_is_not_blended(tmp_path):
+    Image.new("RGB", (2000, 2000), "red").save(tmp_path / "p.png")
+    floor = Floor(image=tmp_path / "p.png", bounds=(0, 1, 0, 1))
+    tracemalloc.start()
+    assert floor.ground((0.5, 0.5)) == RED
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 2000 * 2000 * 16  # bytes: no floats of all of it
+
+
 def test_patches_may_be_concave():
     floor = Floor(patches=[([(0, 0), (4, 0), (4, 4), (2, 1)], "#ff0000")])
     assert floor.ground((3.5, 2)) == RED
-    assert floor.ground((1, 1)) == (1.0, 1.0, 1.0)
+    assert floor.ground((1, 1)) is None
 
 
 def test_colours_are_read_to_the_last_digit():
@@ -339,3 +398,9 @@ def test_what_is_read_is_drawn_as_a_disc_of_that_colour():
     assert isinstance(disc, Circle)
     assert disc.center == (0.5, 0)
     assert disc.fill == "#ff8080"
+
+
+def test_no_reading_breaks_the_picture_of_the_sensor():
+    scene = Scene()
+    Ground().draw(scene, np.zeros(3), np.array([1.3, -0.2, np.inf]), "#0072b2")
+    assert scene.shapes[0].fill == "#ff00ff"

@@ -130,6 +130,44 @@ def test_of_those_equally_near_the_first_come_first():
     assert Nearest(2).of(np.zeros((2, 4))) == [[1, 2], [0, 2], [0, 1], [0, 1]]
 
 
+def brute_nearest(position, count):
+    """The nearest by sorting all, of those equally far the first."""
+    x, y = position
+    found = []
+    for i in range(len(x)):
+        apart = np.hypot(x - x[i], y - y[i])
+        apart[i] = inf
+        found.append(np.argsort(apart, kind="stable")[: min(count, len(x) - 1)].tolist())
+    return found
+
+
+PLACES = {
+    "anywhere": scattered(5, 300),
+    "on a grid": np.round(scattered(6, 300)),
+    "on a grid of tenths": np.round(scattered(7, 300), 1),
+    "in one place": np.ones((2, 200)),
+    "nearer than squares can tell": 1e-170 * np.round(scattered(8, 200)),
+    "some of them far away": np.append(scattered(9, 150), 1e6 + scattered(10, 60), axis=1),
+    "a few": np.round(scattered(11, 20)),
+}
+
+
+@pytest.mark.parametrize("count", [1, 4, 25, 120, 10_000])
+@pytest.mark.parametrize("where", PLACES)
+def test_the_nearest_of_many_are_those_of_sorting_all(where, count):
+    assert Nearest(count).of(PLACES[where]) == brute_nearest(PLACES[where], count)
+
+
+def test_nearest_of_three_thousand_is_quick_enough_for_each_control_step():
+    import time
+
+    position = scattered(0, 3000)
+    Nearest(5).of(position[:, :100])  # imports what it needs
+    start = time.perf_counter()
+    Nearest(5).of(position)
+    assert time.perf_counter() - start < 0.2
+
+
 def test_a_neighbour_need_not_be_one_in_turn():
     assert Nearest(1).of(np.array([[0.0, 1.0, 3.0], [0, 0, 0]])) == [[1], [0], [1]]
 
@@ -361,6 +399,23 @@ NOT_A_GRAPH = (
     "expected an adjacency matrix (n, n) of numbers, a networkx graph of the nodes 0 to n - 1, "
     "or a pair (n, edges)"
 )
+
+
+class LikeAGraph:
+    """Something that has a graph's methods, but neither nodes nor edges."""
+
+    nodes = None
+
+    def is_directed(self):
+        return True
+
+
+@pytest.mark.parametrize("what", [LikeAGraph(), LikeAGraph], ids=["object", "class"])
+def test_what_only_looks_like_a_graph_of_networkx_is_refused(what):
+    with pytest.raises(InputError) as raised:
+        Graph(what)
+    assert str(raised.value).startswith("Graph.graph = ")
+    assert NOT_A_GRAPH in str(raised.value)
 
 
 @pytest.mark.parametrize(

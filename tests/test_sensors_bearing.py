@@ -42,6 +42,37 @@ def rows(sensor, others=(), outlines=(), **more):
     return world.record.sensors[sensor.key][0, 0]
 
 
+# -- geometry ----------------------------------------------------------------------------------
+
+
+def all_sighted(pose, points, reach, field_of_view):
+    """Range and bearing of each point by themselves, as `sighted` says: no point is left out."""
+    x, y, theta = pose
+    found = np.full((len(points), 2), (inf, nan))
+    for row, (u, v) in zip(found, points, strict=True):
+        distance = np.hypot(u - x, v - y)
+        bearing = float(wrap(atan2(v - y, u - x) - theta)) + 0.0
+        if distance <= reach and (field_of_view == 2 * pi or abs(bearing) <= field_of_view / 2):
+            row[:] = distance, bearing
+    return found
+
+
+@pytest.mark.parametrize("field_of_view", [2 * pi, 2.0])
+@pytest.mark.parametrize("reach", [0.3, 2.0, 1e6])
+def test_what_is_sighted_is_the_same_to_the_last_bit_however_many_are_far_off(reach, field_of_view):
+    rng = np.random.default_rng(4)
+    points = np.vstack([rng.uniform(-5, 5, (200, 2)), np.round(rng.uniform(-3, 3, (100, 2)), 1)])
+    for pose in ((0.0, 0.0, 0.0), (0.1, -0.2, 2.5), (1e5, 0.3, -7.0), (points[3, 0], 2.0, 0.0)):
+        found = sighted(np.array(pose), points, reach, field_of_view)
+        assert found.tobytes() == all_sighted(pose, points, reach, field_of_view).tobytes()
+
+
+def test_the_bound_of_the_range_is_in_sight():
+    points = np.array([[0.3, 0.0], [0.0, -0.3], [0.1 + 0.2, 0.0]])
+    found = sighted(np.zeros(3), points, 0.3, 2 * pi)
+    assert found[:, 0].tolist() == [0.3, 0.3, inf]
+
+
 # -- other robots ---------------------------------------------------------------------------
 
 
@@ -257,7 +288,17 @@ def test_a_world_without_beacons_is_an_error_at_the_start():
         world_of(sensors.Beacon(names=["lam"]), extra=LAMPS)
 
 
-@pytest.mark.parametrize("place", [3, (1, 2, 3), ("a", "b"), None])
+@pytest.mark.parametrize("names", [[3], ["sun", 3], [None, "sun"]])
+def test_beacons_of_an_own_addon_must_have_texts_as_names(names):
+    class Stars(mars2d.Addon):
+        def beacons(self):
+            return dict.fromkeys(names, (1, 0))
+
+    with pytest.raises(LawError, match=r"a beacon is called (3|None): expected of beacons\(\)"):
+        seen(sensors.Beacon(), extra=[Stars()])
+
+
+@pytest.mark.parametrize("place", [3, (1, 2, 3), ("a", "b"), None, "12", (nan, 0), (0, inf)])
 def test_beacons_of_an_own_addon_must_be_points(place):
     class Stars(mars2d.Addon):
         def beacons(self):
@@ -379,7 +420,7 @@ def test_a_beacon_is_drawn_where_it_is_now_with_its_name():
     for _ in range(10):
         world.step()
     scene = Scene()
-    world.addons.ferry.on_draw(world, scene)
+    world.addons.ferry.draw(scene, world.time)
     lamp = [shape for shape in scene.shapes if isinstance(shape, Circle)][-1]
     assert lamp.center == pytest.approx((1.5, 0))
     assert lamp.fill == "#00ff00"

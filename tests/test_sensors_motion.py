@@ -289,6 +289,8 @@ def test_each_robot_and_each_seed_drifts_in_its_own_way():
         ({"origin": "robot"}, r"Odometry.origin = 'robot': expected one of 'start', 'world'"),
         ({"mount": (0.1, 0, 0)}, r"Odometry.mount = .*: expected \(0, 0, 0\)"),
         ({"encoder_step": -0.1}, r"Odometry.encoder_step = -0.1"),
+        ({"encoder_step": 5e-324}, r"Odometry.encoder_step = 5e-324: expected 0, or a number >="),
+        ({"encoder_step": 1001}, r"Odometry.encoder_step = 1001: expected 0, or a number >="),
     ],
 )
 def test_odometry_that_can_not_be_is_an_error(fields, message):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, inf, pi, sin
+from math import cos, inf, nan, pi, sin
 
 import numpy as np
 import pytest
@@ -291,6 +291,13 @@ def test_pixels_of_one_colour_are_drawn_as_one():
 
 
 # -- all of them ----------------------------------------------------------------------------------
+
+
+def test_no_reading_breaks_the_picture_of_a_camera():
+    values = np.array([[1.2, -0.1, 0.5], [inf, -inf, 0], [nan, 0, 0]])
+    fills = [shape.fill for shape in drawn(LineCamera(pixels=3), values)]
+    assert fills[1:] == ["#ff0080", "#ff0000"]
+
 
 EVERY = [Proximity(range=1), RangeFinder(), SonarRing(), Bumper(), LineCamera()]
 

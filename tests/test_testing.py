@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import functools
 import random
 import textwrap
 import threading
@@ -41,6 +42,14 @@ def texts(findings, kind: str) -> list[str]:
 def seen(findings, kind: str, *words: str) -> bool:
     """Whether one of the findings of a kind has all these words."""
     return any(all(word in text for word in words) for text in texts(findings, kind))
+
+
+def test_a_law_with_fixed_arguments_is_called_by_its_own_name():
+    def steer(robot, speed):
+        return speed
+
+    with pytest.raises(CheckError, match="law steer"):
+        check_controller(functools.partial(steer, speed=0.1))
 
 
 # -- sensors ----------------------------------------------------------------------------------

@@ -24,8 +24,8 @@ __all__ = ["HOOKS", "Addon", "Color"]
 Color = tuple[float, float, float]
 """Red, green and blue from 0 to 1."""
 
-HOOKS = ("on_start", "on_step", "on_draw", "on_stop")
-"""All hooks of an add-on: MARS's Addons_suffix Initialize, Loop and Plot, and the end."""
+HOOKS = ("on_start", "on_step", "on_sensed", "on_draw", "on_stop")
+"""All hooks of an add-on: MARS's Addons_suffix Initialize, Loop and Plot; sensing, and the end."""
 
 
 class Addon(Live):
@@ -37,8 +37,8 @@ class Addon(Live):
     ...     def on_step(self, world):
     ...         self.steps += 1
 
-    A hook is a method named on_start, on_step, on_draw or on_stop; any other ``on_...`` is an
-    error. In a scenario an add-on is frozen. Each world works on a copy of its own, on which hooks
+    A hook is a method named on_start, on_step, on_sensed, on_draw or on_stop; any other ``on_...``
+    is an error. In a scenario an add-on is frozen. Each world works on a copy of its own, on which hooks
     may set attributes; laws find it as ``world.addons.<name>``.
     """
 
@@ -86,11 +86,17 @@ class Addon(Live):
         """
         return None
 
+    def draw(self, scene: Scene, time: float) -> None:
+        """Draw what its fields and the time [s] alone say: so replays of a record show it, too."""
+
     def on_start(self, world: World) -> None:
         """Do what is to be done once, before the first step."""
 
     def on_step(self, world: World) -> None:
         """Do what is to be done at each control step, before the sensors are read."""
+
+    def on_sensed(self, world: World) -> None:
+        """Do what is to be done at each control step once the sensors are read, before the laws."""
 
     def on_draw(self, world: World, scene: Scene) -> None:
         """Add shapes to what is drawn of the world, beneath the robots."""

@@ -107,12 +107,12 @@ class Beacon(Addon):
         """Take the world's clock."""
         self._world = world
 
-    def on_draw(self, world: World, scene: Scene) -> None:
+    def draw(self, scene: Scene, time: float) -> None:
         """Draw a lamp with its name, and its path."""
         if self.path is not None:
             ring = [*self.path, self.path[0]] if len(self.path) > 2 else self.path
             scene.line(ring, stroke=faded(self.color, 0.6), width=1.0, style=":")
-        here = self.where(world.time)
+        here = self.where(time)
         scene.circle(here, 0.0, fill=faded(self.color, 0.3), pixels=9.0)
         scene.circle(here, 0.0, fill=self.color, stroke="#444444", width=1.0, pixels=4.5)
         scene.text((here[0], here[1]), f"{self.key}\n", size=10.0, anchor="above", halo="#ffffff")

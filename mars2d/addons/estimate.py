@@ -101,16 +101,11 @@ class Estimate(Addon):
         who = "no robot has a" if self.robot is None else f"{self.robot} has no"
         raise InputError(f"Estimate: {who} sensor Odometry, whose estimate could be drawn")
 
-    def on_step(self, world: World) -> None:
-        """Take in what was read at the control step before."""
-        if world.iteration > 0:
-            self._follow(world)
-            if len(self._kept) < floor(world.time / self.every + ROUNDING):
-                self._kept.append(self._ellipse())
-
-    def on_stop(self, world: World) -> None:
-        """Take in the last reading."""
+    def on_sensed(self, world: World) -> None:
+        """Take in what was read."""
         self._follow(world)
+        if len(self._kept) < floor(world.time / self.every + ROUNDING):
+            self._kept.append(self._ellipse())
 
     def _follow(self, world: World) -> None:
         """Take in the latest reading, once."""
@@ -137,9 +132,6 @@ class Estimate(Addon):
 
     def on_draw(self, world: World, scene: Scene) -> None:
         """Draw the path as it is believed, the ellipses that were kept, and the last one."""
-        if world.iteration == 0:
-            return
-        self._follow(world)
         if not self._path:
             return
         for rim in self._kept:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ from mars2d.addons.base import Addon, Color
 from mars2d.description import entry, real, wrong
 from mars2d.errors import InputError, LawError
 from mars2d.geometry import Outline, Point, bounds_of, inside_polygon
-from mars2d.scene import LARGEST_IMAGE, Scene
+from mars2d.scene import LARGEST_IMAGE, Scene, rgb
 from mars2d.scene import color as checked_color
 
 if TYPE_CHECKING:
@@ -27,6 +27,10 @@ __all__ = ["Floor"]
 
 Pixels = NDArray[np.uint8]
 Bounds = tuple[float, float, float, float]
+
+
+def _optional(name: str, value: object) -> str | None:
+    return None if value is None else _opaque(name, value)
 
 
 def _opaque(name: str, value: object) -> str:
@@ -70,9 +74,15 @@ def _bounds(name: str, value: object) -> Bounds | None:
     raise wrong(name, value, expected)
 
 
-def _rgb(color: str) -> Color:
-    red, green, blue = (int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
-    return red, green, blue
+class _Picture:
+    """Pixels (rows, columns, 3) that all copies of an add-on share; they can't be written."""
+
+    def __init__(self, pixels: Pixels) -> None:
+        pixels.flags.writeable = False
+        self.pixels = pixels
+
+    def __deepcopy__(self, memo: object) -> _Picture:
+        return self
 
 
 class Floor(Addon):
@@ -83,7 +93,8 @@ class Floor(Addon):
 
     Of patches that overlap the later one lies on top. The image covers `bounds`, its upper row at
     ymax; a point has the colour of the pixel that it lies in, and where a pixel is transparent
-    `color` is seen through it. Nothing of it is in anybody's way.
+    `color`, or else white, is seen through it. Without a `color` the rest has that of the floors of
+    earlier add-ons, or else white. Nothing of it is in anybody's way.
 
     A relative name of an image is looked for in the current folder; a file beside the experiment is
     ``Path(__file__).with_name("line.png")``. It is read when a world is made, PNG with 8 bits a
@@ -97,7 +108,9 @@ class Floor(Addon):
     bounds: Bounds | None = entry(
         default=None, check=_bounds, unit="m", doc="where the image lies: (xmin, xmax, ymin, ymax)"
     )
-    color: str = entry(default="#ffffff", check=_opaque, doc="the colour of the rest")
+    color: str | None = entry(
+        default=None, check=_optional, doc="the colour of the rest; None: what lies beneath"
+    )
 
     def _validate(self) -> None:
         super()._validate()
@@ -108,25 +121,33 @@ class Floor(Addon):
         if self.image is None and self.bounds is not None:
             raise InputError(f"Floor.bounds = {self.bounds}: given without an image")
 
-    @cached_property
+    @property
     def pixels(self) -> Pixels:
         """The image's pixels (rows, columns, 3), the upper row first; red, green, blue to 255.
 
         Raises InputError if the file is not there, is no such image, or is too large.
         """
+        return self._picture.pixels
+
+    @cached_property
+    def _picture(self) -> _Picture:
         assert self.image is not None
-        return _over(_read_png("Floor.image", Path(self.image)), self.color)
+        path = Path(self.image)
+        return _picture_of(path, _version(path), self.color)
 
     @cached_property
     def _colored(self) -> tuple[tuple[Bounds, NDArray[np.float64], Color], ...]:
         """The patches, from the upper one down: bounds, corners (k, 2), colour."""
         return tuple(
-            (bounds_of(outline), np.array(outline), _rgb(color))
+            (bounds_of(outline), np.array(outline), rgb(color))
             for outline, color in reversed(self.patches)
         )
 
-    def ground(self, point: Point) -> Color:
-        """Return the colour of the floor at a point: red, green and blue from 0 to 1."""
+    def ground(self, point: Point) -> Color | None:
+        """Return the colour of the floor at a point: red, green and blue from 0 to 1.
+
+        None: neither a patch nor the image lies there, and there is no colour of the rest.
+        """
         x, y = point
         for (xmin, xmax, ymin, ymax), corners, color in self._colored:
             near = xmin <= x <= xmax and ymin <= y <= ymax
@@ -140,7 +161,7 @@ class Floor(Addon):
                 column = min(int((x - xmin) / (xmax - xmin) * columns), columns - 1)
                 red, green, blue = (self.pixels[row, column] / 255).tolist()
                 return red, green, blue
-        return _rgb(self.color)
+        return None if self.color is None else rgb(self.color)
 
     def on_start(self, world: World) -> None:  # noqa: ARG002
         """Read the image, so that what is wrong with it is said at once."""
@@ -160,7 +181,7 @@ class Floor(Addon):
 
         Where the image can't be read any more, as that of a record may be, its name is written.
         """
-        if self.color != "#ffffff":
+        if self.color is not None:
             scene.polygon(area, fill=self.color)
         if self.bounds is not None:
             try:
@@ -208,8 +229,28 @@ def _problem(size: tuple[int, int], mode: str) -> str:
     return ""
 
 
-def _over(pixels: Pixels, color: str) -> Pixels:
-    """Return pixels (rows, columns, 4) laid over a colour, (rows, columns, 3)."""
-    opacity = pixels[..., 3:] / 255
-    beneath = 255 * np.array(_rgb(color))
-    return np.round(pixels[..., :3] * opacity + beneath * (1 - opacity)).astype(np.uint8)
+def _version(path: Path) -> tuple[str, int, int]:
+    """Return what tells a file from any other, and from itself when it has been changed."""
+    try:
+        known = path.stat()
+        return str(path.absolute()), known.st_mtime_ns, known.st_size
+    except (OSError, ValueError):  # it can't be read either, which says why
+        return "", 0, 0
+
+
+@lru_cache(maxsize=4)
+def _picture_of(path: Path, version: tuple[str, int, int], color: str | None) -> _Picture:  # noqa: ARG001
+    """Return an image over a colour; it is read anew when the file has another version."""
+    return _Picture(_over(_read_png("Floor.image", path), color))
+
+
+def _over(pixels: Pixels, color: str | None) -> Pixels:
+    """Return pixels (rows, columns, 4) laid over a colour, or over white, (rows, columns, 3)."""
+    result = pixels[..., :3].copy()
+    opacity = pixels[..., 3]
+    clear = opacity < 255
+    if clear.any():
+        share = opacity[clear][:, None] / 255
+        beneath = 255 * np.array(rgb(color or "#ffffff"))
+        result[clear] = np.round(result[clear] * share + beneath * (1 - share))
+    return result

@@ -92,14 +92,17 @@ def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline)
     said: set[Finding] = set()
     for trial in trials(module, experiment, limit):
         print(f"{trial.name} {trial.where}".rstrip(), end=": ", flush=True)
-        findings = [finding for finding in trial.findings() if finding not in said]
+        found = trial.findings()
+        findings = [finding for finding in found if finding not in said]
         said |= {*findings}
-        faults = [finding for finding in findings if finding.kind == "wrong"]
+        faults = [f for f in findings if f.kind == "wrong" and not f.untried]
         hints = len(findings) - len(faults)
-        verdict = f"{counted(len(faults), 'thing')} wrong" if faults else "sound"
+        verdict = "not tried to the end" if any(f.untried for f in found) else "sound"
+        if faults:
+            verdict = f"{counted(len(faults), 'thing')} wrong"
         print(trial.untried or ", ".join([verdict, *([counted(hints, "hint")] if hints else [])]))
         for finding in findings:
-            print(f"  {finding.kind:<6}{finding.text}")
+            print(f"  {'wrong' if finding in faults else 'hint':<6}{finding.text}")
         wrong += faults
     return wrong
 

@@ -252,10 +252,7 @@ def paint_row(ax: Axes, record: Record, row: int) -> None:
     radius = min(robot.radius for robot in scenario.robots) * points_per_metre(ax)
     drawn = scenario.animation.show_real_shape
     scale = min(max(radius / 9, 0.1), 0.75) if drawn else 0.75 if few else 0.5
-    if now.draw_addons is not None:
-        added = Scene()
-        now.draw_addons(added)
-        paint(added, ax, scale=0.75)
+    paint(seen.addons(now), ax, scale=0.75)
     if scenario.animation.wake:
         trails = seen.trails(now)
         if not few:

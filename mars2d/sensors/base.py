@@ -35,7 +35,6 @@ __all__ = [
     "Sensor",
     "Sighting",
     "Surroundings",
-    "beam_angles",
 ]
 
 Float = NDArray[np.float64]
@@ -343,15 +342,3 @@ class Sensor(Live):
     def lost(self, reading: Any) -> Any:
         """Return what is read in place of a reading that has not arrived."""
         return self._imperfection.lost(reading)
-
-
-def beam_angles(count: int, field_of_view: float) -> Float:
-    """Return the bearings (count,) of evenly spaced beams, from -field_of_view / 2 on [rad].
-
-    Both ends are included; over a full circle the last one is left out, as it would be the first
-    again. A single beam looks ahead.
-    """
-    if count == 1:
-        return np.zeros(1)
-    full = field_of_view >= 2 * np.pi
-    return np.linspace(-field_of_view / 2, field_of_view / 2, count, endpoint=not full)

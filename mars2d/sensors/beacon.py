@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from math import cos, inf, isfinite, pi, sin
+from math import inf, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d.bearings import BEARING, RANGE, hold_missing, sighted
+from mars2d import checks
+from mars2d.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
 from mars2d.description import entry, flag, number, wrong
 from mars2d.errors import InputError, LawError, UnknownNameError, nearest, shown
+from mars2d.geometry import Point
 from mars2d.scene import Scene, faded
 from mars2d.sensors.base import NOTHING, Float, Quantity, Sensor, Sighting, Surroundings
 
@@ -64,15 +66,27 @@ def _names(name: str, value: object) -> tuple[str, ...] | None:
     return tuple(value)
 
 
-def _place(name: str, place: Any) -> tuple[float, float]:
-    """Return where an add-on says that a beacon is, if that is a place."""
+def _known(beacons: Mapping[str, Point]) -> list[str]:
+    """Return the names of the beacons in order. Raises LawError if one is no text."""
+    for name in beacons:
+        if not isinstance(name, str):
+            raise LawError(
+                f"a beacon is called {shown(name)}: expected of beacons() of an add-on points "
+                "(x, y) by name, as {'lamp': (1.0, 2.0)}"
+            )
+    return sorted(beacons)
+
+
+def _place(name: str, beacons: Mapping[str, Point]) -> Point:
+    """Return where an add-on says that a beacon is; infinitely far away if it is there no more."""
+    if name not in beacons:
+        return inf, inf
     try:
-        x, y = place
-        return float(x), float(y)
-    except (TypeError, ValueError):
+        return checks.point(name, beacons[name])
+    except InputError:
         raise LawError(
-            f"beacon {name!r} is at {shown(place)}: expected of beacons() of an add-on points "
-            "(x, y) by name"
+            f"beacon {name!r} is at {shown(beacons[name])}: expected of beacons() of an add-on "
+            "points (x, y) by name"
         ) from None
 
 
@@ -106,7 +120,7 @@ class Beacon(Sensor):
 
     def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
         """Take which beacons there are."""
-        known = sorted(world.beacons)
+        known = _known(world.beacons)
         if not known:
             raise LawError(
                 f"{robot.name} looks for beacons and there are none: add "
@@ -123,7 +137,7 @@ class Beacon(Sensor):
     def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return rows (k, 2) of range and bearing, (inf, nan) for what is not seen."""
         there = world.beacons
-        points = np.array([_place(name, there.get(name, (inf, inf))) for name in self._beacons])
+        points = np.array([_place(name, there) for name in self._beacons])
         return sighted(
             self.placed(robot.pose),
             points,
@@ -147,14 +161,10 @@ class Beacon(Sensor):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, and a line to each beacon where it is measured to be."""
         here = self.placed(pose)
-        rows = [row for row in np.asarray(reading).reshape(-1, 2).tolist() if isfinite(row[0])]
-        reach = self.range if self.range <= FAR else max((row[0] for row in rows), default=0.0)
+        ranges = np.asarray(reading)[:, 0]
+        seen = ranges[np.isfinite(ranges)]
+        reach = self.range if self.range <= FAR else float(seen.max(initial=0.0))
         if reach and (self.range <= FAR or self.field_of_view < 2 * pi):
             fill, stroke = faded(color, 0.05), faded(color, 0.25)
             scene.sector(here, reach, self.field_of_view, fill=fill, stroke=stroke)
-        x, y, theta = here.tolist()
-        for distance, bearing in rows:
-            angle = theta + bearing
-            there = (x + distance * cos(angle), y + distance * sin(angle))
-            scene.line([(x, y), there], stroke=faded(color, 0.7), width=1.0)
-            scene.circle(there, 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)
+        draw_sighted(scene, here, reading, color)

@@ -44,8 +44,9 @@ class Bumper(Sensor):
         default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle that they share"
     )
     radius: float = number(
-        default=0.15, above=0, high=1e6, unit="m", doc="how far from its mount it is drawn"
-    )
+        default=0.15, above=0, high=1e6, unit="m",
+        doc="of the chassis for which it is drawn about its mount; a picture can't know the robot",
+    )  # fmt: skip
 
     @cached_property
     def angles(self) -> Float:

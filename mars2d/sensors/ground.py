@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from mars2d.errors import LawError, shown
-from mars2d.scene import Scene
+from mars2d.scene import Scene, color_of
 from mars2d.sensors.base import COLOR, Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
@@ -42,6 +42,5 @@ class Ground(Sensor):
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
         """Draw a disc of the colour that is read where it looks."""
-        values = np.nan_to_num(np.asarray(reading, dtype=float), nan=0.5)
-        fill = "#" + "".join(f"{round(255 * value):02x}" for value in values.tolist())
+        fill = color_of(np.nan_to_num(np.asarray(reading, dtype=float), nan=0.5).tolist())
         scene.circle(self.placed(pose), 0.0, fill=fill, stroke="#d55e00", width=1.2, pixels=3.5)

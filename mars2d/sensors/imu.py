@@ -43,7 +43,8 @@ class Imu(Sensor):
     the mount's velocity ahead and to the left, omega is the change of heading over the sampling
     time T, and ax = (change of u) / T - omega w, ay = (change of w) / T + omega u, with u and w at
     the end of the step. That is exact where velocities change at control steps only, as they do in
-    free motion, and else to the first order of T. At the start there is no last step: all are 0.
+    free motion, and else to the first order of T. At the start there is no last step: the
+    means are 0, and what is read is the bias, the walk and the noise alone.
 
     Two constant errors are added: `bias`, and a random walk that begins at 0 and gains a standard
     deviation of `bias_walk` times the root of the time.

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import cached_property
 from math import isnan, nan, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
-from mars2d.scene import Scene, faded
-from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Sensor, Surroundings, beam_angles
+from mars2d.scene import Scene, color_of, faded, rgb
+from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -41,9 +42,7 @@ class LineCamera(Sensor):
     @cached_property
     def angles(self) -> Float:
         """The bearings of the pixels (pixels,): radians from the sensor's heading."""
-        angles = beam_angles(self.pixels, self.field_of_view)
-        angles.flags.writeable = False
-        return angles
+        return beam_angles(self.pixels, self.field_of_view)
 
     def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return the colours (pixels, 3) of what the pixels see."""
@@ -51,7 +50,7 @@ class LineCamera(Sensor):
         _, bodies = world.sight((x, y), theta + self.angles, self.range, robot.index)
         seen, which = np.unique(bodies, return_inverse=True)
         missing = (nan, nan, nan)
-        colors = [missing if b == NOTHING else _rgb(world.color(b)) for b in seen.tolist()]
+        colors = [missing if b == NOTHING else rgb(world.color(b)) for b in seen.tolist()]
         return np.array(colors)[which.ravel()]
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
@@ -71,18 +70,9 @@ class LineCamera(Sensor):
                 scene.polygon(strip, fill=name)
 
 
-@lru_cache(maxsize=1024)
-def _rgb(color: str) -> tuple[float, float, float]:
-    """Return a colour ``#rrggbb`` as numbers from 0 to 1."""
-    red, green, blue = (int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
-    return red, green, blue
-
-
 def _name(pixel: list[float]) -> str | None:
     """Return a pixel's colour as ``#rrggbb``, None if it sees nothing."""
-    if any(map(isnan, pixel)):
-        return None
-    return "#" + "".join(f"{round(255 * value):02x}" for value in pixel)
+    return None if any(map(isnan, pixel)) else color_of(pixel)
 
 
 def _runs(names: list[str | None]) -> list[tuple[int, int, str | None]]:

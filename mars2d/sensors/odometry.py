@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from math import cos, isfinite, sin, sqrt
+from math import cos, sin, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from mars2d.description import choice, entry, number, real, wrong
-from mars2d.reckoning import odometry_covariance, sinc
-from mars2d.scene import Scene, faded
+from mars2d.reckoning import draw_pose, odometry_covariance, sinc
+from mars2d.scene import Scene
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
@@ -25,6 +25,15 @@ def _scales(name: str, value: object) -> tuple[float, float]:
         if 0 < left <= 10 and 0 < right <= 10:
             return left, right
     raise wrong(name, value, expected)
+
+
+def _step(name: str, value: object) -> float:
+    """Check a step that travels can be divided by, or 0."""
+    expected = "0, or a number >= 1e-09 and <= 1000"
+    step = real(name, value, expected)
+    if step != 0 and not 1e-9 <= step <= 1e3:
+        raise wrong(name, value, expected)
+    return step
 
 
 class Odometry(Sensor):
@@ -65,8 +74,8 @@ class Odometry(Sensor):
         default=1.0, low=1e-3, high=1e3,
         doc="distance of the wheels as it is believed, over the true one",
     )  # fmt: skip
-    encoder_step: float = number(
-        default=0.0, low=0, high=1e3, unit="m",
+    encoder_step: float = entry(
+        default=0.0, check=_step, unit="m",
         doc="travel of a rim from one tick of its encoder to the next; 0: no ticks are seen",
     )  # fmt: skip
     origin: str = choice(
@@ -129,11 +138,8 @@ class Odometry(Sensor):
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
         """Draw where it takes itself to be in the world, if that is what it estimates."""
-        x, y, theta = np.asarray(reading, dtype=float).tolist()
-        if self.origin == "world" and isfinite(x + y + theta):
-            scene.circle((x, y), 0.0, stroke=color, fill=faded(color, 0.15), width=1.2, pixels=6.0)
-            ahead = (x + 0.3 * cos(theta), y + 0.3 * sin(theta))
-            scene.line([(x, y), ahead], stroke=color, width=1.2)
+        if self.origin == "world":
+            draw_pose(scene, reading, color)
 
 
 def _moved(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, isfinite, sin
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d.scene import Scene, faded
+from mars2d.reckoning import draw_pose
+from mars2d.scene import Scene
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
@@ -39,8 +39,4 @@ class Pose(Sensor):
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
         """Draw a ring where it takes itself to be, with its heading."""
-        x, y, theta = np.asarray(reading, dtype=float).tolist()
-        if isfinite(x + y + theta):
-            scene.circle((x, y), 0.0, stroke=color, fill=faded(color, 0.15), width=1.2, pixels=6.0)
-            ahead = (x + 0.3 * cos(theta), y + 0.3 * sin(theta))
-            scene.line([(x, y), ahead], stroke=color, width=1.2)
+        draw_pose(scene, reading, color)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, inf, isfinite, pi, sin
+from math import inf, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d.bearings import BEARING, RANGE, hold_missing, sighted
+from mars2d.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
 from mars2d.description import flag, number
 from mars2d.scene import Scene, faded
 from mars2d.sensors.base import Float, Quantity, Sensor, Sighting, Surroundings
@@ -71,10 +71,12 @@ class RangeBearing(Sensor):
 
     def shown(self, reading: Float) -> tuple[Sighting, ...]:
         """Return what is seen, nearest first."""
+        robots = np.flatnonzero(np.isfinite(reading[:, 0]))
         seen = [
             Sighting(distance, bearing, i if self.identity else None)
-            for i, (distance, bearing) in enumerate(reading.tolist())
-            if isfinite(distance)
+            for i, (distance, bearing) in zip(
+                robots.tolist(), reading[robots].tolist(), strict=True
+            )
         ]
         return tuple(sorted(seen, key=lambda each: each[:2]))
 
@@ -84,13 +86,7 @@ class RangeBearing(Sensor):
         full = self.field_of_view >= 2 * pi  # a crowd's full circles would pile up
         fill, stroke = None if full else faded(color, 0.05), faded(color, 0.25)
         scene.sector(here, self.range, self.field_of_view, fill=fill, stroke=stroke)
-        x, y, theta = here.tolist()
-        for distance, bearing in np.asarray(reading).reshape(-1, 2).tolist():
-            if isfinite(distance):
-                angle = theta + bearing
-                there = (x + distance * cos(angle), y + distance * sin(angle))
-                scene.line([(x, y), there], stroke=faded(color, 0.7), width=1.0)
-                scene.circle(there, 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)
+        draw_sighted(scene, here, reading, color)
 
 
 def _nearest_first(rows: Float) -> Float:

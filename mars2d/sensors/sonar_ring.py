@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings, beam_angles
+from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -47,9 +48,7 @@ class SonarRing(Sensor):
     @cached_property
     def angles(self) -> Float:
         """The bearings of the cones' axes (sonars,): radians from the sensor's heading."""
-        angles = beam_angles(self.sonars, self.field_of_view)
-        angles.flags.writeable = False
-        return angles
+        return beam_angles(self.sonars, self.field_of_view)
 
     def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return the distances (sonars,) to the nearest surfaces."""

@@ -36,11 +36,13 @@ __all__ = ["addon_findings", "check_addon"]
 METHODS = {
     "on_start": ("world",),
     "on_step": ("world",),
+    "on_sensed": ("world",),
     "on_draw": ("world", "scene"),
     "on_stop": ("world",),
     "obstacles": (),
     "beacons": (),
     "ground": ("point",),
+    "draw": ("scene", "time"),
 }
 """What an add-on can have of its own, and the arguments."""
 

@@ -140,7 +140,10 @@ def check_places(places: Places, notes: Notes) -> None:
 
 
 def run_ended(run: Run, notes: Notes) -> bool:
-    """Say why a run did not come to its end, if it didn't; return whether it did."""
+    """Say why a run did not come to its end, if it didn't; return whether it did.
+
+    What a part raises itself is noted before: any other error is not its fault.
+    """
     if run.late is not None:
         where = f"{run.late}: " if run.late else ""
         notes.report.wrong(
@@ -148,7 +151,8 @@ def run_ended(run: Run, notes: Notes) -> bool:
             "broken off. Is there a loop that never ends? A law that waits yields at each step"
         )
     elif run.error is not None and not isinstance(run.error, Noted):
-        notes.report.wrong(str(run.error))
+        why = "" if notes.small_world else f"{notes.name}: its scenario does not run: "
+        notes.report.wrong(f"{why}{run.error}", untried=not notes.small_world)
     return not run.failed
 
 
@@ -169,6 +173,7 @@ def first_run(
     team. Where the scenario fails for another reason than the part, the small world is taken.
     """
     run, trial = Run(), None
+    notes.small_world = scenario is None
     try:
         tried, law = place(scenario, control)
         trial = Trial(tried, law, deadline, looked=looked)

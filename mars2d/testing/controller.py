@@ -21,6 +21,7 @@ from mars2d.testing.finding import Finding, Report, judge
 from mars2d.testing.state import Places
 from mars2d.testing.trial import Run, Trial, small_world
 from mars2d.testing.witness import Noted, Notes, at
+from mars2d.usercode import name_of
 from mars2d.world import World
 
 __all__ = ["check_controller", "controller_findings", "is_of_a_team"]
@@ -56,7 +57,7 @@ def check_controller(
     found = controller_findings(
         law, sees=sees, sensors=sensors, addons=addons, scenario=scenario, team=team
     )
-    judge(f"law {_name(law)}", found)
+    judge(f"law {name_of(law)}", found)
 
 
 def is_of_a_team(law: ControlLaw) -> bool:
@@ -87,11 +88,12 @@ def controller_findings(
     of_team = is_of_a_team(law) if team is None else team
     report = Report()
     try:
-        checks.law(_name(law), law, "the world" if of_team else "the robot")
+        checks.law(name_of(law), law, "the world" if of_team else "the robot")
     except InputError as error:
         report.wrong(str(error))
         return report.findings
     subject = _Subject(law, report, of_team)
+    subject.notes.small_world = scenario is None
     places = Places(law)
     with deadline or Deadline() as limit:
         # A law is tried in its own scenario or not at all: elsewhere it might lack something.
@@ -129,7 +131,7 @@ class _Subject:
 
     def __init__(self, law: ControlLaw, report: Report, of_team: bool) -> None:
         self.law, self.report, self.of_team = law, report, of_team
-        self.notes = Notes(_name(law), report, STREAM[of_team], KEEP[of_team])
+        self.notes = Notes(name_of(law), report, STREAM[of_team], KEEP[of_team])
         self.witness = _Witness(self)
         self._world: World | None = None
         self._asked: dict[int, np.ndarray] = {}
@@ -247,7 +249,3 @@ def _same(one: Any, other: Any) -> bool:
 
 def _pair(command: Any) -> str:
     return f"({command[0]:.3g}, {command[1]:.3g})"
-
-
-def _name(law: Any) -> str:
-    return str(getattr(law, "__name__", type(law).__name__))

@@ -23,6 +23,7 @@ from mars2d.testing.deadline import Deadline
 from mars2d.testing.drive import drive_findings
 from mars2d.testing.finding import Finding
 from mars2d.testing.sensor import sensor_findings
+from mars2d.usercode import name_of
 
 __all__ = ["Case", "defined_parts", "trials"]
 
@@ -134,13 +135,13 @@ def _of_experiment(experiment: Experiment, deadline: Deadline | None) -> Iterato
             laws.setdefault(code, (law, []))[1].append(str(robot.name))
     if control is not None:
         yield Case(
-            f"law {_name(control)}",
+            f"law {name_of(control)}",
             "of the team",
             lambda: controller_findings(control, scenario=scenario, team=True, deadline=deadline),
         )
     for law, robots in laws.values():
         yield Case(
-            f"law {_name(law)}",
+            f"law {name_of(law)}",
             f"of {', '.join(robots[:3])}{', ...' if len(robots) > 3 else ''}",
             _trying(law, scenario, control, deadline),
         )
@@ -222,7 +223,3 @@ def _required(kind: type[Description]) -> list[str]:
         for field in dataclasses.fields(kind)
         if field.init and field.default is missing and field.default_factory is missing
     ]
-
-
-def _name(law: Any) -> str:
-    return str(getattr(law, "__name__", type(law).__name__))

@@ -14,10 +14,14 @@ __all__ = ["CheckError", "Finding", "Report", "judge"]
 
 @dataclass(frozen=True)
 class Finding:
-    """One sentence about a part: something "wrong", or a "hint" at what could be better."""
+    """One sentence about a part: something "wrong", or a "hint" at what could be better.
+
+    untried: whether something else is what is wrong, for which the part could not be tried.
+    """
 
     kind: Literal["wrong", "hint"]
     text: str
+    untried: bool = False
 
 
 _NUMBER = re.compile(r"[-+]?(\d[\d.]*(e[-+]?\d+)?|\binf\b|\bnan\b)")
@@ -41,9 +45,9 @@ class Report:
     def __init__(self) -> None:
         self._findings: dict[str, Finding] = {}
 
-    def wrong(self, text: str) -> None:
-        """Add something that is wrong."""
-        self._add(Finding("wrong", text))
+    def wrong(self, text: str, *, untried: bool = False) -> None:
+        """Add something that is wrong; untried: as in `Finding`."""
+        self._add(Finding("wrong", text, untried))
 
     def hint(self, text: str) -> None:
         """Add something that could be better."""

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mars2d.description import Description
+from mars2d.usercode import name_of
 
 __all__ = ["Places", "fingerprint"]
 
@@ -131,7 +132,7 @@ class Places:
 
     def _callable(self, law: Any) -> None:
         while isinstance(law, functools.partial):
-            self._values(f"the arguments of the partial {_name(law.func)}", law.args)
+            self._values(f"the arguments of the partial {name_of(law.func)}", law.args)
             law = law.func
         if isinstance(law, types.MethodType):
             self._object(law.__self__)
@@ -205,7 +206,3 @@ def _names(code: types.CodeType) -> set[str]:
     """Return the names that code uses, that of functions within it too."""
     inner = (c for c in code.co_consts if isinstance(c, types.CodeType))
     return set(code.co_names).union(*map(_names, inner))
-
-
-def _name(function: Any) -> str:
-    return getattr(function, "__name__", type(function).__name__)

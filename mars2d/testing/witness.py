@@ -7,7 +7,8 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from mars2d.description import Description
-from mars2d.errors import InputError, LawError
+from mars2d.errors import InputError, LawError, UnknownNameError, likely
+from mars2d.sensing import Sense
 from mars2d.testing.finding import Report
 from mars2d.testing.trial import drawn_at_random
 from mars2d.usercode import called
@@ -21,12 +22,14 @@ class Notes:
     """What was seen of one part over all runs.
 
     name: the class or function. own: the random generator that is to be used, in words. keep:
-    where things are to be kept, as a sentence.
+    where things are to be kept, as a sentence. small_world: whether it is tried in that, since
+    nobody gave a scenario.
     """
 
     def __init__(self, name: str, report: Report, own: str, keep: str) -> None:
         self.name, self.report, self.own, self.keep = name, report, own, keep
         self.shared_randomness = False
+        self.small_world = False
 
     @contextmanager
     def calling(
@@ -39,7 +42,14 @@ class Notes:
             with shared, called(where, function):
                 yield
         except InputError as error:
-            self.report.wrong(f"{error}{at(time)}")
+            if self.small_world and _asks_for_a_sensor(error):
+                self.report.wrong(
+                    f"{error}{at(time)}. It was tried in a small world, whose robots don't carry "
+                    "such a sensor: give a scenario whose robots do",
+                    untried=True,
+                )
+            else:
+                self.report.wrong(f"{error}{at(time)}")
             raise Noted(str(error)) from error
 
     def _shared(self, where: str, generator: str) -> None:
@@ -48,6 +58,12 @@ class Notes:
             f"{where} draws from {generator}, which all of Python shares: the same seed would "
             f"not give the same run; draw from {self.own}"
         )
+
+
+def _asks_for_a_sensor(error: InputError) -> bool:
+    """Return whether it is raised for a sensor that a robot lacks, and that is not misspelt."""
+    sense = error.obj if isinstance(error, UnknownNameError) else None
+    return isinstance(sense, Sense) and not likely(error.name, dir(sense))
 
 
 class Noted(LawError):  # noqa: N818 - it is no error of its own

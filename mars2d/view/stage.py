@@ -14,7 +14,7 @@ from mars2d.forces import forces
 from mars2d.frame import Frame
 from mars2d.links import messages
 from mars2d.scenario import Scenario
-from mars2d.scene import Polygon, Scene, Shape
+from mars2d.scene import Polygon, Shape
 from mars2d.view.camera import Camera
 from mars2d.view.grid import draw_grid, labels
 from mars2d.view.layers import Layers
@@ -79,9 +79,7 @@ class Stage:
             if layers.trails:
                 for trails, poses in zip(self._trails, (frame.prop_pose, frame.pose), strict=False):
                     trails.loose_ends(surface, poses[:2])
-        moving = Scene()
-        if frame.draw_addons is not None:
-            frame.draw_addons(moving)
+        moving = scenes.addons(frame)
         if layers.sensors:
             moving.extend(scenes.sensors(frame).shapes)
         if layers.messages:
