@@ -323,7 +323,10 @@ def test_a_sensor_measures_from_its_mount():
     [
         (lambda: RangeFinder(beams=0), r"RangeFinder.beams = 0: expected a whole number from 1"),
         (lambda: RangeFinder(beams=2.5), r"RangeFinder.beams = 2.5: expected a whole number"),
-        (lambda: RangeFinder(field_of_view=6.3), r"RangeFinder.field_of_view = 6.3: .*<= 6.28319"),
+        (
+            lambda: RangeFinder(field_of_view=6.3),
+            r"RangeFinder.field_of_view = 6.3: .*<= 2 pi, in radians; 6.3 degrees are",
+        ),
         (lambda: RangeFinder(field_of_view=0), r"RangeFinder.field_of_view = 0: .*> 0"),
         (lambda: RangeFinder(range=0), r"RangeFinder.range = 0: expected a number > 0"),
         (lambda: RangeFinder(noise=-1), r"RangeFinder.noise = -1: expected a standard deviation"),
@@ -339,7 +342,7 @@ def test_a_sensor_measures_from_its_mount():
         (lambda: Proximity(range=1, resolution=1), r"Proximity.resolution = 1.0: .*True or False"),
         (lambda: Constant(outliers=0.1), r"Constant.outliers = 0.1: .*give Constant.noise, too"),
         (lambda: SonarRing(sonars=0), r"SonarRing.sonars = 0: expected a whole number from 1"),
-        (lambda: SonarRing(cone=7), r"SonarRing.cone = 7: .*<= 6.28319"),
+        (lambda: SonarRing(cone=7), r"SonarRing.cone = 7: .*<= 2 pi, in radians"),
     ],
 )
 def test_what_can_not_be_is_refused_by_name(make, message):
@@ -584,3 +587,12 @@ def test_a_record_takes_no_more_memory_than_its_first_rows_need():
     world.step(np.zeros((2, 10)))
     column = world._recorder._sensors["range_finder"]._rows
     assert column.nbytes <= 2**25
+
+
+def test_a_full_circle_and_a_rate_may_be_written_with_six_digits():
+    assert RangeFinder(field_of_view=6.28319).field_of_view == 2 * pi
+    assert RangeFinder(field_of_view=6.28318).field_of_view == 6.28318
+    third = Robot(sensors=[Proximity(range=1, rate=3.33333)])
+    assert Scenario(robots=[third]).robots[0].sensors[0].period(0.1) == 3
+    with pytest.raises(InputError, match=r"rate = 3 Hz: .*10 Hz, divided by .*, as 10 / 3$"):
+        Scenario(robots=[Robot(sensors=[Proximity(range=1, rate=3)])])

@@ -38,8 +38,8 @@ class Addon(Live):
     ...         self.steps += 1
 
     A hook is a method named on_start, on_step, on_sensed, on_draw or on_stop; any other ``on_...``
-    is an error. In a scenario an add-on is frozen. Each world works on a copy of its own, on which hooks
-    may set attributes; laws find it as ``world.addons.<name>``.
+    is an error. In a scenario an add-on is frozen. Each world works on a copy of its own, on which
+    hooks may set attributes; laws find it as ``world.addons.<name>``.
     """
 
     name: str | None = text(default=None, optional=True, doc="the name in world.addons")

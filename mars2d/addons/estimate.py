@@ -130,7 +130,7 @@ class Estimate(Addon):
         c, s = cos(theta), sin(theta)
         return np.column_stack([x + c * ahead - s * left, y + s * ahead + c * left])
 
-    def on_draw(self, world: World, scene: Scene) -> None:
+    def on_draw(self, world: World, scene: Scene) -> None:  # noqa: ARG002
         """Draw the path as it is believed, the ellipses that were kept, and the last one."""
         if not self._path:
             return

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from math import ceil, cos, inf, sin
+from math import ceil, cos, inf, pi, sin
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
@@ -35,6 +35,7 @@ __all__ = [
     "Sensor",
     "Sighting",
     "Surroundings",
+    "sight_angle",
 ]
 
 Float = NDArray[np.float64]
@@ -135,6 +136,26 @@ class Sighting(NamedTuple):
     range: float
     bearing: float
     robot: int | None = None
+
+
+FULL = 2 * pi
+ROUNDED = 1e-5
+"""A full circle may be written with as few digits as this makes of it, relatively."""
+
+
+def sight_angle(*, default: float, doc: str) -> Any:
+    """Declare a field that is an angle within which something is seen: 0 < angle <= 2 pi."""
+
+    def check(name: str, value: object) -> float:
+        expected = "a number > 0 and <= 2 pi"
+        given = real(name, value, expected)
+        if 0 < given <= FULL * (1 + ROUNDED):
+            return min(given, FULL)
+        if given > FULL:
+            expected += f", in radians; {given:g} degrees are math.radians({given:g})"
+        raise wrong(name, value, expected)
+
+    return entry(default=default, check=check, unit="rad", doc=doc)
 
 
 def _spread(what: str) -> Check:
@@ -290,12 +311,12 @@ class Sensor(Live):
                     f"one measurement in at most {MOST_WAITING} x {sampling_time:g} s",
                 )  # fmt: skip
             exact = 1 / (self.rate * sampling_time)
-            if abs(exact - round(exact)) > ROUNDING * exact or round(exact) < 1:
-                steps = max(round(exact), 1)
+            if abs(exact - round(exact)) > ROUNDED * exact or round(exact) < 1:
+                sampling_rate = f"{1 / sampling_time:g}"
                 raise InputError(
                     f"{name}: rate = {self.rate:g} Hz: expected the sampling rate, "
-                    f"{1 / sampling_time:g} Hz, divided by a whole number, as "
-                    f"{1 / (steps * sampling_time):g} Hz"
+                    f"{sampling_rate} Hz, divided by a whole number, as "
+                    f"{sampling_rate} / {max(round(exact), 1)}"
                 )
         if self.latency / sampling_time > MOST_WAITING:
             raise wrong(

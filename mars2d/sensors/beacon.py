@@ -14,7 +14,15 @@ from mars2d.description import entry, flag, number, wrong
 from mars2d.errors import InputError, LawError, UnknownNameError, nearest, shown
 from mars2d.geometry import Point
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import NOTHING, Float, Quantity, Sensor, Sighting, Surroundings
+from mars2d.sensors.base import (
+    NOTHING,
+    Float,
+    Quantity,
+    Sensor,
+    Sighting,
+    Surroundings,
+    sight_angle,
+)
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -108,9 +116,7 @@ class Beacon(Sensor):
     stays: ClassVar[bool] = True
 
     range: float = number(default=100.0, above=0, high=1e6, unit="m", doc="how far it sees")
-    field_of_view: float = number(
-        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about its heading"
-    )
+    field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about its heading")
     through_walls: bool = flag(
         default=False, doc="whether it sees beacons that something stands before"
     )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mars2d.description import integer, number
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings
+from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -40,9 +40,7 @@ class Bumper(Sensor):
     quantities: ClassVar[tuple[Quantity, ...]] = (FLAG,)
 
     sectors: int = integer(default=4, low=1, high=10_000, doc="how many switches it has")
-    field_of_view: float = number(
-        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle that they share"
-    )
+    field_of_view: float = sight_angle(default=2 * pi, doc="the angle that they share")
     radius: float = number(
         default=0.15, above=0, high=1e6, unit="m",
         doc="of the chassis for which it is drawn about its mount; a picture can't know the robot",

@@ -11,7 +11,7 @@ import numpy as np
 from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
 from mars2d.scene import Scene, color_of, faded, rgb
-from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Sensor, Surroundings
+from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Sensor, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -35,9 +35,7 @@ class LineCamera(Sensor):
 
     pixels: int = integer(default=64, low=1, high=100_000, doc="how many pixels it has")
     range: float = number(default=10.0, above=0, high=1e6, unit="m", doc="how far it sees")
-    field_of_view: float = number(
-        default=pi / 2, above=0, high=2 * pi, unit="rad", doc="the angle from first to last pixel"
-    )
+    field_of_view: float = sight_angle(default=pi / 2, doc="the angle from first to last pixel")
 
     @cached_property
     def angles(self) -> Float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from mars2d.description import number
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings
+from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -29,9 +29,7 @@ class Proximity(Sensor):
     quantities: ClassVar[tuple[Quantity, ...]] = (FLAG,)
 
     range: float = number(above=0, high=1e6, unit="m", doc="how far it sees, from its mount")
-    field_of_view: float = number(
-        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about the heading"
-    )
+    field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about the heading")
 
     def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> bool:  # noqa: ARG002
         """Return whether something is within range and field of view."""

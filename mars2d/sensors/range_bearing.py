@@ -10,7 +10,7 @@ import numpy as np
 from mars2d.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
 from mars2d.description import flag, number
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import Float, Quantity, Sensor, Sighting, Surroundings
+from mars2d.sensors.base import Float, Quantity, Sensor, Sighting, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -36,9 +36,7 @@ class RangeBearing(Sensor):
     stays: ClassVar[bool] = True
 
     range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")
-    field_of_view: float = number(
-        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle it sees, about its heading"
-    )
+    field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about its heading")
     through_walls: bool = flag(
         default=False, doc="whether it sees robots that something stands before"
     )

@@ -11,7 +11,7 @@ import numpy as np
 from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings
+from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -37,9 +37,7 @@ class RangeFinder(Sensor):
 
     beams: int = integer(default=180, low=1, high=100_000, doc="how many beams it has")
     range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")
-    field_of_view: float = number(
-        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle from first to last beam"
-    )
+    field_of_view: float = sight_angle(default=2 * pi, doc="the angle from first to last beam")
 
     @cached_property
     def angles(self) -> Float:

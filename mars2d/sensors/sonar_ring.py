@@ -11,7 +11,7 @@ import numpy as np
 from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings
+from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -37,13 +37,9 @@ class SonarRing(Sensor):
     stays: ClassVar[bool] = True
 
     sonars: int = integer(default=8, low=1, high=10_000, doc="how many sonars it has")
-    cone: float = number(
-        default=0.35, above=0, high=2 * pi, unit="rad", doc="the angle in which each one hears"
-    )
+    cone: float = sight_angle(default=0.35, doc="the angle in which each one hears")
     range: float = number(default=3.0, above=0, high=1e6, unit="m", doc="how far it hears")
-    field_of_view: float = number(
-        default=2 * pi, above=0, high=2 * pi, unit="rad", doc="the angle from first to last axis"
-    )
+    field_of_view: float = sight_angle(default=2 * pi, doc="the angle from first to last axis")
 
     @cached_property
     def angles(self) -> Float:

@@ -28,7 +28,7 @@ KEYS = (
     Key("slower", ("-", "[-]"), ("\N{MINUS SIGN}",), "slower", repeats=True),
     Key("grid", ("g",), ("G",), "grid on and off"),
     Key("trails", ("t",), ("T",), "trails on and off"),
-    Key("sensors", ("s",), ("S",), "sensors on and off"),
+    Key("sensors", ("s",), ("S",), "sensors on and off; of a selected robot, its own alone"),
     Key("messages", ("m",), ("M",), "messages between robots on and off"),
     Key("forces", ("c",), ("C",), "forces of contacts, and who slips, on and off"),
     Key("select", ("tab",), ("Tab",), "select the next robot or prop: the force on it over time"),

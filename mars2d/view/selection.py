@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from mars2d.forces import bounding_circle
@@ -10,7 +12,7 @@ from mars2d.scene import Scene
 from mars2d.shapes import Piece
 from mars2d.view import theme
 
-__all__ = ["body_at", "body_name", "next_body", "selection_mark"]
+__all__ = ["body_at", "body_name", "next_body", "selection_mark", "sensed_by"]
 
 
 def body_at(frame: Frame, point: tuple[float, float], slack: float) -> int | None:
@@ -50,6 +52,17 @@ def next_body(frame: Frame, body: int | None) -> int | None:
 def body_name(frame: Frame, body: int) -> str:
     """Return the name of a body."""
     return frame.scenario.bodies[body].name
+
+
+def sensed_by(frame: Frame, body: int | None) -> Frame:
+    """Return a frame with the readings of a selected robot alone, if it has any."""
+    if body is None:
+        return frame
+    own = {
+        name: [(i, reading) for i, reading in readings if i == body]
+        for name, readings in frame.readings.items()
+    }
+    return replace(frame, readings=own) if any(own.values()) else frame
 
 
 def selection_mark(frame: Frame, body: int) -> Scene:

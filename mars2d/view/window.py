@@ -31,7 +31,7 @@ from mars2d.view.painter import Painter
 from mars2d.view.panel import Panel
 from mars2d.view.picture import summary
 from mars2d.view.player import Player
-from mars2d.view.selection import body_at, next_body, selection_mark
+from mars2d.view.selection import body_at, next_body, selection_mark, sensed_by
 from mars2d.view.source import Source
 from mars2d.view.stage import Stage
 
@@ -153,7 +153,7 @@ class Window:
         marks = [] if self.selected is None else selection_mark(frame, self.selected).shapes
         self._stage.draw(
             surface,
-            frame,
+            sensed_by(frame, self.selected),
             self.camera,
             self.layers,
             self.layout.plot,

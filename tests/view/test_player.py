@@ -12,6 +12,7 @@ from mars2d.frame import sensors
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.view import keys
 from mars2d.view.player import SPEEDS, Player, between
+from mars2d.view.selection import sensed_by
 from tests.view.circling import Circling, circling_scenario
 
 
@@ -220,6 +221,15 @@ def test_between_two_frames_what_a_laser_has_met_stays_where_it_is():
     assert np.array_equal(fan.points, fan_later.points)
     assert sector_later.center == pytest.approx(between_them.pose[:2, 0])
     assert sector_later.center != sector.center
+
+
+def test_with_a_robot_selected_only_its_sensors_are_seen():
+    scout = Robot(sensors=[Proximity(range=0.5)])
+    world = World(Scenario(robots=[scout.at(0, 0), scout.at(2, 0), Robot(pose=(4, 0, 0))]))
+    world.observe()
+    assert [i for i, _ in sensed_by(world.frame, None).readings["proximity"]] == [0, 1]
+    assert [i for i, _ in sensed_by(world.frame, 1).readings["proximity"]] == [1]
+    assert [i for i, _ in sensed_by(world.frame, 2).readings["proximity"]] == [0, 1]  # it has none
 
 
 def test_every_key_has_its_own_command():
