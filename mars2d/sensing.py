@@ -23,10 +23,11 @@ __all__ = ["Device", "Sense"]
 class Sense(SimpleNamespace):
     """The readings of one robot's sensors now, as attributes: ``robot.sense.proximity``."""
 
-    __slots__ = ("_due", "_names")
+    __slots__ = ("_due", "_names", "_robot")
 
-    def __init__(self) -> None:
+    def __init__(self, robot: str) -> None:
         super().__init__()
+        self._robot = robot
         self._names: list[str] = []  # of all sensors
         self._due: dict[str, Callable[[], Any]] = {}  # what measures when it is asked for
 
@@ -52,7 +53,8 @@ class Sense(SimpleNamespace):
                 "the add-ons' on_step and before their on_sensed; between steps World.observe() "
                 "reads them"
             )
-        raise UnknownNameError(f"this robot has no sensor {name!r}{nearest(name, self._names)}")
+        known = nearest(name, self._names) if self._names else "; it carries none"
+        raise UnknownNameError(f"{self._robot} has no sensor {name!r}{known}")
 
 
 class Device:

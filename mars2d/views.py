@@ -34,6 +34,10 @@ __all__ = [
 Float = NDArray[np.float64]
 
 
+class _Unseen(property):
+    """What a law may not read."""
+
+
 def _unseen(what: str, sees: str, instead: str = "") -> Any:
     """Return a property that a law may not read that sees no more than `sees`."""
 
@@ -41,7 +45,7 @@ def _unseen(what: str, sees: str, instead: str = "") -> Any:
         hint = f"; there is {instead}" if instead else ""
         raise LawError(f"this law sees {sees} only: {what} is not available{hint}")
 
-    return property(refuse, doc=f"Refuse: a law that sees {sees} only does not know it.")
+    return _Unseen(refuse, doc=f"Refuse: a law that sees {sees} only does not know it.")
 
 
 def _alone(values: Float) -> Float:
@@ -51,16 +55,23 @@ def _alone(values: Float) -> Float:
     return copy
 
 
+MOST_KNOWN = 30
+"""Up to so many names of what there is are listed, where none is near."""
+
+
 def _unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
-    known = [item for item in dir(type(view)) if not item.startswith("_")]
-    raise UnknownNameError(f"{kind} has no {name!r}{nearest(name, [*known, *more])}")
+    kinds = type(view)
+    open_to_it = [item for item in dir(kinds) if not isinstance(getattr(kinds, item), _Unseen)]
+    known = [item for item in open_to_it if not item.startswith("_")]
+    hint = nearest(name, [*known, *more], most=MOST_KNOWN)
+    raise UnknownNameError(f"{kind} has no {name!r}{hint}")
 
 
 class Mind:
     """What a robot keeps for itself: its readings, its memory between steps, its random stream."""
 
     def __init__(self, world: World, name: str) -> None:
-        self.sense = Sense()
+        self.sense = Sense(name)
         self.memory = SimpleNamespace()
         self._world, self._name = world, name
 

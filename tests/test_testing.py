@@ -767,7 +767,7 @@ LAWS = {
         ["world.pose is not available"],
     ),
     "a sensor is missing": (
-        lambda robot: (robot.sense.whisker, 0), {}, ["this robot has no sensor 'whisker'"],
+        lambda robot: (robot.sense.whisker, 0), {}, ["has no sensor 'whisker'"],
     ),
 }  # fmt: skip
 
