@@ -72,8 +72,8 @@ HEAD = """\
 
 Every field that an experiment can set, with its unit, its default and what it accepts. All values
 are checked when an object is made: anything else is an error that names the field. Fields are given
-by name, as in `Robot(diameter=0.2)`; those marked with * may also be given without it, in their
-order, as in `Disc(0.2)`.
+by name, as in `Robot(diameter=0.2)`; those marked with * may also be given without their name, in
+their order, as in `Disc(0.2)`. What must be given has no default.
 
 `object.replace(field=value)` returns a copy with some fields changed; the objects themselves never
 change.

@@ -20,6 +20,7 @@ from PIL import Image
 
 from mars2d import Robot, Scenario, Unicycle, World, addons, sensors
 from mars2d.addons import Addon, Floor, Map
+from mars2d.geometry import Outline
 from mars2d.props import Ball, Box
 from mars2d.registry import snake_case
 from mars2d.scene import Scene
@@ -42,7 +43,7 @@ DOCS = Path(__file__).parent
 SIZE = (760, 560)
 COLORS = 128
 
-ROOM = [(-2.0, -1.5), (-2.0, 1.5), (2.0, 1.5), (2.0, -1.5)]
+ROOM: Outline = [(-2.0, -1.5), (-2.0, 1.5), (2.0, 1.5), (2.0, -1.5)]
 FURNITURE = [[(1.0, -1.0), (1.5, -1.0), (1.5, -0.3), (1.0, -0.3)], [(-1.4, 0.9), (-0.5, 1.2)]]
 
 BALL = Ball(pose=(0.6, 0.75, 0), diameter=0.35)
@@ -83,7 +84,8 @@ def _sonar_ring() -> World:
 
 def _bumper() -> World:
     robot = Robot(pose=(0.53, -0.68, 0.4), sensors=[Bumper(sectors=6)])
-    return room(robot, Robot(pose=(0.82, 0.1, 1)), steps=20)
+    near = [(0.3, -1.0), (0.3, -0.2), (1.5, -0.2), (1.5, -1.0)]
+    return alone(robot, steps=20, command=(0.2, 0), things=[Map(FURNITURE[:1])], area=near)
 
 
 def _line_camera() -> World:
@@ -103,11 +105,15 @@ class Believed(Addon):
 
 
 def alone(
-    *robots: Robot, steps: int, command: Sequence[float], things: Sequence[Addon] = ()
+    *robots: Robot,
+    steps: int,
+    command: Sequence[float],
+    things: Sequence[Addon] = (),
+    area: Outline = ROOM,
 ) -> World:
-    """Return a world in the room without furniture, after some control steps."""
+    """Return a world in the room without furniture, or in another area, after some steps."""
     title = ", ".join(dict.fromkeys(type(s).__name__ for robot in robots for s in robot.sensors))
-    world = World(Scenario(title=title, robots=robots, workspace=ROOM, addons=things))
+    world = World(Scenario(title=title, robots=robots, workspace=area, addons=things))
     for _ in range(steps):
         world.step(np.tile(np.reshape(command, (2, 1)), len(robots)))
     return world
@@ -149,14 +155,14 @@ def _beacon() -> World:
 
 def _ground() -> World:
     turns = np.linspace(0, 2 * pi, 80, endpoint=False)
-    ring = np.column_stack([1.4 * np.cos(turns), np.sin(turns)])
-    track = Floor(patches=[((1.06 * ring).tolist(), "black"), ((0.94 * ring).tolist(), "white")])
+    ring = np.column_stack([0.5 * np.cos(turns), 0.4 * np.sin(turns)])
+    track = Floor(patches=[((1.1 * ring).tolist(), "black"), ((0.9 * ring).tolist(), "white")])
     eyes = [
         Ground(name=name, mount=(0.22, side, 0)) for name, side in (("left", 0.1), ("right", -0.1))
     ]
-    return alone(
-        Robot(pose=(1.4, -0.1, pi / 2), sensors=eyes), steps=16, command=(0.3, 0.4), things=[track]
-    )
+    robot = Robot(pose=(0.4, -0.35, pi / 2), sensors=eyes)
+    near = [(-0.7, -0.55), (-0.7, 0.55), (0.75, 0.55), (0.75, -0.55)]
+    return alone(robot, steps=12, command=(0.2, 0), things=[track], area=near)
 
 
 SCENES: dict[type[Sensor], Callable[[], World]] = {

@@ -13,7 +13,7 @@ from math import cos, pi, sqrt
 
 import numpy as np
 
-from mars2d import Differential, Prediction, Robot, Scenario
+from mars2d import Differential, InputError, Prediction, Robot, Scenario
 from mars2d.addons import Beacon
 from mars2d.sensors import Beacon as Eye
 
@@ -30,6 +30,8 @@ def drive(base, gain, crossed, robot):
 
 
 def scenario(base: float = 5.0, gain: float = 8.0):
+    if not 0 < base < gain * cos(TURN) / H**2:
+        raise InputError(f"base = {base}, gain = {gain}: expected 0 < base < gain cos(TURN) / H^2")
     eye, robots = partial(Eye, through_walls=True, noise=0.02), []
     eyes = [eye(name="left", mount=(FRONT, 0, TURN)), eye(name="right", mount=(FRONT, 0, -TURN))]
     vehicle = Robot(sensors=eyes, sees="sensors", drive=Differential(wheel_radius=WHEEL))
@@ -40,13 +42,9 @@ def scenario(base: float = 5.0, gain: float = 8.0):
         ("explorer", (base, -gain, True), (-1.2, 4.5, -1.5)),
     ):
         robots.append(vehicle.replace(name=name, pose=start, controller=partial(drive, *wires)))
-    return Scenario(
-        title="Braitenberg's vehicles",
-        robots=robots,
-        on_exit="ignore",
-        stop_time=25.0,
-        addons=[Beacon((-LAMP, 0), name="west"), Beacon((LAMP, 0), name="east")],
-    )
+    lamps = [Beacon((-LAMP, 0), name="west"), Beacon((LAMP, 0), name="east")]
+    title = "Fear (blue), aggression (orange), love (green), explorer (pink)"
+    return Scenario(title=title, robots=robots, on_exit="ignore", stop_time=25.0, addons=lamps)
 
 
 def checks(record):

@@ -17,7 +17,7 @@ from math import cos, pi, sin
 import numpy as np
 from scipy.spatial.distance import pdist
 
-from mars2d import Animation, Prediction, Robot, Scenario
+from mars2d import Animation, InputError, Prediction, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.sensors import RangeFinder
 
@@ -35,6 +35,8 @@ def wander(robot, horizon):
 
 
 def scenario(robots: int = 20, horizon: float = 1.0):
+    if robots not in range(2, 41):
+        raise InputError(f"robots = {robots}: expected 2 to 40, as many as there are places")
     robot = Robot(sensors=[LASER], controller=partial(wander, horizon=horizon), sees="sensors")
     corners = [(0.4 * cos(pi * k / 3), 0.4 * sin(pi * k / 3)) for k in range(6)]
     posts = [(-3.0, 0.9), (-0.6, -2.7), (1.8, 2.7), (3.0, -0.9)]

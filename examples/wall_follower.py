@@ -5,9 +5,9 @@ in a cone. Law (PD): omega = k e + c e', with e the distance on the left less th
 e' its change. Before a corner it turns right on the spot; where the wall ends it bends left.
 Question: how smoothly does it come to its distance?
 Prediction: along a straight wall e'' = -v omega, for small angles: an oscillation of the frequency
-w = sqrt(v k) with the damping z = c v / (2 w) < 1. From e = OFF it goes through
-e = OFF exp(-z w t) (cos a + z / s sin a), where s = sqrt(1 - z^2) and a = w s t, and so comes too
-near by OFF exp(-pi z / s). Source: K. Ogata, Modern Control Engineering (2010), section 5-3.
+w = sqrt(v k) with the damping z = c v / (2 w). From e = OFF it goes through
+e = OFF exp(-z w t) (cos a + z / s sin a), where s = sqrt(1 - z^2) and a = w s t. With z < 1 it so
+comes too near by OFF exp(-pi z / s). Source: K. Ogata, Modern Control Engineering (2010), sec. 5-3.
 """
 
 from functools import partial
@@ -54,8 +54,7 @@ def checks(record):
     t, s = record.time[:400], np.emath.sqrt(1 - z**2 or 1e-9)  # its first 20 s, along one wall
     wave = np.cos(PACE * s * t) + z / s * np.sin(PACE * s * t)  # s is imaginary where z > 1
     curve = OFF * np.exp(-z * PACE * t) * wave.real
-    error = TOP - distance - record.pose[:400, 1, 0]
-    nearest = distance + min(curve)
+    error, nearest = TOP - distance - record.pose[:400, 1, 0], distance + min(curve)
     yield Prediction("least distance to the first wall", nearest, distance + min(error), 0.02, "m")
     yield Prediction("farthest from the curve of theory", 0, np.abs(error - curve).max(), 0.03, "m")
     yield Prediction("collisions", 0, record.collisions, 0)

@@ -60,8 +60,8 @@ def likely(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
-def nearest(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
-    """Return the nearest known name as `likely` does, or else a list of all, up to a dozen.
+def nearest(name: object, known: Iterable[str], likeness: float = 0.6, most: int = 12) -> str:
+    """Return the nearest known name as `likely` does, or else a list of all, if not over `most`.
 
     >>> nearest("diametr", ["diameter", "mass"])
     "; did you mean 'diameter'?"
@@ -69,7 +69,7 @@ def nearest(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
     '; known: diameter, mass'
     """
     names = sorted(known)
-    listed = f"; known: {', '.join(names)}" if 0 < len(names) <= 12 else ""
+    listed = f"; known: {', '.join(names)}" if 0 < len(names) <= most else ""
     return likely(name, names, likeness) or listed
 
 

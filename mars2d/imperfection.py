@@ -57,9 +57,9 @@ class Imperfection:
 
     def of(self, reading: Any, rng: np.random.Generator) -> Any:
         """Return what the device makes of a perfect reading."""
+        true = self._checked(reading)
         if self.none and not self._limited:
             return reading
-        true = self._checked(reading)
         if len(self.quantities) == 1:
             result = self._disturbed(true, 0, rng)
         else:

@@ -15,7 +15,16 @@ from numpy.typing import NDArray
 from mars2d.description import Description, entry, integer, number, wrong
 from mars2d.errors import InputError, LawError, counted, shown
 
-__all__ = ["Delaunay", "Everyone", "Graph", "Nearest", "Neighbourhood", "Within", "within"]
+__all__ = [
+    "Delaunay",
+    "Everyone",
+    "Graph",
+    "Nearest",
+    "Neighbourhood",
+    "Within",
+    "neighbourhood",
+    "within",
+]
 
 Float = NDArray[np.float64]
 Neighbours = Sequence[Sequence[int]]
@@ -370,3 +379,33 @@ class Graph(Neighbourhood):
                 f"{'is' if robots == 1 else 'are'} {counted(robots, 'robot')}: expected one node "
                 "for each"
             )
+
+
+WRITTEN = {
+    "Everyone": "Everyone()",
+    "Within": "Within(2.0)",
+    "Nearest": "Nearest(3)",
+    "Delaunay": "Delaunay()",
+    "Graph": "Graph([[0, 1], [1, 0]])",
+}
+"""How the rules are written, for messages."""
+
+
+def neighbourhood(name: str, value: object) -> Neighbourhood:
+    """Check a rule of who is whose neighbour; of what is nearly one, say how it is written."""
+    if isinstance(value, Neighbourhood):
+        return value
+    if isinstance(value, type) and issubclass(value, Neighbourhood):
+        example = WRITTEN.get(value.__name__, f"{value.__name__}(...)")
+        raise InputError(f"{name} = {value.__name__}: expected an object; write {example}")
+    if isinstance(value, str) and "(" in value:
+        raise wrong(
+            name, value,
+            "an object, and this is text: --set can't make one. Give it in the experiment, and "
+            "change its fields by --set, as neighbours.range=3",
+        )  # fmt: skip
+    if isinstance(value, str) and value.strip().lower() in map(str.lower, WRITTEN):
+        raise wrong(name, value, f"an object; write {WRITTEN[value.strip().capitalize()]}")
+    if hasattr(value, "nodes") or isinstance(value, (np.ndarray, list, tuple)):
+        raise wrong(name, value, "a rule; write Graph(...) of a graph")
+    raise wrong(name, value, "a rule, as Within(2.0), Nearest(3), Delaunay() or Graph(...)")

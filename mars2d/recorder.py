@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
 from math import prod
 from typing import Any
@@ -18,6 +18,7 @@ from mars2d.message import MESSAGE, as_of, in_flight
 from mars2d.record import Record
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
+from mars2d.usercode import called
 
 __all__ = ["History", "Recorder"]
 
@@ -121,10 +122,12 @@ class Recorder:
         self._contents: list[str] = []
         self.rows = 0
         self.sensor_robots: dict[str, tuple[int, ...]] = {}
+        self._reads: dict[str, Callable[..., Any]] = {}
         for i, robot in enumerate(scenario.robots):
             for sensor in robot.sensors:
                 if sensor.recorded:
                     self.sensor_robots[sensor.key] = (*self.sensor_robots.get(sensor.key, ()), i)
+                    self._reads.setdefault(sensor.key, sensor.read)
 
     def write(
         self, time: float, *, readings: Mapping[str, Sequence[Any]], **columns: Float | float
@@ -135,7 +138,8 @@ class Recorder:
         for name, value in columns.items():
             self._columns[name].write(row, value)
         for name, values in readings.items():
-            self._write_readings(row, name, values)
+            with called(f"sensor {name!r}", self._reads[name]):  # which is at fault, if one is
+                self._write_readings(row, name, values)
         self.rows += 1
 
     def _write_readings(self, row: int, name: str, values: Sequence[Any]) -> None:

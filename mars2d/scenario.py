@@ -20,7 +20,7 @@ from mars2d.errors import InputError
 from mars2d.geometry import Outline, bounds_of
 from mars2d.joints.base import Joint
 from mars2d.joints.hinge import Hinge
-from mars2d.neighbours import Everyone, Neighbourhood
+from mars2d.neighbours import Everyone, Neighbourhood, neighbourhood
 from mars2d.props.base import Prop
 from mars2d.registry import snake_case
 from mars2d.rigid import Rigid
@@ -125,9 +125,8 @@ class Scenario(Description):
         doc="what the team's law may see: all, or only positions",
     )  # fmt: skip
     neighbours: Neighbourhood = entry(
-        check=checks.instance(Neighbourhood, "Within(2.0)"), factory=Everyone,
-        doc="whom `robot.neighbours` lists",
-    )  # fmt: skip
+        check=neighbourhood, factory=Everyone, doc="whom `robot.neighbours` lists"
+    )
     animation: Animation = entry(
         check=checks.instance(Animation, "Animation()"), factory=Animation, doc="how it is drawn"
     )

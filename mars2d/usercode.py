@@ -11,7 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mars2d.errors import LawError, described
+from mars2d.errors import InputError, LawError, described
 
 __all__ = ["called", "definition", "name_of", "users_line"]
 
@@ -20,7 +20,11 @@ _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
 
 
 class called:  # noqa: N801 - used like a function, as contextlib's are
-    """Run the user's code so that what it raises becomes a LawError with its file and line."""
+    """Run the user's code so that what it raises becomes a LawError with its file and line.
+
+    At the start, before anything is done, an InputError of one of MARS2D's own parts stays what it
+    is: no code of the user's is at fault.
+    """
 
     def __init__(self, name: str, function: Callable[..., Any]) -> None:
         """Take what is called, and by which name messages call it."""
@@ -40,6 +44,9 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
         where = users_line(traceback.extract_tb(tb)) or definition(self._function)
         if isinstance(error, LawError):
             error.where = error.where or where
+            return
+        at_start = getattr(self._function, "__name__", "") == "on_start"
+        if isinstance(error, InputError) and where is None and at_start:
             return
         wrapped = LawError(f"{self._name} raised {described(error)}")
         wrapped.where = where

@@ -60,9 +60,12 @@ MOST_KNOWN = 30
 
 
 def _unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
-    kinds = type(view)
-    open_to_it = [item for item in dir(kinds) if not isinstance(getattr(kinds, item), _Unseen)]
-    known = [item for item in open_to_it if not item.startswith("_")]
+    kind_of_view = type(view)
+    known = [
+        item
+        for item in dir(kind_of_view)
+        if not (item.startswith("_") or isinstance(getattr(kind_of_view, item), _Unseen))
+    ]
     hint = nearest(name, [*known, *more], most=MOST_KNOWN)
     raise UnknownNameError(f"{kind} has no {name!r}{hint}")
 

@@ -951,6 +951,11 @@ def test_the_token_goes_round_and_is_never_in_two_hands(loss, seed):
     assert all(p.ok for p in predictions.values())
 
 
+def test_where_hardly_anything_gets_through_nothing_is_said_of_the_number_of_turns():
+    predictions, _ = run("token_ring", loss=1.0)
+    assert [*predictions] == ["robots that spin at once, at most", "turns out of order"]
+
+
 def test_without_acknowledgement_the_token_is_lost_and_all_stand_still():
     predictions, record = run("token_ring", acknowledge=False)
     assert not predictions["turns"].ok

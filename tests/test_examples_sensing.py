@@ -33,6 +33,8 @@ def judged(name, record, **options):
         ("braitenberg", {"base": 8.0}),
         ("wall_follower", {}),
         ("wall_follower", {"damping": 0.6}),
+        ("wall_follower", {"damping": 1}),
+        ("wall_follower", {"damping": 1.5}),
         ("wall_follower", {"distance": 0.7, "noise": 0.01}),
         ("obstacle_avoidance", {"stop_time": 30.0}),
         ("obstacle_avoidance", {"stop_time": 20.0, "robots": 40}),
@@ -45,6 +47,19 @@ def test_an_example_agrees_with_its_predictions(name, options):
     _, predictions = play(name, **options)
     assert predictions
     assert [p for p in predictions.values() if not p.ok] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "message"),
+    [
+        ("braitenberg", {"gain": 0}, "gain = 0: expected 0 < base < gain"),
+        ("braitenberg", {"base": 0}, "base = 0, gain = 8.0: expected 0 < base"),
+        ("obstacle_avoidance", {"robots": 200}, "robots = 200: expected 2 to 40, as many as there"),
+    ],
+)
+def test_options_that_an_example_can_not_be_run_with_are_refused_by_name(name, options, message):
+    with pytest.raises(mars2d.InputError, match=message):
+        open_experiment(name, options)
 
 
 @pytest.mark.parametrize("seed", [1, 2])

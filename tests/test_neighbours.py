@@ -356,6 +356,12 @@ def test_a_graph_may_be_given_by_its_edges():
     assert Graph((2, [])).of(np.zeros((2, 2))) == [[], []]
 
 
+def test_a_graph_of_networkx_alone_is_no_rule():
+    nx = pytest.importorskip("networkx")
+    with pytest.raises(InputError, match=r"expected a rule; write Graph\(...\) of a graph"):
+        Scenario(robots=4, neighbours=nx.path_graph(4))
+
+
 def test_a_graph_of_networkx_is_accepted_directed_or_not():
     nx = pytest.importorskip("networkx")
     assert Graph(nx.path_graph(3)) == Graph(PATH)
@@ -600,8 +606,11 @@ def test_a_rule_can_not_move_robots():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Scenario(neighbours="all"), "= 'all': expected a Neighbourhood, as Within(2.0)"),
-        (lambda: Scenario(neighbours=Within), "= Within: expected an object; write Within(...)"),
+        (lambda: Scenario(neighbours="all"), "= 'all': expected a rule, as Within(2.0), Nearest"),
+        (lambda: Scenario(neighbours=Within), "= Within: expected an object; write Within(2.0)"),
+        (lambda: Scenario(neighbours="delaunay"), "expected an object; write Delaunay()"),
+        (lambda: Scenario(neighbours="Within(2)"), "--set can't make one"),
+        (lambda: Scenario(neighbours=np.eye(2)), "expected a rule; write Graph(...) of a graph"),
         (lambda: Within(0), "Within.range = 0: expected a number > 0"),
         (lambda: Within(inf), "Within.range = inf: expected a number > 0"),
         (lambda: Nearest(0), "Nearest.count = 0: expected a whole number from 1"),

@@ -208,6 +208,7 @@ def test_the_shape_and_kind_of_a_reading_cannot_change(first, second):
     scenario = Scenario(robots=[Robot(sensors=[Changing()])])
     with pytest.raises(LawError, match="sensor 'changing' read") as raised:
         mars2d.run(scenario)
+    assert raised.value.where == f"test_sensors.py, line {Changing.read.__code__.co_firstlineno}"
     assert len(raised.value.record) == 2
 
 
@@ -217,8 +218,15 @@ def test_anything_else_is_no_reading(value):
         def read(self, robot, world, rng):
             return value
 
-    with pytest.raises(LawError, match="a reading is a number, True or False, or an array"):
-        mars2d.run(Scenario(robots=[Robot(sensors=[Probe()])]))
+    def law(robot):
+        return robot.sense.probe + 1, 0.0  # which is not to blame
+
+    with pytest.raises(
+        LawError, match="a reading is a number, True or False, or an array"
+    ) as raised:
+        mars2d.run(Scenario(robots=[Robot(sensors=[Probe()], controller=law)]))
+    line = Probe.read.__code__.co_firstlineno
+    assert raised.value.where == f"test_sensors.py, line {line}"
 
 
 def test_readings_of_one_name_have_one_shape_on_all_robots():

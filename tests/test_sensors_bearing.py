@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import time
 from math import atan2, hypot, inf, isnan, nan, pi
 
@@ -282,10 +283,23 @@ def test_a_name_that_no_beacon_has_is_an_error_that_knows_the_nearest():
 
 
 def test_a_world_without_beacons_is_an_error_at_the_start():
-    with pytest.raises(LawError, match="carrier looks for beacons and there are none: add"):
+    with pytest.raises(InputError, match="carrier looks for beacons and there are none: add") as no:
         world_of(sensors.Beacon())
-    with pytest.raises(LawError, match=r"Beacon.names of carrier.*'lam'; did you mean 'lamp'\?"):
+    with pytest.raises(
+        InputError, match=r"Beacon.names of carrier.*'lam'; did you mean 'lamp'"
+    ) as a:
         world_of(sensors.Beacon(names=["lam"]), extra=LAMPS)
+    assert not isinstance(no.value, LawError)  # it is no law's fault
+    assert not isinstance(a.value, LawError)
+
+
+def test_a_beacon_asked_for_as_an_attribute_is_told_to_be_asked_for_by_name():
+    found = seen(sensors.Beacon(), extra=LAMPS)
+    with pytest.raises(LawError, match=r"found by their names: write \['lamp'\]"):
+        found.lamp  # noqa: B018
+    with pytest.raises(LawError, match=r"write \[name\]; did you mean 'lamp'\?"):
+        found.lam  # noqa: B018
+    assert copy.deepcopy(found) == found
 
 
 @pytest.mark.parametrize("names", [[3], ["sun", 3], [None, "sun"]])

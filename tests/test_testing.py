@@ -1100,6 +1100,70 @@ def test_a_part_is_tried_elsewhere_if_another_one_breaks_the_scenario(tmp_path, 
     assert "Broken.on_step raised OSError: no device" in err
 
 
+def test_a_fault_is_counted_once_and_no_innocent_law_is_blamed(tmp_path, capsys):
+    both = """
+    class Broken(Addon):
+        def on_step(self, world):
+            raise OSError("no device")
+
+    def steer(robot):
+        return 0.1, 0.0
+
+    def control(world):
+        return 0.1, 0.0
+
+    robots = [Robot(controller=steer), Robot(pose=(1, 1, 0))]
+    scenario = Scenario(robots=robots, addons=[Broken()])
+    """
+    code, out, err = checked(tmp_path, capsys, both)
+    assert code == 2
+    assert "add-on Broken in its scenario: 1 thing wrong" in out
+    assert out.count("  wrong ") == 1
+    for law in ("law steer of robot0", "law control of the team"):
+        assert f"{law}: not tried to the end, 1 hint" in out
+    assert "steer: its scenario does not run: own.py, line 8: add-on 'broken' raised" in out
+    assert err == "mars2d: own.py, line 8: Broken.on_step raised OSError: no device (at 0 s)\n"
+
+
+def test_a_law_whose_scenario_does_not_run_does_not_pass():
+    class Broken(Addon):
+        def on_step(self, world):
+            raise OSError("no device")
+
+    scenario = Scenario(robots=[Robot(controller=wander)], addons=[Broken()])
+    with pytest.raises(CheckError, match=r"its scenario does not run: .* raised OSError"):
+        check_controller(wander, scenario=scenario)
+
+
+READERS = {
+    "add-on": "class Own(Addon):\n    def on_step(self, world):\n        "
+    "self.near = world.robots[0].sense.range_finder\n",
+    "law": "def control(robot):\n    return robot.sense.range_finder[0], 0.0\n",
+}
+
+
+@pytest.mark.parametrize("family", READERS)
+def test_robots_without_the_sensor_that_is_read_are_no_fault_of_a_part(tmp_path, capsys, family):
+    code, out, err = checked(tmp_path, capsys, READERS[family])
+    assert (code, err) == (0, "")
+    assert "in a small world: not tried to the end, 1 hint" in out
+    assert "no sensor 'range_finder'" in out
+    assert "give a scenario whose robots do" in out
+
+
+def test_a_sensor_whose_name_is_misspelt_is_a_fault(tmp_path, capsys):
+    code, out, _ = checked(
+        tmp_path, capsys, GOOD + "\ndef steer(robot):\n    return robot.sense.clok\n"
+    )
+    assert code == 2
+    assert "law steer of a robot, in a small world: 1 thing wrong" in out
+
+
+def test_a_law_that_reads_a_sensor_that_it_is_not_given_does_not_pass():
+    with pytest.raises(CheckError, match=r"no sensor 'sonar'.* give a scenario whose robots do"):
+        check_controller(lambda robot: (robot.sense.sonar, 0.0))
+
+
 @pytest.mark.parametrize("loop", ["while True: pass", "time.sleep(1000)"])
 @pytest.mark.parametrize("place", ["law", "file"])
 def test_a_check_ends_whatever_the_file_does(child, tmp_path, loop, place):

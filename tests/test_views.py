@@ -183,6 +183,24 @@ def test_a_name_that_is_nowhere_is_unknown_and_not_forbidden():
         asked_world(lambda world: world.positions)
     with pytest.raises(UnknownNameError, match="a robot has no 'speed'"):
         asked(lambda robot: robot.speed, "sensors")
+    with pytest.raises(UnknownNameError, match=r"a robot has no 'messages'; known: .*inbox.* send"):
+        asked(lambda robot: robot.messages, "full")
+
+
+@pytest.mark.parametrize(
+    ("sees", "question", "unseen"),
+    [
+        ("positions", lambda robot: robot.neighbours[0].xyzzy, "pose"),
+        ("sensors", lambda robot: robot.xyzzy, "pose"),
+        ("partial", lambda robot: robot.xyzzy, "world"),
+    ],
+)
+def test_what_a_law_may_not_see_is_not_listed_as_what_there_is(sees, question, unseen):
+    with pytest.raises(UnknownNameError, match="known: ") as raised:
+        asked(question, sees)
+    known = str(raised.value).partition("known: ")[2].split(", ")
+    assert "index" in known
+    assert unseen not in known
 
 
 # -- what is allowed is right -----------------------------------------------------------------

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mars2d import checks
 from mars2d.addons.base import Addon, Color
 from mars2d.description import entry, real, wrong
-from mars2d.errors import InputError, LawError
+from mars2d.errors import InputError
 from mars2d.geometry import Outline, Point, bounds_of, inside_polygon
 from mars2d.scene import LARGEST_IMAGE, Scene, rgb
 from mars2d.scene import color as checked_color
@@ -164,11 +164,8 @@ class Floor(Addon):
         return None if self.color is None else rgb(self.color)
 
     def on_start(self, world: World) -> None:  # noqa: ARG002
-        """Read the image, so that what is wrong with it is said at once."""
-        try:
-            self._prepare()
-        except InputError as error:
-            raise LawError(str(error)) from None
+        """Read the image, so that what is wrong with it is said at once, as an InputError."""
+        self._prepare()
 
     def _prepare(self) -> None:
         """Work out what is kept, so that looking at the floor changes nothing of it."""

@@ -160,16 +160,22 @@ def sight_angle(*, default: float, doc: str) -> Any:
 
 def _spread(what: str) -> Check:
     """Return a check for 0 or a number from 1e-12 to 1e6, or one for each quantity."""
-    expected = f"{what}: 0, or from 1e-12 to 1e6; one number, or one for each quantity"
+    expected = f"{what}: 0, or from 1e-12 to 1e6"
+    or_several = f"{expected}; one number, or one for each quantity"
 
-    def check(name: str, value: object) -> float | tuple[float, ...]:
-        if isinstance(value, (tuple, list, np.ndarray)):
-            each = tuple(real(f"{name}[{i}]", item) for i, item in enumerate(value))
-        else:
-            each = (real(name, value, expected),)
-        if not each or not all(one == 0 or 1e-12 <= one <= 1e6 for one in each):
+    def one(name: str, value: object, expected: str) -> float:
+        result = real(name, value, expected)
+        if result and not 1e-12 <= result <= 1e6:
             raise wrong(name, value, expected)
-        return each if isinstance(value, (tuple, list, np.ndarray)) else each[0]
+        return result
+
+    def check(name: str, value: Any) -> float | tuple[float, ...]:
+        if not isinstance(value, (tuple, list)) and not np.ndim(value):
+            return one(name, value, or_several)
+        each = tuple(one(f"{name}[{i}]", item, expected) for i, item in enumerate(value))
+        if not each:
+            raise wrong(name, value, or_several)
+        return each
 
     return check
 
@@ -246,9 +252,11 @@ class Sensor(Live):
             raise wrong(f"{kind}.quantities", self.quantities, expected)
         for field, given in (("noise", self.noise), ("resolution", self.resolution)):
             if isinstance(given, tuple) and len(given) != len(self.quantities):
-                names = ", ".join(f"{q.name} [{q.unit}]" for q in self.quantities)
-                count = len(self.quantities)
-                raise wrong(f"{kind}.{field}", given, f"one number, or {count}: {names}")
+                names = [f"{q.name} [{q.unit}]" for q in self.quantities]
+                several = f", or {len(names)}: {', '.join(names)}" if len(names) > 1 else ""
+                unit = self.quantities[0].unit if not several else ""
+                expected = f"one number{f' [{unit}]' if unit else ''}{several}"
+                raise wrong(f"{kind}.{field}", given, expected)
         for quantity, noise, step in zip(self.quantities, *self._spreads, strict=True):
             if quantity.kind == "flag" and (noise or step):
                 field, given = ("noise", noise) if noise else ("resolution", step)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from math import inf, pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 
@@ -46,6 +46,11 @@ class Sightings(Mapping[str, Sighting]):
         if name not in self._sightings:
             raise UnknownNameError(f"there is no beacon {name!r}{nearest(name, self._sightings)}")
         return self._sightings[name]
+
+    def __getattr__(self, name: str) -> NoReturn:
+        known = [*vars(self).get("_sightings", [])]  # none in a copy that is not yet filled
+        hint = f"write [{name!r}]" if name in known else f"write [name]{nearest(name, known)}"
+        raise UnknownNameError(f"beacons are found by their names: {hint}")
 
     def __contains__(self, name: object) -> bool:
         return name in self._sightings
@@ -125,17 +130,17 @@ class Beacon(Sensor):
     )
 
     def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
-        """Take which beacons there are."""
+        """Take which beacons there are. Raises InputError if there are none, or not such."""
         known = _known(world.beacons)
         if not known:
-            raise LawError(
+            raise InputError(
                 f"{robot.name} looks for beacons and there are none: add "
                 "mars2d.addons.Beacon(at=(x, y)) to Scenario.addons"
             )
         self._beacons: tuple[str, ...] = tuple(known) if self.names is None else self.names
         for name in self._beacons:
             if name not in known:
-                raise LawError(
+                raise InputError(
                     f"Beacon.names of {robot.name}: there is no beacon {name!r}"
                     f"{nearest(name, known)}"
                 )

@@ -43,4 +43,4 @@ class Ground(Sensor):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
         """Draw a disc of the colour that is read where it looks."""
         fill = color_of(np.nan_to_num(np.asarray(reading, dtype=float), nan=0.5).tolist())
-        scene.circle(self.placed(pose), 0.0, fill=fill, stroke="#d55e00", width=1.2, pixels=3.5)
+        scene.circle(self.placed(pose), 0.0, fill=fill, stroke="#d55e00", width=1.5, pixels=5.0)

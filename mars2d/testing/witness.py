@@ -62,8 +62,9 @@ class Notes:
 
 def _asks_for_a_sensor(error: InputError) -> bool:
     """Return whether it is raised for a sensor that a robot lacks, and that is not misspelt."""
-    sense = error.obj if isinstance(error, UnknownNameError) else None
-    return isinstance(sense, Sense) and not likely(error.name, dir(sense))
+    if not isinstance(error, UnknownNameError) or not isinstance(error.obj, Sense):
+        return False
+    return not likely(error.name, dir(error.obj))
 
 
 class Noted(LawError):  # noqa: N818 - it is no error of its own
