@@ -15,17 +15,24 @@ from mars2d.files import examples
 # Another platform or engine may round the last digit differently.
 DIGESTS = {
     "billiards": "a6fcb5253b310e38039ad72e32d7e92fc4327e896538ec21b94ae80a124a272c",
-    "crowd": "26e3c75a44808b2f6a2bcc168f49b010cd92c163b76a79721f245d5efbd1d44e",
-    "follow_the_leader": "b73e802b2472ba73fd89a3eca8bdfe4d4a620a97874de3e990efd655d0c03d8e",
-    "go_to_point": "b643a036965138572e874006ba4e9fa15b385d51cec11e5b42f5528fa6577dc7",
+    "braitenberg": "d0f9e7aa6777a474ecfeb96cf49ed65eb9b2a9cb429dfe9203fef9204c2eba00",
+    "crowd": "d0cda8d658dd47175d52a3ae42e05d25b0cca3cb33c7ad8802d1855749a84420",
+    "dead_reckoning": "108502bfded7031e41d972347dd7bcbc99e8a4771a428dee09fabf39eb7ec6d9",
+    "flocking": "5cd882a1b4ca3625b10276997936214c1a1c3d9b4c7b28ce3209717e02a500bc",
+    "follow_the_leader": "931b3e2346e6eb3d6cdb099a70ca397521d5b6ddedec41be7b83f677dff2736f",
+    "go_to_point": "3ddb80852972aa04c610f9c7d4e2de279d87ea60bb73932730fd2155a6925463",
     "head_on": "363d023d50865a9e70f5aa3beecaff1828248b2257e77c3f3f6d4948e9919dfb",
     "many_push_one": "a24119b6b0cf09431e63480ef211b3643a840e65bda9830814d7192c9c54c1e4",
+    "obstacle_avoidance": "6770fe3a2e06f8a5a437e7c5a6ab4c7616a98b8da747ab3c2929dccbd39490cc",
     "own_sensor_and_addon": "08bf99e50221d5c7ee65b7a4ac0c15c0a3d65e595abc7a1a5723dcb1c2a80580",
     "push_box": "365534f7136bf71df428b8f172058e30f61e1a986da54d2160bb092b4e530d30",
     "random_walk": "914c9ae91a7f718268043edbc156cfafb5299cc64efcb983faae97aae3e22440",
+    "rendezvous": "0b7d9c86dd4937b2649e17cd0e9bab6dd268a9ac4402766522455fc50b967cc3",
     "shove_and_spin": "1c233159d0e1f7160097ed10bd7be72ec374a86f0084f6a5206236d25113c369",
     "sumo": "92b3c90538d1a58ff2947246e7f74e50b4d7669e7a3fdbacacb61c178930d24d",
+    "token_ring": "cbf1ac174cf15adfebaf41c50d41e88c8142d188678909be6b3f5df1c9720b02",
     "tug_of_war": "d740cf155d73b5267075d5826034af20cb0a8830028c8a03d5e1242cc6787457",
+    "wall_follower": "1c65df4fff90cd9b008f3eb81d9b49fd895c54feb9479e1fd3dd1a8c1a660c5f",
     "wall_slide": "ef8343e6df01902a4da2dbb1e56b65ac2e14a39d44dac16d8ea298fe5cf05950",
 }
 PINNED_ON = "Linux x86_64 with pymunk 7.3"
