@@ -45,7 +45,7 @@ SENSORS = sorted((ROOT / "docs" / "sensors").glob("*.md"))
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS]
 EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
-SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest']
+SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest -n auto']
 """The set-up of the README, to the letter."""
 
 PIP = {*SET_UP, 'pip install ".[video]"'}
