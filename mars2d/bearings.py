@@ -58,7 +58,7 @@ def sighted(
     apart = np.hypot(across[near], upwards[near])
     near, apart = near[apart <= reach], apart[apart <= reach]
     angles = list(map(atan2, upwards[near].tolist(), across[near].tolist()))
-    bearings = wrap(np.array(angles) - theta) + 0.0  # 0, not -0
+    bearings = wrap(np.array(angles) - theta)
     if field_of_view < 2 * pi:
         ahead = np.abs(bearings) <= field_of_view / 2
         near, apart, bearings = near[ahead], apart[ahead], bearings[ahead]

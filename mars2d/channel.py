@@ -6,7 +6,7 @@ import json
 import marshal
 from collections import defaultdict
 from functools import cached_property
-from math import ceil, nan
+from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.communication import Communication
 from mars2d.burst import Burst
+from mars2d.delay import steps_until
 from mars2d.errors import LawError, nearest, shown
 from mars2d.message import (
     LOST,
@@ -33,9 +34,6 @@ if TYPE_CHECKING:
 __all__ = ["Channel"]
 
 Int = NDArray[np.int64]
-
-ROUNDING = 1e-9
-"""Delays that differ by less are the same, in sampling times."""
 
 WHO = "a robot's index or name, a list of these, or None for all in reach"
 
@@ -88,7 +86,7 @@ class Channel:
         self._names = [str(robot.name) for robot in world.scenario.robots]
         self._indices = {name: i for i, name in enumerate(self._names)}
         dt = world.scenario.sampling_time
-        self._steps = max(1, ceil(model.delay / dt - ROUNDING))
+        self._steps = max(1, steps_until(model.delay, dt))
         self.delay = self._steps * dt  # s, from sending to arrival
         self._sent: list[_Sent] = []
         self._used: dict[int, int] = defaultdict(int)  # bytes sent in this control step

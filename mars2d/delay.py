@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from math import ceil
+
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DelayLine"]
+__all__ = ["DelayLine", "steps_until"]
 
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 ROUNDING = 1e-9
 """Times that differ by less are the same, in sampling times."""
+
+
+def steps_until(delay: float, sampling_time: float) -> int:
+    """Return how many control steps it takes until a delay [s] has passed."""
+    return ceil(delay / sampling_time - ROUNDING)
 
 
 class DelayLine:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,7 @@ def as_numbers(name: str, reading: Any, example: str) -> NDArray[Any]:
     return given if given.dtype.kind == "b" else given.astype(float, copy=False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Imperfection:
     """What a device makes of perfect readings.
 
@@ -45,12 +46,12 @@ class Imperfection:
     dropouts: float
     top: float
 
-    @property
+    @cached_property
     def none(self) -> bool:
         """Whether there is nothing that makes a reading imperfect."""
         return not (any(self.noise) or any(self.resolution) or self.outliers or self.dropouts)
 
-    @property
+    @cached_property
     def _limited(self) -> bool:
         """Whether something of a reading has to lie within limits."""
         return any(quantity.kind not in ("number", "flag") for quantity in self.quantities)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,19 +84,40 @@ class Mind:
         return self._world.stream(f"robot {self._name}")
 
 
-class Neighbour:
+class _Body:
+    """What a law sees of a body: the base of the views of robots, neighbours and props."""
+
+    _kind: ClassVar[str]
+    """What an error calls it."""
+
+    _more: ClassVar[tuple[str, ...]] = ()
+    """What it has besides the properties of its class."""
+
+    def __init__(self, world: World, index: int) -> None:
+        self._world, self._index = world, index
+
+    def __getattr__(self, name: str) -> NoReturn:
+        _unknown(self, self._kind, name, *self._more)
+
+    @property
+    def index(self) -> int:
+        """Its index: a robot's column in poses and commands, a prop's in ``scenario.props``."""
+        return self._index
+
+
+class Neighbour(_Body):
     """Another robot, as far as it is seen: its index, name, position (2,) and pose (3,).
 
     A law may keep it, and finds it where it is at each step, as long as it is a neighbour.
     """
 
+    _kind = "a neighbour"
+
     def __init__(self, world: World, index: int, whose: int) -> None:
         """Take the world, its index, and that of the robot whose neighbour it is."""
-        self._world, self._index, self._whose = world, index, whose
+        super().__init__(world, index)
+        self._whose = whose
         self._listed: Sequence[int] = ()  # the list in which it was last found
-
-    def __getattr__(self, name: str) -> NoReturn:
-        _unknown(self, "a neighbour", name)
 
     def _seen(self) -> Float:
         """Return its pose (3,). Raises LawError if it is a neighbour no more."""
@@ -106,11 +127,6 @@ class Neighbour:
                 raise LawError(f"{self.name} is no neighbour any more: ask robot.neighbours again")
             self._listed = indices
         return self._world.pose[:, self._index]
-
-    @property
-    def index(self) -> int:
-        """Its column in poses and commands."""
-        return self._index
 
     @property
     def name(self) -> str:
@@ -134,19 +150,10 @@ class NeighbourPosition(Neighbour):
     pose = _unseen("a neighbour's pose", "positions", "neighbour.position")
 
 
-class PropView:
+class PropView(_Body):
     """A prop as laws and add-ons see it: its index in ``scenario.props``, name, pose, velocity."""
 
-    def __init__(self, world: World, index: int) -> None:
-        self._world, self._index = world, index
-
-    def __getattr__(self, name: str) -> NoReturn:
-        _unknown(self, "a prop", name)
-
-    @property
-    def index(self) -> int:
-        """Its index in ``scenario.props``."""
-        return self._index
+    _kind = "a prop"
 
     @property
     def name(self) -> str:
@@ -164,29 +171,23 @@ class PropView:
         return self._world.prop_velocity[:, self._index]
 
 
-class RobotView:
+class RobotView(_Body):
     """What the law of one robot may see and use, with full information.
 
     sense: the readings of its sensors. memory: a place to keep things between steps.
     """
 
+    _kind = "a robot"
+    _more = ("sense", "memory")
     _neighbour: type[Neighbour] = Neighbour
 
     def __init__(self, world: World, index: int, mind: Mind) -> None:
-        self._world, self._index = world, index
+        super().__init__(world, index)
         self._mind = mind
         self.sense = mind.sense
         self.memory = mind.memory
         self._found: dict[int, Neighbour] = {}
         self._listed: tuple[Sequence[int], tuple[Neighbour, ...]] = ((), ())
-
-    def __getattr__(self, name: str) -> NoReturn:
-        _unknown(self, "a robot", name, "sense", "memory")
-
-    @property
-    def index(self) -> int:
-        """Its column in poses and commands."""
-        return self._index
 
     @property
     def name(self) -> str:

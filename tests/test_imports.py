@@ -219,12 +219,11 @@ def test_importing_the_package_has_no_side_effects(child, tmp_path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_importing_mars2d_takes_a_few_times_as_long_as_importing_numpy_and_pymunk(child) -> None:
-    """As a ratio within one process, since a busy machine slows down both."""
+def test_importing_mars2d_adds_less_than_a_quarter_of_a_second_to_numpy_and_pymunk(child) -> None:
+    """The processor's time, not the clock's, since other tests run at the same time."""
     code = (
-        "import time; start = time.perf_counter()\n"
-        "import numpy, pymunk, pymunk.batch; libraries = time.perf_counter()\n"
-        "import mars2d; print((time.perf_counter() - libraries) / (libraries - start))"
+        "import time, numpy, pymunk, pymunk.batch\n"
+        "start = time.process_time(); import mars2d; print(time.process_time() - start)"
     )
-    ratios = [float(child(code).stdout) for _ in range(3)]
-    assert min(ratios) < 4
+    times = [float(child(code).stdout) for _ in range(3)]
+    assert min(times) < 0.25

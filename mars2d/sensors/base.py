@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from math import ceil, cos, inf, pi, sin
+from math import cos, inf, pi, sin
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d import checks
+from mars2d.delay import steps_until
 from mars2d.description import Check, entry, flag, number, real, text, wrong
 from mars2d.errors import InputError
 from mars2d.geometry import Point
@@ -44,9 +45,6 @@ Int = NDArray[np.int64]
 NOTHING = -(2**31)
 """What a ray has hit that hits nothing; bodies are >= 0, obstacles -1, -2, ..."""
 
-
-ROUNDING = 1e-9
-"""Times that differ by less are the same, in sampling times."""
 
 MOST_WAITING = 100_000
 """How many control steps may lie between measurements, or one may be on its way."""
@@ -305,7 +303,7 @@ class Sensor(Live):
 
     def age(self, sampling_time: float) -> int:
         """Return how many control steps a measurement needs to arrive."""
-        return ceil(self.latency / sampling_time - ROUNDING)
+        return steps_until(self.latency, sampling_time)
 
     def check_timing(self, name: str, sampling_time: float) -> None:
         """Raise InputError if it would measure between control steps, or hold too much back.
