@@ -1,0 +1,165 @@
+"""What the suite simulates: four scenes as plain numbers, so that any simulator can be given them.
+
+This file needs numpy alone: the scripts of other simulators load it where MARS2D is not installed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["SCENES", "Scene", "Turns", "team"]
+
+Float = NDArray[np.float64]
+Outline = list[tuple[float, float]]
+
+RADIUS = 0.15
+"""The radius of each robot, metres."""
+
+SPEED = 0.3
+"""How fast robots go, m/s."""
+
+BOX = 0.4
+"""The side of each obstacle, a turned square, metres."""
+
+GAP = 0.02
+"""How far apart things are at least at the start, metres."""
+
+ATTEMPTS = 100_000
+"""How often a place is drawn before it is said that there is none."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A square arena with walls, obstacles and robots.
+
+    name, title: of the scene. sampling_time: seconds. side: of the arena round the origin, metres.
+    poses: (n, 3) at the start. boxes: the obstacles' outlines. beams, range: of each robot's
+    scanner [m], 0 for none. proximity: the range of its proximity sensor [m], 0 for none.
+    """
+
+    name: str
+    title: str
+    sampling_time: float
+    side: float
+    poses: Float
+    boxes: list[Outline]
+    beams: int = 0
+    range: float = 0.0
+    proximity: float = 0.0
+
+    @property
+    def walls(self) -> Outline:
+        """The outline of the arena."""
+        h = self.side / 2
+        return [(-h, -h), (-h, h), (h, h), (h, -h)]
+
+
+class Turns:
+    """The law of a scene without proximity sensors: `SPEED` ahead, a new random omega each second.
+
+    It is asked at each control step for the commands (2, n) of all robots.
+    """
+
+    def __init__(self, robots: int, sampling_time: float) -> None:
+        """Take the number of robots and the sampling time, seconds."""
+        self._rng = np.random.default_rng(1)
+        self._every = round(1 / sampling_time)
+        self._command = np.full((2, robots), SPEED)
+
+    def __call__(self, iteration: int) -> Float:
+        """Return the commands (2, n) of a control step: v [m/s] and omega [rad/s]."""
+        if iteration % self._every == 0:
+            self._command[1] = self._rng.uniform(-1, 1, self._command.shape[1])
+        return self._command
+
+
+def arena(
+    name: str,
+    title: str,
+    robots: int,
+    boxes: int,
+    side: float,
+    sampling_time: float,
+    *,
+    beams: int = 0,
+    reach: float = 0.0,
+    proximity: float = 0.0,
+) -> Scene:
+    """Return a scene with obstacles and robots at random places where nothing touches."""
+    rng = np.random.default_rng(robots)
+    places = _Places(side, rng)
+    outlines = [
+        _box(places.take(BOX / 2**0.5 + RADIUS), rng.uniform(0, np.pi / 2)) for _ in range(boxes)
+    ]
+    poses = [(*places.take(RADIUS + GAP), rng.uniform(-np.pi, np.pi)) for _ in range(robots)]
+    return Scene(
+        name, title, sampling_time, side, np.array(poses), outlines, beams, reach, proximity
+    )
+
+
+class _Places:
+    """Free places in a square round the origin."""
+
+    def __init__(self, side: float, rng: np.random.Generator) -> None:
+        self._half, self._rng = side / 2, rng
+        self._taken = np.empty((16, 3))  # x, y, radius
+        self._count = 0
+
+    def take(self, radius: float) -> tuple[float, float]:
+        """Return the centre of a free disc, which is taken from now on."""
+        if self._count == len(self._taken):
+            self._taken = np.concatenate([self._taken, np.empty_like(self._taken)])
+        x, y, r = self._taken[: self._count].T
+        far = self._half - radius
+        for _ in range(ATTEMPTS):
+            here = self._rng.uniform(-far, far, 2)
+            if ((x - here[0]) ** 2 + (y - here[1]) ** 2 >= (r + radius) ** 2).all():
+                self._taken[self._count] = *here, radius
+                self._count += 1
+                return float(here[0]), float(here[1])
+        raise ValueError(f"no room for a disc of radius {radius:g} m")
+
+
+def _box(center: tuple[float, float], angle: float) -> Outline:
+    """Return the corners of a turned square round a point."""
+    turns = angle + np.pi / 4 + np.pi / 2 * np.arange(4)
+    x, y = center[0] + BOX / 2**0.5 * np.cos(turns), center[1] + BOX / 2**0.5 * np.sin(turns)
+    return [(float(a), float(b)) for a, b in zip(x, y, strict=True)]
+
+
+def side_for(robots: int, cover: float = 0.05) -> float:
+    """Return the side of the arena that so many robots cover to this part, metres."""
+    return float(np.sqrt(robots * np.pi * RADIUS**2 / cover))
+
+
+def s1() -> Scene:
+    """Return two robots that wander by the paper's Algorithm 2."""
+    return arena("S1", "2 robots, Algorithm 2", 2, 4, 5.0, 1.0, proximity=0.3)
+
+
+def s2() -> Scene:
+    """Return a hundred robots among obstacles."""
+    return arena("S2", "100 robots", 100, 20, side_for(100), 0.05)
+
+
+def s3() -> Scene:
+    """Return twenty robots with laser scanners."""
+    return arena("S3", "20 robots, 180 beams", 20, 50, 15.0, 0.1, beams=180, reach=5.0)
+
+
+def s4() -> Scene:
+    """Return a thousand robots."""
+    return team(1000, 0.05, "S4")
+
+
+def team(robots: int, sampling_time: float, name: str = "team") -> Scene:
+    """Return so many robots at 5 % cover, with one obstacle for each fifty."""
+    title = f"{robots} robots"
+    return arena(name, title, robots, robots // 50, side_for(robots), sampling_time)
+
+
+SCENES = {"S1": s1, "S2": s2, "S3": s3, "S4": s4}
+"""The scenes of the suite, by name."""
