@@ -16,7 +16,7 @@ Float = NDArray[np.float64]
 Outline = list[tuple[float, float]]
 
 RADIUS = 0.15
-"""The radius of each robot, metres."""
+"""The radius of a robot, metres, unless a scene says otherwise."""
 
 SPEED = 0.3
 """How fast robots go, m/s."""
@@ -36,8 +36,9 @@ class Scene:
     """A square arena with walls, obstacles and robots.
 
     name, title: of the scene. sampling_time: seconds. side: of the arena round the origin, metres.
-    poses: (n, 3) at the start. boxes: the obstacles' outlines. beams, range: of each robot's
-    scanner [m], 0 for none. proximity: the range of its proximity sensor [m], 0 for none.
+    poses: (n, 3) at the start. boxes: the obstacles' outlines. radius: of the robots, metres. beams,
+    range: of each robot's scanner [m], 0 for none. proximity: the range of its proximity sensor
+    [m], 0 for none.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Scene:
     side: float
     poses: Float
     boxes: list[Outline]
+    radius: float = RADIUS
     beams: int = 0
     range: float = 0.0
     proximity: float = 0.0
@@ -84,6 +86,7 @@ def arena(
     side: float,
     sampling_time: float,
     *,
+    radius: float = RADIUS,
     beams: int = 0,
     reach: float = 0.0,
     proximity: float = 0.0,
@@ -92,11 +95,11 @@ def arena(
     rng = np.random.default_rng(robots)
     places = _Places(side, rng)
     outlines = [
-        _box(places.take(BOX / 2**0.5 + RADIUS), rng.uniform(0, np.pi / 2)) for _ in range(boxes)
+        _box(places.take(BOX / 2**0.5 + radius), rng.uniform(0, np.pi / 2)) for _ in range(boxes)
     ]
-    poses = [(*places.take(RADIUS + GAP), rng.uniform(-np.pi, np.pi)) for _ in range(robots)]
+    poses = [(*places.take(radius + GAP), rng.uniform(-np.pi, np.pi)) for _ in range(robots)]
     return Scene(
-        name, title, sampling_time, side, np.array(poses), outlines, beams, reach, proximity
+        name, title, sampling_time, side, np.array(poses), outlines, radius, beams, reach, proximity
     )
 
 
@@ -136,8 +139,8 @@ def side_for(robots: int, cover: float = 0.05) -> float:
 
 
 def s1() -> Scene:
-    """Return two robots that wander by the paper's Algorithm 2."""
-    return arena("S1", "2 robots, Algorithm 2", 2, 4, 5.0, 1.0, proximity=0.3)
+    """Return two robots, of the paper's size, that wander by its Algorithm 2."""
+    return arena("S1", "2 robots, Algorithm 2", 2, 4, 5.0, 1.0, radius=0.09, proximity=0.3)
 
 
 def s2() -> Scene:

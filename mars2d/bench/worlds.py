@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mars2d.addons import Map
-from mars2d.bench.scenes import RADIUS, Scene, Turns
+from mars2d.bench.scenes import Scene, Turns
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.sensors import Proximity, RangeFinder
@@ -33,7 +33,7 @@ def world_of(scene: Scene, max_overlap: float = 1e-3) -> World:
     if scene.beams:
         sensors.append(RangeFinder(beams=scene.beams, range=scene.range))
     robot = Robot(
-        diameter=2 * RADIUS, sensors=sensors, controller=wander if scene.proximity else None
+        diameter=2 * scene.radius, sensors=sensors, controller=wander if scene.proximity else None
     )
     scenario = Scenario(
         title=scene.title,
