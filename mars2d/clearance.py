@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from math import inf
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +41,14 @@ class Walls:
     def take(self, which: Index) -> Walls:
         """Return some of the segments."""
         return Walls(self._start[which], self._edge[which])
+
+    def shared(self) -> tuple[Float, Float, Float]:
+        """Return starts, edges, and edges by their squared lengths, (S, 2) each."""
+        start, edge, per_length = (
+            np.ascontiguousarray(z).view(float).reshape(-1, 2)
+            for z in (self._start, self._edge, self._per_length)
+        )
+        return start, edge, per_length
 
     def towards(self, point: Complex) -> Complex:
         """Return the vectors from points to the nearest points of the segments, broadcast."""
@@ -81,13 +89,28 @@ class Clearance:
         self._skin = inf if n <= FEW else -1.0  # negative: list them at the first question
         self._keep_pairs(*np.triu_indices(n if n <= FEW else 0, 1))
 
+    def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
+        """Return arrays and numbers for the kernel, by its names; see ``kernel/kernel.h``."""
+        start, edge, per_length = self._walls.shared()
+        i, j, skin = self.pairs
+        arrays = {
+            "radius": self._radii, "wall_gap": self._wall_gap, "moved": self._moved,
+            "start": start, "edge": edge, "per_length": per_length, "pair_i": i, "pair_j": j,
+        }  # fmt: skip
+        return arrays, {"segments": len(start), "pairs": len(i), "skin": skin, "tiny": TINY}
+
+    @property
+    def pairs(self) -> tuple[Index, Index, float]:
+        """The Verlet list: discs i and j, (p,) each, and its skin, metres."""
+        return self._i, self._j, self._skin
+
     def may_touch(self, center: Complex, reach: Float) -> Mask:
         """Return which discs may touch something while each moves by at most `reach` (n,), metres.
 
         center: (n,). A disc that may be touched counts as well.
         """
         if (self._moved + reach).max() > self._skin:
-            self._list_pairs(center, reach)
+            self.list_pairs(center, reach)
         near = np.zeros(len(reach), dtype=bool)
         if len(self._i):
             close = self._pair_gaps(center) <= reach[self._i] + reach[self._j]
@@ -129,7 +152,7 @@ class Clearance:
         distance = length(self._walls.towards(center[which, None]))
         return np.asarray(distance - self._radii[which, None])
 
-    def _list_pairs(self, center: Complex, reach: Float) -> None:
+    def list_pairs(self, center: Complex, reach: Float) -> None:
         """Make the Verlet list anew, with a skin that lasts for several questions."""
         from scipy.spatial import cKDTree
 

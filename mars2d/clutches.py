@@ -8,6 +8,8 @@ a few short substeps more.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,6 +30,9 @@ TURNED = 0.01
 """How far a rim may turn on while its drive stops it, in parts of the overlap allowed."""
 
 
+LEAST = float(np.finfo(float).tiny)
+
+
 class Clutches:
     """The drives of n robots, as they act on bodies.
 
@@ -40,7 +45,7 @@ class Clutches:
         robots = scenario.robots
         self._space = space
         self._count = len(scenario.bodies)
-        self._mass, self._moment = np.array([robot.inertia for robot in robots]).T
+        self._mass, self._moment = np.array([robot.inertia for robot in robots]).T.copy()
         self._rim = np.array([robot.chassis.bound[1] for robot in robots])
         self._turned = TURNED * scenario.max_overlap
         self.force = np.array([robot.drive.max_force for robot in robots])
@@ -49,6 +54,15 @@ class Clutches:
         self._engaged = np.zeros(len(robots), dtype=bool)
         self._since = np.full(len(robots), LINGER + 1)  # substeps since a robot slipped
         self._effort = np.zeros(len(robots))
+
+    def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
+        """Return arrays and numbers for the kernel, by its names; see ``kernel/kernel.h``."""
+        arrays = {
+            "mass": self._mass, "moment": self._moment, "rim": self._rim, "force": self.force,
+            "torque": self._torque, "in_robot_frame": self._in_robot_frame,
+            "engaged": self._engaged, "since": self._since, "effort": self._effort,
+        }  # fmt: skip
+        return arrays, {"turned": self._turned, "linger": LINGER, "least": LEAST}
 
     def chord(self, twist: Float, state: Float, h: float, who: Index | slice) -> Float:
         """Return the velocities (m, 3) that bring robots along their arcs in h seconds."""
@@ -68,7 +82,7 @@ class Clutches:
         can't be seen.
         """
         spin = np.abs(state[:, 5] - twist[2, who])
-        rim = np.maximum(spin * self._rim[who], np.finfo(float).tiny)
+        rim = np.maximum(spin * self._rim[who], LEAST)
         lasts = np.maximum(spin * self._moment[who] / self._torque[who], self._turned / rim)
         return np.where(slipping & (self._since[who] > 0), lasts, np.inf)
 
@@ -122,5 +136,6 @@ class Clutches:
 
     def take_effort(self) -> Float:
         """Return the largest share of its bounds that each drive used since the last call, (n,)."""
-        effort, self._effort = np.minimum(self._effort, 1.0), np.zeros_like(self._effort)
+        effort = np.minimum(self._effort, 1.0)
+        self._effort[:] = 0.0
         return effort

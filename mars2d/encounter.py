@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +58,16 @@ class Bounds:
         self.clearance = Clearance(self.radius, self._walls, passing)
         if not self._only_discs:
             self._set_pieces(bodies)
+
+    @property
+    def only_centred_discs(self) -> bool:
+        """Whether all bodies are discs round their poses."""
+        return self._centred and self._only_discs
+
+    def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
+        """Return arrays and numbers of gaps for the kernel, by its names."""
+        arrays, numbers = self.clearance.shared()
+        return {**arrays, "obstacle": self._obstacle.astype(np.int32)}, numbers
 
     def _set_pieces(self, bodies: Sequence[Rigid]) -> None:
         """Keep the convex pieces of all bodies, in their frames, then the edges of obstacles."""

@@ -16,6 +16,7 @@ from mars2d.clutches import Clutches
 from mars2d.contact import ContactLog
 from mars2d.encounter import Bounds, Encounter
 from mars2d.grips import Grips
+from mars2d.kernel import Kernel, reason_without
 from mars2d.motion import Motion
 from mars2d.scenario import Scenario
 from mars2d.space import Space
@@ -81,6 +82,29 @@ class Engine(Motion):
         self._slipping = np.zeros(self.count, dtype=bool)
         self._state = self.space.read().copy()
         self._twist = np.zeros((3, self.n))
+        self._kernel = self._compiled(scenario)
+
+    def _compiled(self, scenario: Scenario) -> Kernel | None:
+        """Return the kernel that moves such a world, or None if it takes the plain engine."""
+        if scenario.props or scenario.ties or not self.bounds.only_centred_discs:
+            return None
+        if reason_without():
+            return None
+        self._placed, self._reach = np.zeros(self.n, dtype=bool), np.zeros(self.n)
+        arrays = {
+            "state": self._state, "slipping": self._slipping, "placed": self._placed,
+            "reach": self._reach,
+        }  # fmt: skip
+        numbers = {
+            "n": self.n, "max_overlap": self._max_overlap, "entry": self._entry,
+            "contact_step": self._contact_step, "pressed": self._pressed, "slack": SLACK,
+            "growth": GROWTH, "last_step": self.space.last_step,
+        }  # fmt: skip
+        for part in (self.bounds, self._clutches, self.space):
+            more_arrays, more_numbers = part.shared()
+            arrays |= more_arrays
+            numbers |= more_numbers
+        return Kernel(arrays, numbers)
 
     def _set_accuracy(self, scenario: Scenario, thinnest: float, iterations: int) -> None:
         """Work out how deep a body may enter in one substep, and how long one in contact may be."""
@@ -115,11 +139,25 @@ class Engine(Motion):
         time: that of the start, seconds, for the contacts.
         """
         self._twist = twist
+        if self._kernel is not None:
+            self._drive_kernel(self._kernel, twist, duration, time)
+            return
         elapsed = 0.0
         while elapsed < duration:
             left = duration - elapsed
             gone = self._advance(twist, left, time + elapsed)
             elapsed = duration if gone == left else elapsed + gone
+
+    def _drive_kernel(self, kernel: Kernel, twist: Float, duration: float, time: float) -> None:
+        """Do the same by the kernel, which says when the Verlet list has to be made anew."""
+        while not kernel.drive(twist, duration, time):
+            self.bounds.clearance.list_pairs(self.bounds.center(self._state), self._reach)
+            kernel.list_pairs(*self.bounds.clearance.pairs)
+        self.space.misplace(np.flatnonzero(self._placed))
+
+    def take_contacts(self) -> NDArray[np.void]:
+        """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
+        return self.contacts.take() if self._kernel is None else self._kernel.take()
 
     def _advance(self, twist: Float, duration: float, time: float) -> float:
         """Go on by at most `duration` seconds, and return by how much.

@@ -49,6 +49,10 @@ class Kinematics(Motion):
         """Return zeros (n,): no drive has to make an effort."""
         return np.zeros(self.n)
 
+    def take_contacts(self) -> NDArray[np.void]:
+        """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
+        return self.contacts.take()
+
     def drive(self, twist: Float, duration: float, time: float) -> None:
         """Move everything for `duration` seconds, the robots driven by constant twists (3, n).
 

@@ -6,14 +6,15 @@ order: robots, props, the robots' control bodies, then the static ones, the floo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import inf
+from typing import Any
 
 import numpy as np
 import pymunk
 from numpy.typing import NDArray
 from pymunk import batch
-from pymunk._chipmunk_cffi import lib
+from pymunk._chipmunk_cffi import ffi, lib
 
 from mars2d.contact import Solved
 from mars2d.geometry import Outline, Point, edges_of
@@ -109,10 +110,10 @@ class Space:
         self._velocity_buffer = batch.Buffer()
         self._velocity_buffer.set_float_buf(self.velocity)
         self._pose_buffer = batch.Buffer()
-        # The engine names bodies by their addresses.
+        # In batches the engine names bodies by numbers of its own.
         named = [(body.id, i) for i, body in enumerate(self._bodies)]
         named += [(body.id, -1 - k) for k, body in enumerate(self._statics)]
-        self._address, self._name = np.array(sorted(named), dtype=np.int64).T
+        self._identity, self._name = np.array(sorted(named), dtype=np.int64).T
         self._rays = Rays(self._space, self._shapes)
         self._misplaced: set[int] = set()  # their shapes do not know yet where the bodies are
 
@@ -205,6 +206,27 @@ class Space:
                     contact.jnAcc *= ratio
                     contact.jtAcc *= ratio
 
+    def misplace(self, which: Index) -> None:
+        """Note that bodies have been put somewhere else, where the next query is to find them."""
+        self._misplaced.update(which.tolist())
+
+    def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
+        """Return the addresses of the engine's objects for the kernel, by its names."""
+        pivots, gears = zip(*self._clutches.values(), strict=True)
+        arrays = {
+            "body": _addresses(body._body for body in self._bodies),
+            "control": _addresses(body._body for body in self._controls),
+            "pivot": _addresses(joint._constraint for joint in pivots),
+            "gear": _addresses(joint._constraint for joint in gears),
+        }
+        numbers = [*range(len(self._bodies)), *(-1 - k for k in range(len(self._statics)))]
+        address = _addresses(body._body for body in self._bodies + self._statics)
+        order = np.argsort(address)
+        arrays["address"] = address[order]
+        arrays["name"] = np.array(numbers, dtype=np.int64)[order]
+        (space,) = _addresses([self._space._space]).tolist()
+        return arrays, {"space": space, "bodies": len(numbers)}
+
     def place(self, i: int, x: float, y: float, theta: float | None = None) -> None:
         """Put a body somewhere; the next step and the next query find it there."""
         self._misplaced.add(i)
@@ -295,7 +317,7 @@ class Space:
         batch.get_space_arbiters(self._space, _ARBITER, buffer)
         whole = np.frombuffer(buffer.int_buf(), dtype=np.int64).reshape(-1, 3)
         values = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, 12)
-        bodies = self._name[np.searchsorted(self._address, whole[:, :2])]
+        bodies = self._name[np.searchsorted(self._identity, whole[:, :2])]
         two = whole[:, 2:] > 1
         first = np.where(two, (values[:, 4:6] + values[:, 8:10]) / 2, values[:, 4:6])
         second = np.where(two, (values[:, 6:8] + values[:, 10:12]) / 2, values[:, 6:8])
@@ -329,6 +351,10 @@ class Space:
         """Yield the nearest point of each surface within `limit`; see Surroundings."""
         for info in self._seen.point_query(point, limit, _own(ignore)):
             yield info.point.x, info.point.y
+
+
+def _addresses(things: Iterable[Any]) -> NDArray[np.uintp]:
+    return np.array([int(ffi.cast("uintptr_t", thing)) for thing in things], dtype=np.uintp)
 
 
 def _own(robot: int) -> pymunk.ShapeFilter:

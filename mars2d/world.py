@@ -443,7 +443,7 @@ class World:
             self._driven.append((duration, twist))
             self._engine.drive(twist, duration, time)
             time += duration
-        self._contacts = _frozen(self._engine.contacts.take())
+        self._contacts = _frozen(self._engine.take_contacts())
         self._recorder.write_contacts(self._contacts)
         self._take_state()
         self._effort = _frozen(self._engine.take_effort())
