@@ -21,6 +21,9 @@ LARGEST = 1e300
 
 BOUNDED = "a command must be finite"
 
+PLAIN = frozenset({int, float, np.float64})
+"""Numbers that need not be looked at twice; most laws return a pair of them."""
+
 
 class Law:
     """A control law: a function, or a generator that yields commands and keeps its own memory.
@@ -37,10 +40,11 @@ class Law:
         self._still = still
         self._running: Iterator[Any] | None = None
         self.name = name_of(function)
+        self._calling = called(self.name, function)
 
     def command(self) -> Any:
         """Return what the law commands now, unchecked. Raises LawError where the law raises."""
-        with called(self.name, self._function):
+        with self._calling:
             if self._running is None:
                 result = self._function(self._subject)
                 if not inspect.isgenerator(result):
@@ -59,10 +63,13 @@ def robot_command(law: Law, value: Any) -> tuple[float, float]:
     """Check the command of one robot: two finite numbers."""
     if value is None:
         law.refuse("returned nothing: a law returns its command, as `return v, omega`")
-    command = _numbers(value)
-    if command is None or command.shape not in ((2,), (2, 1)):
-        law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
-    first, second = command.ravel().tolist()
+    if type(value) is tuple and len(value) == 2 and {*map(type, value)} <= PLAIN:
+        first, second = value
+    else:
+        command = _numbers(value)
+        if command is None or command.shape not in ((2,), (2, 1)):
+            law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
+        first, second = command.ravel().tolist()
     if not (abs(first) <= LARGEST and abs(second) <= LARGEST):  # neither for NaN
         law.refuse(f"returned {shown((first, second))}: {BOUNDED}")
     return first, second
@@ -100,17 +107,16 @@ def _numbers(value: Any) -> Float | None:
     return found.astype(float) if found.dtype.kind in "iuf" else None
 
 
-def commands(central: Law | None, own: Sequence[Law | None], idle: Float) -> Float:
+def commands(central: Law | None, own: Sequence[tuple[int, Law]], idle: Float) -> Float:
     """Ask all laws for their commands and return them as one array (2, n).
 
-    central: the law of the whole team, if there is one; own: each robot's own law, which overrides
-    its column; idle: zeros (2, n), for robots without a law.
+    central: the law of the whole team, if there is one; own: robots with laws of their own, which
+    override their columns; idle: zeros (2, n), for robots without a law.
     """
     if central is None:
         command = idle.copy()
     else:
         command = team_command(central.command(), idle.shape[1], central.refuse)
-    for i, law in enumerate(own):
-        if law is not None:
-            command[:, i] = robot_command(law, law.command())
+    for i, law in own:
+        command[0, i], command[1, i] = robot_command(law, law.command())
     return command

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.clutches import Clutches
-from mars2d.contact import ContactLog
+from mars2d.contact import CONTACT, ContactLog
 from mars2d.encounter import Bounds, Encounter
 from mars2d.grips import Grips
-from mars2d.kernel import Kernel, reason_without
+from mars2d.kernel import CONTACTS, EFFORT, LIST, PLACED, Kernel, reason_without
 from mars2d.motion import Motion
 from mars2d.scenario import Scenario
 from mars2d.space import Space
@@ -56,6 +56,10 @@ shorter than that, they begin anew.
 """
 
 
+NOTHING = np.empty(0, dtype=CONTACT)
+NOTHING.flags.writeable = False
+
+
 class Engine(Motion):
     """The motion of one world's bodies: robots first, then props."""
 
@@ -83,6 +87,9 @@ class Engine(Motion):
         self._state = self.space.read().copy()
         self._twist = np.zeros((3, self.n))
         self._kernel = self._compiled(scenario)
+        self._left = 0  # of what the kernel did: contacts, efforts
+        self._idle = np.zeros(self.n)
+        self._idle.flags.writeable = False
 
     def _compiled(self, scenario: Scenario) -> Kernel | None:
         """Return the kernel that moves such a world, or None if it takes the plain engine."""
@@ -120,6 +127,8 @@ class Engine(Motion):
 
     def take_effort(self) -> Float:
         """Return the largest share of its bounds that each drive used since the last call, (n,)."""
+        if self._kernel is not None and not self._left_over(EFFORT):
+            return self._idle
         return self._clutches.take_effort()
 
     @property
@@ -150,14 +159,24 @@ class Engine(Motion):
 
     def _drive_kernel(self, kernel: Kernel, twist: Float, duration: float, time: float) -> None:
         """Do the same by the kernel, which says when the Verlet list has to be made anew."""
-        while not kernel.drive(twist, duration, time):
+        while (left := kernel.drive(twist, duration, time)) & LIST:
             self.bounds.clearance.list_pairs(self.bounds.center(self._state), self._reach)
             kernel.list_pairs(*self.bounds.clearance.pairs)
-        self.space.misplace(np.flatnonzero(self._placed))
+        self._left |= left
+        if left & PLACED:
+            self.space.misplace(np.flatnonzero(self._placed))
 
     def take_contacts(self) -> NDArray[np.void]:
         """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
-        return self.contacts.take() if self._kernel is None else self._kernel.take()
+        if self._kernel is None:
+            return self.contacts.take()
+        return self._kernel.take() if self._left_over(CONTACTS) else NOTHING
+
+    def _left_over(self, what: int) -> bool:
+        """Return whether the kernel has left something that is taken now."""
+        there = bool(self._left & what)
+        self._left &= ~what
+        return there
 
     def _advance(self, twist: Float, duration: float, time: float) -> float:
         """Go on by at most `duration` seconds, and return by how much.

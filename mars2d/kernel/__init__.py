@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from mars2d.contact import CONTACT
 
-__all__ = ["Kernel", "reason_without"]
+__all__ = ["CONTACTS", "EFFORT", "LIST", "PLACED", "Kernel", "reason_without"]
 
 Float = NDArray[np.float64]
 
@@ -49,6 +49,9 @@ FUNCTIONS = {
     "point_b": "cpArbiterGetPointB",
 }
 """The engine's functions, by what the kernel calls them."""
+
+LIST, PLACED, CONTACTS, EFFORT = 1, 2, 4, 8
+"""What the kernel has left to do, or has left; see ``kernel.h``."""
 
 SAMPLE = np.concatenate([np.linspace(-60.0, 60.0, 997), np.geomspace(1e-9, 3.0, 200)])
 """Angles at which the kernel's sines are compared with numpy's."""
@@ -121,15 +124,16 @@ class Kernel:
         self._team.pairs, self._team.skin = len(i), skin
         self._check(self._lib.mars2d_kernel_listed(self._kernel))
 
-    def drive(self, twist: Float, duration: float, time: float) -> bool:
+    def drive(self, twist: Float, duration: float, time: float) -> int:
         """Move the team for `duration` seconds under twists (3, n); see `Engine.drive`.
 
-        Returns whether that is done; if not, the Verlet list has to be made anew, and it is to be
-        called again.
+        Returns the sum of `LIST`, if the Verlet list has to be made anew and this called again;
+        `PLACED`, if robots were put somewhere between steps; `CONTACTS` and `EFFORT`, if there are
+        some.
         """
         pointer = self._ffi.from_buffer("double *", twist)
         result = self._lib.mars2d_kernel_drive(self._kernel, pointer, duration, time)
-        return self._check(result) == 0
+        return self._check(result)
 
     def take(self) -> NDArray[np.void]:
         """Return the contacts since the last call; see `ContactLog.take`."""

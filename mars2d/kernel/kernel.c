@@ -869,16 +869,23 @@ int mars2d_kernel_listed(Kernel *k)
 
 int mars2d_kernel_drive(Kernel *k, const double *twist, double duration, double time)
 {
+    int left_over = 0;
     k->twist = twist;
     while (k->elapsed < duration) {
         double left = duration - k->elapsed;
         double gone = advance(k, left, time + k->elapsed);
         if (k->failed) return -1;
-        if (gone < 0) return 1;
+        if (gone < 0) return MARS2D_LIST;
         k->elapsed = gone == left ? duration : k->elapsed + gone;
     }
     k->elapsed = 0.0;
-    return 0;
+    for (int i = 0; i < k->team.n; i++) {
+        if (k->team.placed[i]) left_over |= MARS2D_PLACED;
+        if (k->team.effort[i] > 0) left_over |= MARS2D_EFFORT;
+    }
+    if (k->row_count > 0) return left_over | MARS2D_CONTACTS;
+    k->before_count = 0; /* what touches has rows */
+    return left_over;
 }
 
 void mars2d_kernel_sines(const double *angle, int count, double *sine, double *cosine, double *far)

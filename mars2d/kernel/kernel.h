@@ -54,8 +54,12 @@ Team *mars2d_kernel_team(Kernel *kernel);
 /* To be called when the team's Verlet list is new. Returns -1 when memory has run out. */
 int mars2d_kernel_listed(Kernel *kernel);
 
-/* Goes on by `duration` under twists (3, n). Returns 0 when that is done; 1 when the Verlet list has
-   to be made anew for `reach` first: then call it again; -1 when memory has run out. */
+/* What a call of mars2d_kernel_drive has left to do: to make the Verlet list anew for `reach` and to
+   call it again; and what it has left: robots that were placed, contacts, efforts of drives. */
+enum { MARS2D_LIST = 1, MARS2D_PLACED = 2, MARS2D_CONTACTS = 4, MARS2D_EFFORT = 8 };
+
+/* Goes on by `duration` under twists (3, n). Returns which of these there are, or -1 when memory has
+   run out. */
 int mars2d_kernel_drive(Kernel *kernel, const double *twist, double duration, double time);
 
 /* How many contacts mars2d_kernel_take will give, at most. */
