@@ -92,17 +92,11 @@ class Clearance:
     def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
         """Return arrays and numbers for the kernel, by its names; see ``kernel/kernel.h``."""
         start, edge, per_length = self._walls.shared()
-        i, j, skin = self.pairs
         arrays = {
             "radius": self._radii, "wall_gap": self._wall_gap, "moved": self._moved,
-            "start": start, "edge": edge, "per_length": per_length, "pair_i": i, "pair_j": j,
+            "start": start, "edge": edge, "per_length": per_length,
         }  # fmt: skip
-        return arrays, {"segments": len(start), "pairs": len(i), "skin": skin, "tiny": TINY}
-
-    @property
-    def pairs(self) -> tuple[Index, Index, float]:
-        """The Verlet list: discs i and j, (p,) each, and its skin, metres."""
-        return self._i, self._j, self._skin
+        return arrays, {"segments": len(start), "few": FEW, "tiny": TINY}
 
     def may_touch(self, center: Complex, reach: Float) -> Mask:
         """Return which discs may touch something while each moves by at most `reach` (n,), metres.
@@ -110,7 +104,7 @@ class Clearance:
         center: (n,). A disc that may be touched counts as well.
         """
         if (self._moved + reach).max() > self._skin:
-            self.list_pairs(center, reach)
+            self._list_pairs(center, reach)
         near = np.zeros(len(reach), dtype=bool)
         if len(self._i):
             close = self._pair_gaps(center) <= reach[self._i] + reach[self._j]
@@ -152,15 +146,17 @@ class Clearance:
         distance = length(self._walls.towards(center[which, None]))
         return np.asarray(distance - self._radii[which, None])
 
-    def list_pairs(self, center: Complex, reach: Float) -> None:
+    def _list_pairs(self, center: Complex, reach: Float) -> None:
         """Make the Verlet list anew, with a skin that lasts for several questions."""
         from scipy.spatial import cKDTree
 
-        self._skin = float(max(4 * reach.max(), self._radii.max()))
+        self._skin = float(2 * max(4 * reach.max(), self._radii.max()))
         cutoff = 2 * self._radii.max() + 2 * self._skin
         tree = cKDTree(np.column_stack([center.real, center.imag]))
         pairs = tree.query_pairs(cutoff, output_type="ndarray")
-        self._keep_pairs(*np.ascontiguousarray(pairs.T.astype(np.intp)))
+        i, j = pairs.T.astype(np.intp)
+        order = np.lexsort((j, i))
+        self._keep_pairs(i[order], j[order])
         self._moved[:] = 0.0
 
     def _keep_pairs(self, i: Index, j: Index) -> None:

@@ -16,7 +16,7 @@ from mars2d.clutches import Clutches
 from mars2d.contact import CONTACT, ContactLog
 from mars2d.encounter import Bounds, Encounter
 from mars2d.grips import Grips
-from mars2d.kernel import CONTACTS, EFFORT, LIST, PLACED, Kernel, reason_without
+from mars2d.kernel import CONTACTS, EFFORT, PLACED, Kernel, reason_without
 from mars2d.motion import Motion
 from mars2d.scenario import Scenario
 from mars2d.space import Space
@@ -158,10 +158,8 @@ class Engine(Motion):
             elapsed = duration if gone == left else elapsed + gone
 
     def _drive_kernel(self, kernel: Kernel, twist: Float, duration: float, time: float) -> None:
-        """Do the same by the kernel, which says when the Verlet list has to be made anew."""
-        while (left := kernel.drive(twist, duration, time)) & LIST:
-            self.bounds.clearance.list_pairs(self.bounds.center(self._state), self._reach)
-            kernel.list_pairs(*self.bounds.clearance.pairs)
+        """Do the same by the kernel."""
+        left = kernel.drive(twist, duration, time)
         self._left |= left
         if left & PLACED:
             self.space.misplace(np.flatnonzero(self._placed))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from mars2d.contact import CONTACT
 
-__all__ = ["CONTACTS", "EFFORT", "LIST", "PLACED", "Kernel", "reason_without"]
+__all__ = ["CONTACTS", "EFFORT", "PLACED", "Kernel", "reason_without"]
 
 Float = NDArray[np.float64]
 
@@ -50,8 +50,8 @@ FUNCTIONS = {
 }
 """The engine's functions, by what the kernel calls them."""
 
-LIST, PLACED, CONTACTS, EFFORT = 1, 2, 4, 8
-"""What the kernel has left to do, or has left; see ``kernel.h``."""
+PLACED, CONTACTS, EFFORT = 1, 2, 4
+"""What the kernel may have left; see ``kernel.h``."""
 
 SAMPLE = np.concatenate([np.linspace(-60.0, 60.0, 997), np.geomspace(1e-9, 3.0, 200)])
 """Angles at which the kernel's sines are compared with numpy's."""
@@ -105,7 +105,6 @@ class Kernel:
             raise MemoryError("no memory for the kernel")
         self._kernel = self._ffi.gc(made, self._lib.mars2d_kernel_free)
         self._team = self._lib.mars2d_kernel_team(made)
-        self._check(self._lib.mars2d_kernel_listed(made))
 
     def _pointer(self, team: Any, key: str, array: NDArray[Any]) -> Any:
         """Return the array's memory as what the field is, which it must be in truth."""
@@ -116,20 +115,11 @@ class Kernel:
             raise TypeError(f"{key}: an array of {array.dtype}, expected items of {size} bytes")
         return self._ffi.cast(pointer, array.ctypes.data)
 
-    def list_pairs(self, i: NDArray[np.int64], j: NDArray[np.int64], skin: float) -> None:
-        """Take a new Verlet list, of pairs i, j that are good until robots move by the skin [m]."""
-        for key, array in (("pair_i", i), ("pair_j", j)):
-            self._arrays[key] = array
-            setattr(self._team, key, self._pointer(self._team, key, array))
-        self._team.pairs, self._team.skin = len(i), skin
-        self._check(self._lib.mars2d_kernel_listed(self._kernel))
-
     def drive(self, twist: Float, duration: float, time: float) -> int:
         """Move the team for `duration` seconds under twists (3, n); see `Engine.drive`.
 
-        Returns the sum of `LIST`, if the Verlet list has to be made anew and this called again;
-        `PLACED`, if robots were put somewhere between steps; `CONTACTS` and `EFFORT`, if there are
-        some.
+        Returns the sum of `PLACED`, if robots were put somewhere between steps, and of `CONTACTS`
+        and `EFFORT`, if there are some.
         """
         pointer = self._ffi.from_buffer("double *", twist)
         result = self._lib.mars2d_kernel_drive(self._kernel, pointer, duration, time)

@@ -48,15 +48,24 @@ typedef struct {
 
 /* One contact of two shapes after one substep, with a < b or b an obstacle. */
 typedef struct {
-    int64_t key;
-    int substep;
+    int a, b, substep;
     Vector impulse, normal, point, velocity;
     double strength;
 } Row;
 
 typedef struct { double time, length; } Substep;
 
-typedef struct { int64_t key; double length; } Held;
+/* Pairs (a, b) of bodies in touch, in lists by a, which is a robot; few have many. */
+typedef struct { int b, next; } Link;
+typedef struct {
+    int *head; /* (n), -1 for none */
+    int *as;   /* of each link */
+    Link *links;
+    int as_room, link_count, link_room;
+} Pairs;
+
+/* How long a pair has stayed in touch in one substep. */
+typedef struct { int a, b; double length; } Held;
 
 struct Kernel {
     Team team;
@@ -77,16 +86,19 @@ struct Kernel {
     double *bend, *gone;
     /* The segments within each robot's skin when the Verlet list was made. */
     int *first_wall, *walls, wall_count, wall_room;
+    /* The Verlet list: of each robot those with larger numbers; and cells, by which it is made. */
+    int *first_pair, *lists, list_count, list_room;
+    int *next, *cells, cell_room;
     Pair *pairs;
     int pair_count, pair_room;
-    /* The contacts of this control step; pairs of bodies are known by keys, sorted. */
+    /* The contacts of this control step. */
     Row *rows;
     Substep *substeps;
     Held *helds;
     int row_count, row_room, substep_count, substep_room, held_count, held_room;
-    int64_t *toucheds, *latests, *befores, *listeds;
-    int touched_count, latest_count, before_count, listed_count;
-    int touched_room, latest_room, before_room, listed_room;
+    /* Who touches now, who did after the last substep, and after the last control step; who is
+       listed by the solver, and whose contacts are taken. */
+    Pairs touched, latest, before, listed, taken;
     Vector *sums;
     int sum_room;
 };
@@ -105,7 +117,7 @@ static void *grown(Kernel *k, void *memory, int *room, int wanted, size_t size)
     return larger;
 }
 
-#define GROW(k, what, count) ((k)->what##s = grown(k, (k)->what##s, &(k)->what##_room, count, sizeof *(k)->what##s))
+#define GROW(k, what, count) (what##s = grown(k, what##s, &what##_room, count, sizeof *what##s))
 
 static double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
 
@@ -177,29 +189,138 @@ static double wall_gap(const Kernel *k, int i)
     return least;
 }
 
-/* Marks what may touch something while each robot moves by at most its reach. Returns 1 if the
-   Verlet list is too old to say. */
-static int may_touch(Kernel *k)
+static int by_number(const void *a, const void *b)
+{
+    int x = *(const int *)a, y = *(const int *)b;
+    return (x > y) - (x < y);
+}
+
+static int cell_of(double x, double least, double size, int count)
+{
+    int cell = (int)((x - least) / size);
+    return cell < 0 ? 0 : cell >= count ? count - 1 : cell;
+}
+
+static void list_pair(Kernel *k, int j)
+{
+    GROW(k, k->list, k->list_count + 1);
+    if (!k->failed) k->lists[k->list_count++] = j;
+}
+
+/* Lists for each robot those with larger numbers within `cutoff`, in their order, by way of square
+   cells of that size. */
+static void list_robots(Kernel *k, double cutoff)
+{
+    const Team *t = &k->team;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < t->n; i++)
+        for (int d = 0; d < 2; d++) {
+            low[d] = MIN(low[d], t->state[6 * i + d]);
+            high[d] = MAX(high[d], t->state[6 * i + d]);
+        }
+    /* No more cells than robots in a row, however far apart they are. */
+    double size = MAX(cutoff, MAX(high[0] - low[0], high[1] - low[1]) / (sqrt((double)t->n) + 1));
+    int across = (int)((high[0] - low[0]) / size) + 1, up = (int)((high[1] - low[1]) / size) + 1;
+    GROW(k, k->cell, across * up);
+    if (k->failed) return;
+    for (int c = 0; c < across * up; c++) k->cells[c] = -1;
+    for (int i = t->n - 1; i >= 0; i--) { /* so that each cell's list ascends */
+        int x = cell_of(t->state[6 * i], low[0], size, across);
+        int y = cell_of(t->state[6 * i + 1], low[1], size, up);
+        k->next[i] = k->cells[y * across + x];
+        k->cells[y * across + x] = i;
+    }
+    for (int i = 0; i < t->n; i++) {
+        int first = k->first_pair[i] = k->list_count;
+        int x = cell_of(t->state[6 * i], low[0], size, across);
+        int y = cell_of(t->state[6 * i + 1], low[1], size, up);
+        for (int v = MAX(y - 1, 0); v <= MIN(y + 1, up - 1); v++)
+            for (int u = MAX(x - 1, 0); u <= MIN(x + 1, across - 1); u++)
+                for (int j = k->cells[v * across + u]; j >= 0; j = k->next[j]) {
+                    double dx = t->state[6 * i] - t->state[6 * j];
+                    double dy = t->state[6 * i + 1] - t->state[6 * j + 1];
+                    if (j > i && !beyond(dx, dy, cutoff)) list_pair(k, j);
+                }
+        if (k->failed) return;
+        qsort(k->lists + first, (size_t)(k->list_count - first), sizeof *k->lists, by_number);
+    }
+}
+
+/* Lists for each robot the segments within its skin. */
+static void list_walls(Kernel *k)
+{
+    const Team *t = &k->team;
+    k->wall_count = 0;
+    for (int i = 0; i < t->n; i++) {
+        k->first_wall[i] = k->wall_count;
+        if (t->wall_gap[i] > t->skin) continue;
+        for (int s = 0; s < t->segments; s++) {
+            const double *start = t->start + 2 * s, *edge = t->edge + 2 * s;
+            double x = t->state[6 * i] - (start[0] + edge[0] / 2);
+            double y = t->state[6 * i + 1] - (start[1] + edge[1] / 2);
+            double half = (fabs(edge[0]) + fabs(edge[1])) / 2; /* no less than half its length */
+            if (beyond(x, y, half + t->radius[i] + t->skin)) continue;
+            if (!close_to_wall(t, i, s, t->skin)) continue;
+            GROW(k, k->wall, k->wall_count + 1);
+            if (k->failed) return;
+            k->walls[k->wall_count++] = s;
+        }
+    }
+    k->first_wall[t->n] = k->wall_count;
+}
+
+/* Makes the Verlet list anew, of few robots once and for all: then its skin is infinite. */
+static void list_pairs(Kernel *k)
+{
+    Team *t = &k->team;
+    double furthest = 0.0, largest = 0.0;
+    for (int i = 0; i < t->n; i++) {
+        furthest = MAX(furthest, t->reach[i]);
+        largest = MAX(largest, t->radius[i]);
+        t->moved[i] = 0.0;
+    }
+    k->list_count = 0;
+    if (t->n <= t->few) {
+        t->skin = INFINITY;
+        for (int i = 0; i < t->n; i++) {
+            k->first_pair[i] = k->list_count;
+            for (int j = i + 1; j < t->n; j++) list_pair(k, j);
+        }
+    } else {
+        double skin = 4 * furthest;
+        t->skin = 2 * MAX(skin, largest);
+        list_robots(k, 2 * largest + 2 * t->skin);
+    }
+    k->first_pair[t->n] = k->list_count;
+    list_walls(k);
+}
+
+/* Marks what may touch something while each robot moves by at most its reach. */
+static void may_touch(Kernel *k)
 {
     Team *t = &k->team;
     for (int i = 0; i < t->n; i++)
-        if (t->moved[i] + t->reach[i] > t->skin) return 1;
-    for (int64_t p = 0; p < t->pairs; p++) {
-        int64_t i = t->pair_i[p], j = t->pair_j[p];
-        if (k->near[i] && k->near[j]) continue;
-        if (close(t, i, j, t->reach[i] + t->reach[j])) k->near[i] = k->near[j] = 1;
-    }
+        if (t->moved[i] + t->reach[i] > t->skin) {
+            list_pairs(k);
+            break;
+        }
+    if (k->failed) return;
+    for (int i = 0; i < t->n; i++)
+        for (int p = k->first_pair[i]; p < k->first_pair[i + 1]; p++) {
+            int j = k->lists[p];
+            if (k->near[i] && k->near[j]) continue;
+            if (close(t, i, j, t->reach[i] + t->reach[j])) k->near[i] = k->near[j] = 1;
+        }
     for (int i = 0; i < t->n; i++) {
         if (!(t->wall_gap[i] <= t->reach[i])) continue;
         double gap = wall_gap(k, i);
         if (gap <= t->reach[i]) k->near[i] = 1;
         t->wall_gap[i] = MIN(gap, t->skin - t->moved[i]); /* others are not listed */
     }
-    return 0;
 }
 
 /* Marks those that may touch something within `duration`. Returns the longest path that one of them
-   may take, or -1 if the Verlet list is too old. */
+   may take. */
 static double find_near(Kernel *k, double duration)
 {
     Team *t = &k->team;
@@ -217,7 +338,7 @@ static double find_near(Kernel *k, double duration)
     }
     while (now != count) {
         count = now;
-        if (may_touch(k)) return -1.0;
+        may_touch(k);
         double fastest = -1.0;
         now = 0;
         for (int i = 0; i < t->n; i++)
@@ -246,21 +367,23 @@ static void encounter(Kernel *k, double reach)
         k->place[i] = k->near[i] ? k->near_count : -1;
         if (k->near[i]) k->who[k->near_count++] = i;
     }
-    for (int64_t p = 0; p < t->pairs; p++) {
-        int a = (int)t->pair_i[p], b = (int)t->pair_j[p];
-        if (!k->near[a] || !k->near[b] || !close(t, a, b, 2 * reach)) continue;
-        GROW(k, pair, k->pair_count + 1);
-        if (k->failed) return;
-        Pair pair = {k->place[a], k->place[b], -1, a, b, t->radius[a] + t->radius[b], 0.0, {0.0, 0.0}};
-        k->pairs[k->pair_count++] = pair;
-    }
+    for (int a = 0; a < t->n; a++)
+        for (int p = k->first_pair[a]; k->near[a] && p < k->first_pair[a + 1]; p++) {
+            int b = k->lists[p];
+            if (!k->near[b] || !close(t, a, b, 2 * reach)) continue;
+            GROW(k, k->pair, k->pair_count + 1);
+            if (k->failed) return;
+            double radii = t->radius[a] + t->radius[b];
+            Pair pair = {k->place[a], k->place[b], -1, a, b, radii, 0.0, {0.0, 0.0}};
+            k->pairs[k->pair_count++] = pair;
+        }
     for (int w = 0; w < k->near_count; w++) {
         int a = k->who[w];
         if (t->wall_gap[a] > 0) continue;
         for (int l = k->first_wall[a]; l < k->first_wall[a + 1]; l++) {
             int s = k->walls[l];
             if (!close_to_wall(t, a, s, reach)) continue;
-            GROW(k, pair, k->pair_count + 1);
+            GROW(k, k->pair, k->pair_count + 1);
             if (k->failed) return;
             Pair pair = {w, -1, s, a, -1 - t->obstacle[s], t->radius[a], 0.0, {0.0, 0.0}};
             k->pairs[k->pair_count++] = pair;
@@ -307,10 +430,14 @@ static void place(Kernel *k, int i, Vector where)
     AS(SetVector, k->f.set_position)(AS(void *, k->team.body[i]), where);
 }
 
-static void read_state(Kernel *k)
+/* Reads where bodies are and how they move, of all or of those that are near: the others are carried
+   along, and nobody asks meanwhile. */
+static void read_state(Kernel *k, int all)
 {
     Team *t = &k->team;
-    for (int i = 0; i < t->n; i++) {
+    int count = all ? t->n : k->near_count;
+    for (int p = 0; p < count; p++) {
+        int i = all ? p : k->who[p];
         const void *body = AS(void *, t->body[i]);
         double *s = t->state + 6 * i;
         Vector p = AS(GetVector, k->f.get_position)(body), v = AS(GetVector, k->f.get_velocity)(body);
@@ -388,7 +515,8 @@ static void scale_contact(void *arbiter, void *data)
     }
 }
 
-static void space_step(Kernel *k, double h)
+/* Lets the engine step, with velocities set anew of all, or of those that are near. */
+static void space_step(Kernel *k, double h, int all)
 {
     Team *t = &k->team;
     void *space = AS(void *, t->space);
@@ -399,7 +527,9 @@ static void space_step(Kernel *k, double h)
     }
     memset(t->placed, 0, (size_t)t->n);
     AS(Step, k->f.set_time_step)(space, h);
-    for (int i = 0; i < t->n; i++) {
+    int count = all ? t->n : k->near_count;
+    for (int p = 0; p < count; p++) {
+        int i = all ? p : k->who[p];
         set_velocity(k, t->body[i], k->aimed[i], k->aimed_spin[i]);
         if (t->engaged[i]) set_velocity(k, t->control[i], k->aimed[t->n + i], k->aimed_spin[t->n + i]);
     }
@@ -408,27 +538,41 @@ static void space_step(Kernel *k, double h)
 
 /* -- contacts --------------------------------------------------------------------------------- */
 
-static int64_t key_of(int64_t a, int64_t b) { return (a << 32) + b + ((int64_t)1 << 31); }
-
-static int by_number(const void *a, const void *b)
+static void empty(Pairs *set)
 {
-    int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
-    return (x > y) - (x < y);
+    for (int l = 0; l < set->link_count; l++) set->head[set->as[l]] = -1;
+    set->link_count = 0;
 }
 
-/* Sorts keys and drops those that are there twice; returns how many are left. */
-static int sorted(int64_t *keys, int count)
+/* Where a pair is in a set; -1 if it is not there. */
+static int find(const Pairs *set, int a, int b)
 {
-    int kept = 0;
-    if (count > 1) qsort(keys, (size_t)count, sizeof *keys, by_number);
-    for (int i = 0; i < count; i++)
-        if (i == 0 || keys[i] != keys[i - 1]) keys[kept++] = keys[i];
-    return kept;
+    int l = set->head[a];
+    while (l >= 0 && set->links[l].b != b) l = set->links[l].next;
+    return l;
 }
 
-static int among(int64_t key, const int64_t *keys, int count)
+/* Adds a pair; returns where it is in the set, or -1 - where if it was there before. */
+static int add(Kernel *k, Pairs *set, int a, int b)
 {
-    return count > 0 && bsearch(&key, keys, (size_t)count, sizeof key, by_number) != NULL;
+    int found = find(set, a, b), count = set->link_count;
+    if (found >= 0) return -1 - found;
+    GROW(k, set->link, count + 1);
+    set->as = grown(k, set->as, &set->as_room, count + 1, sizeof *set->as);
+    if (k->failed) return 0;
+    Link link = {b, set->head[a]};
+    set->links[count] = link;
+    set->as[count] = a;
+    set->head[a] = count;
+    set->link_count++;
+    return count;
+}
+
+static void swap_sets(Pairs *a, Pairs *b)
+{
+    Pairs other = *a;
+    *a = *b;
+    *b = other;
 }
 
 /* The number of a body; the names of all bodies are sorted by address. */
@@ -470,9 +614,9 @@ static void list_contact(void *arbiter, void *data)
     AS(BodiesOf, f->bodies_of)(arbiter, &body_a, &body_b);
     int first = number_of(&k->team, body_a), second = number_of(&k->team, body_b);
     int swap = first < 0 || (second >= 0 && second < first);
-    int64_t key = swap ? key_of(second, first) : key_of(first, second);
-    if (!among(key, k->toucheds, k->touched_count)) return;
-    GROW(k, row, k->row_count + 1);
+    int a = swap ? second : first, b = swap ? first : second;
+    if (find(&k->touched, a, b) < 0) return;
+    GROW(k, k->row, k->row_count + 1);
     if (k->failed) return;
     int count = AS(CountOf, f->count_of)(arbiter);
     Vector zero = {0.0, 0.0}, on_first = zero, on_second = zero;
@@ -485,7 +629,8 @@ static void list_contact(void *arbiter, void *data)
         on_second = middle_of(on_second, AS(PointOf, f->point_b)(arbiter, 1));
     }
     Row *row = k->rows + k->row_count++;
-    row->key = key;
+    row->a = a;
+    row->b = b;
     row->substep = k->substep_count - 1;
     row->normal = AS(GetVector, f->normal_of)(arbiter);
     row->impulse = AS(GetVector, f->impulse_of)(arbiter);
@@ -506,51 +651,12 @@ static void list_contact(void *arbiter, void *data)
     row->strength = hypot(row->impulse.x, row->impulse.y);
 }
 
-/* Notes who touches whom after a substep of h. */
-static void note_contacts(Kernel *k, double time, double h, int any)
-{
-    k->touched_count = 0;
-    if (!any) {
-        k->latest_count = 0;
-        return;
-    }
-    for (int p = 0; p < k->pair_count; p++) {
-        if (!(k->pairs[p].gap <= 0)) continue;
-        GROW(k, touched, k->touched_count + 1);
-        if (k->failed) return;
-        int a = k->pairs[p].a, b = k->pairs[p].b;
-        k->toucheds[k->touched_count++] = b >= 0 && b < a ? key_of(b, a) : key_of(a, b);
-    }
-    k->touched_count = sorted(k->toucheds, k->touched_count);
-    GROW(k, substep, k->substep_count + 1);
-    if (k->failed) return;
-    Substep substep = {time, h};
-    k->substeps[k->substep_count++] = substep;
-    int first = k->row_count;
-    Kernel *data = k;
-    AS(Each, k->f.each_arbiter)(AS(void *, k->team.space), list_contact, &data);
-    GROW(k, listed, k->row_count - first);
-    GROW(k, held, k->held_count + k->row_count - first);
-    if (k->failed) return;
-    for (int r = first; r < k->row_count; r++) k->listeds[r - first] = k->rows[r].key;
-    int count = sorted(k->listeds, k->row_count - first);
-    for (int c = 0; c < count; c++)
-        if (among(k->listeds[c], k->latests, k->latest_count)) {
-            Held held = {k->listeds[c], h};
-            k->helds[k->held_count++] = held;
-        }
-    GROW(k, latest, count);
-    if (k->failed) return;
-    if (count > 0) memcpy(k->latests, k->listeds, (size_t)count * sizeof *k->latests);
-    k->latest_count = count;
-}
-
-/* By substep, pair, strength and then whatever distinguishes two. */
+/* By pair, strength and then whatever distinguishes two. */
 static int by_row(const void *a, const void *b)
 {
     const Row *p = a, *q = b;
-    if (p->substep != q->substep) return p->substep < q->substep ? -1 : 1;
-    if (p->key != q->key) return p->key < q->key ? -1 : 1;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    if (p->b != q->b) return p->b < q->b ? -1 : 1;
     double x[5] = {-p->strength, p->point.x, p->point.y, p->normal.x, p->normal.y};
     double y[5] = {-q->strength, q->point.x, q->point.y, q->normal.x, q->normal.y};
     for (int i = 0; i < 5; i++)
@@ -558,49 +664,73 @@ static int by_row(const void *a, const void *b)
     return 0;
 }
 
+/* Notes who touches whom after a substep of h. */
+static void note_contacts(Kernel *k, double time, double h, int any)
+{
+    if (!any) {
+        empty(&k->latest);
+        return;
+    }
+    empty(&k->touched);
+    for (int p = 0; p < k->pair_count; p++)
+        if (k->pairs[p].gap <= 0) add(k, &k->touched, k->pairs[p].a, k->pairs[p].b);
+    GROW(k, k->substep, k->substep_count + 1);
+    if (k->failed) return;
+    Substep substep = {time, h};
+    k->substeps[k->substep_count++] = substep;
+    int first = k->row_count, several = 0;
+    Kernel *data = k;
+    AS(Each, k->f.each_arbiter)(AS(void *, k->team.space), list_contact, &data);
+    GROW(k, k->held, k->held_count + k->row_count - first);
+    if (k->failed) return;
+    empty(&k->listed);
+    for (int r = first; r < k->row_count; r++) {
+        int a = k->rows[r].a, b = k->rows[r].b;
+        if (add(k, &k->listed, a, b) < 0) several = 1;
+        else if (find(&k->latest, a, b) >= 0) {
+            Held held = {a, b, h};
+            k->helds[k->held_count++] = held;
+        }
+    }
+    /* The solver lists several contacts of a pair in the order of their addresses in memory. */
+    if (several) qsort(k->rows + first, (size_t)(k->row_count - first), sizeof *k->rows, by_row);
+    swap_sets(&k->latest, &k->listed);
+}
+
 /* By time, then by pair. */
 static int by_time(const void *a, const void *b)
 {
     const Contact *p = a, *q = b;
     if (p->time != q->time) return p->time < q->time ? -1 : 1;
-    int64_t x = key_of(p->a, p->b), y = key_of(q->a, q->b);
-    return (x > y) - (x < y);
-}
-
-static int place_of(int64_t key, const int64_t *keys, int count)
-{
-    const int64_t *found = bsearch(&key, keys, (size_t)count, sizeof key, by_number);
-    return (int)(found - keys);
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return (p->b > q->b) - (p->b < q->b);
 }
 
 int mars2d_kernel_contacts(Kernel *k)
 {
-    GROW(k, listed, k->row_count);
-    if (k->failed) return -1;
-    for (int r = 0; r < k->row_count; r++) k->listeds[r] = k->rows[r].key;
-    k->listed_count = sorted(k->listeds, k->row_count);
-    GROW(k, sum, k->listed_count);
-    return k->failed ? -1 : k->listed_count;
+    empty(&k->taken);
+    for (int r = 0; r < k->row_count; r++) add(k, &k->taken, k->rows[r].a, k->rows[r].b);
+    GROW(k, k->sum, k->taken.link_count);
+    return k->failed ? -1 : k->taken.link_count;
 }
 
 int mars2d_kernel_take(Kernel *k, void *memory)
 {
     Contact *contacts = memory;
-    int count = k->listed_count;
+    int count = k->taken.link_count;
     memset(contacts, 0, (size_t)count * sizeof *contacts);
-    if (k->row_count > 1) qsort(k->rows, (size_t)k->row_count, sizeof *k->rows, by_row);
     for (int c = 0; c < count; c++) contacts[c].a = -1;
     memset(k->sums, 0, (size_t)count * sizeof *k->sums);
     for (int r = 0; r < k->row_count; r++) {
         const Row *row = k->rows + r;
-        Contact *contact = contacts + place_of(row->key, k->listeds, count);
+        Contact *contact = contacts + find(&k->taken, row->a, row->b);
         if (contact->a < 0) { /* the first of its pair */
-            contact->a = (int32_t)(row->key >> 32);
-            contact->b = (int32_t)((row->key & 0xffffffff) - ((int64_t)1 << 31));
+            contact->a = row->a;
+            contact->b = row->b;
             contact->normal = row->normal;
             contact->point = row->point;
-            contact->began = !among(row->key, k->befores, k->before_count);
-            contact->ended = !among(row->key, k->latests, k->latest_count);
+            contact->began = find(&k->before, row->a, row->b) < 0;
+            contact->ended = find(&k->latest, row->a, row->b) < 0;
             const Substep *substep = k->substeps + row->substep;
             contact->time = substep->time - (contact->began ? 0.0 : substep->length);
             contact->speed = contact->began ? -dot(row->velocity, row->normal) : 0.0;
@@ -612,16 +742,14 @@ int mars2d_kernel_take(Kernel *k, void *memory)
         contact->tangential_impulse += row->impulse.y * row->normal.x - row->impulse.x * row->normal.y;
     }
     for (int h = 0; h < k->held_count; h++)
-        contacts[place_of(k->helds[h].key, k->listeds, count)].duration += k->helds[h].length;
+        contacts[find(&k->taken, k->helds[h].a, k->helds[h].b)].duration += k->helds[h].length;
     for (int c = 0; c < count; c++) contacts[c].impulse = hypot(k->sums[c].x, k->sums[c].y);
     if (count > 1) qsort(contacts, (size_t)count, sizeof *contacts, by_time);
     k->row_count = k->substep_count = k->held_count = 0;
-    GROW(k, before, k->latest_count);
-    if (k->failed) return -1;
-    if (k->latest_count > 0)
-        memcpy(k->befores, k->latests, (size_t)k->latest_count * sizeof *k->befores);
-    k->before_count = k->latest_count;
-    return count;
+    empty(&k->before);
+    for (int l = 0; l < k->latest.link_count; l++)
+        add(k, &k->before, k->latest.as[l], k->latest.links[l].b);
+    return k->failed ? -1 : count;
 }
 
 /* -- one substep ------------------------------------------------------------------------------ */
@@ -789,7 +917,6 @@ static void note_effort(Kernel *k)
 /* Steps through `duration` as finely as those need that are near; returns the seconds gone. */
 static double substeps(Kernel *k, double duration, double time, double path)
 {
-    Team *t = &k->team;
     double elapsed = 0.0, h = 0.0;
     memset(k->gone, 0, (size_t)k->near_count * sizeof *k->gone);
     for (;;) {
@@ -803,24 +930,26 @@ static double substeps(Kernel *k, double duration, double time, double path)
             k->gone[w] += h * hypot(k->velocity[w].x, k->velocity[w].y);
             furthest = MAX(furthest, k->gone[w]);
         }
-        if (elapsed > 0 && furthest > path) break;
+        if (elapsed > 0 && furthest > path) {
+            read_state(k, 1);
+            break;
+        }
         aim(k, h);
-        space_step(k, h);
+        space_step(k, h, elapsed == 0);
         elapsed = h == left ? duration : elapsed + h;
-        read_state(k);
+        read_state(k, elapsed >= duration);
         note_effort(k);
     }
-    (void)t;
     return elapsed;
 }
 
-/* Goes on by at most `duration`; returns by how much, or -1 if the Verlet list is too old. */
+/* Goes on by at most `duration`; returns by how much. */
 static double advance(Kernel *k, double duration, double time)
 {
     Team *t = &k->team;
     double path = find_near(k, duration), gone = duration;
-    if (path < 0) return -1.0;
     int any = 0;
+    if (k->failed) return -1.0;
     for (int i = 0; i < t->n; i++) {
         k->wanted[i] = t->engaged[i] && k->near[i];
         any |= k->near[i];
@@ -830,9 +959,9 @@ static double advance(Kernel *k, double duration, double time)
     }
     engage(k, k->wanted);
     if (!any) {
-        space_step(k, duration);
-        read_state(k);
-        k->latest_count = 0;
+        space_step(k, duration, 1);
+        read_state(k, 1);
+        empty(&k->latest);
         return duration;
     }
     encounter(k, path + t->max_overlap);
@@ -849,24 +978,6 @@ static double advance(Kernel *k, double duration, double time)
     return gone;
 }
 
-int mars2d_kernel_listed(Kernel *k)
-{
-    Team *t = &k->team;
-    k->wall_count = 0;
-    for (int i = 0; i < t->n; i++) {
-        k->first_wall[i] = k->wall_count;
-        if (t->wall_gap[i] > t->skin) continue;
-        for (int s = 0; s < t->segments; s++) {
-            if (!close_to_wall(t, i, s, t->skin)) continue;
-            GROW(k, wall, k->wall_count + 1);
-            if (k->failed) return -1;
-            k->walls[k->wall_count++] = s;
-        }
-    }
-    k->first_wall[t->n] = k->wall_count;
-    return 0;
-}
-
 int mars2d_kernel_drive(Kernel *k, const double *twist, double duration, double time)
 {
     int left_over = 0;
@@ -875,7 +986,6 @@ int mars2d_kernel_drive(Kernel *k, const double *twist, double duration, double 
         double left = duration - k->elapsed;
         double gone = advance(k, left, time + k->elapsed);
         if (k->failed) return -1;
-        if (gone < 0) return MARS2D_LIST;
         k->elapsed = gone == left ? duration : k->elapsed + gone;
     }
     k->elapsed = 0.0;
@@ -884,7 +994,7 @@ int mars2d_kernel_drive(Kernel *k, const double *twist, double duration, double 
         if (k->team.effort[i] > 0) left_over |= MARS2D_EFFORT;
     }
     if (k->row_count > 0) return left_over | MARS2D_CONTACTS;
-    k->before_count = 0; /* what touches has rows */
+    empty(&k->before); /* what touches has rows */
     return left_over;
 }
 
@@ -906,8 +1016,14 @@ void mars2d_kernel_free(Kernel *k)
     if (k == NULL) return;
     void *memory[] = {k->who, k->place, k->near, k->touching, k->wanted, k->velocity, k->bend, k->gone,
                       k->aimed, k->aimed_spin, k->speed, k->start, k->pairs, k->rows, k->substeps,
-                      k->helds, k->toucheds, k->latests, k->befores, k->listeds, k->sums,
-                      k->first_wall, k->walls};
+                      k->helds, k->sums, k->first_wall, k->walls, k->first_pair, k->lists,
+                      k->next, k->cells};
+    Pairs *sets[] = {&k->touched, &k->latest, &k->before, &k->listed, &k->taken};
+    for (size_t m = 0; m < sizeof sets / sizeof *sets; m++) {
+        free(sets[m]->head);
+        free(sets[m]->as);
+        free(sets[m]->links);
+    }
     for (size_t m = 0; m < sizeof memory / sizeof *memory; m++) free(memory[m]);
     free(k);
 }
@@ -926,11 +1042,21 @@ Kernel *mars2d_kernel_new(const Team *team, const Functions *functions)
         k->gone = calloc(n, sizeof *k->gone), k->aimed = calloc(2 * n, sizeof *k->aimed),
         k->aimed_spin = calloc(2 * n, sizeof *k->aimed_spin), k->speed = calloc(n, sizeof *k->speed),
         k->start = calloc(6 * n, sizeof *k->start),
-        k->first_wall = calloc(n + 1, sizeof *k->first_wall)};
+        k->first_wall = calloc(n + 1, sizeof *k->first_wall),
+        k->first_pair = calloc(n + 1, sizeof *k->first_pair), k->next = calloc(n, sizeof *k->next),
+        k->touched.head = malloc(n * sizeof *k->touched.head),
+        k->latest.head = malloc(n * sizeof *k->latest.head),
+        k->before.head = malloc(n * sizeof *k->before.head),
+        k->listed.head = malloc(n * sizeof *k->listed.head),
+        k->taken.head = malloc(n * sizeof *k->taken.head)};
     for (size_t m = 0; m < sizeof memory / sizeof *memory; m++)
         if (memory[m] == NULL) {
             mars2d_kernel_free(k);
             return NULL;
         }
+    Pairs *sets[] = {&k->touched, &k->latest, &k->before, &k->listed, &k->taken};
+    for (size_t m = 0; m < sizeof sets / sizeof *sets; m++)
+        for (size_t i = 0; i < n; i++) sets[m]->head[i] = -1;
+    k->team.skin = -1.0; /* to be listed at the first question */
     return k;
 }

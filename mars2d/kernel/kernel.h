@@ -13,18 +13,14 @@ typedef struct {
     /* What the plain engine's constants are called there. */
     double max_overlap, entry, contact_step, pressed, turned;
     double slack, growth, tiny, least;
-    int64_t linger;
+    int64_t linger, few;
     /* State: (n, 6) poses and velocities; the rest (n). */
     double *state;
     uint8_t *slipping, *engaged, *placed;
     int64_t *since;
     double *effort, *wall_gap, *moved;
+    double *reach; /* how far each may move in this control step */
     double skin, last_step;
-    /* The Verlet list. */
-    int64_t pairs;
-    int64_t *pair_i, *pair_j;
-    /* How far each robot may move: what a new list is to be made for, (n). */
-    double *reach;
     /* The engine's objects, by address: the space; bodies, controls and joints, (n) each. */
     uintptr_t space;
     uintptr_t *body, *control, *pivot, *gear;
@@ -51,12 +47,8 @@ Kernel *mars2d_kernel_new(const Team *team, const Functions *functions);
 void mars2d_kernel_free(Kernel *kernel);
 Team *mars2d_kernel_team(Kernel *kernel);
 
-/* To be called when the team's Verlet list is new. Returns -1 when memory has run out. */
-int mars2d_kernel_listed(Kernel *kernel);
-
-/* What a call of mars2d_kernel_drive has left to do: to make the Verlet list anew for `reach` and to
-   call it again; and what it has left: robots that were placed, contacts, efforts of drives. */
-enum { MARS2D_LIST = 1, MARS2D_PLACED = 2, MARS2D_CONTACTS = 4, MARS2D_EFFORT = 8 };
+/* What a call of mars2d_kernel_drive may leave: robots that were placed, contacts, efforts. */
+enum { MARS2D_PLACED = 1, MARS2D_CONTACTS = 2, MARS2D_EFFORT = 4 };
 
 /* Goes on by `duration` under twists (3, n). Returns which of these there are, or -1 when memory has
    run out. */
