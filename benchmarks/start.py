@@ -2,7 +2,7 @@
 
     python benchmarks/start.py [--json OUT.json] [--rounds N]
 
-Each figure is the median of several new processes.
+Each figure is the median of several new processes, with modules compiled as pip compiles them.
 """
 
 from __future__ import annotations
@@ -10,28 +10,13 @@ from __future__ import annotations
 import argparse
 import json
 import statistics
-import subprocess
-import sys
-import time
 from pathlib import Path
+
+from mars2d.bench.start import COMMANDS, seconds, with_bytecode
 
 ROUNDS = 9
 
-COMMANDS = {
-    "bare python": [sys.executable, "-c", "pass"],
-    "import numpy": [sys.executable, "-c", "import numpy"],
-    "import mars2d": [sys.executable, "-c", "import mars2d"],
-    "mars2d run random_walk --headless": [
-        *(sys.executable, "-m", "mars2d", "run", "random_walk", "--headless"),
-    ],
-}
-
-
-def seconds(command: list[str]) -> float:
-    """Return how long a command takes from its start to its end."""
-    start = time.perf_counter()
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    return time.perf_counter() - start
+EVERY = {"bare python": ("-c", "pass"), "import numpy": ("-c", "import numpy"), **COMMANDS}
 
 
 def main() -> None:
@@ -40,12 +25,13 @@ def main() -> None:
     parser.add_argument("--json", type=Path, metavar="OUT.json", help="write the figures")
     parser.add_argument("--rounds", type=int, default=ROUNDS, help="how often all are timed")
     arguments = parser.parse_args()
-    times: dict[str, list[float]] = {name: [] for name in COMMANDS}
-    for round_ in range(arguments.rounds + 1):
-        for name, command in COMMANDS.items():
-            taken = seconds(command)
-            if round_ > 0:  # the first fills the disk's cache
-                times[name].append(taken)
+    times: dict[str, list[float]] = {name: [] for name in EVERY}
+    with with_bytecode() as environment:
+        for round_ in range(arguments.rounds + 1):
+            for name, command in EVERY.items():
+                taken = seconds(command, environment)
+                if round_ > 0:  # the first compiles, and fills the disk's cache
+                    times[name].append(taken)
     medians = {name: round(statistics.median(taken), 4) for name, taken in times.items()}
     python = medians["bare python"]
     for name, median in medians.items():

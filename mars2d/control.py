@@ -65,11 +65,12 @@ def robot_command(law: Law, value: Any) -> tuple[float, float]:
         law.refuse("returned nothing: a law returns its command, as `return v, omega`")
     if type(value) is tuple and len(value) == 2 and {*map(type, value)} <= PLAIN:
         first, second = value
-    else:
-        command = _numbers(value)
-        if command is None or command.shape not in ((2,), (2, 1)):
-            law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
-        first, second = command.ravel().tolist()
+        if abs(first) <= LARGEST and abs(second) <= LARGEST:
+            return first, second
+    command = _numbers(value)
+    if command is None or command.shape not in ((2,), (2, 1)):
+        law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
+    first, second = command.ravel().tolist()
     if not (abs(first) <= LARGEST and abs(second) <= LARGEST):  # neither for NaN
         law.refuse(f"returned {shown((first, second))}: {BOUNDED}")
     return first, second

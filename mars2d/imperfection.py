@@ -71,6 +71,17 @@ class Imperfection:
             result[rng.random(self._rows(result)) < self.dropouts] = self._missing(result)
         return result if result.ndim else result.item()
 
+    def of_all(
+        self, readings: Sequence[Any] | NDArray[Any], rngs: Sequence[np.random.Generator]
+    ) -> Any:
+        """Return what equal devices make of perfect readings, each with random numbers of its own.
+
+        Where no chance is in it, an array is treated as one.
+        """
+        if self.none and isinstance(readings, np.ndarray):
+            return self.of(readings, rngs[0])
+        return [self.of(reading, rng) for reading, rng in zip(readings, rngs, strict=True)]
+
     def lost(self, reading: Any) -> Any:
         """Return what is read in place of a reading that has not arrived."""
         result = np.array(self._checked(reading))

@@ -212,13 +212,6 @@ class Rays:
         """Return how far rays at angles (k,) go, inf where nothing is hit; see Surroundings."""
         return self._sweep(start, angles, reach, ignore)[1]
 
-    def sight(
-        self, start: Point, angles: Float, reach: ArrayLike, ignore: int, nothing: int
-    ) -> tuple[Float, Int]:
-        """Return how far rays go, and the bodies that they hit; see Surroundings."""
-        shapes, distance = self._sweep(start, angles, reach, ignore)
-        return distance, np.where(shapes == 0, nothing, self._bodies(shapes))
-
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:

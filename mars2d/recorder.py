@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from importlib.metadata import version
 from math import prod
 from typing import Any
 
@@ -130,7 +129,11 @@ class Recorder:
                     self._reads.setdefault(sensor.key, sensor.read)
 
     def write(
-        self, time: float, *, readings: Mapping[str, Sequence[Any]], **columns: Float | float
+        self,
+        time: float,
+        *,
+        readings: Mapping[str, Sequence[Any] | NDArray[Any]],
+        **columns: Float | float,
     ) -> None:
         """Write one row: the world at `time`. columns: the rows of the other columns, by name."""
         row = self.rows
@@ -142,7 +145,7 @@ class Recorder:
                 self._write_readings(row, name, values)
         self.rows += 1
 
-    def _write_readings(self, row: int, name: str, values: Sequence[Any]) -> None:
+    def _write_readings(self, row: int, name: str, values: Sequence[Any] | NDArray[Any]) -> None:
         given = _as_reading(name, values)
         # A first reading of 3 may be followed by 3.5: whole numbers are kept as floats.
         dtype = bool if given.dtype.kind == "b" else float
@@ -216,8 +219,10 @@ class Recorder:
         )
 
 
-def _as_reading(name: str, values: Sequence[Any]) -> NDArray[Any]:
+def _as_reading(name: str, values: Sequence[Any] | NDArray[Any]) -> NDArray[Any]:
     """Return the readings of the robots that carry sensor `name` as one array (m, ...)."""
+    if isinstance(values, np.ndarray) and values.dtype == float:
+        return values
     given = as_numbers(
         name, values,
         "a number, True or False, or an array of them, of the same shape on each robot (else give "
@@ -244,6 +249,8 @@ def _kind(dtype: np.dtype[Any], shape: tuple[int, ...]) -> str:
 
 def versions() -> dict[str, str]:
     """Return the versions of what a run's numbers depend on."""
+    from importlib.metadata import version
+
     from mars2d import __version__
 
     return {

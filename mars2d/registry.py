@@ -7,15 +7,18 @@ A package ships a part by an entry point of the group ``mars2d.<family>``, such 
 from __future__ import annotations
 
 import importlib
-import importlib.metadata
 import pkgutil
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from typing import TYPE_CHECKING
 
 from mars2d.description import Description
 from mars2d.errors import described, nearest, shown
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 __all__ = ["BASES", "Plugin", "members", "package_of", "plugin", "plugins", "snake_case", "summary"]
 
@@ -69,11 +72,11 @@ def plugins(family: str) -> tuple[Plugin, ...]:
 
     A name that MARS2D has itself, or another package before in the alphabet, is a problem.
     """
+    from importlib.metadata import entry_points  # which takes a tenth of the package's import
+
     taken = dict.fromkeys(_own(family), "MARS2D itself")
     found = []
-    for entry in sorted(
-        importlib.metadata.entry_points(group=f"mars2d.{family}"), key=lambda e: (_package(e), e)
-    ):
+    for entry in sorted(entry_points(group=f"mars2d.{family}"), key=lambda e: (_package(e), e)):
         part = _load(family, entry)
         if part.kind is not None and part.name in taken:
             problem = f"{taken[part.name]} has a {part.name}, which is used in its place"
@@ -95,7 +98,7 @@ def package_of(family: str, kind: type[Description]) -> str | None:
     return next((p.package for p in plugins(family) if p.kind is kind), None)
 
 
-def _load(family: str, entry: importlib.metadata.EntryPoint) -> Plugin:
+def _load(family: str, entry: EntryPoint) -> Plugin:
     package, version = _package(entry), entry.dist.version if entry.dist else ""
     base = getattr(importlib.import_module(f"mars2d.{family}"), BASES[family])
     problem = ""
@@ -110,7 +113,7 @@ def _load(family: str, entry: importlib.metadata.EntryPoint) -> Plugin:
     return Plugin(family, kind.__name__, package, version, kind)
 
 
-def _package(entry: importlib.metadata.EntryPoint) -> str:
+def _package(entry: EntryPoint) -> str:
     return entry.dist.name if entry.dist else "an unknown package"
 
 
@@ -132,8 +135,9 @@ def _walk(family: str) -> Iterator[type[Description]]:
 
 def misspelt_groups() -> list[str]:
     """Return entry points' groups that begin with ``mars2d.`` and are none, each with a hint."""
-    every = importlib.metadata.entry_points().groups
-    groups = {group for group in every if group.startswith("mars2d.")}
+    from importlib.metadata import entry_points
+
+    groups = {group for group in entry_points().groups if group.startswith("mars2d.")}
     known = [f"mars2d.{family}" for family in BASES]
     return [f"{group}{nearest(group, known)}" for group in sorted(groups - {*known})]
 

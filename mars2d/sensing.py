@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -17,7 +17,7 @@ from mars2d.usercode import called
 if TYPE_CHECKING:
     from mars2d.views import RobotView
 
-__all__ = ["Device", "Sense"]
+__all__ = ["Device", "Sense", "Sensing"]
 
 
 class Sense(SimpleNamespace):
@@ -71,27 +71,31 @@ class Device:
         stream: Callable[[str], np.random.Generator],
     ) -> None:
         """Take the sensor, its robot and world, and what makes a random stream of a name."""
+        self.described = sensor
         self.sensor = sensor.live()
         self.key, self.robot = sensor.key, robot.index
         self.reading: Any = None
         self._shown: Any = None  # what a law gets of it
-        self._robot, self._world = robot, world
+        self.view, self.world = robot, world
         self._stream, self._name = stream, f"sensor {robot.name} {sensor.key}"
-        self._rng = stream(self._name)
+        self.rng = stream(self._name)
         self._sense: Sense = robot.sense
         self._sense._names.append(self.key)
-        self._period = sensor.period(world.sampling_time)
-        self._age = sensor.age(world.sampling_time)
+        self._readings = vars(self._sense)
+        self.period = sensor.period(world.sampling_time)
+        self.age = sensor.age(world.sampling_time)
         self._on_its_way: deque[tuple[int, Any]] = deque()
-        self.when_asked = not sensor.recorded and self._period == 1 and self._age == 0
+        self.when_asked = not sensor.recorded and self.period == 1 and self.age == 0
         self.follows = type(sensor).on_step is not Sensor.on_step
+        self._shows_more = type(sensor).shown is not Sensor.shown
+        self.reading_it = called(f"sensor {self.key!r}", self.sensor.read)
         with called(f"sensor {self.key!r}", self.sensor.on_start):
-            self.sensor.on_start(robot, world, self._rng)
+            self.sensor.on_start(robot, world, self.rng)
 
     def follow(self) -> None:
         """Do what the sensor does at each control step, whether it is read or not."""
         with called(f"sensor {self.key!r}", self.sensor.on_step):
-            self.sensor.on_step(self._robot, self._world, self._rng)
+            self.sensor.on_step(self.view, self.world, self.rng)
 
     def step(self, iteration: int) -> None:
         """Measure, if it is time, and show what has arrived."""
@@ -99,30 +103,33 @@ class Device:
             self.reading = None
             self._sense._expect(self.key, lambda: self._measured_when_asked(iteration))
             return
-        if self._age > 0:
-            self._wait(iteration)
-        elif iteration % self._period == 0:
-            self._take(self._measured(self._rng))
-        vars(self._sense)[self.key] = self._shown
+        if iteration % self.period == 0:
+            self.send(self._measured(self.rng), iteration)
+        self.show(iteration)
+
+    def send(self, measured: Any, iteration: int) -> None:
+        """Let a measurement of this control step be on its way."""
+        if self.age == 0:
+            self._take(measured)
+            return
+        if self.reading is None:
+            with self.reading_it:
+                self._take(self.sensor.lost(measured))
+        self._on_its_way.append((iteration + self.age, measured))
+
+    def show(self, iteration: int) -> None:
+        """Show what has arrived by this control step."""
+        if self._on_its_way and self._on_its_way[0][0] <= iteration:
+            self._take(self._on_its_way.popleft()[1])
+        self._readings[self.key] = self._shown
 
     def hide(self) -> None:
         """Let nobody take the reading of the control step before for that of this one."""
-        vars(self._sense).pop(self.key, None)
+        self._readings.pop(self.key, None)
 
     def close(self) -> None:
         """Let nothing of this control step be measured any more, since things begin to move."""
         self._sense._due.pop(self.key, None)
-
-    def _wait(self, iteration: int) -> None:
-        """Measure, if it is time, for later, and take what arrives now."""
-        if iteration % self._period == 0:
-            measured = self._measured(self._rng)
-            if self.reading is None:
-                with called(f"sensor {self.key!r}", self.sensor.read):
-                    self._take(self.sensor.lost(measured))
-            self._on_its_way.append((iteration + self._age, measured))
-        if self._on_its_way and self._on_its_way[0][0] <= iteration:
-            self._take(self._on_its_way.popleft()[1])
 
     def _measured_when_asked(self, iteration: int) -> Any:
         """Measure with random numbers of this control step's own: asking changes nothing later."""
@@ -130,15 +137,114 @@ class Device:
         return self._shown
 
     def _measured(self, rng: np.random.Generator) -> Any:
-        with called(f"sensor {self.key!r}", self.sensor.read):
-            reading = self.sensor.read(self._robot, self._world, rng)
+        with self.reading_it:
+            reading = self.sensor.read(self.view, self.world, rng)
             return _kept(self.sensor.measured(reading, rng))
 
     def _take(self, reading: Any) -> None:
         """Let this be the reading from now on."""
-        self.reading = reading
-        with called(f"sensor {self.key!r}", self.sensor.shown):
-            self._shown = self.sensor.shown(reading)
+        self.reading = self._shown = reading
+        if self._shows_more:
+            with called(f"sensor {self.key!r}", self.sensor.shown):
+                self._shown = self.sensor.shown(reading)
+
+
+class _Team:
+    """Devices with equal sensors that are read together.
+
+    readings: those that are recorded at this control step, as one array; None if they are not one.
+    """
+
+    def __init__(self, devices: list[Device]) -> None:
+        """Take the devices, in the order of their robots."""
+        self.devices = devices
+        self._first = devices[0]
+        self._robots = [device.view for device in devices]
+        self._rngs = [device.rng for device in devices]
+        self.readings: NDArray[Any] | None = None
+
+    def step(self, iteration: int) -> None:
+        """Measure, if it is time, and show what has arrived."""
+        if iteration % self._first.period == 0:
+            for device, measured in zip(self.devices, self._measured(), strict=True):
+                device.send(measured, iteration)
+        for device in self.devices:
+            device.show(iteration)
+
+    def _measured(self) -> Sequence[Any]:
+        first = self._first
+        with first.reading_it:
+            found = first.sensor.read_all(self._robots, first.world, self._rngs)
+            measured = first.sensor.measured_all(found, self._rngs)
+            if not isinstance(measured, np.ndarray):
+                return [_kept(reading) for reading in measured]
+            block = np.array(measured)
+            block.flags.writeable = False
+            self.readings = block if first.age == 0 else None
+            return list(block)
+
+
+class Sensing:
+    """All devices of a world at work, those that are equal and measure alike read together.
+
+    devices: one by one, robot by robot.
+    """
+
+    def __init__(self, devices: Sequence[Device]) -> None:
+        """Take all devices, robot by robot."""
+        self.devices = devices
+        self._following = [device for device in devices if device.follows]
+        self._when_asked = [device for device in devices if device.when_asked]
+        groups = _grouped(devices)
+        self._parts = [_Team(group) if len(group) > 1 else group[0] for group in groups]
+        self._recorded: dict[str, list[Device]] = {}
+        for device in devices:
+            if device.sensor.recorded:
+                self._recorded.setdefault(device.key, []).append(device)
+        self._whole = {
+            part.devices[0].key: part
+            for part in self._parts
+            if isinstance(part, _Team) and part.devices == self._recorded.get(part.devices[0].key)
+        }
+
+    def hide(self) -> None:
+        """Let nobody take readings of the control step before for those of this one."""
+        for device in self.devices:
+            device.hide()
+
+    def step(self, iteration: int) -> None:
+        """Read all sensors that are due, and show what has arrived; all follow before that."""
+        for device in self._following:
+            device.follow()
+        for part in self._parts:
+            part.step(iteration)
+
+    def close(self) -> None:
+        """Let nothing of this control step be measured any more."""
+        for device in self._when_asked:
+            device.close()
+
+    def recorded(self) -> dict[str, Sequence[Any] | NDArray[Any]]:
+        """Return the readings that are to be recorded, robot by robot, by the sensors' names."""
+        readings: dict[str, Sequence[Any] | NDArray[Any]] = {}
+        for key, devices in self._recorded.items():
+            block = self._whole[key].readings if key in self._whole else None
+            readings[key] = [device.reading for device in devices] if block is None else block
+        return readings
+
+
+def _grouped(devices: Sequence[Device]) -> list[list[Device]]:
+    """Return devices that are read together, in the order of the first of each group."""
+    groups: list[list[Device]] = []
+    for device in devices:
+        together = not device.when_asked and "read_all" in vars(type(device.sensor))
+        for group in groups if together else ():
+            if group[0].described == device.described and not group[0].when_asked:
+                group.append(device)
+                break
+        else:
+            groups.append([device])
+    return groups
 
 
 def _kept(reading: Any) -> Any:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon, Color
+from mars2d.fans import Fans
 from mars2d.geometry import Point
 from mars2d.looks import OBSTACLE, prop_colors
 from mars2d.sensors.base import NOTHING
@@ -34,6 +35,7 @@ class Around:
     def __init__(self, world: World, space: Space) -> None:
         self._world = world
         self._space = space
+        self._placed: Float | None = None  # the poses at which the fans' bodies are
 
     @property
     def time(self) -> float:
@@ -76,13 +78,40 @@ class Around:
 
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
         """Return how far rays at angles (k,) go, (k,) metres; inf where nothing is hit."""
-        return self._space.rays.distances(start, angles, length, ignore)
+        return np.asarray(self.scans(_upright(start), angles, length, [ignore])[0])
 
     def sight(
         self, start: Point, angles: Float, length: ArrayLike, ignore: int
     ) -> tuple[Float, Int]:
         """Return how far rays go, and which body each hits, NOTHING if none."""
-        return self._space.rays.sight(start, angles, length, ignore, NOTHING)
+        distances, bodies = self.sights(_upright(start), angles, length, [ignore])
+        return distances[0], bodies[0]
+
+    def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
+        """Return how far rays from poses (3, m) at bearings (k,) go, (m, k) metres."""
+        return self._fans_now.distances(poses, bearings, length, ignore)
+
+    def sights(
+        self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
+    ) -> tuple[Float, Int]:
+        """Return how far rays from poses (3, m) at bearings (k,) go, and what each hits."""
+        return self._fans_now.sight(poses, bearings, length, ignore, NOTHING)
+
+    @cached_property
+    def _fans(self) -> Fans:
+        scenario = self._world.scenario
+        return Fans(
+            [body.shape.pieces for body in scenario.bodies],
+            [surface.outline for surface in scenario.surfaces],
+        )
+
+    @property
+    def _fans_now(self) -> Fans:
+        """The fans, with all bodies where they are now."""
+        if self._placed is not self._world.pose:
+            self._placed = self._world.pose
+            self._fans.place(np.hstack([self._placed, self._world.prop_pose]))
+        return self._fans
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
@@ -129,3 +158,8 @@ class Around:
             if color is not None:
                 return color
         return WHITE
+
+
+def _upright(start: Point) -> Float:
+    """Return the pose (3, 1) of a fan that starts in a point, and whose bearings are angles."""
+    return np.array([[start[0]], [start[1]], [0.0]])

@@ -29,7 +29,7 @@ from mars2d.record import Record
 from mars2d.recorder import History, Recorder
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
-from mars2d.sensing import Device
+from mars2d.sensing import Device, Sensing
 from mars2d.streams import check_seed, stream
 from mars2d.surroundings import Around
 from mars2d.usercode import called
@@ -124,20 +124,19 @@ class World:
     def _build_sensors(self) -> None:
         """Put the sensors on the robots; they know all of the world, whatever the laws see."""
         around = self.surroundings
-        self._devices = [
-            Device(sensor, view, around, self.stream)
-            for robot, view in zip(self.scenario.robots, self.robots, strict=True)
-            for sensor in robot.sensors
-        ]
-        self._following = [device for device in self._devices if device.follows]
-        self._when_asked = [device for device in self._devices if device.when_asked]
+        self._sensing = Sensing(
+            [
+                Device(sensor, view, around, self.stream)
+                for robot, view in zip(self.scenario.robots, self.robots, strict=True)
+                for sensor in robot.sensors
+            ]
+        )
 
     def _build_laws(self, control: Callable[[World], Any] | None) -> None:
         self._own = [
-            None
-            if robot.controller is None
-            else Law(robot.controller, VIEWS[robot.sees](self, i, self._minds[i]))
+            (i, Law(robot.controller, VIEWS[robot.sees](self, i, self._minds[i])))
             for i, robot in enumerate(self.scenario.robots)
+            if robot.controller is not None
         ]
         if control is not None:
             checks.law("control", control, "the world")
@@ -361,23 +360,16 @@ class World:
             self._observed = self.iteration
             if self._channel is not None:
                 self._channel.deliver()
-            for device in self._devices:
-                device.hide()
+            self._sensing.hide()
             self._call("on_step", self)
-            self._read_sensors()
+            self._sensing.step(self.iteration)
             self._call("on_sensed", self)
-
-    def _read_sensors(self) -> None:
-        for device in self._following:
-            device.follow()
-        for device in self._devices:
-            device.step(self.iteration)
 
     @property
     def _readings(self) -> dict[str, list[tuple[int, Any]]]:
         """The readings at this control step by the sensors' names: (robot, reading)."""
         readings: dict[str, list[tuple[int, Any]]] = {}
-        for device in self._devices:
+        for device in self._sensing.devices:
             if device.reading is not None:
                 readings.setdefault(device.key, []).append((device.robot, device.reading))
         return readings
@@ -409,16 +401,8 @@ class World:
             command_time=takes_effect,
             prop_pose=self._prop_pose,
             effort=self._effort,
-            readings=self._recorded(),
+            readings=self._sensing.recorded(),
         )
-
-    def _recorded(self) -> dict[str, list[Any]]:
-        """Return the readings that are to be recorded, by the sensors' names."""
-        readings: dict[str, list[Any]] = {key: [] for key in self._recorder.sensor_robots}
-        for device in self._devices:
-            if device.sensor.recorded:
-                readings[device.key].append(device.reading)
-        return readings
 
     def _check_workspace(self) -> None:
         """End the experiment when a robot's centre has left the workspace, if that is asked for."""
@@ -433,8 +417,7 @@ class World:
 
     def _drive(self) -> None:
         """Move the robots for one sampling time under the commands in effect."""
-        for device in self._when_asked:
-            device.close()
+        self._sensing.close()
         time = self.time
         self._drives.draw()
         self._driven = []

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 FOLDER = Path(__file__).parents[1] / "benchmarks"
 
 
@@ -30,6 +32,16 @@ def test_the_start_is_timed(tmp_path):
 
 def test_rays_are_timed_and_are_those_of_the_public_method(tmp_path):
     result = run("rays.py", "--sizes", "20", "200", "--rounds", "1", cwd=tmp_path)
-    assert [row["segments"] for row in result["rays"]] == [20, 200]
-    assert all(row["the_same"] for row in result["rays"])
+    assert [row["segments"] for row in result["rays"]] == [20, 200] * 2
+    assert all(row["largest_difference"] < 1e-9 for row in result["rays"])
     assert result["team"]["readings"] == [201, 20, 180]
+
+
+def test_drawing_and_films_are_timed(tmp_path):
+    pytest.importorskip("av")
+    rows = run("drawing.py", "--rounds", "1", "--steps", "4", cwd=tmp_path)["drawing"]
+    figures = {row["what"]: row for row in rows}
+    for what in ("paths, real time", "paths, each step", "scans, real time", "scans, each step"):
+        assert figures[f"dummy: {what}"]["least_ms"] > 0
+    assert all(figures[f"{suffix}: scans"]["ratio"] > 0 for suffix in ("mp4", "gif"))
+    assert figures["dummy: bare"]["ratio"] == 1.0

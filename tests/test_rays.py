@@ -465,7 +465,7 @@ def test_a_robot_does_not_hide_its_own_centre():
     assert world.surroundings.hidden((0, 0), centres, NOTHING, 0).tolist() == [True, True]
 
 
-def test_rays_are_bit_for_bit_those_of_the_public_method():
+def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
     rng = np.random.default_rng(5)
     robots = [
         Robot(pose=(2 * k - 4, rng.uniform(-1, 1), k), shape=some_shape(rng, kind))
@@ -488,5 +488,6 @@ def test_rays_are_bit_for_bit_those_of_the_public_method():
             for end in zip(ends_x.tolist(), ends_y.tolist(), strict=True)
         ]
         public = [inf if hit is None else hit.alpha * reach for hit in hits]
-        assert world.surroundings.rays((x, y), angles, reach, robot).tolist() == public
+        ours = world._engine.space.rays.distances((x, y), angles, reach, robot)
+        assert ours.tolist() == public
         assert np.isfinite(public).any()

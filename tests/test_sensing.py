@@ -11,7 +11,7 @@ import pytest
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Map
-from mars2d.sensors import Proximity, RangeFinder, Sensor, SonarRing
+from mars2d.sensors import LineCamera, Proximity, RangeFinder, Sensor, SonarRing
 from mars2d.sensors.base import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 
 MANY = 40_000
@@ -597,3 +597,134 @@ def test_a_full_circle_and_a_rate_may_be_written_with_six_digits():
     assert Scenario(robots=[third]).robots[0].sensors[0].period(0.1) == 3
     with pytest.raises(InputError, match=r"rate = 3 Hz: .*10 Hz, divided by .*, as 10 / 3$"):
         Scenario(robots=[Robot(sensors=[Proximity(range=1, rate=3)])])
+
+
+# -- equal sensors are read together -------------------------------------------------------------
+
+
+class Roll(Sensor):
+    """Reads all robots that carry such a one at once, and says of how many it was asked."""
+
+    asked: ClassVar[list[tuple[int, ...]]] = []
+    fault: bool = False
+
+    def read(self, robot, world, rng):
+        return float(robot.index)
+
+    def read_all(self, robots, world, rngs):
+        self.asked.append(tuple(robot.index for robot in robots))
+        if self.fault:
+            raise RuntimeError("no")
+        return [self.read(robot, world, rng) for robot, rng in zip(robots, rngs, strict=True)]
+
+
+@pytest.fixture(autouse=True)
+def _roll_up():
+    Roll.asked.clear()
+
+
+def team(*sensors, **fields):
+    """A world of robots in a room, one with each list of sensors."""
+    robots = [
+        Robot(pose=(k % 3 - 1, k // 3 - 1, 0.7 * k), sensors=list(mine))
+        for k, mine in enumerate(sensors)
+    ]
+    fields = {"addons": [Map([[(2, -2), (2, 2)]])]} | fields
+    return World(Scenario(robots=robots, **fields), seed=2)
+
+
+def test_equal_sensors_are_read_at_once():
+    world = team([Roll()], [Roll(name="other")], [Roll(), Roll(rate=5, name="slow")], [Roll()])
+    for _ in range(2):
+        world.step(np.zeros((2, 4)))
+    assert Roll.asked == [(0, 2, 3)] * 2  # who is alone is asked to read
+    assert world.record.sensors["roll"].tolist() == [[0, 2, 3]] * 2
+    assert world.record.sensors["other"].tolist() == [[1]] * 2
+
+
+def test_sensors_that_differ_are_recorded_in_the_order_of_their_robots():
+    fine, coarse = RangeFinder(beams=5), RangeFinder(beams=5, range=1.5)
+    world = team([fine], [coarse], [fine], [coarse], [fine])
+    world.step(np.zeros((2, 5)))
+    row = world.record.sensors["range_finder"][0]
+    for robot, reading in zip(world.robots, row, strict=True):
+        sensor = world.scenario.robots[robot.index].sensors[0]
+        assert np.array_equal(reading, sensor.read(robot, world.surroundings, robot.rng))
+    assert (row[[1, 3]] > 1.5).any()
+
+
+def test_what_is_not_recorded_is_not_read_with_a_team():
+    world = team([Roll(recorded=False)], [Roll(recorded=False)])
+    world.observe()
+    assert Roll.asked == []
+    assert world.robots[1].sense.roll == 1.0
+
+
+def test_a_fault_in_reading_many_is_named():
+    world = team([Roll(fault=True)], [Roll(fault=True)])
+    with pytest.raises(LawError, match="sensor 'roll' raised RuntimeError: no") as caught:
+        world.step(np.zeros((2, 2)))
+    assert "test_sensing.py, line" in str(caught.value.where)
+
+
+def test_who_reads_in_another_way_is_asked_one_by_one():
+    """A class that inherits how many are read at once may keep things, or measure otherwise."""
+
+    class Nodding(RangeFinder):
+        def on_step(self, robot, world, rng):
+            self.tilt = 0.1 * robot.index
+
+        def read(self, robot, world, rng):
+            return super().read(robot, world, rng) + self.tilt
+
+    world = team([Nodding(beams=3)], [Nodding(beams=3)])
+    world.observe()
+    for robot in world.robots:
+        plain = RangeFinder(beams=3).read(robot, world.surroundings, robot.rng)
+        assert np.array_equal(robot.sense.nodding, plain + 0.1 * robot.index)
+
+
+@pytest.mark.parametrize(
+    "faults",
+    [
+        {},
+        {"noise": 0.05, "outliers": 0.1, "dropouts": 0.1},
+        {"rate": 5, "noise": 0.02},
+        {"latency": 0.2, "noise": 0.02},
+        {"rate": 5, "latency": 0.3},
+        {"resolution": 0.1},
+        {"rate": 5, "recorded": False, "noise": 0.02},
+    ],
+)
+@pytest.mark.parametrize("kind", [RangeFinder, SonarRing, LineCamera])
+def test_a_robot_reads_the_same_bits_whatever_others_carry(kind, faults):
+    """Also noise: each has a random stream of its own."""
+    sensor = kind(**{"range": 2.5} | faults)
+
+    def readings(world):
+        found = []
+        for _ in range(6):
+            world.observe()
+            found.append(getattr(world.robots[1].sense, sensor.key).copy())
+            world.step(np.vstack([np.full(3, 0.1), np.full(3, 0.2)]))
+        return np.array(found)
+
+    everybody = readings(team([sensor], [sensor], [sensor]))
+    alone = readings(team([], [sensor], []))
+    mixed = readings(team([Roll()], [Roll(), sensor], [sensor.replace(range=3.0)]))
+    assert np.array_equal(everybody, alone, equal_nan=True)
+    assert np.array_equal(everybody, mixed, equal_nan=True)
+    assert len({reading.tobytes() for reading in everybody}) > 1
+
+
+def test_the_readings_of_a_team_can_not_be_written():
+    world = team([RangeFinder()], [RangeFinder()])
+    world.observe()
+    with pytest.raises(ValueError, match="read-only"):
+        world.robots[0].sense.range_finder[0] = 1.0
+    before = world.robots[1].sense.range_finder
+    kept = before.copy()
+    world.step([[0.5, 0.5], [1, 1]])
+    world.step([[0.5, 0.5], [1, 1]])
+    assert np.array_equal(before, kept)
+    assert not np.array_equal(world.robots[1].sense.range_finder, kept)

@@ -36,9 +36,9 @@ class Scene:
     """A square arena with walls, obstacles and robots.
 
     name, title: of the scene. sampling_time: seconds. side: of the arena round the origin, metres.
-    poses: (n, 3) at the start. boxes: the obstacles' outlines. radius: of the robots, metres. beams,
-    range: of each robot's scanner [m], 0 for none. proximity: the range of its proximity sensor
-    [m], 0 for none.
+    poses: (n, 3) at the start. boxes: the obstacles' outlines. radius: of the robots, metres.
+    beams, range: of each robot's scanner [m], 0 for none. proximity: the range of its proximity
+    sensor [m], 0 for none.
     """
 
     name: str

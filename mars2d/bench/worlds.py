@@ -13,7 +13,10 @@ from mars2d.sensors.base import Sensor
 from mars2d.views import RobotView
 from mars2d.world import World
 
-__all__ = ["world_of"]
+__all__ = ["SETTINGS", "world_of"]
+
+SETTINGS = {"default": 1e-3, "loose": 0.02}
+"""`Scenario.max_overlap` by the names of the suite's settings, metres."""
 
 
 def wander(robot: RobotView) -> tuple[float, float]:

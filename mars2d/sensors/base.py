@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from math import cos, inf, pi, sin
+from math import inf, pi
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
@@ -112,6 +112,18 @@ class Surroundings(Protocol):
         self, start: Point, angles: Float, length: ArrayLike, ignore: int
     ) -> tuple[Float, Int]:
         """Return how far rays go, as `rays`, and which body each hits, (k,): NOTHING if none."""
+
+    def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
+        """Return how far rays of many robots go, (m, k) metres, as `rays` says; much quicker.
+
+        poses: where each one's rays start, and which way it looks (3, m). bearings: of the rays
+        from there (k,) rad. ignore: the robots that ask (m,).
+        """
+
+    def sights(
+        self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
+    ) -> tuple[Float, Int]:
+        """Return how far rays of many robots go, as `scans`, and which body each hits, (m, k)."""
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
@@ -288,6 +300,20 @@ class Sensor(Live):
             f"{type(self).__name__} needs a method read(self, robot, world, rng)"
         )
 
+    def read_all(
+        self,
+        robots: Sequence[RobotView],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],
+    ) -> Sequence[Any] | NDArray[Any]:
+        """Return the perfect readings of several robots that carry such a sensor, one each.
+
+        By default each is asked to `read`. A sensor that writes it anew is read once for all robots
+        whose sensors are equal, if that is quicker: then it must not depend on what is kept in
+        attributes of self, and return a new array, or list, each time. rngs: one for each robot.
+        """
+        return [self.read(robot, world, rng) for robot, rng in zip(robots, rngs, strict=True)]
+
     def shown(self, reading: Any) -> Any:
         """Return what a law finds under ``robot.sense``, made of the reading: here, itself."""
         return reading
@@ -333,12 +359,12 @@ class Sensor(Live):
     # -- what it has ---------------------------------------------------------------------------
 
     def placed(self, pose: Float) -> Float:
-        """Return the pose (3,) of the sensor on a robot at `pose` (3,)."""
+        """Return the pose (3,) of the sensor on a robot at `pose`; of many, (3, m)."""
         ahead, left, turned = self.mount
         if self.mount == (0.0, 0.0, 0.0):
             return pose
-        x, y, theta = pose.tolist()
-        c, s = cos(theta), sin(theta)
+        x, y, theta = pose
+        c, s = np.cos(theta), np.sin(theta)
         return np.array([x + c * ahead - s * left, y + s * ahead + c * left, theta + turned])
 
     @cached_property
@@ -365,6 +391,12 @@ class Sensor(Live):
     def measured(self, reading: Any, rng: np.random.Generator) -> Any:
         """Return what the device makes of a perfect reading: noise and all but the latency."""
         return self._imperfection.of(reading, rng)
+
+    def measured_all(
+        self, readings: Sequence[Any] | NDArray[Any], rngs: Sequence[np.random.Generator]
+    ) -> Any:
+        """Return what devices make of perfect readings, one each; an array of what is one."""
+        return self._imperfection.of_all(readings, rngs)
 
     def lost(self, reading: Any) -> Any:
         """Return what is read in place of a reading that has not arrived."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from math import isnan, nan, pi
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -42,14 +43,23 @@ class LineCamera(Sensor):
         """The bearings of the pixels (pixels,): radians from the sensor's heading."""
         return beam_angles(self.pixels, self.field_of_view)
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:
         """Return the colours (pixels, 3) of what the pixels see."""
-        x, y, theta = self.placed(robot.pose).tolist()
-        _, bodies = world.sight((x, y), theta + self.angles, self.range, robot.index)
+        return np.asarray(self.read_all([robot], world, [rng])[0])
+
+    def read_all(
+        self,
+        robots: Sequence[RobotView],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],  # noqa: ARG002
+    ) -> Float:
+        """Return the colours (m, pixels, 3) of what the pixels see."""
+        mine = [robot.index for robot in robots]
+        _, bodies = world.sights(self.placed(world.pose[:, mine]), self.angles, self.range, mine)
         seen, which = np.unique(bodies, return_inverse=True)
         missing = (nan, nan, nan)
         colors = [missing if b == NOTHING else rgb(world.color(b)) for b in seen.tolist()]
-        return np.array(colors)[which.ravel()]
+        return np.array(colors)[which.reshape(bodies.shape)]
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the pixels as a strip of colours in front of the camera."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -44,10 +45,19 @@ class RangeFinder(Sensor):
         """The bearings of the beams (beams,): radians from the sensor's heading."""
         return beam_angles(self.beams, self.field_of_view)
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:
         """Return the distances (beams,) to the first surfaces."""
-        x, y, theta = self.placed(robot.pose).tolist()
-        return world.rays((x, y), theta + self.angles, self.range, robot.index)
+        return np.asarray(self.read_all([robot], world, [rng])[0])
+
+    def read_all(
+        self,
+        robots: Sequence[RobotView],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],  # noqa: ARG002
+    ) -> Float:
+        """Return the distances (m, beams) to the first surfaces."""
+        mine = [robot.index for robot in robots]
+        return world.scans(self.placed(world.pose[:, mine]), self.angles, self.range, mine)
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw what the beams sweep, and a dot where one has met something."""

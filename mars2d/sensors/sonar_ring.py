@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from math import cos, inf, pi
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -10,6 +11,7 @@ import numpy as np
 
 from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
+from mars2d.geometry import Point
 from mars2d.scene import Scene, faded
 from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings, sight_angle
 
@@ -46,20 +48,37 @@ class SonarRing(Sensor):
         """The bearings of the cones' axes (sonars,): radians from the sensor's heading."""
         return beam_angles(self.sonars, self.field_of_view)
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:
         """Return the distances (sonars,) to the nearest surfaces."""
-        x, y, theta = self.placed(robot.pose).tolist()
-        axes, half = theta + self.angles, self.cone / 2
+        return np.asarray(self.read_all([robot], world, [rng])[0])
+
+    def read_all(
+        self,
+        robots: Sequence[RobotView],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],  # noqa: ARG002
+    ) -> Float:
+        """Return the distances (m, sonars) to the nearest surfaces."""
+        mine, half = [robot.index for robot in robots], self.cone / 2
+        poses = self.placed(world.pose[:, mine])
         # All surfaces are convex pieces: their point nearest to us within a cone is either the
         # nearest of all, or lies where an edge of the cone first meets them.
-        edges = np.concatenate([axes - half, axes + half])
-        rays = world.rays((x, y), edges, self.range, robot.index)
-        near = np.array(list(world.nearby((x, y), self.range, robot.index))).reshape(-1, 2)
+        edges = np.concatenate([self.angles - half, self.angles + half])
+        rays = world.scans(poses, edges, self.range, mine).reshape(len(mine), 2, -1).min(axis=1)
+        nearest = [
+            self._nearest(x, y, theta, world.nearby((x, y), self.range, robot))
+            for robot, (x, y, theta) in zip(mine, poses.T.tolist(), strict=True)
+        ]
+        return np.asarray(np.minimum(rays, nearest))
+
+    def _nearest(self, x: float, y: float, theta: float, points: Iterator[Point]) -> Float:
+        """Return how far the nearest point in each cone is, (sonars,); inf where there is none."""
+        axes = theta + self.angles
+        near = np.array(list(points)).reshape(-1, 2)
         dx, dy = near[:, :1] - x, near[:, 1:] - y
         distance = np.hypot(dx, dy)
-        inside = dx * np.cos(axes) + dy * np.sin(axes) >= distance * cos(half)
-        nearest = np.where(inside, distance, inf).min(axis=0, initial=inf)
-        return np.asarray(np.minimum(nearest, rays.reshape(2, -1).min(axis=0)))
+        inside = dx * np.cos(axes) + dy * np.sin(axes) >= distance * cos(self.cone / 2)
+        return np.asarray(np.where(inside, distance, inf).min(axis=0, initial=inf))
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw each cone as far as it is free, and an arc where it ends at something."""

@@ -1,0 +1,89 @@
+"""Where the time of a control step goes: the share of each of its stages.
+
+    python benchmarks/stages.py [--json OUT.json] [SCENE ...] [--seconds S]
+
+The suite's scenes at both settings. The stages are those of `World._control_step`; "rest" is what
+lies between them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from mars2d.bench.scenes import SCENES
+from mars2d.bench.suite import WARM_UP
+from mars2d.bench.worlds import SETTINGS, world_of
+from mars2d.world import World
+
+STAGES = {
+    "sense": "_observe",
+    "law": "_ask_laws",
+    "limits": "_saturate",
+    "record": "_write_row",
+    "motion": "_drive",
+}
+"""The stages by the methods of a world that do them."""
+
+
+class Watch:
+    """Adds up how long calls take."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+
+    def around(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a function that does the same and is timed."""
+
+        def timed(*arguments: Any) -> Any:
+            start = time.perf_counter()
+            try:
+                return function(*arguments)
+            finally:
+                self.seconds += time.perf_counter() - start
+
+        return timed
+
+
+def shares(world: World, least_time: float) -> dict[str, float]:
+    """Step a world and return microseconds of a control step, and the parts of its stages."""
+    watches = {stage: Watch() for stage in STAGES}
+    for stage, method in STAGES.items():
+        setattr(world, method, watches[stage].around(getattr(world, method)))
+    steps, start = 0, time.perf_counter()
+    while (taken := time.perf_counter() - start) < least_time:
+        world.step()
+        steps += 1
+    parts = {stage: watch.seconds / taken for stage, watch in watches.items()}
+    return {"us": 1e6 * taken / steps, **parts, "rest": 1 - sum(parts.values())}
+
+
+def main() -> None:
+    """Measure, print a table, and write the figures where they are asked for."""
+    parser = argparse.ArgumentParser(description="Where the time of a control step goes.")
+    parser.add_argument("scene", nargs="*", default=list(SCENES), help="of the suite; else all")
+    parser.add_argument("--json", type=Path, metavar="OUT.json", help="write the figures")
+    parser.add_argument("--seconds", type=float, default=3.0, help="for each")
+    arguments = parser.parse_args()
+    columns = [*STAGES, "rest"]
+    print(f"{'':<12}{'step':>12}", *(f"{name:>8}" for name in columns))
+    rows = {}
+    for name in arguments.scene:
+        scene = SCENES[name]()
+        for setting, max_overlap in SETTINGS.items():
+            world = world_of(scene, max_overlap)
+            for _ in range(round(WARM_UP / scene.sampling_time)):
+                world.step()
+            row = rows[f"{name} {setting}"] = shares(world, arguments.seconds)
+            parts = (f"{100 * row[column]:>6.0f} %" for column in columns)
+            print(f"{name} {setting:<9}{row['us']:>9,.0f} us", *parts, flush=True)
+    if arguments.json is not None:
+        arguments.json.write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
