@@ -62,7 +62,7 @@ def draw_robot(scene: Scene, robot: Robot, pose: Float, fill: str | None, stroke
     offset = robot.center_offset
     mark = stroke if fill is None else "#ffffff"
     if robot.shape is None:
-        c, s = np.cos(theta), np.sin(theta)
+        c, s = cos(theta), sin(theta)
         center, r = (x - offset * c, y - offset * s), robot.radius
         scene.circle(center, r, fill=fill, stroke=stroke, width=1.5)
         ends = [(center[0] + d * c, center[1] + d * s) for d in (min(offset, 0.0), r)]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mars2d.contact import CONTACT
 from mars2d.errors import LawError, shown
 from mars2d.imperfection import as_numbers
+from mars2d.kernel import reason_without
 from mars2d.message import MESSAGE, as_of, in_flight
 from mars2d.record import Record
 from mars2d.scenario import Scenario
@@ -255,6 +256,7 @@ def versions() -> dict[str, str]:
 
     return {
         "mars2d": __version__,
+        "kernel": "no" if reason_without() else "yes",
         "pymunk": version("pymunk"),
         "numpy": np.__version__,
         "python": platform.python_version(),

@@ -81,6 +81,11 @@ def _checked(name: str, value: str) -> str:
     return color(name, value)
 
 
+@lru_cache(maxsize=64)
+def _styled(value: str) -> str:
+    return wake_style("style", value)
+
+
 def _paint(value: str | None, field: str = "fill") -> str | None:
     """Check a colour that may be None, which paints nothing."""
     return None if value is None else _checked(field, value)
@@ -250,7 +255,7 @@ class Scene:
         self, points: ArrayLike | Outline, *, stroke: str, width: float = 1.0, style: str = "-"
     ) -> None:
         """Add a polyline through points (k, 2)."""
-        stroke, style = _checked("stroke", stroke), wake_style("style", style)
+        stroke, style = _checked("stroke", stroke), _styled(style)
         self.shapes.append(Line(_points(points), stroke, width, style))
 
     def text(

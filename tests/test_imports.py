@@ -39,7 +39,7 @@ LAYERS = [
         "quantity",
         "neighbours",
     },
-    {"shapes", "bearings", "imperfection", "reckoning"},
+    {"shapes", "bearings", "imperfection", "reckoning", "kernel"},
     {"bodies", "sensors", "addons", "animation", "joints", "rigid"},
     {"props", "robot", "tie", "starts", "encounter", "sensing"},
     {"looks", "limits", "floor", "tethers"},

@@ -5,26 +5,23 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.errors import InputError, MissingExtraError
+from mars2d.errors import InputError
 from mars2d.frame import Frame
+from mars2d.output.gif import write_gif
+from mars2d.output.mp4 import require_av, write_mp4
 
 if TYPE_CHECKING:
     import pygame
 
-__all__ = ["SUFFIXES", "film_rows", "save_film", "save_pictures"]
+__all__ = ["SUFFIXES", "film_rows", "require_av", "save_film", "save_pictures"]
 
 SUFFIXES = (".gif", ".mp4")
-ENCODERS = ("libx264", "libopenh264", "mpeg4")
-"""What may be in a build of FFmpeg, the best first."""
-
-Pixels = NDArray[np.uint8]
 
 
 def film_rows(times: ArrayLike, speed: float = 1.0, fps: float = 25) -> NDArray[np.intp]:
@@ -94,7 +91,7 @@ def save_pictures(
     if suffix == ".mp4":
         require_av(target)
     with _replacing(target) as file:
-        count = (_write_gif if suffix == ".gif" else _write_mp4)(file, pictures, fps)
+        count = (write_gif if suffix == ".gif" else write_mp4)(file, pictures, fps)
         if count == 0:
             raise InputError(f"{target}: a film needs at least one frame")
 
@@ -141,187 +138,3 @@ def _pictures(
         yield artist.paint(frame, surface)
         if progress is not None:
             progress(count)
-
-
-# -- GIF ------------------------------------------------------------------------------------------
-
-
-def _write_gif(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) -> int:
-    """Write an animated GIF frame by frame, each only where it differs from the one before.
-
-    One palette for all. Frames that differ in nothing prolong the one before.
-    """
-    from PIL import GifImagePlugin, Image
-
-    matches: Pixels | None = None
-    written = shown = 0  # hundredths of a second
-    pending: tuple[Pixels, tuple[int, int]] | None = None
-    before: Pixels | None = None
-    count = 0
-
-    def flush(until: int) -> None:
-        nonlocal written
-        if pending is None:
-            return
-        pixels, corner = pending
-        image = Image.frombytes("P", pixels.shape[::-1], pixels.tobytes())
-        pause = min(until - written, 65_535)
-        for block in GifImagePlugin.getdata(
-            image, corner, duration=10 * pause, transparency=CLEAR, disposal=1
-        ):
-            file.write(block)
-        written = until
-
-    for picture in pictures:
-        if matches is None:
-            palette = _palette(picture)
-            matches = _matches(palette)
-            _write_gif_head(file, palette, picture.get_size())
-        indexed = _indexed(picture, matches)
-        change = _difference(before, indexed)
-        if change is not None:
-            flush(shown)
-            pending, before = change, indexed
-        count += 1
-        shown = round(100 * count / fps)
-    flush(shown)
-    file.write(b";")
-    return count
-
-
-CLEAR = 255
-"""The palette's entry for "as before"."""
-
-
-def _difference(before: Pixels | None, now: Pixels) -> tuple[Pixels, tuple[int, int]] | None:
-    """Return the smallest part that changed and its corner (left, top); None when nothing did."""
-    if before is None:
-        return now, (0, 0)
-    changed = before != now
-    rows, columns = np.nonzero(changed.any(axis=1))[0], np.nonzero(changed.any(axis=0))[0]
-    if len(rows) == 0:
-        return None
-    part = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    # What stays is transparent: long runs of one value, which compress to almost nothing.
-    return np.where(changed[part], now[part], np.uint8(CLEAR)), (int(columns[0]), int(rows[0]))
-
-
-def _palette(surface: pygame.Surface) -> Pixels:
-    """Return the palette (k, 3), k < 256: the first picture's colours and their tints.
-
-    Robots move over white, obstacles and each other, so shades between each strong colour and its
-    surroundings are added to what the first picture shows; then those of the banner at the end, and
-    a few from everywhere for what add-ons may bring.
-    """
-    import pygame
-    from PIL import Image
-
-    from mars2d.view import theme
-
-    pixels = pygame.image.tobytes(surface, "RGB")
-    picture: Any = Image.frombytes("RGB", surface.get_size(), pixels)
-    counted = sorted(picture.getcolors(1 << 24) or [], key=lambda item: -item[0])
-    strong = [color for n, color in counted if n >= 4 and max(color) - min(color) > 60][:12]
-    wanted = [color for _, color in counted[:24]]
-    for ground in ((255, 255, 255), (184, 192, 200)):
-        for share in (0.85, 0.2, 0.4, 0.6, 0.1):
-            wanted += [_mixed(color, ground, share) for color in strong]
-    for banner in (theme.OVER, theme.ERROR):
-        ink = tuple(bytes.fromhex(banner[1:]))
-        wanted += [_mixed(ink, (255, 255, 255), share) for share in (1.0, 0.8, 0.6, 0.4, 0.2)]
-    wanted += [(r, g, b) for r in (0, 128, 255) for g in (0, 128, 255) for b in (0, 128, 255)]
-    reduced = picture.quantize(colors=256, method=Image.Quantize.MEDIANCUT)
-    rest = reduced.getpalette() or []
-    wanted += [tuple(rest[k : k + 3]) for k in range(0, len(rest), 3)]
-    cells: dict[tuple[int, ...], tuple[int, ...]] = {}
-    for color in wanted:  # of colours that can hardly be told apart, the first
-        cells.setdefault(tuple(c // 6 for c in color), color)
-    return np.array(list(cells.values())[:CLEAR], dtype=np.uint8)
-
-
-def _matches(palette: Pixels) -> Pixels:
-    """Return the palette's entry for each colour of six bits a channel, (2**18,).
-
-    The palette's own colours match themselves, so that white stays white.
-    """
-    from scipy.spatial import cKDTree
-
-    codes = np.arange(1 << 18)
-    channels = np.column_stack([codes >> 12, codes >> 6 & 63, codes & 63])
-    nearest = cKDTree(palette).query(4 * channels + 1.5)[1]
-    entries = np.asarray(nearest, dtype=np.uint8)
-    own = palette.astype(int) >> 2
-    backwards = np.arange(len(palette))[::-1]  # of two with one code, the first
-    entries[(own[:, 0] << 12 | own[:, 1] << 6 | own[:, 2])[backwards]] = backwards
-    return entries
-
-
-def _indexed(picture: pygame.Surface, matches: Pixels) -> Pixels:
-    """Return each pixel's entry in the palette, (height, width)."""
-    import pygame
-
-    flat = np.frombuffer(pygame.image.tobytes(picture, "BGRA"), dtype="<u4")
-    codes = (flat >> 6 & 0x3F000) | (flat >> 4 & 0xFC0) | (flat >> 2 & 0x3F)
-    width, height = picture.get_size()
-    indexed: Pixels = matches[codes].reshape(height, width)
-    return indexed
-
-
-def _mixed(color: tuple[int, ...], ground: tuple[int, ...], share: float) -> tuple[int, ...]:
-    """Return a colour laid over a ground with an opacity from 0 to 1."""
-    return tuple(round(g + share * (c - g)) for c, g in zip(color, ground, strict=True))
-
-
-def _write_gif_head(file: BinaryIO, palette: Pixels, size: tuple[int, int]) -> None:
-    """Write the header: size, the palette of 256 colours, and that the film repeats for ever."""
-    colors = palette.tobytes().ljust(768, b"\0")
-    sides = size[0].to_bytes(2, "little") + size[1].to_bytes(2, "little")
-    file.write(b"GIF89a" + sides + b"\xf7\x00\x00" + colors)
-    file.write(b"!\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00")
-
-
-# -- MP4 ------------------------------------------------------------------------------------------
-
-
-def require_av(target: Path) -> None:
-    try:
-        import av  # noqa: F401
-    except ImportError:
-        raise MissingExtraError(
-            f'{target}: films in MP4 need PyAV: pip install "mars2d[video]"; a .gif needs nothing'
-        ) from None
-
-
-def _write_mp4(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) -> int:
-    """Write H.264 video, or the next best that this build of FFmpeg has."""
-    import av
-    import pygame
-
-    count = 0
-    with av.open(file, "w", format="mp4", options={"movflags": "faststart"}) as container:
-        stream: Any = None
-        for picture in pictures:
-            if stream is None:
-                stream = _video_stream(container, picture.get_size(), fps)
-            width, height = picture.get_size()
-            flat = np.frombuffer(pygame.image.tobytes(picture, "RGB"), dtype=np.uint8)
-            frame = av.VideoFrame.from_ndarray(flat.reshape(height, width, 3), format="rgb24")
-            container.mux(stream.encode(frame))
-            count += 1
-        if stream is not None:
-            container.mux(stream.encode(None))
-    return count
-
-
-def _video_stream(container: Any, size: tuple[int, int], fps: float) -> Any:
-    import av
-
-    known = [name for name in ENCODERS if name in av.codecs_available]
-    stream = container.add_stream(known[0], rate=Fraction(fps).limit_denominator(1001))
-    stream.width, stream.height = size
-    stream.pix_fmt = "yuv420p"
-    if known[0] == "libx264":
-        stream.options = {"crf": "18", "preset": "veryfast", "tune": "animation"}
-    else:
-        stream.bit_rate = 8_000_000
-    return stream

@@ -29,6 +29,7 @@ __all__ = [
     "extent_of",
     "filled",
     "in_sight",
+    "layer",
     "mark",
     "outlined",
     "rgba",
@@ -71,31 +72,26 @@ def extent_of(points: Float, margin: float) -> pygame.Rect:
 
 
 def cover(
-    surface: pygame.Surface,
-    color: Rgba,
-    box: pygame.Rect,
-    draw: Draw,
-    corner: tuple[int, int] = (0, 0),
-    factor: int = 0,
+    surface: pygame.Surface, color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0
 ) -> None:
-    """Draw within `box` of a surface, whose own corner lies at `corner`, with smooth edges."""
+    """Draw within `box` of a surface with smooth edges; see `layer`."""
     box = box.clip(surface.get_clip())
-    if box.width <= 0 or box.height <= 0:
-        return
-    area = box.width * box.height
+    if box.width > 0 and box.height > 0:
+        surface.blit(layer(color, box, draw, factor), box.topleft)
+
+
+def layer(color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0) -> pygame.Surface:
+    """Return what is drawn within `box` on a transparent surface of its size.
+
+    factor: how many times larger it is drawn, 0 as befits the size.
+    """
     if factor == 0:
-        factor = 4 if area < 250_000 else 2
-    if factor == 1:
-        layer = pygame.Surface(box.size, pygame.SRCALPHA, 32)
-        layer.fill((*color[:3], 0))
-        draw(layer, box.left + corner[0], box.top + corner[1], 1, color)
-        surface.blit(layer, box.topleft)
-        return
+        factor = 4 if box.width * box.height < 250_000 else 2
     large = pygame.Surface((box.width * factor, box.height * factor), pygame.SRCALPHA, 32)
     # The colour without opacity, so that averaging changes the opacity alone.
     large.fill((*color[:3], 0))
-    draw(large, box.left + corner[0], box.top + corner[1], factor, color)
-    surface.blit(pygame.transform.smoothscale(large, box.size), box.topleft)
+    draw(large, box.left, box.top, factor, color)
+    return large if factor == 1 else pygame.transform.smoothscale(large, box.size)
 
 
 def scaled(points: Float, left: float, top: float, factor: float) -> list[tuple[float, float]]:

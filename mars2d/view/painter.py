@@ -30,6 +30,7 @@ from mars2d.view.brushes import Draw, Rgba, rgba
 from mars2d.view.camera import Camera
 from mars2d.view.clip import clip_polygon
 from mars2d.view.fonts import Fonts
+from mars2d.view.sprites import Sprite, Sprites
 from mars2d.view.strokes import DASHES, MARK_SPACING, arc_length, dashes
 
 __all__ = ["Painter", "rgba"]
@@ -53,17 +54,16 @@ FAINT = 96
 class Painter:
     """Paints shapes; keeps the sprites and the texts it made from one picture to the next.
 
-    ui: pixels a point, the unit of line widths and text sizes.
+    ui: pixels a point, the unit of line widths and text sizes. kept: pixels of sprites to keep,
+    0 for none; as many again of large faint areas, as laser scanners sweep, which often stay for
+    several pictures.
     """
 
-    KEPT_PIXELS = 6_000_000
-
-    def __init__(self, fonts: Fonts | None = None) -> None:
+    def __init__(self, fonts: Fonts | None = None, kept: int = 6_000_000) -> None:
         """Start without sprites; `fonts` may be shared."""
         self.fonts = fonts or Fonts()
         self.ui = 1.0
-        self._sprites: dict[Hashable, tuple[pygame.Surface, int, int]] = {}
-        self._kept = 0
+        self._sprites, self._areas = Sprites(kept), Sprites(kept)
 
     def paint(self, surface: pygame.Surface, shapes: Iterable[Shape], camera: Camera) -> None:
         """Paint shapes in their order on a surface."""
@@ -147,9 +147,21 @@ class Painter:
         if len(visible) < 3:
             return
         box = brushes.extent_of(visible, 1.0)
-        large = box.width * box.height > brushes.LARGE
-        factor = 1 if large and color[3] < FAINT else 0
-        brushes.cover(surface, color, box, brushes.filled(visible), factor=factor)
+        if color[3] < FAINT and box.width * box.height > brushes.LARGE:
+            self._area(surface, visible, color, box.clip(surface.get_clip()))
+        else:
+            brushes.cover(surface, color, box, brushes.filled(visible))
+
+    def _area(self, surface: pygame.Surface, points: Float, color: Rgba, box: pygame.Rect) -> None:
+        """Fill what lies within `box` of a large faint polygon."""
+        if box.width <= 0 or box.height <= 0:
+            return
+        key = (color, tuple(box), points.tobytes())
+        area = self._areas.get(key)
+        if area is None:
+            area = brushes.layer(color, box, brushes.filled(points), factor=1), 0, 0
+            self._areas.keep(key, area)
+        surface.blit(area[0], box.topleft)
 
     # -- lines --------------------------------------------------------------------------------
 
@@ -227,15 +239,25 @@ class Painter:
     ) -> None:
         """Draw the marks ``. o x + * s`` at pixels (k, 2)."""
         width *= self.ui
-        for x, y in points.tolist():
-            px, fx = _phase(x)
-            py, fy = _phase(y)
-            key = (marker, color, width, fx, fy)
-            sprite = self._sprites.get(key)
-            if sprite is None:
-                draw, reach = brushes.mark(marker, fx, fy, self.ui, width)
-                sprite = self._keep(key, brushes.box_round(fx, fy, reach), [(rgba(color), draw, 0)])
-            surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
+        quarters = np.rint(points * PHASES).astype(int)
+        corners, phases = quarters // PHASES, quarters % PHASES @ (PHASES, 1)
+        which = phases.tolist()
+        stamps = {k: self._mark(marker, color, width, k) for k in set(which)}
+        shifts = np.zeros((PHASES**2, 2), dtype=int)
+        for k, (_, left, top) in stamps.items():
+            shifts[k] = left, top
+        images = (stamps[k][0] for k in which)
+        surface.fblits(zip(images, (corners + shifts[phases]).tolist(), strict=True))
+
+    def _mark(self, marker: str, color: str, width: float, phase: int) -> Sprite:
+        """Return a mark's sprite; phase: of the quarters of a pixel across and down."""
+        key = (marker, color, width, phase)
+        sprite = self._sprites.get(key)
+        if sprite is None:
+            x, y = (quarter / PHASES for quarter in divmod(phase, PHASES))
+            draw, reach = brushes.mark(marker, x, y, self.ui, width)
+            sprite = self._keep(key, brushes.box_round(x, y, reach), [(rgba(color), draw, 0)])
+        return sprite
 
     # -- text ---------------------------------------------------------------------------------
 
@@ -279,21 +301,17 @@ class Painter:
             sprite = self._keep(key, box, layers)
         surface.blit(sprite[0], rect.topleft)
 
-    def _keep(
-        self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]
-    ) -> tuple[pygame.Surface, int, int]:
-        """Draw a sprite and remember it, forgetting the oldest when there are too many."""
-        image = pygame.Surface(box.size, pygame.SRCALPHA, 32)
-        for color, draw, factor in layers:
-            larger = factor or _sprite_factor(box)
-            brushes.cover(image, color, image.get_rect(), draw, box.topleft, larger)
-        area = box.width * box.height
-        while self._sprites and self._kept + area > self.KEPT_PIXELS:
-            old = self._sprites.pop(next(iter(self._sprites)))[0]
-            self._kept -= old.get_width() * old.get_height()
-        sprite = (image, box.left, box.top)
-        self._sprites[key] = sprite
-        self._kept += area
+    def _keep(self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]) -> Sprite:
+        """Draw a sprite, its layers one over the other, and keep it."""
+        finer = _sprite_factor(box)
+        images = [
+            brushes.layer(color, box, draw, factor or finer) for color, draw, factor in layers
+        ]
+        image = images[0]
+        for above in images[1:]:
+            image.blit(above, (0, 0))
+        sprite = image, box.left, box.top
+        self._sprites.keep(key, sprite)
         return sprite
 
 

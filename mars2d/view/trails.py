@@ -89,12 +89,10 @@ class Trails:
             return
         here = self._pixels(position[None])[0]
         if self.line == "-":
-            everyone = np.arange(len(here))
-            self._segments(surface, everyone, self.pen, self.tip)
-            self._segments(surface, everyone, self.tip, here)
+            self._segments(surface, np.arange(len(here)), self.pen, here)
             return
         for i in range(len(here)):
-            points = np.array([self.pen[i], self.tip[i], here[i]])
+            points = np.array([self.pen[i], here[i]])
             self._stroke(surface, points, float(self.pen_along[i]), i)
 
     def _pixels(self, positions: Float) -> Float:

@@ -6,11 +6,12 @@ import subprocess
 import sys
 
 import numpy as np
+import pygame
 import pytest
 from PIL import Image
 
 from mars2d.errors import InputError, MissingExtraError
-from mars2d.output.film import film_rows, save_film
+from mars2d.output.film import film_rows, save_film, save_pictures
 from tests.view.circling import Circling
 
 SIZE = (320, 240)
@@ -89,6 +90,42 @@ def test_an_mp4_holds_every_frame_at_an_even_size(tmp_path):
     assert np.abs(pictures[0] - pictures[-1]).max() > 100
 
 
+def test_the_frames_of_an_mp4_are_the_pictures_in_their_order(tmp_path):
+    av = pytest.importorskip("av")
+    from pygame.surfarray import array3d
+
+    from mars2d.view.picture import Artist
+
+    save_film(frames(), tmp_path / "film.mp4", size=SIZE, sensors=False)
+    artist = Artist(SIZE)
+    drawn = [array3d(artist.paint(frame)).swapaxes(0, 1).astype(int) for frame in frames()]
+    with av.open(str(tmp_path / "film.mp4")) as film:
+        shown = [f.to_ndarray(format="rgb24").astype(int) for f in film.decode(video=0)]
+    apart = np.array([[np.abs(picture - wanted).mean() for wanted in drawn] for picture in shown])
+    assert apart.argmin(axis=1).tolist() == list(range(21))
+    assert apart.min(axis=1).max() < 2.0
+
+
+def test_colours_that_come_later_are_matched_with_the_nearest_of_the_palette(tmp_path):
+    def painted(color):
+        picture = pygame.Surface(SIZE, 0, 32)
+        picture.fill("white")
+        picture.fill("#0072b2", (20, 20, 60, 60))
+        picture.fill(color, (100, 20, 60, 60))
+        return picture
+
+    colors = ["#ffffff", "#13a877", "#7f0203", "#fefdfc", "#808181"]
+    save_pictures(map(painted, colors), tmp_path / "film.gif")
+    with Image.open(tmp_path / "film.gif") as film:
+        palette = np.array(film.getpalette()).reshape(-1, 3)[:-1].astype(int)
+    for picture, color in zip(read_gif(tmp_path / "film.gif")[0], colors, strict=True):
+        wanted = np.array(pygame.Color(color)[:3])
+        nearest = np.linalg.norm(palette - wanted, axis=1).min()
+        assert np.linalg.norm(picture[50, 130] - wanted) <= nearest + 6  # of 6 bits a channel
+        assert (picture[50, 50] == (0x00, 0x72, 0xB2)).all()
+        assert (picture[200, 200] == 255).all()
+
+
 def test_progress_is_told_frame_by_frame(tmp_path):
     counts = []
     save_film(frames(4), tmp_path / "film.gif", size=SIZE, progress=counts.append)
@@ -124,8 +161,11 @@ def test_wrong_names_and_places_are_told(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_film_that_fails_leaves_the_old_one_alone(tmp_path):
-    target = tmp_path / "film.gif"
+@pytest.mark.parametrize("suffix", ["gif", "mp4"])
+def test_a_film_that_fails_leaves_the_old_one_alone(tmp_path, suffix):
+    if suffix == "mp4":
+        pytest.importorskip("av")
+    target = tmp_path / f"film.{suffix}"
     target.write_bytes(b"the old film")
 
     def torn():

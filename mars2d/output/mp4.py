@@ -1,0 +1,84 @@
+"""Video in MP4: a picture is encoded while the next one is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from mars2d.errors import MissingExtraError
+
+if TYPE_CHECKING:
+    import pygame
+
+__all__ = ["require_av", "write_mp4"]
+
+ENCODERS = ("libx264", "libopenh264", "mpeg4")
+"""What may be in a build of FFmpeg, the best first."""
+
+
+def require_av(target: Path) -> None:
+    """Raise MissingExtraError where PyAV isn't installed."""
+    try:
+        import av  # noqa: F401
+    except ImportError:
+        raise MissingExtraError(
+            f'{target}: films in MP4 need PyAV: pip install "mars2d[video]"; a .gif needs nothing'
+        ) from None
+
+
+def write_mp4(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) -> int:
+    """Write H.264 video, or the next best that this build of FFmpeg has; return its frames.
+
+    PyAV leaves the interpreter alone while it encodes, so a thread of its own does that.
+    """
+    import av
+
+    count = 0
+    options = {"movflags": "faststart"}
+    with av.open(file, "w", format="mp4", options=options) as container:
+        stream: Any = None
+
+        def encode(frame: Any) -> None:
+            container.mux(stream.encode(frame))
+
+        with ThreadPoolExecutor(1, "encoder") as thread:
+            before: Future[None] | None = None
+            for picture in pictures:
+                if stream is None:
+                    stream = _video_stream(container, picture.get_size(), fps)
+                frame = _video_frame(picture)
+                if before is not None:
+                    before.result()
+                before = thread.submit(encode, frame)
+                count += 1
+            if before is not None:
+                before.result()
+                encode(None)
+    return count
+
+
+def _video_frame(picture: pygame.Surface) -> Any:
+    """Return a picture's copy as a frame."""
+    import av
+    import pygame
+
+    # Its pixels are 0x..rrggbb: in memory blue comes first, on all that PyAV is built for.
+    pixels = pygame.surfarray.pixels2d(picture).T
+    return av.VideoFrame.from_ndarray(pixels.view("u1").reshape(*pixels.shape, 4), format="bgra")
+
+
+def _video_stream(container: Any, size: tuple[int, int], fps: float) -> Any:
+    import av
+
+    known = [name for name in ENCODERS if name in av.codecs_available]
+    stream = container.add_stream(known[0], rate=Fraction(fps).limit_denominator(1001))
+    stream.width, stream.height = size
+    stream.pix_fmt = "yuv420p"
+    if known[0] == "libx264":
+        stream.options = {"crf": "18", "preset": "veryfast", "tune": "animation"}
+    else:
+        stream.bit_rate = 8_000_000
+    return stream
