@@ -15,33 +15,41 @@ KERNEL = Path("mars2d") / "kernel"
 
 
 class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg]
-    """Puts the extension module beside its source, or into the wheel."""
+    """Puts the extension module into the wheel, or beside its source if that is what is used."""
 
-    def initialize(self, version: str, build_data: dict[str, Any]) -> None:  # noqa: ARG002
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Compile, and tell the builder what has come of it. MARS2D_PLAIN=1 leaves it out."""
         if self.target_name != "wheel" or os.environ.get("MARS2D_PLAIN") == "1":
             return
-        root = Path(self.root)
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                made = self._module(root / KERNEL / "build.py").compile_into(Path(folder))
-            except Exception as error:  # whatever a compiler may lack
-                self.app.display_warning(
-                    f"The kernel was not compiled ({type(error).__name__}: {error}). MARS2D works "
-                    "without it, with the same results, but large teams are several times slower."
-                )
-                return
-            place = root / KERNEL / made.name
-            shutil.copyfile(made, place)
+        self._folder = tempfile.TemporaryDirectory()
+        try:
+            made = self._compiled(Path(self._folder.name), editable=version == "editable")
+        except Exception as error:  # whatever a compiler may lack
+            self.app.display_warning(
+                f"The kernel was not compiled ({type(error).__name__}: {error}). MARS2D works "
+                "without it, with the same results, but large teams are several times slower."
+            )
+            return
         build_data["pure_python"] = False
         build_data["infer_tag"] = True
-        build_data["artifacts"].append(str(KERNEL / made.name))
+        build_data["force_include"][str(made)] = str(KERNEL / made.name)
 
-    @staticmethod
-    def _module(path: Path) -> Any:
-        spec = importlib.util.spec_from_file_location("mars2d_kernel_build", path)
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:  # noqa: ARG002
+        """Clear away what the compiler has left."""
+        if hasattr(self, "_folder"):
+            self._folder.cleanup()
+
+    def _compiled(self, folder: Path, *, editable: bool) -> Path:
+        """Compile in `folder`, and return the extension module's file."""
+        source = Path(self.root) / KERNEL
+        spec = importlib.util.spec_from_file_location("mars2d_kernel_build", source / "build.py")
         assert spec is not None
         assert spec.loader is not None
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        return module
+        build = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(build)
+        made: Path = build.compile_into(folder)
+        if not editable:
+            return made
+        fresh = source / f"{made.name}.new"
+        shutil.copyfile(made, fresh)
+        return fresh.replace(source / made.name)  # a process that uses the old one goes on with it

@@ -36,6 +36,7 @@ def examine() -> Iterator[Finding]:
         yield _library(name)
     yield _display()
     yield _films()
+    yield _kernel()
     yield from _plugins()
     yield _physics()
 
@@ -61,6 +62,16 @@ def _films() -> Finding:
     except importlib.metadata.PackageNotFoundError:
         return Finding("films", '.gif; for .mp4 as well: pip install "mars2d[video]"', ok=None)
     return Finding("films", f".gif and .mp4 (PyAV {version})")
+
+
+def _kernel() -> Finding:
+    from mars2d.kernel import reason_without
+
+    why = reason_without()
+    if why:
+        text = f"not in use: {why}; large teams take several times longer"
+        return Finding("kernel", text, ok=None)
+    return Finding("kernel", "compiled, and rounds as numpy does")
 
 
 def _plugins() -> Iterator[Finding]:

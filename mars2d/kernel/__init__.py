@@ -2,76 +2,43 @@
 
 A team of discs among walls spends most of its time between the solver's steps: which robots are
 near something, how long the next substep may be, what touches. `mars2d.engine` says how that is
-done, and does it for every world; ``kernel.c`` does the same for this kind of world, with the same
-bits, and much faster. It is compiled when the package is installed. Where it is missing, or where
-the processor's sines are not those of numpy, the plain engine does the work.
+done, and does it for every world; the C files here do the same for this kind of world, with the
+same bits, and much faster. They are compiled when the package is installed. Where that failed, or
+numpy or pymunk are not as the kernel knows them, the plain engine does the work.
 """
 
 from __future__ import annotations
 
+import importlib.metadata
 import os
 from collections.abc import Mapping
 from functools import cache
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.contact import CONTACT
+from mars2d.kernel import chipmunk
+from mars2d.kernel.build import fingerprint
 
 __all__ = ["CONTACTS", "EFFORT", "PLACED", "Kernel", "reason_without"]
 
 Float = NDArray[np.float64]
 
-FUNCTIONS = {
-    "step": "cpSpaceStep",
-    "set_time_step": "cpSpaceSetCurrentTimeStep",
-    "each_arbiter": "cpSpaceEachCachedArbiter",
-    "add_constraint": "cpSpaceAddConstraint",
-    "remove_constraint": "cpSpaceRemoveConstraint",
-    "set_position": "cpBodySetPosition",
-    "get_position": "cpBodyGetPosition",
-    "get_angle": "cpBodyGetAngle",
-    "set_velocity": "cpBodySetVelocity",
-    "get_velocity": "cpBodyGetVelocity",
-    "set_spin": "cpBodySetAngularVelocity",
-    "get_spin": "cpBodyGetAngularVelocity",
-    "init_pivot": "cpPivotJointInit",
-    "init_gear": "cpGearJointInit",
-    "set_max_force": "cpConstraintSetMaxForce",
-    "set_max_bias": "cpConstraintSetMaxBias",
-    "get_impulse": "cpConstraintGetImpulse",
-    "bodies_of": "cpArbiterGetBodies",
-    "impulse_of": "cpArbiterTotalImpulse",
-    "normal_of": "cpArbiterGetNormal",
-    "count_of": "cpArbiterGetCount",
-    "point_a": "cpArbiterGetPointA",
-    "point_b": "cpArbiterGetPointB",
-}
-"""The engine's functions, by what the kernel calls them."""
-
 PLACED, CONTACTS, EFFORT = 1, 2, 4
-"""What the kernel may have left; see ``kernel.h``."""
+"""What the kernel may have left; see ``team.h``."""
+
+ERRORS = {
+    -1: (MemoryError, "no memory for what the kernel keeps of robots that are near each other"),
+    -2: (FloatingPointError, "the robots' motion is lost: a number is not finite, or nearly so"),
+    -3: (KeyboardInterrupt, ""),
+}
+"""Why the kernel broke off; see ``team.h``."""
 
 SAMPLE = np.concatenate([np.linspace(-60.0, 60.0, 997), np.geomspace(1e-9, 3.0, 200)])
 """Angles at which the kernel's sines are compared with numpy's."""
-
-
-@cache
-def _compiled() -> tuple[Any, str]:
-    """Return the compiled module, and why it can't be used; one of both is None or empty."""
-    try:
-        from mars2d.kernel import _kernel  # type: ignore[attr-defined]
-    except ImportError:
-        return None, "it was not compiled when mars2d was installed: is there a C compiler?"
-    ffi, lib = _kernel.ffi, _kernel.lib
-    sine, cosine, far = (np.empty_like(SAMPLE) for _ in range(3))
-    arrays = [ffi.from_buffer("double *", array) for array in (SAMPLE, sine, cosine, far)]
-    lib.mars2d_kernel_sines(arrays[0], len(SAMPLE), *arrays[1:])
-    same = (sine == np.sin(SAMPLE)) & (cosine == np.cos(SAMPLE)) & (far == np.hypot(SAMPLE, sine))
-    if not same.all():
-        return None, "numpy's sines differ from the C library's in the last bit on this processor"
-    return _kernel, ""
 
 
 def reason_without() -> str:
@@ -81,49 +48,93 @@ def reason_without() -> str:
     return _compiled()[1]
 
 
+@cache
+def _compiled() -> tuple[Any, str]:
+    """Return the compiled module, and why it can't be used; one of both is None or empty."""
+    try:
+        _kernel: Any = import_module("mars2d.kernel._kernel")
+    except ModuleNotFoundError:
+        return None, "it was not compiled when mars2d was installed; is there a C compiler?"
+    except ImportError as error:
+        return None, f"it can't be loaded ({error})"
+    if _kernel.ffi.string(_kernel.lib.mars2d_kernel_fingerprint) != fingerprint().encode():
+        return None, "its sources have changed since: install mars2d again"
+    for what in chipmunk.changes(_kernel.ffi):
+        version = importlib.metadata.version("pymunk")
+        return None, f"pymunk {version} is not as the kernel was written for: {what}"
+    if not as_numpy(*_sines(_kernel)):
+        return None, "numpy's sines differ from the C library's in the last bit on this processor"
+    _listen(_kernel.ffi)
+    return _kernel, ""
+
+
+def _listen(ffi: Any) -> None:
+    """Let Ctrl-C end a long control step: Python is called now and then, and may say so."""
+
+    def silent(*_: object) -> None:
+        """Do not print what breaks it off: it is raised after the call."""
+
+    ffi.def_extern("mars2d_kernel_interrupted", error=1, onerror=silent)(lambda: 0)
+
+
+def _sines(module: Any) -> tuple[Float, Float, Float]:
+    """Return the sines and cosines of `SAMPLE`, and the lengths of (angle, sine), by the kernel."""
+    sine, cosine, far = (np.empty_like(SAMPLE) for _ in range(3))
+    given, *results = [
+        module.ffi.from_buffer("double *", array) for array in (SAMPLE, sine, cosine, far)
+    ]
+    module.lib.mars2d_kernel_sines(given, len(SAMPLE), *results)
+    return sine, cosine, far
+
+
+def as_numpy(sine: Float, cosine: Float, far: Float) -> bool:
+    """Return whether numpy computes the same bits as these for `SAMPLE`; see `_sines`."""
+    same = (sine == np.sin(SAMPLE)) & (cosine == np.cos(SAMPLE)) & (far == np.hypot(SAMPLE, sine))
+    return bool(same.all())
+
+
 class Kernel:
     """Moves one world's team of discs; it shares all state with the plain engine's parts."""
 
     def __init__(self, arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, float]) -> None:
-        """Take what `Team` in ``kernel.h`` asks for, by its names there."""
-        from pymunk._chipmunk_cffi import ffi as engine_ffi
-        from pymunk._chipmunk_cffi import lib as engine_lib
-
+        """Take what `Team` in ``team.h`` asks for, by its names there."""
         module, why = _compiled()
         assert module is not None, why
         self._ffi, self._lib = module.ffi, module.lib
         self._arrays = dict(arrays)  # kept alive, since the kernel knows their addresses only
-        functions = {
-            ours: int(engine_ffi.cast("uintptr_t", engine_ffi.addressof(engine_lib, theirs)))
-            for ours, theirs in FUNCTIONS.items()
-        }
-        team = self._ffi.new("Team *", {**numbers, **_offsets(engine_ffi)})
-        for key, array in self._arrays.items():
-            setattr(team, key, self._pointer(team, key, array))
-        made = self._lib.mars2d_kernel_new(team, self._ffi.new("Functions *", functions))
+        made = self._lib.mars2d_kernel_new(
+            self._described(numbers),
+            chipmunk.functions(self._ffi),
+            self._lib.mars2d_kernel_interrupted,
+        )
         if made == self._ffi.NULL:
             raise MemoryError("no memory for the kernel")
         self._kernel = self._ffi.gc(made, self._lib.mars2d_kernel_free)
         self._team = self._lib.mars2d_kernel_team(made)
 
-    def _pointer(self, team: Any, key: str, array: NDArray[Any]) -> Any:
-        """Return the array's memory as what the field is, which it must be in truth."""
-        kind = self._ffi.typeof(team[0]).fields
-        pointer = next(field.type for name, field in kind if name == key)
-        size = self._ffi.sizeof(pointer.item)
-        if array.dtype.itemsize != size or not array.flags.c_contiguous:
-            raise TypeError(f"{key}: an array of {array.dtype}, expected items of {size} bytes")
-        return self._ffi.cast(pointer, array.ctypes.data)
+    def _described(self, numbers: Mapping[str, float]) -> Any:
+        """Return the team for the kernel: numbers, and where arrays and fields of structs are."""
+        team = self._ffi.new("Team *", chipmunk.offsets())
+        kinds = {name: field.type for name, field in self._ffi.typeof("Team").fields}
+        for key, number in numbers.items():
+            address = kinds[key].kind == "pointer"
+            setattr(team, key, self._ffi.cast(kinds[key], number) if address else number)
+        for key, array in self._arrays.items():
+            size = len(array) * self._ffi.sizeof(kinds[key].item)
+            if array.nbytes != size or not array.flags.c_contiguous:
+                raise TypeError(f"{key}: {array.nbytes} bytes of {array.dtype}, expected {size}")
+            setattr(team, key, self._ffi.cast(kinds[key], array.ctypes.data))
+        return team
 
     def drive(self, twist: Float, duration: float, time: float) -> int:
         """Move the team for `duration` seconds under twists (3, n); see `Engine.drive`.
 
         Returns the sum of `PLACED`, if robots were put somewhere between steps, and of `CONTACTS`
-        and `EFFORT`, if there are some.
+        and `EFFORT`, if there are some. Raises MemoryError, KeyboardInterrupt, and
+        FloatingPointError where the plain engine would not end; from then on, each time.
         """
         pointer = self._ffi.from_buffer("double *", twist)
-        result = self._lib.mars2d_kernel_drive(self._kernel, pointer, duration, time)
-        return self._check(result)
+        return self._check(self._lib.mars2d_kernel_drive(self._kernel, pointer, duration, time))
 
     def take(self) -> NDArray[np.void]:
         """Return the contacts since the last call; see `ContactLog.take`."""
@@ -133,20 +144,9 @@ class Kernel:
         self._check(self._lib.mars2d_kernel_take(self._kernel, rows))
         return contacts
 
-    def _check(self, result: int) -> int:
+    @staticmethod
+    def _check(result: int) -> int:
         if result < 0:
-            raise MemoryError("no memory for the contacts of one control step")
+            kind, text = ERRORS[result]
+            raise kind(text)
         return result
-
-
-def _offsets(ffi: Any) -> dict[str, int]:
-    """Return where in the engine's structs the impulses of contacts are, bytes."""
-    arbiter, contact = "struct cpArbiter", "struct cpContact"
-    return {
-        "arbiter_count": ffi.offsetof(arbiter, "count"),
-        "arbiter_contacts": ffi.offsetof(arbiter, "contacts"),
-        "arbiter_state": ffi.offsetof(arbiter, "state"),
-        "contact_size": ffi.sizeof(contact),
-        "contact_normal": ffi.offsetof(contact, "jnAcc"),
-        "contact_tangent": ffi.offsetof(contact, "jtAcc"),
-    }

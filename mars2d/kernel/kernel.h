@@ -1,64 +1,144 @@
-/* What Python and the kernel share; see kernel.c. Lengths in metres, times in seconds. */
+/* What the kernel's files share. Names are those of the plain engine, and so is every formula and the
+   order of each sum: then both give the same bits. */
 
+#ifndef MARS2D_KERNEL_H
+#define MARS2D_KERNEL_H
+
+#include <float.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "team.h"
+
+/* Where a compiler would round otherwise than numpy does, the plain engine is to do the work. */
+#if defined(__FAST_MATH__)
+#error "compiled for speed rather than for equal bits"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "this processor's arithmetic has more digits than a double"
+#endif
+
+#define MAX(a, b) ((a) > (b) ? (a) : (b))
+#define MIN(a, b) ((a) < (b) ? (a) : (b))
+
+/* Two discs, or a disc and a segment, that are near each other. */
 typedef struct {
-    /* Robots, n of them, all discs. */
-    int n;
-    double *radius, *mass, *moment, *rim, *force, *torque;
-    uint8_t *in_robot_frame;
-    /* Segments of walls: starts, vectors to their ends, these by their squared lengths, (s, 2) each,
-       and the number of the obstacle that each belongs to. */
-    int segments;
-    double *start, *edge, *per_length;
-    int32_t *obstacle;
-    /* What the plain engine's constants are called there. */
-    double max_overlap, entry, contact_step, pressed, turned;
-    double slack, growth, tiny, least;
-    int64_t linger, few;
-    /* State: (n, 6) poses and velocities; the rest (n). */
-    double *state;
-    uint8_t *slipping, *engaged, *placed;
-    int64_t *since;
-    double *effort, *wall_gap, *moved;
-    double *reach; /* how far each may move in this control step */
-    double skin, last_step;
-    /* The engine's objects, by address: the space; bodies, controls and joints, (n) each. */
-    uintptr_t space;
-    uintptr_t *body, *control, *pivot, *gear;
-    /* The numbers of all bodies, obstacles below zero, sorted by their addresses. */
-    int bodies;
-    uintptr_t *address;
-    int64_t *name;
-    /* Where in the engine's structs things are, bytes. */
-    size_t arbiter_count, arbiter_contacts, arbiter_state, contact_size, contact_normal, contact_tangent;
-} Team;
+    int i, j;    /* robots, by their places in `who`; j < 0: a wall */
+    int segment; /* of the wall */
+    int a, b;    /* robots, by their numbers; b = -1 - k: obstacle k */
+    double radii, gap;
+    Vector normal;
+} Pair;
 
-/* The engine's functions, by address. */
+/* One contact of two shapes after one substep, with a < b or b an obstacle. */
 typedef struct {
-    uintptr_t step, set_time_step, each_arbiter, add_constraint, remove_constraint;
-    uintptr_t set_position, get_position, get_angle;
-    uintptr_t set_velocity, get_velocity, set_spin, get_spin;
-    uintptr_t init_pivot, init_gear, set_max_force, set_max_bias, get_impulse;
-    uintptr_t bodies_of, impulse_of, normal_of, count_of, point_a, point_b;
-} Functions;
+    int a, b, substep;
+    Vector impulse, normal, point, velocity;
+    double strength;
+} Row;
 
-typedef struct Kernel Kernel;
+typedef struct { double time, length; } Substep;
 
-Kernel *mars2d_kernel_new(const Team *team, const Functions *functions);
-void mars2d_kernel_free(Kernel *kernel);
-Team *mars2d_kernel_team(Kernel *kernel);
+/* How long a pair has stayed in touch in one substep. */
+typedef struct { int a, b; double length; } Held;
 
-/* What a call of mars2d_kernel_drive may leave: robots that were placed, contacts, efforts. */
-enum { MARS2D_PLACED = 1, MARS2D_CONTACTS = 2, MARS2D_EFFORT = 4 };
+/* A set of pairs (a, b) of bodies, of which a is a robot: lists by a, few of which are long. */
+typedef struct { int b, next; } Link;
+typedef struct {
+    int *head; /* (n) the first link of each list, -1 for none */
+    int *as;   /* the a of each link */
+    Link *links;
+    int count, as_room, link_room;
+} Set;
 
-/* Goes on by `duration` under twists (3, n). Returns which of these there are, or -1 when memory has
-   run out. */
-int mars2d_kernel_drive(Kernel *kernel, const double *twist, double duration, double time);
+/* A robot and a segment within its skin. */
+typedef struct { int robot, segment; } Hit;
 
-/* How many contacts mars2d_kernel_take will give, at most. */
-int mars2d_kernel_contacts(Kernel *kernel);
+struct Kernel {
+    Team team;
+    Engine engine;
+    Interrupted interrupted;
+    unsigned substep; /* how many there have been */
+    int error; /* why it was broken off, for good; 0: it was not */
+    /* The twists of this control step, (n) each. */
+    const double *forward, *left, *spin;
+    /* Of all robots, (n). Of their control bodies: the second half of `aimed`, (2 n). */
+    uint8_t *near, *wanted;
+    int *place; /* in `who` */
+    double *speed;
+    State *before;
+    Vector *aimed; /* what the engine is told */
+    double *aimed_spin;
+    /* Of those that are near, `near_count` of them, by their places in `who`. */
+    int near_count, *who;
+    uint8_t *touching;
+    Vector *velocity; /* as they move now */
+    double *bend, *gone;
+    /* The Verlet list, (n + 1) where each robot's part begins: robots with larger numbers, and
+       segments. */
+    int *first_robot, *robots, robot_count, robot_room;
+    int *first_wall, *walls, wall_room;
+    /* What it is made by: square cells, `wide` times as many, each with its first robot and the
+       next ones; robots and segments. */
+    double size;
+    int wide, *cells, *cell, *next;
+    Hit *hits;
+    int hit_count, hit_room;
+    /* What may touch during the time to come. */
+    Pair *pairs;
+    int pair_count, pair_room;
+    /* The contacts of this control step. */
+    Row *rows;
+    Substep *substeps;
+    Held *helds;
+    int row_count, row_room, substep_count, substep_room, held_count, held_room;
+    Vector *sums;
+    int sum_room;
+    /* Who touches now, who did after the last substep, and after the last control step; who is
+       listed by the solver, and whose contacts are taken. */
+    Set touched, latest, previous, listed, taken;
+};
 
-/* Writes the contacts since the last call, rows of the dtype CONTACT, and returns how many. */
-int mars2d_kernel_take(Kernel *kernel, void *rows);
+/* memory.c */
+void *grown(Kernel *k, void *items, int *room, int wanted, size_t size);
+#define GROW(k, items, room, wanted) ((items) = grown(k, items, &(room), wanted, sizeof *(items)))
 
-/* For tests: the sine and cosine that it uses. */
-void mars2d_kernel_sines(const double *angle, int count, double *sine, double *cosine, double *hypot_of);
+/* sets.c */
+void empty(Set *set);
+int find(const Set *set, int a, int b);
+int add(Kernel *k, Set *set, int a, int b);
+void exchange(Set *one, Set *other);
+
+/* arcs.c */
+Vector chord(const Kernel *k, int i, double theta, double h);
+
+/* gaps.c */
+Vector towards(const Team *t, int segment, Vector point);
+int beyond(double x, double y, double far);
+int within(const Team *t, int i, int j, double reach);
+int wall_within(const Team *t, int i, int segment, double reach);
+
+/* verlet.c */
+void list_anew(Kernel *k);
+
+/* near.c */
+double find_near(Kernel *k, double duration);
+void encounter(Kernel *k, double reach);
+int measure(Kernel *k);
+
+/* bodies.c */
+void put(Kernel *k, int i, Vector where);
+void read_state(Kernel *k, int all);
+void engage(Kernel *k, const uint8_t *wanted);
+void renew(Kernel *k, int i);
+void space_step(Kernel *k, double h, int all);
+
+/* contacts.c */
+void note_contacts(Kernel *k, double time, double h, int any);
+
+/* substeps.c */
+double substeps(Kernel *k, double duration, double time, double path);
+
+static inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
+
+#endif

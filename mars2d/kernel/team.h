@@ -1,0 +1,108 @@
+/* What Python and the kernel share. cffi reads this file as well, so nothing in it is for the
+   preprocessor. Lengths in metres, times in seconds, the rest in SI units. */
+
+typedef struct { double x, y; } Vector;
+
+/* A row of the plain engine's states. */
+typedef struct {
+    Vector position;
+    double angle;
+    Vector velocity;
+    double spin;
+} State;
+
+typedef struct {
+    /* Robots, n of them, all discs. */
+    int n;
+    double *radius, *mass, *moment, *rim, *force, *torque;
+    uint8_t *in_robot_frame;
+    /* Segments of walls: starts, vectors to their ends, these by their squared lengths, and the
+       number of the obstacle that each belongs to. */
+    int segments;
+    Vector *start, *edge, *per_length;
+    int32_t *obstacle;
+    /* What the plain engine's constants are called there. */
+    double max_overlap, entry, contact_step, pressed, turned;
+    double slack, growth, tiny, least;
+    int64_t linger, few;
+    /* State, (n) each. */
+    State *state;
+    uint8_t *slipping, *engaged, *placed;
+    int64_t *since;
+    double *effort, *wall_gap, *moved;
+    double *reach; /* how far each may move in this control step */
+    double skin, last_step;
+    /* The engine's objects: the space; bodies, controls and joints, (n) each. */
+    void *space;
+    void **body, **control, **pivot, **gear;
+    /* The numbers of all bodies, obstacles below zero, sorted by their addresses. */
+    int bodies;
+    uintptr_t *address;
+    int64_t *name;
+    /* Where in the engine's structs things are, bytes. */
+    size_t arbiter_count, arbiter_contacts, arbiter_state;
+    size_t contact_size, contact_normal, contact_tangent;
+} Team;
+
+typedef void (*Visit)(void *arbiter, void *data);
+
+/* The engine's functions. */
+typedef struct {
+    void (*step)(void *space, double h);
+    void (*set_time_step)(void *space, double h);
+    void (*each_arbiter)(void *space, Visit visit, void *data);
+    void *(*add_constraint)(void *space, void *joint);
+    void (*remove_constraint)(void *space, void *joint);
+    void (*set_position)(void *body, Vector position);
+    Vector (*get_position)(void *body);
+    double (*get_angle)(void *body);
+    void (*set_velocity)(void *body, Vector velocity);
+    Vector (*get_velocity)(void *body);
+    void (*set_spin)(void *body, double spin);
+    double (*get_spin)(void *body);
+    void *(*init_pivot)(void *joint, void *a, void *b, Vector on_a, Vector on_b);
+    void *(*init_gear)(void *joint, void *a, void *b, double phase, double ratio);
+    void (*set_max_force)(void *joint, double force);
+    void (*set_max_bias)(void *joint, double bias);
+    double (*get_impulse)(void *joint);
+    void (*bodies_of)(void *arbiter, void **a, void **b);
+    Vector (*impulse_of)(void *arbiter);
+    Vector (*normal_of)(void *arbiter);
+    int (*count_of)(void *arbiter);
+    Vector (*point_a)(void *arbiter, int contact);
+    Vector (*point_b)(void *arbiter, int contact);
+} Engine;
+
+typedef struct Kernel Kernel;
+
+/* Whether Python wants the control step to be broken off. */
+typedef int (*Interrupted)(void);
+
+/* Returns NULL when there is no memory. The kernel keeps the arrays' addresses, and frees none. */
+Kernel *mars2d_kernel_new(const Team *team, const Engine *engine, Interrupted interrupted);
+void mars2d_kernel_free(Kernel *kernel);
+Team *mars2d_kernel_team(Kernel *kernel);
+
+enum {
+    /* What a control step may leave: robots that were placed, contacts, efforts. */
+    MARS2D_PLACED = 1,
+    MARS2D_CONTACTS = 2,
+    MARS2D_EFFORT = 4,
+    /* Why it was broken off: memory has run out; time can't go on, since a number is not finite or
+       as good as that; Ctrl-C. The kernel then goes no further. */
+    MARS2D_NO_MEMORY = -1,
+    MARS2D_LOST = -2,
+    MARS2D_INTERRUPTED = -3
+};
+
+/* Goes on by `duration` under twists (3, n). Returns the sum of what is left, or an error. */
+int mars2d_kernel_drive(Kernel *kernel, const double *twist, double duration, double time);
+
+/* How many contacts mars2d_kernel_take will write, or an error. */
+int mars2d_kernel_contacts(Kernel *kernel);
+
+/* Writes the contacts since the last call, rows of the dtype CONTACT; returns how many, or an error. */
+int mars2d_kernel_take(Kernel *kernel, void *rows);
+
+/* The functions of the C library that are to round as numpy's do: hypot is of an angle and its sine. */
+void mars2d_kernel_sines(const double *angle, int count, double *sine, double *cosine, double *length);
