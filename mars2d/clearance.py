@@ -6,6 +6,7 @@ Points are complex numbers x + i y, in metres.
 from __future__ import annotations
 
 from collections.abc import Collection
+from copy import copy
 from math import inf
 from typing import Any, NamedTuple
 
@@ -32,29 +33,42 @@ class Walls:
 
     def __init__(self, start: Complex, edge: Complex) -> None:
         """Take where segments start and the vectors to their ends, (S,) each."""
-        self._start, self._edge = start, edge
-        self._per_length = edge / length(edge) ** 2
+        per_length = edge / length(edge) ** 2
+        self._lines = np.array(
+            [part for z in (start, edge, per_length) for part in (z.real, z.imag)]
+        )
 
     def __len__(self) -> int:
-        return len(self._start)
+        return int(self._lines.shape[1])
 
     def take(self, which: Index) -> Walls:
         """Return some of the segments."""
-        return Walls(self._start[which], self._edge[which])
+        some = copy(self)
+        some._lines = self._lines[:, which]
+        return some
 
     def shared(self) -> tuple[Float, Float, Float]:
         """Return starts, edges, and edges by their squared lengths, (S, 2) each."""
         start, edge, per_length = (
-            np.ascontiguousarray(z).view(float).reshape(-1, 2)
-            for z in (self._start, self._edge, self._per_length)
+            np.ascontiguousarray(self._lines[k : k + 2].T) for k in (0, 2, 4)
         )
         return start, edge, per_length
 
     def towards(self, point: Complex) -> Complex:
         """Return the vectors from points to the nearest points of the segments, broadcast."""
-        from_start = point - self._start
-        along = np.clip(dot(from_start, self._per_length), 0.0, 1.0)
-        return np.asarray(along * self._edge - from_start)
+        x, y = self._way(point)
+        return np.asarray(x + 1j * y)
+
+    def distance(self, point: Complex) -> Float:
+        """Return the distances from points to the segments, broadcast, metres."""
+        return np.asarray(np.hypot(*self._way(point)))
+
+    def _way(self, point: Complex) -> tuple[Float, Float]:
+        x, y, edge_x, edge_y, per_x, per_y = self._lines
+        from_x, from_y = point.real - x, point.imag - y
+        along = from_x * per_x + from_y * per_y
+        along = np.minimum(np.maximum(along, 0.0, out=along), 1.0, out=along)
+        return along * edge_x - from_x, along * edge_y - from_y
 
 
 class Close(NamedTuple):
@@ -86,11 +100,12 @@ class Clearance:
         self._passing = np.array([i * n + j for i, j in sorted(passing)], dtype=np.intp)
         self._wall_gap = np.full(n, -inf if len(self._walls) else inf)  # a bound from below
         self._moved = np.zeros(n)  # since the pairs were listed
+        self._measured = np.zeros(n, dtype=bool)  # whose gaps to segments are exact now
         self._skin = inf if n <= FEW else -1.0  # negative: list them at the first question
         self._keep_pairs(*np.triu_indices(n if n <= FEW else 0, 1))
 
     def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
-        """Return arrays and numbers for the kernel, by its names; see ``kernel/kernel.h``."""
+        """Return arrays and numbers for the kernel, by its names; see ``kernel/team.h``."""
         start, edge, per_length = self._walls.shared()
         arrays = {
             "radius": self._radii, "wall_gap": self._wall_gap, "moved": self._moved,
@@ -98,23 +113,30 @@ class Clearance:
         }  # fmt: skip
         return arrays, {"segments": len(start), "few": FEW, "tiny": TINY}
 
-    def may_touch(self, center: Complex, reach: Float) -> Mask:
+    def measure(self, center: Complex) -> None:
+        """Take the discs' centres (n,), from which they move during what is asked next."""
+        self._center = center
+        self._gaps: Float | None = None
+        self._measured[:] = False
+
+    def may_touch(self, reach: Float) -> Mask:
         """Return which discs may touch something while each moves by at most `reach` (n,), metres.
 
-        center: (n,). A disc that may be touched counts as well.
+        A disc that may be touched counts as well.
         """
         if (self._moved + reach).max() > self._skin:
-            self._list_pairs(center, reach)
+            self._list_pairs(reach)
         near = np.zeros(len(reach), dtype=bool)
         if len(self._i):
-            close = self._pair_gaps(center) <= reach[self._i] + reach[self._j]
+            close = self._pair_gaps() <= reach[self._i] + reach[self._j]
             if close.any():
                 near[self._i[close]] = True
                 near[self._j[close]] = True
-        unsure = np.flatnonzero(self._wall_gap <= reach)
+        unsure = np.flatnonzero((self._wall_gap <= reach) & ~self._measured)
         if len(unsure):
-            self._wall_gap[unsure] = self._wall_gaps(center, unsure).min(axis=1)
-            near |= self._wall_gap <= reach
+            self._wall_gap[unsure] = self._wall_gaps(unsure).min(axis=1)
+            self._measured[unsure] = True
+        near |= self._wall_gap <= reach
         return near
 
     def moved(self, distance: Float) -> None:
@@ -122,7 +144,7 @@ class Clearance:
         self._moved += distance
         self._wall_gap -= distance
 
-    def close(self, center: Complex, who: Index, reach: float) -> Close:
+    def close(self, who: Index, reach: float) -> Close:
         """Return what may touch among the discs `who`, each moving by at most `reach`.
 
         Discs in the result are numbered as they stand in `who`.
@@ -131,28 +153,30 @@ class Clearance:
         local[who] = np.arange(len(who))
         i, j = local[self._i], local[self._j]
         pair = np.flatnonzero((i >= 0) & (j >= 0))
-        pair = pair[self._pair_gaps(center)[pair] <= 2 * reach]
+        pair = pair[self._pair_gaps()[pair] <= 2 * reach]
         # `moved` has been told already: what is within reach has a bound of zero or less.
         some = np.flatnonzero(self._wall_gap[who] <= 0)
-        row, segment = np.nonzero(self._wall_gaps(center, who[some]) <= reach)
+        row, segment = np.nonzero(self._wall_gaps(who[some]) <= reach)
         return Close(i[pair], j[pair], some[row], segment)
 
-    def _pair_gaps(self, center: Complex) -> Float:
-        i, j = self._i, self._j
-        return np.asarray(length(center[i] - center[j]) - self._radii[i] - self._radii[j])
+    def _pair_gaps(self) -> Float:
+        if self._gaps is None:
+            i, j, center = self._i, self._j, self._center
+            self._gaps = length(center[i] - center[j]) - self._radii[i] - self._radii[j]
+        return self._gaps
 
-    def _wall_gaps(self, center: Complex, which: Index) -> Float:
+    def _wall_gaps(self, which: Index) -> Float:
         """Return the gaps (k, S) between some discs and all segments."""
-        distance = length(self._walls.towards(center[which, None]))
+        distance = self._walls.distance(self._center[which, None])
         return np.asarray(distance - self._radii[which, None])
 
-    def _list_pairs(self, center: Complex, reach: Float) -> None:
+    def _list_pairs(self, reach: Float) -> None:
         """Make the Verlet list anew, with a skin that lasts for several questions."""
         from scipy.spatial import cKDTree
 
         self._skin = float(2 * max(4 * reach.max(), self._radii.max()))
         cutoff = 2 * self._radii.max() + 2 * self._skin
-        tree = cKDTree(np.column_stack([center.real, center.imag]))
+        tree = cKDTree(np.column_stack([self._center.real, self._center.imag]))
         pairs = tree.query_pairs(cutoff, output_type="ndarray")
         i, j = pairs.T.astype(np.intp)
         order = np.lexsort((j, i))
@@ -164,7 +188,7 @@ class Clearance:
         if len(self._passing):
             kept = ~np.isin(i * len(self._radii) + j, self._passing)
             i, j = i[kept], j[kept]
-        self._i, self._j = i, j
+        self._i, self._j, self._gaps = i, j, None
 
 
 class DiscPairs:
@@ -182,14 +206,14 @@ class DiscPairs:
 
     def measure(self, center: Complex) -> None:
         """Take the discs' centres (k,) and measure all gaps."""
-        self._center = center
-        between = np.concatenate(
-            [center[self._j] - center[self._i], self._walls.towards(center[self._disc])]
-        )
+        self._center, pairs = center, len(self._i)
+        first = center[self._first]
+        between = np.empty(len(first), dtype=np.complex128)
+        between[:pairs] = center[self._j] - first[:pairs]
+        between[pairs:] = self._walls.towards(first[pairs:])
         distance = length(between)
         self._gap = distance - self._radii_sum
-        direction = between / np.maximum(distance, TINY)
-        self._normal = np.asarray(direction, dtype=np.complex128)
+        self._normal = between * (1.0 / np.maximum(distance, TINY))
         self._touch = self._gap <= 0
         self.any_touch = bool(self._touch.any())
 
@@ -212,9 +236,12 @@ class DiscPairs:
 
     def touching_points(self) -> tuple[Complex, Complex]:
         """Return of the pairs that touch points on the first disc, and the normals from it."""
-        normal = self._normal[self._touch]
-        first = self._first[self._touch]
+        normal, first = self.normal_of_touching(), self._first[self._touch]
         return self._center[first] + self._radii[first] * normal, normal
+
+    def normal_of_touching(self) -> Complex:
+        """Return the unit vectors from the first to the second of the pairs that touch."""
+        return np.asarray(self._normal[self._touch])
 
     def inwards(self, velocity: Complex) -> tuple[Float, Float]:
         """Return how fast each of the pairs that touch moves into the other, (m,) m/s each.

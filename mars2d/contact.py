@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,93 +67,81 @@ class ContactLog:
 
     def __init__(self) -> None:
         """Start without contacts."""
-        self._times: list[float] = []
-        self._lengths: list[float] = []
+        self._notes: list[tuple[float, float, bool]] = []  # time, length, whether it goes on
         self._solved: list[Solved] = []
-        self._touching: list[list[int]] = []
-        self._held: list[list[int]] = []  # those that touched after the substep before, too
-        self._latest: set[int] = set()
-        self._before: set[int] = set()
+        self._touching: list[tuple[Int, Int]] = []
+        self._goes_on = True  # whether something touched after the substep before
+        self._before: set[int] = set()  # the pairs that touched at the last call of `take`
 
     def add(self, time: float, h: float, solved: Solved, touching: tuple[Int, Int]) -> None:
         """Note what the solver lists after a substep of h seconds, and which pairs do touch.
 
         touching: bodies (a, b), b negative for obstacles.
         """
-        listed = set(_key(*_ordered(*solved.bodies.T)).tolist())
-        keys = listed.intersection(_key(*_ordered(*touching)).tolist())
-        self._times.append(time)
-        self._lengths.append(h)
+        self._notes.append((time, h, self._goes_on))
         self._solved.append(solved)
-        self._touching.append(sorted(keys))
-        self._held.append(sorted(keys & self._latest))
-        self._latest = keys
+        self._touching.append(touching)
+        self._goes_on = True
 
     def add_nothing(self) -> None:
         """Note that nothing touches after a substep."""
-        self._latest = set()
+        self._goes_on = False
 
     def take(self) -> NDArray[np.void]:
         """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
-        if not self._times:
-            self._before = self._latest
+        notes, solved, touching = self._notes, self._solved, self._touching
+        before, ongoing = self._before, self._goes_on
+        self._notes, self._solved, self._touching, self._goes_on = [], [], [], True
+        if not notes:
+            self._before = before if ongoing else set()
             return np.empty(0, dtype=CONTACT)
-        count = [len(solved.bodies) for solved in self._solved]
-        substep = np.repeat(np.arange(len(count)), count)
-        bodies, impulse, normal, first, second, velocity = (
-            np.concatenate(parts) for parts in zip(*self._solved, strict=True)
-        )
+        times, lengths, follows = np.array(notes).T
+        bodies, impulse, normal, first, second, velocity = _joined(solved)
         a, b = _ordered(*bodies.T)
-        swap = a != bodies[:, 0]
-        normal = np.where(swap[:, None], -normal, normal)
-        velocity = np.where(swap[:, None], -velocity, velocity)
-        point = np.where(swap[:, None], second, first)
+        key, substep = _key(a, b), _repeated([len(one.bodies) for one in solved])
+        # Those listed in a substep that touch after it; the others parted shortly before.
+        touched = _repeated([len(one) for one, _ in touching]).tolist()
+        touch = set(zip(touched, _key(*_ordered(*_joined(touching))).tolist(), strict=True))
+        listed = zip(substep.tolist(), key.tolist(), strict=True)
+        rows = np.flatnonzero(np.array([pair in touch for pair in listed], dtype=bool))
+
+        swap = (a != bodies[:, 0])[rows, None]
+        key, substep, impulse = key[rows], substep[rows], impulse[rows]
+        normal = np.where(swap, -normal[rows], normal[rows])
+        velocity = np.where(swap, -velocity[rows], velocity[rows])
+        point = np.where(swap, second[rows], first[rows])
         # On b, and away from a: the sign that the solver gives depends on the order of the shapes.
         away = (impulse * normal).sum(axis=1)
         impulse = np.where(away[:, None] < 0, -impulse, impulse)
-
-        key = _key(a, b)
-        # Those listed in a substep that touch after it; the others parted shortly before.
-        touching = _numbers(self._touching)
-        names, number = np.unique(np.concatenate([key, touching]), return_inverse=True)
-        touch_count = [len(keys) for keys in self._touching]
-        when = np.concatenate([substep, np.repeat(np.arange(len(count)), touch_count)])
-        both = when * len(names) + number.ravel()
-        live = np.isin(both[: len(key)], both[len(key) :])
         # The solver lists them in the order of addresses in memory: put them in one that is always
         # the same, the strongest of a pair and substep first.
-        rows = np.flatnonzero(live)
-        strength = np.hypot(impulse[rows, 0], impulse[rows, 1])
-        x, y = point[rows].T
-        nx, ny = normal[rows].T
-        rows = rows[np.lexsort((ny, nx, y, x, -strength, key[rows], substep[rows]))]
-        pairs, start, group = np.unique(key[rows], return_index=True, return_inverse=True)
-        group = group.ravel()
-        row = rows[start]
+        strength = np.hypot(impulse[:, 0], impulse[:, 1])
+        order = np.lexsort((*normal.T[::-1], *point.T[::-1], -strength, key, substep))
+        key, substep, impulse, normal = key[order], substep[order], impulse[order], normal[order]
+        pairs, row, group = np.unique(key, return_index=True, return_inverse=True)
+        there = np.zeros((len(notes) + 1, len(pairs)), dtype=bool)  # at the start, after substeps
+        there[0] = [pair in before for pair in pairs.tolist()]
+        there[substep + 1, group] = True
+        stayed, who = np.nonzero(there[1:] & there[:-1] & (follows > 0)[:, None])
+
+        def total(which: Int, what: Float) -> Float:
+            return np.asarray(np.bincount(which, what, len(pairs)), dtype=np.float64)
 
         result = np.zeros(len(pairs), dtype=CONTACT)
-        result["a"], result["b"] = a[row], b[row]
-        result["normal"], result["point"] = normal[row], point[row]
-        total = [np.bincount(group, impulse[rows, k], len(pairs)) for k in (0, 1)]
-        result["impulse"] = np.hypot(*total)
-        along = (impulse * normal)[rows].sum(axis=1)
-        across = impulse[rows, 1] * normal[rows, 0] - impulse[rows, 0] * normal[rows, 1]
-        result["normal_impulse"] = np.bincount(group, along, len(pairs))
-        result["tangential_impulse"] = np.bincount(group, across, len(pairs))
-        result["began"] = [pair not in self._before for pair in pairs.tolist()]
-        fresh = result["began"]
+        result["a"], result["b"] = a[rows][order][row], b[rows][order][row]
+        result["normal"], result["point"] = normal[row], point[order][row]
+        result["impulse"] = np.hypot(total(group, impulse[:, 0]), total(group, impulse[:, 1]))
+        result["normal_impulse"] = total(group, (impulse * normal).sum(axis=1))
+        result["tangential_impulse"] = total(group, _across(impulse, normal))
+        result["duration"] = total(who, lengths[stayed])
+        fresh, met = ~there[0], velocity[order][row]
+        result["began"], result["ended"] = fresh, ~there[-1] | (not ongoing)
         # What touched before does so from the start of the control step.
-        when, took = np.array(self._times), np.array(self._lengths)
-        result["time"] = when[substep[row]] - np.where(fresh, 0.0, took[substep[row]])
-        result["speed"] = np.where(fresh, -(velocity * normal)[row].sum(axis=1), 0.0)
-        result["slip"] = velocity[row, 1] * normal[row, 0] - velocity[row, 0] * normal[row, 1]
-        lengths = np.repeat(self._lengths, [len(held) for held in self._held])
-        held = np.searchsorted(pairs, _numbers(self._held))
-        result["duration"] = np.bincount(held, lengths, len(pairs))
-        result["ended"] = [pair not in self._latest for pair in pairs.tolist()]
-        self._before = self._latest
-        for notes in (self._times, self._lengths, self._solved, self._touching, self._held):
-            notes.clear()
+        start = np.where(fresh, 0.0, lengths[substep[row]])
+        result["time"] = times[substep[row]] - start
+        result["speed"] = np.where(fresh, -(met * normal[row]).sum(axis=1), 0.0)
+        result["slip"] = _across(met, normal[row])
+        self._before = set(pairs[~result["ended"]].tolist())
         return result[np.argsort(result["time"], kind="stable")]
 
 
@@ -184,9 +173,19 @@ def _ordered(a: Int, b: Int) -> tuple[Int, Int]:
     return np.where(swap, b, a), np.where(swap, a, b)
 
 
-def _numbers(lists: list[list[int]]) -> Int:
-    """Return the keys of several lists in one array."""
-    return np.array([key for keys in lists for key in keys], dtype=np.int64)
+def _joined(parts: Sequence[tuple[NDArray[Any], ...]]) -> list[NDArray[Any]]:
+    """Return the columns of several notes in one array each."""
+    return [np.concatenate(column) for column in zip(*parts, strict=True)]
+
+
+def _repeated(counts: list[int]) -> Int:
+    """Return 0 as often as the first number says, then 1, and so on."""
+    return np.repeat(np.arange(len(counts)), counts)
+
+
+def _across(vector: Float, normal: Float) -> Float:
+    """Return the parts of vectors (k, 2) along normals turned by +90 degrees."""
+    return np.asarray(vector[:, 1] * normal[:, 0] - vector[:, 0] * normal[:, 1])
 
 
 def _key(a: Int, b: Int) -> Int:

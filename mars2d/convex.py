@@ -122,14 +122,11 @@ class ConvexPairs:
         self._x = c * self._local_x - s * self._local_y
         self._y = s * self._local_x + c * self._local_y
         self._base_x, self._base_y = x[0], y[0]
-        self._between_x, self._between_y = x[1] - x[0], y[1] - y[0]
+        to_other_x, to_other_y = x[::-1] - x, y[::-1] - y
+        self._between_x, self._between_y = to_other_x[0], to_other_y[0]
         k = self._k
         # the vertices of each piece, as seen from the body of the other
-        seen_x, seen_y = self._x[:k, ::-1].copy(), self._y[:k, ::-1].copy()
-        seen_x[:, 0] += self._between_x
-        seen_y[:, 0] += self._between_y
-        seen_x[:, 1] -= self._between_x
-        seen_y[:, 1] -= self._between_y
+        seen_x, seen_y = self._x[:k, ::-1] + to_other_x, self._y[:k, ::-1] + to_other_y
         separation, axis_x, axis_y = self._separate(seen_x, seen_y)
         way_x, way_y = self._shortest_way(seen_x, seen_y)
         distance = np.hypot(way_x, way_y)
@@ -156,7 +153,7 @@ class ConvexPairs:
         widest = separation.argmax(axis=0)
         sign = 1.0 - 2.0 * (widest & 1)  # the axes of the second piece point to the first
         picked = widest, self._column
-        axis_x, axis_y = axis_x.reshape(separation.shape), axis_y.reshape(separation.shape)
+        axis_x, axis_y = (axis_x.reshape(separation.shape), axis_y.reshape(separation.shape))
         return separation[picked], sign * axis_x[picked], sign * axis_y[picked]
 
     def _shortest_way(self, x: Float, y: Float) -> tuple[Float, Float]:
@@ -211,7 +208,7 @@ class ConvexPairs:
         depth: metres; what is as near to the surface as that belongs to it.
         """
         motion = np.zeros((3, len(velocity) + 1))
-        motion[0, :-1], motion[1, :-1], motion[2, :-1] = velocity.real, velocity.imag, spin
+        motion[0, :-1], motion[1, :-1], motion[2, :-1] = (velocity.real, velocity.imag, spin)
         vx, vy, omega = motion.take(self._mover, axis=1)
         sign = np.array([[1.0], [-1.0]])
         nx, ny = sign * self.normal.real, sign * self.normal.imag

@@ -6,7 +6,7 @@ are the bodies themselves; what is no disc is looked at in convex pieces where i
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from math import inf
 from typing import Any
 
@@ -106,9 +106,12 @@ class Bounds:
         offset = self.offset[who]
         return np.asarray(speed + np.hypot(offset.real, offset.imag) * np.abs(velocity[:, 2]))
 
-    def encounter(self, center: Complex, who: Index, reach: float) -> Encounter:
-        """Return all that may touch among bodies `who` (k,), whose circles move by `reach`."""
-        close = self.clearance.close(center, who, reach)
+    def encounter(self, who: Index, reach: float) -> Encounter:
+        """Return all that may touch among bodies `who` (k,), whose circles move by `reach`.
+
+        They move from where `clearance` was told that they are.
+        """
+        close = self.clearance.close(who, reach)
         convex = None
         if not self._only_discs:
             i, j, body, segment = close
@@ -188,14 +191,18 @@ class Encounter:
                 ends.append(self._bounds.owner[piece[self._convex.touch]])
         return np.concatenate(first), np.concatenate(second)
 
-    def grazing(self, depth: float) -> tuple[Index, Index, Complex]:
-        """Return pairs (a, b) that touch, but less deep than this, and normals; see `touches`."""
-        a, b, _, normal = self.touches()
-        gap = self._discs.gap_of_touching()
+    def grazing(self, depth: float) -> Iterator[tuple[int, int, complex]]:
+        """Yield pairs a, b that touch, but less deep than this, with normals; see `touches`."""
+        gap, normal = self._discs.gap_of_touching(), self._discs.normal_of_touching()
         if self._convex is not None and self._convex.any_touch:
-            gap = np.concatenate([gap, self._convex.gap[self._convex.touch]])
+            touch = self._convex.touch
+            gap = np.concatenate([gap, self._convex.gap[touch]])
+            normal = np.concatenate([normal, self._convex.normal[touch]])
         grazes = gap > -depth
-        return a[grazes], b[grazes], normal[grazes]
+        if grazes.any():
+            a, b = self.touching_pairs()
+            rows = (a[grazes], b[grazes], normal[grazes])
+            yield from zip(*(row.tolist() for row in rows), strict=True)
 
     def inwards(self, velocity: Float) -> Float:
         """Return how fast bodies move into what they touch, at most, (k,) m/s; velocity: (k, 3)."""

@@ -7,12 +7,13 @@ is stepped finely, robots by their clutches and props by the floor's grip.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import ceil, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.clutches import Clutches
+from mars2d.clutches import Clutches, Driven
 from mars2d.contact import CONTACT, ContactLog
 from mars2d.encounter import Bounds, Encounter
 from mars2d.grips import Grips
@@ -25,7 +26,6 @@ from mars2d.tethers import Tethers
 __all__ = ["SLOP", "Engine"]
 
 Float = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
@@ -56,8 +56,19 @@ shorter than that, they begin anew.
 """
 
 
+GROUP = 64
+"""How many robots of a large team are stepped together, about: each group as finely as it needs."""
+
 NOTHING = np.empty(0, dtype=CONTACT)
 NOTHING.flags.writeable = False
+
+
+def thrown(ratio: float) -> float:
+    """Return how many times as fast as both were a body may be thrown, head-on without loss.
+
+    ratio: of the masses of what throws it and its own, at least 1.
+    """
+    return (3 * ratio - 1) / (ratio + 1)
 
 
 class Engine(Motion):
@@ -97,6 +108,10 @@ class Engine(Motion):
             return None
         if reason_without():
             return None
+        self._groups = 1 if self.n < 2 * GROUP else self.n // GROUP
+        slack = SLACK
+        if self._groups > 1:  # they can't wait for each other, should one be thrown further
+            slack *= thrown(float(self._mass.max() / self._mass.min()))
         self._placed, self._reach = np.zeros(self.n, dtype=bool), np.zeros(self.n)
         arrays = {
             "state": self._state, "slipping": self._slipping, "placed": self._placed,
@@ -104,8 +119,8 @@ class Engine(Motion):
         }  # fmt: skip
         numbers = {
             "n": self.n, "max_overlap": self._max_overlap, "entry": self._entry,
-            "contact_step": self._contact_step, "pressed": self._pressed, "slack": SLACK,
-            "growth": GROWTH, "last_step": self.space.last_step,
+            "contact_step": self._contact_step, "pressed": self._pressed, "slack": slack,
+            "growth": GROWTH, "last_step": self.space.last_step, "groups": self._groups,
         }  # fmt: skip
         for part in (self.bounds, self._clutches, self.space):
             more_arrays, more_numbers = part.shared()
@@ -136,8 +151,8 @@ class Engine(Motion):
         """The velocities (3, N) at this instant: x', y' [m/s], theta' [rad/s], as a new array."""
         velocity = super().velocity
         free = np.flatnonzero(~self._slipping[: self.n])  # the engine has chords of these
-        tangent = self._clutches.chord(self._twist, self._state[free], 0.0, free)
-        velocity[:, free] = tangent.T
+        arcs = self._clutches.arcs(self._twist).take(free)
+        velocity[:, free] = arcs.chord(self._state[free, 2], 0.0).T
         return velocity
 
     # -- motion -----------------------------------------------------------------------------
@@ -151,6 +166,7 @@ class Engine(Motion):
         if self._kernel is not None:
             self._drive_kernel(self._kernel, twist, duration, time)
             return
+        self._arcs = self._clutches.arcs(twist)
         elapsed = 0.0
         while elapsed < duration:
             left = duration - elapsed
@@ -161,7 +177,9 @@ class Engine(Motion):
         """Do the same by the kernel."""
         left = kernel.drive(twist, duration, time)
         self._left |= left
-        if left & PLACED:
+        if self._groups > 1:
+            self.space.misplace_all(self._state)
+        elif left & PLACED:
             self.space.misplace(np.flatnonzero(self._placed))
 
     def take_contacts(self) -> NDArray[np.void]:
@@ -182,39 +200,42 @@ class Engine(Motion):
         It is less when a body has been thrown further than was thought possible: then it is to be
         asked anew what it may touch.
         """
-        center = self.bounds.center(self._state)
-        near, path = self._find_near(twist, center, duration)
+        self.bounds.clearance.measure(self.bounds.center(self._state))
+        near, path = self._find_near(twist, duration)
         self._clutches.release(~near[: self.n])
-        self._carry(twist, duration)
+        self._carry(~near, duration)
         if near.any():
             who = np.flatnonzero(near)
-            encounter = self.bounds.encounter(center, who, path + self._max_overlap)
-            gone = self._substeps(twist, duration, time, who, encounter, path)
+            robots = int(np.searchsorted(who, self.n))
+            drives = Driven(self._clutches, self._arcs, who[:robots])
+            encounter = self.bounds.encounter(who, path + self._max_overlap)
+            group = _Near(who, robots, drives, encounter, self._slipping[who])
+            gone = self._substeps(group, duration, time, path)
         else:
             gone = duration
             self.space.step(duration)
             self.contacts.add_nothing()
-        self._arrive(twist, ~near, gone, duration)
+        self._arrive(~near, gone, duration)
         return gone
 
-    def _carry(self, twist: Float, duration: float) -> None:
+    def _carry(self, carried: Mask, duration: float) -> None:
         """Set the velocities that bring what touches nothing to where it will be."""
         velocity, state, n = self.space.velocity, self._state, self.n
-        velocity[:n] = self._clutches.chord(twist, state[:n], duration, slice(None))
-        if self.count > n:
+        velocity[:n] = self._arcs.chord(state[:n, 2], duration)
+        if carried[n:].any():
             moved, _ = self._grips.glide(state[n:], np.arange(n, self.count), duration)
             velocity[n : self.count] = moved / duration
 
-    def _arrive(self, twist: Float, carried: Mask, gone: float, duration: float) -> None:
+    def _arrive(self, carried: Mask, gone: float, duration: float) -> None:
         """Read the state; put those that were carried where they are after `gone` seconds."""
         before, n = self._state, self.n
         self._state = self.space.read().copy()
         if gone < duration:  # they were on the chord of a longer time
             who = np.flatnonzero(carried[:n])
-            moved = gone * self._clutches.chord(twist, before[who], gone, who)
+            moved = gone * self._arcs.take(who).chord(before[who, 2], gone)
             for i, (dx, dy, _) in zip(who.tolist(), moved.tolist(), strict=True):
                 self._put(i, before[i, 0] + dx, before[i, 1] + dy, None)
-        if self.count > n:
+        if carried[n:].any():
             who = n + np.flatnonzero(carried[n:])
             moved, end = self._grips.glide(before[who], who, gone)
             self._state[who, 3:] = end
@@ -229,7 +250,7 @@ class Engine(Motion):
         if theta is not None:
             self._state[i, 2] = theta
 
-    def _find_near(self, twist: Float, center: Complex, duration: float) -> tuple[Mask, float]:
+    def _find_near(self, twist: Float, duration: float) -> tuple[Mask, float]:
         """Return which bodies may touch something, and the longest path that one may take.
 
         One that is near may be pushed by the quickest of them, and so be near to others.
@@ -246,51 +267,42 @@ class Engine(Motion):
         path, reach, count = 0.0, speed * duration, -1
         while int(near.sum()) != count:
             count = int(near.sum())
-            near |= bounds.clearance.may_touch(center, reach)
-            if near.any():
+            if count:
                 path = SLACK * float(speed[near].max()) * duration
                 reach = np.where(near, path + self._max_overlap, speed * duration)
+            near |= bounds.clearance.may_touch(reach)
         bounds.clearance.moved(reach)
         return near, path
 
-    def _substeps(
-        self,
-        twist: Float,
-        duration: float,
-        time: float,
-        who: Index,
-        encounter: Encounter,
-        path: float,
-    ) -> float:
+    def _substeps(self, near: _Near, duration: float, time: float, path: float) -> float:
         """Step through `duration` as finely as those need that are near something.
 
-        who: (k,) their numbers. path: metres; before one of them has gone further, this returns.
-        Returns the seconds gone.
+        path: metres; before one of them has gone further, this returns. Returns the seconds gone.
         """
-        slipping = self._slipping[who]
+        who, encounter = near.who, near.encounter
         everything = self._state
         gone = np.zeros(len(who))  # paths, metres
         elapsed = h = 0.0
         while True:
             encounter.measure(everything[who])
             if elapsed > 0:
-                self._note_contacts(time + elapsed, h, everything, encounter)
+                self._note_contacts(time + elapsed, h, encounter)
             if elapsed >= duration:
                 break
             if encounter.any_touch:
                 self._press(everything, encounter)
             left = duration - elapsed
-            velocity, h = self._look_ahead(twist, everything, slipping, who, encounter, left)
+            state = everything[who]
+            velocity, h = self._look_ahead(near, everything, state, left)
             gone += h * self.bounds.top_speed(velocity, who)
             if elapsed > 0 and gone.max() > path:
                 break
-            self._aim(twist, everything[who], slipping, who, h)
+            self._aim(near, state, h)
             self.space.step(h)
             elapsed = duration if h == left else elapsed + h
             everything = self.space.read().copy()
-            robots = np.searchsorted(who, self.n)
-            self._clutches.note_effort(who[:robots][slipping[:robots]])
-        self._slipping[who] = slipping
+            near.drives.note_effort(near.slipping[: near.robots])
+        self._slipping[who] = near.slipping
         return elapsed
 
     def _press(self, everything: Float, encounter: Encounter) -> None:
@@ -298,57 +310,48 @@ class Engine(Motion):
 
         everything: (N, 6) states of all bodies, which are brought up to date.
         """
-        for a, b, normal in zip(*encounter.grazing(self._pressed / 8), strict=True):
+        for a, b, normal in encounter.grazing(self._pressed / 8):
             # Their common centre of mass stays.
             share = 1.0 if b < 0 else self._mass[b] / (self._mass[a] + self._mass[b])
-            for i, way in ((int(a), share * self._pressed), (int(b), (share - 1) * self._pressed)):
+            for i, way in ((a, share * self._pressed), (b, (share - 1) * self._pressed)):
                 if i >= 0:
                     everything[i, :2] += way * normal.real, way * normal.imag
                     self.space.place(i, *everything[i, :2].tolist())
 
-    def _note_contacts(self, time: float, h: float, state: Float, encounter: Encounter) -> None:
+    def _note_contacts(self, time: float, h: float, encounter: Encounter) -> None:
         if encounter.any_touch:
-            pairs = encounter.touching_pairs()
-            self.contacts.add(time, h, self.space.solved(state), pairs)
+            self.contacts.add(time, h, self.space.solved(), encounter.touching_pairs())
         else:
             self.contacts.add_nothing()
 
     def _look_ahead(
-        self,
-        twist: Float,
-        everything: Float,
-        slipping: Mask,
-        who: Index,
-        encounter: Encounter,
-        left: float,
+        self, near: _Near, everything: Float, state: Float, left: float
     ) -> tuple[Float, float]:
-        """Return how bodies `who` move, (k, 3), and how long the next substep may be, seconds.
+        """Return how those near move, (k, 3), and how long the next substep may be, seconds.
 
-        everything: (N, 6) states of all bodies. slipping: (k,), which is brought up to date. left:
-        seconds until the end.
+        Who of them slips is brought up to date. everything: (N, 6) states of all bodies; state:
+        (k, 6) theirs. left: seconds until the end.
         """
-        state, r = everything[who], np.searchsorted(who, self.n)  # robots come first
-        touching = encounter.touching()
+        r, drives, slipping = near.robots, near.drives, near.slipping
+        touching = near.encounter.touching()
         if self._tethers is not None:
             self._tethers.measure(everything)
-            touching |= self._tethers.held()[who]
+            touching |= self._tethers.held()[near.who]
         h = left
         slipping |= touching
         if slipping.any():
             h = min(h, self._contact_step, GROWTH * self.space.last_step)
-            brakes = self._clutches.time_to_brake(twist, state[:r], slipping[:r], who[:r])
-            h = float(brakes.min(initial=h))
-            returns = np.flatnonzero(slipping[:r] & ~touching[:r])
-            slow = self._clutches.out_of_reach(twist, state[returns], who[returns], h)
-            slipping[returns] = slow
+            h = min(h, drives.time_to_brake(state[:r], slipping[:r]))
+            if (slipping[:r] & ~touching[:r]).any():
+                slipping[:r] &= touching[:r] | drives.out_of_reach(state[:r], h)
             slipping[r:] = touching[r:]
-        parts = [self._clutches.motion(twist, state[:r], slipping[:r], who[:r])]
-        if r < len(who):
-            parts.append(self._grips.motion(state[r:], slipping[r:], who[r:]))
-        velocity, bend = (np.concatenate(part) for part in zip(*parts, strict=True))
-        h = min(h, encounter.time_to_touch(velocity, bend, self._entry))
+        velocity, bend = drives.motion(state[:r], slipping[:r])
+        if r < len(state):
+            glides = self._grips.motion(state[r:], slipping[r:], near.who[r:])
+            velocity, bend = (np.concatenate([velocity, glides[0]]), np.append(bend, glides[1]))
+        h = min(h, near.encounter.time_to_touch(velocity, bend, self._entry))
         if self._tethers is not None:
-            h = min(h, self._time_to_jerk(velocity, bend, who))
+            h = min(h, self._time_to_jerk(velocity, bend, near.who))
         return velocity, left / ceil(left / h - 1e-9)  # equal ones settle best, without a sliver
 
     def _time_to_jerk(self, velocity: Float, bend: Float, who: Index) -> float:
@@ -358,17 +361,29 @@ class Engine(Motion):
         all_velocity[who], all_bend[who] = velocity, bend
         return self._tethers.time_to_jerk(all_velocity, all_bend, STRETCH * self._entry)
 
-    def _aim(self, twist: Float, state: Float, slipping: Mask, who: Index, h: float) -> None:
-        """Prepare bodies `who` for a substep of h."""
-        r = np.searchsorted(who, self.n)
-        brief = h <= self._contact_step
-        self._clutches.aim(twist, state[:r], slipping[:r], who[:r], h, brief=brief)
-        if r < len(who):
-            self._grips.aim(state[r:], slipping[r:], who[r:], h)
+    def _aim(self, near: _Near, state: Float, h: float) -> None:
+        """Prepare those near, with states (k, 6), for a substep of h."""
+        r, slipping = near.robots, near.slipping
+        near.drives.aim(state[:r], slipping[:r], h, brief=h <= self._contact_step)
+        if r < len(state):
+            self._grips.aim(state[r:], slipping[r:], near.who[r:], h)
         if GROWTH * h < self.space.last_step and slipping.any():
-            held = np.zeros(self.count, dtype=bool)
-            held[who] = slipping
-            self.space.renew(held)
+            self.space.renew(near.who[slipping])
         if self._tethers is not None:
             for rope, speed in self._tethers.drift(h):
                 self.space.draw_in(rope, speed)
+
+
+@dataclass
+class _Near:
+    """Those that may touch something, while they are stepped finely.
+
+    who: (k,) their numbers; `robots` robots, which `drives` move, then props. encounter: what they
+    may touch. slipping: (k,) which of them do not follow their commands now.
+    """
+
+    who: Index
+    robots: int
+    drives: Driven
+    encounter: Encounter
+    slipping: Mask

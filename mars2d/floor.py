@@ -60,7 +60,7 @@ class Floor:
         self._lever = np.array([prop.shape.lever for prop in props])
         self.force = np.array([prop.ground_friction for prop in props]) * mass * GRAVITY
         self.torque = self.force * self._lever
-        self._slide, self._spin = self.force / mass, self.torque / moment  # m/s^2, rad/s^2
+        self._slide, self._spin = (self.force / mass, self.torque / moment)  # m/s^2, rad/s^2
 
     def bounds(self, velocity: Float, held: Float, who: Index) -> tuple[Float, Float]:
         """Return the largest force [N] and torque [N m] against bodies `who`, (k,) each.
@@ -93,13 +93,16 @@ class Floor:
 
         velocity: (k, 3) = x', y' [m/s], theta' [rad/s], where nothing else acts on them.
         """
+        if not velocity.any():
+            rest = velocity * 0.0
+            return rest, rest
         slide, lever = self._slide[who], self._lever[who]
         turn = lever * self._spin[who]
         u, s = np.hypot(velocity[:, 0], velocity[:, 1]), lever * np.abs(velocity[:, 2])
         both = np.flatnonzero((u > 0) & (s > 0) & (slide > 0) & (turn > 0))
         way, left = _alone(np.stack([u, s]), np.stack([slide, turn]), h)
         if len(both):
-            speeds, rates = np.stack([u[both], s[both]]), np.stack([slide[both], turn[both]])
+            speeds, rates = (np.stack([u[both], s[both]]), np.stack([slide[both], turn[both]]))
             way[:, both], left[:, both] = _together(speeds, rates, h)
         pick = [0, 0, 1]
         return velocity * way[pick].T, velocity * left[pick].T
@@ -126,17 +129,19 @@ def _together(speed: Float, rate: Float, h: float) -> tuple[Float, Float]:
     b, o = speed[slow, column], speed[1 - slow, column]
     slower, exponent = rate[slow, column], rate[1 - slow, column] / rate[slow, column]
 
-    def integral(x: Float, power: Float) -> Float:
+    def integral(x: Float, power: Float | None = None) -> Float:
         nodes = x + (1 - x) * NODES
         d = np.hypot(b, o * nodes ** (exponent - 1))
-        return np.asarray((1 - x) * (WEIGHTS @ (d * nodes**power)) / slower)
+        if power is not None:
+            d *= nodes**power
+        return np.asarray((1 - x) * (WEIGHTS @ d) / slower)
 
     zero, one = np.zeros_like(b), np.ones_like(b)
-    stops = integral(zero, zero) <= h
+    stops = integral(zero) <= h
     low, high = zero, one
     x = np.maximum(1 - slower * h / np.maximum(np.hypot(b, o), 1e-150), 0.0)
     for _ in range(ROUNDS):  # Newton's method, with bisection where that leaves the bounds
-        gone = integral(x, zero)
+        gone = integral(x)
         low, high = np.where(gone >= h, x, low), np.where(gone <= h, x, high)
         rate_now = np.maximum(np.hypot(b, o * x ** (exponent - 1)), 1e-150)
         step = x + (gone - h) * slower / rate_now

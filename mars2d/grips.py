@@ -52,23 +52,26 @@ class Grips:
         One that glides has its velocity at the end, so that the solver meets what it then runs into
         with the right one; it is put back by as much as it would go too short with that.
         """
-        moved, end = self.glide(state, who, h)
-        glides = ~slipping & state[:, 3:].any(axis=1)
-        self._space.velocity[who] = np.where(glides[:, None], end, state[:, 3:])
-        ahead = state[:, :3] + moved - end * h
-        for row in np.flatnonzero(glides).tolist():
-            self._space.place(int(who[row]), *ahead[row].tolist())
+        self._space.velocity[who] = state[:, 3:]
+        glides = np.flatnonzero(~slipping & state[:, 3:].any(axis=1))
+        if len(glides):
+            moved, end = self.glide(state, who, h)
+            self._space.velocity[who[glides]] = end[glides]
+            ahead = (state[:, :3] + moved - end * h)[glides]
+            for i, pose in zip(who[glides].tolist(), ahead.tolist(), strict=True):
+                self._space.place(i, *pose)
         self._hold(state, slipping, who)
 
     def _hold(self, state: Float, slipping: Mask, who: Index) -> None:
         """Let the floor hold what slips; what rests untouched stays so, and is hit as if free."""
-        held = np.zeros((len(who), 2))
-        for row in np.flatnonzero(slipping).tolist():
-            held[row] = self._space.held(int(who[row]))
         props = who - self._first
-        grip = np.column_stack(self._floor.bounds(state[:, 3:], held, props))
-        grip[~slipping] = 0.0
+        grip = np.zeros((len(who), 2))
+        rows = np.flatnonzero(slipping)
+        if len(rows):
+            held = np.array([self._space.held(i) for i in who[rows].tolist()])
+            bounds = self._floor.bounds(state[rows, 3:], held, props[rows])
+            grip[rows] = np.column_stack(bounds)
         changed = (grip != self._grip[props]).any(axis=1)
         self._grip[props] = grip
-        for row in np.flatnonzero(changed).tolist():
-            self._space.grip(int(who[row]), *grip[row].tolist())
+        for i, limits in zip(who[changed].tolist(), grip[changed].tolist(), strict=True):
+            self._space.grip(i, *limits)

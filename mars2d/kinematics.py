@@ -9,7 +9,7 @@ from mars2d.contact import ContactLog, Solved
 from mars2d.encounter import Bounds, Encounter
 from mars2d.engine import SLOP
 from mars2d.floor import Floor
-from mars2d.motion import Motion, chord_velocity, point_velocity
+from mars2d.motion import Arcs, Motion, chord_velocity, point_velocity
 from mars2d.scenario import Scenario
 from mars2d.space import Space
 
@@ -62,14 +62,15 @@ class Kinematics(Motion):
         speed[: self.n] = self.bounds.top_speed(twist.T, slice(self.n))
         reach = speed * duration
         center = self.bounds.center(self._state)
-        near = self.bounds.clearance.may_touch(center, reach)
+        self.bounds.clearance.measure(center)
+        near = self.bounds.clearance.may_touch(reach)
         self.bounds.clearance.moved(reach)
         who = np.flatnonzero(near)
         start = self._state
         self._state = self._moved(twist, start, duration)
         self._state[:, 3:] = self._now(twist, self._state)
         if len(who):
-            encounter = self.bounds.encounter(center, who, float(reach[who].max()))
+            encounter = self.bounds.encounter(who, float(reach[who].max()))
             self._state[who] = self._substeps(twist, start, duration, time, who, encounter)[who]
         else:
             self.contacts.add_nothing()
@@ -120,15 +121,11 @@ class Kinematics(Motion):
                 state[stopped[stopped >= n], 3:] = 0.0
                 now = self._now(twist, state)
             bend = np.zeros(len(state))
-            arcs = np.abs(np.hypot(twist[0], twist[1]) * twist[2])
-            bend[:n] = np.where(self._in_robot_frame, arcs, 0.0)
+            bend[:n] = Arcs(twist, self._in_robot_frame).bend
             reach = self.bounds.reach[n:]
             bend[n:] = self._floor.braking(state[n:, 3:], reach, self._everyone)
             left = h = duration - elapsed
-            h = min(
-                h,
-                encounter.time_to_touch(now[who], bend[who], self._depth, again=self._stops),
-            )
+            h = min(h, encounter.time_to_touch(now[who], bend[who], self._depth, again=self._stops))
             state = self._moved(twist, state, h)
             elapsed = duration if h == left else elapsed + h
 

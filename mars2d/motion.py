@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Motion", "chord_velocity", "point_velocity"]
+__all__ = ["Arcs", "Motion", "chord_velocity", "point_velocity"]
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -44,20 +44,53 @@ def point_velocity(state: Float, velocity: Float, body: Index, point: Float) -> 
     return result
 
 
+class Arcs:
+    """How k robots move under constant twists: along arcs, or straight on as they turn.
+
+    spin: (k,) rad/s, how quickly they turn.
+    """
+
+    def __init__(self, twist: Float, in_robot_frame: Mask) -> None:
+        """Take the twists (3, k), and whether their first two rows are along the robot's axes."""
+        self._twist, self._in_robot_frame = twist, in_robot_frame
+        self._forward, self._left, self.spin = twist
+        self._turning = np.where(in_robot_frame, self.spin, 0.0)
+        self._straight = None if in_robot_frame.all() else ~in_robot_frame
+
+    def take(self, which: Index) -> Arcs:
+        """Return those of some of the robots."""
+        return Arcs(self._twist[:, which], self._in_robot_frame[which])
+
+    @property
+    def bend(self) -> Float:
+        """How quickly their velocities turn, (k,) m/s^2."""
+        return np.asarray(np.abs(np.hypot(self._forward, self._left) * self._turning))
+
+    def chord(self, theta: Float, h: float) -> Float:
+        """Return (..., k, 3): the velocities that lead from headings (..., k) to the arcs' ends.
+
+        h: seconds until then. Source: the arc of radius v / omega seen as its chord, of length
+        v h sinc(omega h / 2) in the direction theta + omega h / 2.
+        """
+        half = self._turning * (h / 2)
+        turned = theta + half
+        if self._straight is not None:
+            turned[..., self._straight] = 0.0
+        c, s = np.cos(turned), np.sin(turned)
+        if np.count_nonzero(half):
+            zero = half == 0.0
+            shrink = (np.sin(half) + zero) / (half + zero)
+            c, s = shrink * c, shrink * s
+        velocity = np.empty((*theta.shape, 3))
+        velocity[..., 0] = self._forward * c - self._left * s
+        velocity[..., 1] = self._forward * s + self._left * c
+        velocity[..., 2] = self.spin
+        return velocity
+
+
 def chord_velocity(twist: Float, theta: Float, h: float, in_robot_frame: Mask) -> Float:
     """Return (k, 3): the velocities that bring robots at headings (k,) along their arcs in h.
 
     twist: (3, k), of which the first two are along the robot's axes or the world's.
-    Source: the arc of radius v / omega seen as its chord, of length v h sinc(omega h / 2) in the
-    direction theta + omega h / 2.
     """
-    forward, left, spin = twist
-    half = np.where(in_robot_frame, spin * (h / 2), 0.0)
-    turned = np.where(in_robot_frame, theta + half, 0.0)
-    shrink = np.where(half == 0.0, 1.0, np.sin(half) / np.where(half == 0.0, 1.0, half))
-    c, s = shrink * np.cos(turned), shrink * np.sin(turned)
-    velocity = np.empty((len(theta), 3))
-    velocity[:, 0] = forward * c - left * s
-    velocity[:, 1] = forward * s + left * c
-    velocity[:, 2] = spin
-    return velocity
+    return Arcs(twist, in_robot_frame).chord(theta, h)

@@ -7,6 +7,7 @@ order: robots, props, the robots' control bodies, then the static ones, the floo
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from math import inf
 from typing import Any
 
@@ -23,7 +24,6 @@ from mars2d.joints.hinge import Hinge
 from mars2d.joints.rod import Rod
 from mars2d.joints.rope import Rope
 from mars2d.joints.spring import Spring
-from mars2d.motion import point_velocity
 from mars2d.rays import BODY, SIGHT, Rays, end_bars
 from mars2d.rigid import Rigid
 from mars2d.scenario import Scenario
@@ -35,7 +35,6 @@ __all__ = ["Space"]
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Index = NDArray[np.intp]
-Clutch = tuple[pymunk.PivotJoint, pymunk.GearJoint]
 
 _STATE = (
     batch.BodyFields.POSITION
@@ -60,6 +59,8 @@ _ARBITER = (
 
 _IN_TOUCH = (0, 1)
 """The engine's states of contacts that are not over: just begun, going on."""
+
+ORIGIN = (0.0, 0.0)
 
 GOLDEN = (5**0.5 - 1) / 2
 """Multiples of it, less their whole part, lie evenly scattered from 0 to 1."""
@@ -90,12 +91,12 @@ class Space:
             self._add_obstacle(-1 - k, *surface) for k, surface in enumerate(scenario.surfaces)
         ]
         self._space.add(*_scattered([s for s, body in self._shapes.items() if body < 0]))
-        self._clutches: dict[int, Clutch] = {
-            i: _clutch(control, self._bodies[i], robot.drive.max_force, robot.drive.max_torque)
-            for i, (control, robot) in enumerate(zip(self._controls, scenario.robots, strict=True))
-        }
         drives = [robot.drive for robot in scenario.robots]
         self._bounds = np.array([(drive.max_force, drive.max_torque) for drive in drives])
+        self._clutches = [
+            self._clutch(self._controls[i], self._bodies[i], *limits)
+            for i, limits in enumerate(self._bounds.tolist())
+        ]
         self._grips: dict[int, Clutch] = {}
         self._ties = scenario.ties
         self._joints = [self._add_joint(tie) for tie in self._ties]
@@ -104,6 +105,7 @@ class Space:
         """The length of the last step, seconds."""
         count = len(self._bodies) + len(self._controls) + 1 + len(self._statics)
         self._state_buffer = batch.Buffer()
+        self._everything = np.empty((0, 6))  # what was read last, of all bodies
         self._arbiter_buffer = batch.Buffer()
         self.velocity = np.zeros((count, 3))
         """What `step` sets: (x', y', theta') of bodies, then of the robots' control bodies."""
@@ -111,11 +113,17 @@ class Space:
         self._velocity_buffer.set_float_buf(self.velocity)
         self._pose_buffer = batch.Buffer()
         # In batches the engine names bodies by numbers of its own.
-        named = [(body.id, i) for i, body in enumerate(self._bodies)]
-        named += [(body.id, -1 - k) for k, body in enumerate(self._statics)]
-        self._identity, self._name = np.array(sorted(named), dtype=np.int64).T
+        first = count - len(self._statics)
+        named = [(body.id, i, i) for i, body in enumerate(self._bodies)]
+        named += [(body.id, -1 - k, first + k) for k, body in enumerate(self._statics)]
+        self._identity, self._name, self._row = np.array(sorted(named), dtype=np.int64).T.copy()
         self._rays = Rays(self._space, self._shapes)
         self._misplaced: set[int] = set()  # their shapes do not know yet where the bodies are
+        self._elsewhere: Float | None = None  # states (N, 6) where all bodies are, if not here
+        self._surfaces = np.array([rigid.surface for rigid in scenario.bodies])
+        self._wall_surfaces = np.array(
+            [s[1:] for s in scenario.surfaces for _ in edges_of(s.outline)], dtype=float
+        ).reshape(-1, 2)  # of each edge
 
     # -- building ---------------------------------------------------------------------------
 
@@ -157,14 +165,24 @@ class Space:
         self._shapes |= dict.fromkeys(segments, k)
         return body
 
-    def _add_joint(self, tie: Tie) -> list[pymunk.Constraint]:
+    def _clutch(
+        self, holder: pymunk.Body, body: pymunk.Body, force: float, torque: float
+    ) -> Clutch:
+        """Return what makes a body move as its holder does, with bounded force and torque."""
+        ends = ORIGIN, ORIGIN
+        pivot = _Constraint(self._space, "PivotJoint", holder, body, *ends, max_bias=0.0)
+        gear = _Constraint(self._space, "GearJoint", holder, body, 0.0, 1.0, max_bias=0.0)
+        pivot.set(max_force=force)
+        gear.set(max_force=torque)
+        return pivot, gear
+
+    def _add_joint(self, tie: Tie) -> list[_Constraint]:
         a, b = (self._floor if i < 0 else self._bodies[i] for i in (tie.a, tie.b))
         make = next(_MAKERS[kind] for kind in type(tie.joint).__mro__ if kind in _MAKERS)
-        constraints = make(tie, a, b)
+        constraints = make(tie, partial(_Constraint, self._space), a, b)
         for constraint in constraints:
-            constraint.collide_bodies = not isinstance(tie.joint, Hinge)
-            constraint.error_bias = JOINT_BIAS
-        self._space.add(*constraints)
+            constraint.set(collide_bodies=not isinstance(tie.joint, Hinge), error_bias=JOINT_BIAS)
+            constraint.add()
         return constraints
 
     # -- state ------------------------------------------------------------------------------
@@ -177,8 +195,8 @@ class Space:
         buffer = self._state_buffer
         buffer.clear()
         batch.get_space_bodies(self._space, _STATE, buffer)
-        count = len(self._bodies)
-        return np.frombuffer(buffer.float_buf(), dtype=np.float64, count=6 * count).reshape(-1, 6)
+        self._everything = np.frombuffer(buffer.float_buf()).reshape(-1, 6)
+        return self._everything[: len(self._bodies)]
 
     def step(self, h: float) -> None:
         """Set the velocities of all bodies to `velocity`, and go on by h seconds.
@@ -191,7 +209,8 @@ class Space:
         if h != self.last_step:
             self._scale_contacts(h / self.last_step)
             self.last_step = h
-            self._renew_ties()
+            for joints in self._joints:
+                _renew(joints)
         self._misplaced.clear()
         lib.cpSpaceSetCurrentTimeStep(self._space._space, h)
         batch.set_space_bodies(self._space, _VELOCITY, self._velocity_buffer)
@@ -201,8 +220,9 @@ class Space:
         """Scale the impulses that the solver keeps of contacts."""
         for arbiter in self._space._get_arbiters():
             if arbiter.state in _IN_TOUCH:
+                contacts = arbiter.contacts
                 for k in range(arbiter.count):
-                    contact = arbiter.contacts[k]
+                    contact = contacts[k]
                     contact.jnAcc *= ratio
                     contact.jtAcc *= ratio
 
@@ -210,22 +230,30 @@ class Space:
         """Note that bodies have been put somewhere else, where the next query is to find them."""
         self._misplaced.update(which.tolist())
 
+    def misplace_all(self, state: Float) -> None:
+        """Note that all bodies have states (N, 6), where the next query is to find them."""
+        self._elsewhere = state
+
     def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
         """Return the addresses of the engine's objects for the kernel, by its names."""
-        pivots, gears = zip(*self._clutches.values(), strict=True)
-        arrays = {
+        arrays: dict[str, NDArray[Any]] = {
             "body": _addresses(body._body for body in self._bodies),
             "control": _addresses(body._body for body in self._controls),
-            "pivot": _addresses(joint._constraint for joint in pivots),
-            "gear": _addresses(joint._constraint for joint in gears),
+            "pivot": _addresses(pivot.address for pivot, _ in self._clutches),
+            "gear": _addresses(gear.address for _, gear in self._clutches),
         }
         numbers = [*range(len(self._bodies)), *(-1 - k for k in range(len(self._statics)))]
         address = _addresses(body._body for body in self._bodies + self._statics)
         order = np.argsort(address)
         arrays["address"] = address[order]
         arrays["name"] = np.array(numbers, dtype=np.int64)[order]
+        arrays["friction"], arrays["restitution"] = self._surfaces.T.copy()
+        arrays["wall_friction"], arrays["wall_restitution"] = self._wall_surfaces.T.copy()
         (space,) = _addresses([self._space._space]).tolist()
-        return arrays, {"space": space, "bodies": len(numbers)}
+        return arrays, {
+            "space": space, "bodies": len(numbers), "iterations": self._space.iterations,
+            "slop": self._space.collision_slop,
+        }  # fmt: skip
 
     def place(self, i: int, x: float, y: float, theta: float | None = None) -> None:
         """Put a body somewhere; the next step and the next query find it there."""
@@ -246,91 +274,93 @@ class Space:
     # -- what holds bodies ------------------------------------------------------------------
 
     def engage(self, i: int) -> None:
-        """Let a robot's drive act through its joints."""
-        self._clutches[i] = _renewed(self._clutches[i])
-        self._space.add(*self._clutches[i])
+        """Let a robot's drive act through its joints, which have not held anything yet."""
+        for joint in self._clutches[i]:
+            joint.renew()
+            joint.add()
 
     def disengage(self, i: int) -> None:
         """Take a robot's joints out again."""
-        self._space.remove(*self._clutches[i])
+        for joint in self._clutches[i]:
+            joint.remove()
 
     def effort(self, which: list[int]) -> Float:
         """Return the shares of their bounds that engaged drives used in the last step."""
-        used = [(pivot.impulse, gear.impulse) for pivot, gear in (self._clutches[i] for i in which)]
-        return np.asarray((np.array(used) / (self._bounds[which] * self.last_step)).max(axis=1))
+        clutches = [self._clutches[i] for i in which]
+        used = np.array([_impulse(joint.address) for clutch in clutches for joint in clutch])
+        share = used.reshape(-1, 2) / (self._bounds[which] * self.last_step)
+        return np.asarray(share.max(axis=1))
 
     def grip(self, i: int, force: float, torque: float) -> None:
         """Let the floor hold a body with a force [N] and a torque [N m] of friction."""
         if i not in self._grips:
-            self._grips[i] = _clutch(self._floor, self._bodies[i], force, torque)
-            self._space.add(*self._grips[i])
+            self._grips[i] = self._clutch(self._floor, self._bodies[i], force, torque)
+            for joint in self._grips[i]:
+                joint.add()
         pivot, gear = self._grips[i]
-        pivot.max_force, gear.max_force = force, torque
+        pivot.set(max_force=force)
+        gear.set(max_force=torque)
 
     def held(self, i: int) -> tuple[float, float]:
         """Return the force [N] and torque [N m] of the floor on a body in the last step."""
         if i not in self._grips:
             return 0.0, 0.0
         pivot, gear = self._grips[i]
-        return pivot.impulse / self.last_step, gear.impulse / self.last_step
+        return _impulse(pivot.address) / self.last_step, _impulse(gear.address) / self.last_step
 
     def draw_in(self, k: int, speed: float) -> None:
         """Let rope k, which is longer than it ought to be, get shorter by no more than this, m/s.
 
         What is drawn in goes on to move, and makes the rope slack.
         """
-        (self._joints[k][0]).max_bias = speed
+        self._joints[k][0].set(max_bias=speed)
 
-    def renew(self, which: Mask) -> None:
-        """Let the joints of some bodies begin anew, as if they had not held anything yet; (N,).
+    def renew(self, which: Index) -> None:
+        """Let the joints of some bodies begin anew, as if they had not held anything yet.
 
         Robots among them are engaged. It is to be done where a step is much shorter than the one
         before: the solver would begin with what the joints did in that.
         """
-        for i in np.flatnonzero(which).tolist():
-            joints = self._clutches if i < self.robots else self._grips
-            if i < self.robots or i in self._grips:
-                joints[i] = self._replaced(joints[i])
-
-    def _renew_ties(self) -> None:
-        for k, tie in enumerate(self._ties):
-            bias = self._joints[k][0].max_bias
-            self._space.remove(*self._joints[k])
-            self._joints[k] = self._add_joint(tie)
-            self._joints[k][0].max_bias = bias
-
-    def _replaced(self, clutch: Clutch) -> Clutch:
-        self._space.remove(*clutch)
-        fresh = _renewed(clutch)
-        self._space.add(*fresh)
-        return fresh
+        for i in which.tolist():
+            _renew(self._clutches[i] if i < self.robots else self._grips.get(i, ()))
 
     # -- contacts ---------------------------------------------------------------------------
 
-    def solved(self, state: Float) -> Solved:
+    def solved(self) -> Solved:
         """Return the contacts of the last step, those included that parted shortly before.
 
-        state: (N, 6) after it.
+        To be asked when the state after the step has been read.
         """
         buffer = self._arbiter_buffer
         buffer.clear()
         batch.get_space_arbiters(self._space, _ARBITER, buffer)
         whole = np.frombuffer(buffer.int_buf(), dtype=np.int64).reshape(-1, 3)
-        values = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, 12)
-        bodies = self._name[np.searchsorted(self._identity, whole[:, :2])]
-        two = whole[:, 2:] > 1
-        first = np.where(two, (values[:, 4:6] + values[:, 8:10]) / 2, values[:, 4:6])
-        second = np.where(two, (values[:, 6:8] + values[:, 10:12]) / 2, values[:, 6:8])
-        impulse, normal = values[:, 0:2].copy(), values[:, 2:4].copy()
-        velocity = point_velocity(state, self.velocity, bodies[:, 1], second)
-        velocity -= point_velocity(state, self.velocity, bodies[:, 0], first)
-        return Solved(bodies, impulse, normal, first, second, velocity)
+        values = np.frombuffer(buffer.float_buf()).reshape(-1, 12)
+        place = self._identity.searchsorted(whole[:, :2])
+        ends = values[:, 4:8]
+        points = np.where(whole[:, 2:] > 1, (ends + values[:, 8:]) / 2, ends).reshape(-1, 2, 2)
+        row = self._row[place]
+        motion, arm = self.velocity[row], points - self._everything[row, :2]
+        speed = motion[..., :2]
+        speed[..., 0] -= motion[..., 2] * arm[..., 1]
+        speed[..., 1] += motion[..., 2] * arm[..., 0]
+        return Solved(
+            bodies=self._name[place],
+            impulse=values[:, 0:2].copy(),
+            normal=values[:, 2:4].copy(),
+            on_first=points[:, 0],
+            on_second=points[:, 1],
+            velocity=speed[:, 1] - speed[:, 0],
+        )
 
     # -- what sensors ask -------------------------------------------------------------------
 
     @property
     def _seen(self) -> pymunk.Space:
         """The space, with all shapes where their bodies are."""
+        if self._elsewhere is not None:
+            self.place_all(self._elsewhere[:, :3])
+            self._elsewhere = None
         for i in sorted(self._misplaced):
             self._space.reindex_shapes_for_body(self._bodies[i])
         self._misplaced.clear()
@@ -379,56 +409,104 @@ def _static() -> pymunk.Body:
     return pymunk.Body(body_type=pymunk.Body.STATIC)
 
 
-def _renewed(clutch: Clutch) -> Clutch:
-    """Return a clutch like this one that has not held anything yet."""
-    pivot, gear = clutch
-    return _clutch(pivot.a, pivot.b, pivot.max_force, gear.max_force)
+class _Constraint:
+    """A joint of the engine's, which can begin anew.
+
+    It does so in place, by the engine's own function: to make objects of pymunk, which own the
+    memory, takes many times as long.
+    """
+
+    def __init__(
+        self,
+        space: pymunk.Space,
+        kind: str,
+        a: pymunk.Body,
+        b: pymunk.Body,
+        *numbers: Any,
+        **settings: float,
+    ) -> None:
+        """Make one, as yet outside the space. kind: its name in pymunk, which takes the numbers."""
+        self._space, self._owner = space._space, getattr(pymunk, kind)(a, b, *numbers)
+        self.address = self._owner._constraint
+        itself = ffi.cast(f"cp{kind} *", self.address)
+        self._make = partial(getattr(lib, f"cp{kind}Init"), itself, a._body, b._body, *numbers)
+        self._settings: dict[str, float] = {}
+        self.set(**settings)
+
+    def set(self, **settings: float) -> None:
+        """Set what all joints have, by its name in pymunk."""
+        self._settings |= settings
+        for name, value in settings.items():
+            _SETTERS[name](self.address, value)
+
+    def renew(self) -> None:
+        """Let it begin as if it had not held anything yet; it must be outside the space."""
+        self._make()
+        for name, value in self._settings.items():
+            _SETTERS[name](self.address, value)
+
+    def add(self) -> None:
+        """Put it into the space."""
+        lib.cpSpaceAddConstraint(self._space, self.address)
+
+    def remove(self) -> None:
+        """Take it out of the space."""
+        lib.cpSpaceRemoveConstraint(self._space, self.address)
 
 
-def _clutch(holder: pymunk.Body, body: pymunk.Body, force: float, torque: float) -> Clutch:
-    """Return the joints that make a body move as its holder does, with bounded force and torque."""
-    pivot = pymunk.PivotJoint(holder, body, (0.0, 0.0), (0.0, 0.0))
-    gear = pymunk.GearJoint(holder, body, 0.0, 1.0)
-    pivot.max_bias = gear.max_bias = 0.0
-    pivot.max_force, gear.max_force = force, torque
-    return pivot, gear
+_impulse = lib.cpConstraintGetImpulse
+
+_SETTERS = {
+    "max_force": lib.cpConstraintSetMaxForce,
+    "max_bias": lib.cpConstraintSetMaxBias,
+    "error_bias": lib.cpConstraintSetErrorBias,
+    "collide_bodies": lib.cpConstraintSetCollideBodies,
+    "distance": lib.cpPinJointSetDist,
+}
+
+Clutch = tuple[_Constraint, _Constraint]
+Maker = Callable[..., _Constraint]
 
 
-def _rope(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
+def _renew(joints: Iterable[_Constraint]) -> None:
+    """Let joints that are in the space begin anew; the engine walks them in this order."""
+    for act in (_Constraint.remove, _Constraint.renew, _Constraint.add):
+        for joint in joints:
+            act(joint)
+
+
+def _rope(tie: Tie, make: Maker, a: pymunk.Body, b: pymunk.Body) -> list[_Constraint]:
     ends = tie.joint.anchor_a, tie.joint.anchor_b
-    rope = pymunk.SlideJoint(a, b, *ends, 0.0, tie.length - TAUT)
-    rope.max_bias = 0.0
-    return [rope]
+    return [make("SlideJoint", a, b, *ends, 0.0, tie.length - TAUT, max_bias=0.0)]
 
 
-def _rod(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
-    rod = pymunk.PinJoint(a, b, tie.joint.anchor_a, tie.joint.anchor_b)
-    rod.distance = tie.length
-    return [rod]
+def _rod(tie: Tie, make: Maker, a: pymunk.Body, b: pymunk.Body) -> list[_Constraint]:
+    ends = tie.joint.anchor_a, tie.joint.anchor_b
+    return [make("PinJoint", a, b, *ends, distance=tie.length)]
 
 
-def _spring(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
+def _spring(tie: Tie, make: Maker, a: pymunk.Body, b: pymunk.Body) -> list[_Constraint]:
     joint = tie.joint
     assert isinstance(joint, Spring)
     ends = joint.anchor_a, joint.anchor_b
-    return [pymunk.DampedSpring(a, b, *ends, tie.length, joint.stiffness, joint.damping)]
+    return [make("DampedSpring", a, b, *ends, tie.length, joint.stiffness, joint.damping)]
 
 
-def _hinge(tie: Tie, a: pymunk.Body, b: pymunk.Body) -> list[pymunk.Constraint]:
+def _hinge(tie: Tie, make: Maker, a: pymunk.Body, b: pymunk.Body) -> list[_Constraint]:
     joint, turned = tie.joint, tie.turned
     assert isinstance(joint, Hinge)
-    made: list[pymunk.Constraint] = [pymunk.PivotJoint(a, b, joint.anchor_a, joint.anchor_b)]
+    made = [make("PivotJoint", a, b, joint.anchor_a, joint.anchor_b)]
     if tie.b < 0:  # it is a that turns against the world
         a, b, turned = b, a, -turned
     if joint.limits is not None:
         least, largest = joint.limits
-        made.append(pymunk.RotaryLimitJoint(a, b, turned + least, turned + largest))
+        made.append(make("RotaryLimitJoint", a, b, turned + least, turned + largest))
     if joint.stiffness or joint.damping:
-        made.append(pymunk.DampedRotarySpring(a, b, -turned, joint.stiffness, joint.damping))
+        made.append(make("DampedRotarySpring", a, b, -turned, joint.stiffness, joint.damping))
     return made
 
 
-_MAKERS: dict[type[Joint], Callable[..., list[pymunk.Constraint]]] = {
+_MAKERS: dict[type[Joint], Callable[..., list[_Constraint]]] = {
     Rope: _rope,
     Rod: _rod,
     Spring: _spring,

@@ -50,10 +50,13 @@ class Tethers:
         """Which bodies have a joint, (N,)."""
         for tie in ties:
             self.tied[[i for i in (tie.a, tie.b) if i >= 0]] = True
-        self._a = np.array([tie.a for tie in ties], dtype=np.intp)
-        self._b = np.array([tie.b for tie in ties], dtype=np.intp)
-        self._anchor_a = np.array([complex(*tie.joint.anchor_a) for tie in ties], dtype=complex)
-        self._anchor_b = np.array([complex(*tie.joint.anchor_b) for tie in ties], dtype=complex)
+        # Arrays (2, k) have their first ends, then their second ones.
+        self._body = np.array([(tie.a, tie.b) for tie in ties], dtype=np.intp).T.copy()
+        self._fixed = self._body < 0
+        joints = [tie.joint for tie in ties]
+        self._anchor = np.array(
+            [[complex(*end) for end in (joint.anchor_a, joint.anchor_b)] for joint in joints]
+        ).T.copy()
         self._length = np.array([tie.length for tie in ties])
         self._springs = np.array([isinstance(tie.joint, Spring) for tie in ties], dtype=bool)
         self.longest_step = min((_swing(tie, bodies) for tie in ties), default=inf)
@@ -61,22 +64,22 @@ class Tethers:
 
     def measure(self, state: Float) -> None:
         """Take the states (N, 6) of all bodies."""
-        a, arm_a = self._ends(state, self._a, self._anchor_a)
-        b, arm_b = self._ends(state, self._b, self._anchor_b)
+        x, y, heading = np.where(self._fixed, 0.0, state[self._body, :3].transpose(2, 0, 1))
+        c, s = np.cos(heading), np.sin(heading)
+        along, across = self._anchor.real, self._anchor.imag
+        self._arm_x, self._arm_y = c * along - s * across, s * along + c * across
+        a, b = x + 1j * y + (self._arm_x + 1j * self._arm_y)
         between = b - a
         apart = np.hypot(between.real, between.imag)
         self._normal = between / np.maximum(apart, TINY)
         self._apart = apart
         self._slack = np.where(self._ropes, self._length - apart, 0.0)
-        self._arms = arm_a, arm_b
 
     def held(self) -> Mask:
         """Return which bodies a joint holds, (N,): a rope does while it is taut."""
         held = np.zeros(self._count, dtype=bool)
         tight = self._slack <= TAUT
-        held[self._a[tight]] = True
-        ends = self._b[tight]
-        held[ends[ends >= 0]] = True
+        held[self._body[~self._fixed & tight]] = True
         return held
 
     def time_to_jerk(self, velocity: Float, bend: Float, stretch: float) -> float:
@@ -87,8 +90,7 @@ class Tethers:
 
         velocity: (N, 3) of all bodies; bend: (N,) m/s^2, how quickly one may turn away from it.
         """
-        speed_a, turn_a = _at_the_end(velocity, bend, self._a, self._arms[0])
-        speed_b, turn_b = _at_the_end(velocity, bend, self._b, self._arms[1])
+        (speed_a, speed_b), (turn_a, turn_b) = self._at_the_ends(velocity, bend)
         parting = speed_b - speed_a
         rate = np.maximum(parting.real * self._normal.real + parting.imag * self._normal.imag, 0.0)
         # What moves across a rope or rod lengthens it too.
@@ -112,23 +114,12 @@ class Tethers:
         for k in np.flatnonzero(self._ropes).tolist():
             yield k, float(self._turn[k]) * h
 
-    def _ends(self, state: Float, body: Index, anchor: Complex) -> tuple[Complex, Complex]:
-        """Return where the ropes' ends are, and the arms from the bodies' poses to them."""
-        fixed = body < 0
-        position = np.where(fixed, 0.0, state[body, 0] + 1j * state[body, 1])
-        heading = np.where(fixed, 0.0, state[body, 2])
-        c, s = np.cos(heading), np.sin(heading)
-        arm = c * anchor.real - s * anchor.imag + 1j * (s * anchor.real + c * anchor.imag)
-        return position + arm, arm
-
-
-def _at_the_end(velocity: Float, bend: Float, body: Index, arm: Complex) -> tuple[Complex, Float]:
-    """Return the velocities of ropes' ends, and how quickly they may turn [m/s^2]."""
-    moves = body >= 0
-    x, y, spin = np.where(moves, velocity[body].T, 0.0)
-    length = np.hypot(arm.real, arm.imag)
-    ends = x - spin * arm.imag + 1j * (y + spin * arm.real)
-    return ends, np.where(moves, bend[body] + spin**2 * length, 0.0)
+    def _at_the_ends(self, velocity: Float, bend: Float) -> tuple[Complex, Float]:
+        """Return the velocities of all ends, (2, k), and how quickly they may turn [m/s^2]."""
+        x, y, spin = np.where(self._fixed, 0.0, velocity[self._body].transpose(2, 0, 1))
+        ends = x - spin * self._arm_y + 1j * (y + spin * self._arm_x)
+        turn = bend[self._body] + spin**2 * np.hypot(self._arm_x, self._arm_y)
+        return ends, np.where(self._fixed, 0.0, turn)
 
 
 def _swing(tie: Tie, bodies: Sequence[Rigid]) -> float:

@@ -177,6 +177,12 @@ def test_the_geometric_centre_runs_round_the_centre_of_rotation():
 # -- how much work it is --------------------------------------------------------------------
 
 
+@pytest.fixture
+def plain(monkeypatch):
+    """Worlds that step by pymunk's own method, which can be watched; the kernel does without."""
+    monkeypatch.setenv("MARS2D_PLAIN", "1")
+
+
 @contextmanager
 def counted_steps() -> Iterator[list[float]]:
     """Gather the lengths of all steps of the engine."""
@@ -192,6 +198,7 @@ def counted_steps() -> Iterator[list[float]]:
         yield lengths
 
 
+@pytest.mark.usefixtures("plain")
 @pytest.mark.parametrize("sampling_time", [0.01, 0.1, 1.0])
 def test_a_tick_in_which_nothing_can_touch_is_one_step(sampling_time):
     walls = Map([[(3, -3), (3, 3)]])
@@ -202,6 +209,7 @@ def test_a_tick_in_which_nothing_can_touch_is_one_step(sampling_time):
     assert steps == [sampling_time]
 
 
+@pytest.mark.usefixtures("plain")
 def test_a_tick_in_which_a_delayed_command_arrives_is_two_steps():
     world = World(free(Robot(), sampling_time=1.0, command_delay=0.25))
     with counted_steps() as steps:
@@ -209,6 +217,7 @@ def test_a_tick_in_which_a_delayed_command_arrives_is_two_steps():
     assert steps == [0.25, 0.75]
 
 
+@pytest.mark.usefixtures("plain")
 def test_substeps_add_up_to_the_sampling_time():
     world = World(free(Robot(), Robot(pose=(0.35, 0, np.pi)), sampling_time=0.5))
     with counted_steps() as steps:
@@ -217,6 +226,7 @@ def test_substeps_add_up_to_the_sampling_time():
     assert sum(steps) == pytest.approx(0.5, abs=1e-12)
 
 
+@pytest.mark.usefixtures("plain")
 def test_a_robot_that_has_left_the_crowd_costs_one_step_again():
     world = World(free(Robot(), Robot(pose=(0.31, 0, np.pi))))
     drive(world, [[0.3, 0.3], [0, 0]], 2)
@@ -226,6 +236,7 @@ def test_a_robot_that_has_left_the_crowd_costs_one_step_again():
     assert len(steps) == 1
 
 
+@pytest.mark.usefixtures("plain")
 def test_more_overlap_allowed_means_fewer_substeps():
     def work(max_overlap: float) -> int:
         robots = [Robot(), Robot(pose=(0.5, 0, np.pi))]

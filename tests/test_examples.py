@@ -23,7 +23,7 @@ DIGESTS = {
     "go_to_point": "3ddb80852972aa04c610f9c7d4e2de279d87ea60bb73932730fd2155a6925463",
     "head_on": "363d023d50865a9e70f5aa3beecaff1828248b2257e77c3f3f6d4948e9919dfb",
     "many_push_one": "a24119b6b0cf09431e63480ef211b3643a840e65bda9830814d7192c9c54c1e4",
-    "obstacle_avoidance": "6770fe3a2e06f8a5a437e7c5a6ab4c7616a98b8da747ab3c2929dccbd39490cc",
+    "obstacle_avoidance": "1de1b5785e893ec6b2e5bd71bdcb92d50dca0c7ca290999f2e63f648944dd63c",
     "own_sensor_and_addon": "08bf99e50221d5c7ee65b7a4ac0c15c0a3d65e595abc7a1a5723dcb1c2a80580",
     "push_box": "365534f7136bf71df428b8f172058e30f61e1a986da54d2160bb092b4e530d30",
     "random_walk": "914c9ae91a7f718268043edbc156cfafb5299cc64efcb983faae97aae3e22440",
@@ -32,7 +32,7 @@ DIGESTS = {
     "sumo": "92b3c90538d1a58ff2947246e7f74e50b4d7669e7a3fdbacacb61c178930d24d",
     "token_ring": "cbf1ac174cf15adfebaf41c50d41e88c8142d188678909be6b3f5df1c9720b02",
     "tug_of_war": "d740cf155d73b5267075d5826034af20cb0a8830028c8a03d5e1242cc6787457",
-    "wall_follower": "1c65df4fff90cd9b008f3eb81d9b49fd895c54feb9479e1fd3dd1a8c1a660c5f",
+    "wall_follower": "ced94c09eb54e7f43ef20fd460f26a8c6b7d612c29260a8130dfb65cb22208d4",
     "wall_slide": "ef8343e6df01902a4da2dbb1e56b65ac2e14a39d44dac16d8ea298fe5cf05950",
 }
 PINNED_ON = "Linux x86_64 with pymunk 7.3"

@@ -12,7 +12,7 @@ from __future__ import annotations
 import importlib.metadata
 import os
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from typing import Any
 
@@ -109,7 +109,8 @@ class Kernel:
         )
         if made == self._ffi.NULL:
             raise MemoryError("no memory for the kernel")
-        self._kernel = self._ffi.gc(made, self._lib.mars2d_kernel_free)
+        # Its arrays are to be there still when it is freed.
+        self._kernel = self._ffi.gc(made, partial(_free, self._lib, self._arrays))
         self._team = self._lib.mars2d_kernel_team(made)
 
     def _described(self, numbers: Mapping[str, float]) -> Any:
@@ -150,3 +151,7 @@ class Kernel:
             kind, text = ERRORS[result]
             raise kind(text)
         return result
+
+
+def _free(lib: Any, _arrays: Mapping[str, NDArray[Any]], kernel: Any) -> None:
+    lib.mars2d_kernel_free(kernel)

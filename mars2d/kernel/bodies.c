@@ -18,9 +18,10 @@ void read_state(Kernel *k, int all)
 {
     const Team *t = &k->team;
     const Engine *e = &k->engine;
-    int count = all ? t->n : k->near_count;
+    int count = all ? k->group->count : k->near_count;
+    const int *which = all ? k->group->members : k->who;
     for (int c = 0; c < count; c++) {
-        int i = all ? c : k->who[c];
+        int i = which[c];
         void *body = t->body[i];
         State *s = t->state + i;
         s->position = e->get_position(body);
@@ -32,20 +33,22 @@ void read_state(Kernel *k, int all)
 
 /* -- joints ----------------------------------------------------------------------------------- */
 
-static void add_joints(Kernel *k, int i)
+void add_joints(Kernel *k, int i)
 {
-    k->engine.add_constraint(k->team.space, k->team.pivot[i]);
-    k->engine.add_constraint(k->team.space, k->team.gear[i]);
+    void *space = k->groups[k->group_of[i]].space;
+    k->engine.add_constraint(space, k->team.pivot[i]);
+    k->engine.add_constraint(space, k->team.gear[i]);
 }
 
-static void remove_joints(Kernel *k, int i)
+void remove_joints(Kernel *k, int i)
 {
-    k->engine.remove_constraint(k->team.space, k->team.pivot[i]);
-    k->engine.remove_constraint(k->team.space, k->team.gear[i]);
+    void *space = k->groups[k->group_of[i]].space;
+    k->engine.remove_constraint(space, k->team.pivot[i]);
+    k->engine.remove_constraint(space, k->team.gear[i]);
 }
 
 /* Makes joints, which are in no space now, as if they had not held anything yet; see `_clutch`. */
-static void make_joints(Kernel *k, int i)
+void make_joints(Kernel *k, int i)
 {
     const Team *t = &k->team;
     const Engine *e = &k->engine;
@@ -58,18 +61,18 @@ static void make_joints(Kernel *k, int i)
     e->set_max_force(t->gear[i], t->torque[i]);
 }
 
-/* Lets the drives of these robots act, and of no others; see `Clutches._engage`. */
-void engage(Kernel *k, const uint8_t *wanted)
+/* Lets a drive act; see `Clutches._engage`. */
+void engage(Kernel *k, int i)
 {
-    Team *t = &k->team;
-    for (int i = 0; i < t->n; i++)
-        if (wanted[i] && !t->engaged[i]) {
-            make_joints(k, i);
-            add_joints(k, i);
-        }
-    for (int i = 0; i < t->n; i++)
-        if (t->engaged[i] && !wanted[i]) remove_joints(k, i);
-    memcpy(t->engaged, wanted, (size_t)t->n);
+    make_joints(k, i);
+    add_joints(k, i);
+    k->team.engaged[i] = 1;
+}
+
+void disengage(Kernel *k, int i)
+{
+    remove_joints(k, i);
+    k->team.engaged[i] = 0;
 }
 
 /* Lets a drive that acts begin anew; see `Space.renew`. */
@@ -117,19 +120,21 @@ static void set_velocity(Kernel *k, void *body, int aimed)
    `Space.step`. */
 void space_step(Kernel *k, double h, int all)
 {
-    Team *t = &k->team;
-    if (h != t->last_step) {
-        Scale scale = {t, h / t->last_step};
-        k->engine.each_arbiter(t->space, scale_contact, &scale);
-        t->last_step = h;
+    const Team *t = &k->team;
+    Group *group = k->group;
+    if (h != group->last_step) {
+        Scale scale = {t, h / group->last_step};
+        k->engine.each_arbiter(group->space, scale_contact, &scale);
+        group->last_step = h;
     }
-    memset(t->placed, 0, (size_t)t->n);
-    k->engine.set_time_step(t->space, h);
-    int count = all ? t->n : k->near_count;
+    k->engine.set_time_step(group->space, h);
+    int count = all ? group->count : k->near_count;
+    const int *which = all ? group->members : k->who;
     for (int c = 0; c < count; c++) {
-        int i = all ? c : k->who[c];
+        int i = which[c];
+        t->placed[i] = 0;
         set_velocity(k, t->body[i], i);
         if (t->engaged[i]) set_velocity(k, t->control[i], t->n + i);
     }
-    k->engine.step(t->space, h);
+    k->engine.step(group->space, h);
 }

@@ -19,8 +19,10 @@ typedef struct { /* mars2d.contact.CONTACT */
 /* -- after a substep -------------------------------------------------------------------------- */
 
 /* The number of a body, or 0 with `known` unset. */
-static int number_of(const Team *t, const void *body, int *known)
+static int number_of(const Kernel *k, void *body, int *known)
 {
+    const Team *t = &k->team;
+    if (t->groups > 1) return (int)(intptr_t)k->engine.data_of(body);
     int low = 0, high = t->bodies;
     uintptr_t address = (uintptr_t)body;
     while (high - low > 1) {
@@ -82,7 +84,7 @@ static void note_contact(void *arbiter, void *data)
     void *body_a, *body_b;
     k->engine.bodies_of(arbiter, &body_a, &body_b);
     int known = 1;
-    int first = number_of(&k->team, body_a, &known), second = number_of(&k->team, body_b, &known);
+    int first = number_of(k, body_a, &known), second = number_of(k, body_b, &known);
     if (!known) return;
     int a = MAX(first, second), b = MIN(first, second);
     if (a < 0 || find(&k->touched, b < 0 ? a : b, b < 0 ? b : a) < 0) return;
@@ -112,8 +114,9 @@ static void note_held(Kernel *k, int a, int b, double h)
 /* Notes who touches whom after a substep of h; `any`: whether anybody does. */
 void note_contacts(Kernel *k, double time, double h, int any)
 {
+    Set *latest = &k->group->latest;
     if (!any) {
-        empty(&k->latest);
+        empty(latest);
         return;
     }
     empty(&k->touched);
@@ -123,16 +126,16 @@ void note_contacts(Kernel *k, double time, double h, int any)
     if (k->error) return;
     k->substeps[k->substep_count++] = (Substep){time, h};
     int first = k->row_count, several = 0;
-    k->engine.each_arbiter(k->team.space, note_contact, k);
+    k->engine.each_arbiter(k->group->space, note_contact, k);
     empty(&k->listed);
     for (int r = first; r < k->row_count; r++) {
         int a = k->rows[r].a, b = k->rows[r].b;
         if (add(k, &k->listed, a, b)) several = 1;
-        else if (find(&k->latest, a, b) >= 0) note_held(k, a, b, h);
+        else if (find(latest, a, b) >= 0) note_held(k, a, b, h);
     }
     /* The solver lists several contacts of a pair in the order of their addresses in memory. */
     if (several) qsort(k->rows + first, (size_t)(k->row_count - first), sizeof *k->rows, by_pair);
-    exchange(&k->latest, &k->listed);
+    exchange(latest, &k->listed);
 }
 
 /* -- after a control step --------------------------------------------------------------------- */
@@ -155,7 +158,7 @@ static Contact begun(const Kernel *k, const Row *row)
     c.point = row->point;
     c.normal = row->normal;
     c.began = find(&k->previous, row->a, row->b) < 0;
-    c.ended = find(&k->latest, row->a, row->b) < 0;
+    c.ended = find(&k->groups[k->group_of[row->a]].latest, row->a, row->b) < 0;
     c.time = substep->time - (c.began ? 0.0 : substep->length);
     c.speed = c.began ? -(0.0 + dot(row->velocity, row->normal)) : 0.0; /* numpy's sums begin so */
     c.slip = row->velocity.y * row->normal.x - row->velocity.x * row->normal.y;
@@ -192,7 +195,10 @@ int mars2d_kernel_take(Kernel *k, void *memory)
     if (count > 1) qsort(contacts, (size_t)count, sizeof *contacts, by_time);
     k->row_count = k->substep_count = k->held_count = 0;
     empty(&k->previous);
-    for (int l = 0; l < k->latest.count; l++)
-        add(k, &k->previous, k->latest.as[l], k->latest.links[l].b);
+    for (int g = 0; g < k->team.groups; g++) {
+        const Set *latest = &k->groups[g].latest;
+        for (int l = 0; l < latest->count; l++)
+            add(k, &k->previous, latest->as[l], latest->links[l].b);
+    }
     return k->error ? k->error : count;
 }

@@ -11,27 +11,26 @@
 /* -- the control step ------------------------------------------------------------------------- */
 
 /* Takes the drives of those off that touch nothing, and aims them at the ends of their arcs; see
-   `Clutches.release` and `Engine._carry`. Returns whether any robot is near something. */
-static int carry(Kernel *k, double duration)
+   `Clutches.release` and `Engine._carry`. */
+static void carry(Kernel *k, double duration)
 {
     Team *t = &k->team;
-    int any = 0;
     for (int i = 0; i < t->n; i++) {
-        any |= k->near[i];
-        k->wanted[i] = t->engaged[i] && k->near[i];
-        if (!k->near[i]) t->since[i] = t->linger + 1;
+        if (!k->near[i]) {
+            if (t->engaged[i]) disengage(k, i);
+            t->since[i] = t->linger + 1;
+        }
         k->aimed[i] = chord(k, i, t->state[i].angle, duration);
         k->aimed_spin[i] = k->spin[i];
     }
-    engage(k, k->wanted);
-    return any;
 }
 
-/* Puts those that were carried where they are after `gone` seconds: they were on the chord of a longer
-   time; see `Engine._arrive`. */
+/* Puts those of a group that were carried where they are after `gone` seconds: they were on the chord
+   of a longer time; see `Engine._arrive`. */
 static void arrive(Kernel *k, double gone)
 {
-    for (int i = 0; i < k->team.n; i++) {
+    for (int m = 0; m < k->group->count; m++) {
+        int i = k->group->members[m];
         if (k->near[i]) continue;
         const State *before = k->before + i;
         Vector way = chord(k, i, before->angle, gone), where = before->position;
@@ -41,23 +40,44 @@ static void arrive(Kernel *k, double gone)
     }
 }
 
-/* Goes on by at most `duration`; returns by how much; see `Engine._advance`. */
-static double advance(Kernel *k, double duration, double time)
+/* Lets one group go on by at most `duration`; returns by how much. */
+static double advance_group(Kernel *k, double duration, double time, double path)
 {
-    Team *t = &k->team;
-    double path = find_near(k, duration);
-    if (k->error) return 0.0;
-    if (!carry(k, duration)) {
+    Group *group = k->group;
+    k->who = k->nears + group->first_near;
+    k->near_count = group->near_count;
+    k->pairs = k->ordered + group->first_pair;
+    k->pair_count = group->pair_count;
+    if (k->near_count == 0) {
         space_step(k, duration, 1);
         read_state(k, 1);
-        empty(&k->latest);
+        empty(&group->latest);
         return duration;
     }
-    encounter(k, path + t->max_overlap);
-    if (k->error) return 0.0;
-    memcpy(k->before, t->state, (size_t)t->n * sizeof *k->before);
     double gone = substeps(k, duration, time, path);
     if (!k->error && gone < duration) arrive(k, gone);
+    return gone;
+}
+
+/* Goes on by at most `duration`; returns by how much; see `Engine._advance`. Several groups always go
+   all the way: none can wait for another one whose robot was thrown further than was thought. */
+static double advance(Kernel *k, double duration, double time)
+{
+    const Team *t = &k->team;
+    double path = find_near(k, duration), gone = duration;
+    if (k->error) return 0.0;
+    carry(k, duration);
+    find_pairs(k, path + t->max_overlap);
+    if (t->groups > 1) {
+        join_groups(k);
+        path = INFINITY;
+    }
+    order_by_groups(k);
+    memcpy(k->before, t->state, (size_t)t->n * sizeof *k->before);
+    for (int g = 0; g < t->groups && !k->error; g++) {
+        k->group = k->groups + g;
+        gone = advance_group(k, duration, time, path);
+    }
     return gone;
 }
 
@@ -96,35 +116,17 @@ Team *mars2d_kernel_team(Kernel *k) { return &k->team; }
 void mars2d_kernel_free(Kernel *k)
 {
     if (k == NULL) return;
-    void *memory[] = {k->near, k->wanted, k->place, k->speed, k->before, k->aimed, k->aimed_spin,
-                      k->who, k->touching, k->velocity, k->bend, k->gone,
+    free_spaces(k);
+    void *memory[] = {k->near, k->wanted, k->group_of, k->member, k->place, k->parent, k->target,
+                      k->disc, k->speed, k->before, k->aimed, k->aimed_spin,
+                      k->nears, k->found, k->ordered, k->touching, k->velocity, k->bend, k->gone,
                       k->first_robot, k->robots, k->first_wall, k->walls,
-                      k->cells, k->cell, k->next, k->hits, k->pairs,
+                      k->cells, k->cell, k->next, k->hits,
                       k->rows, k->substeps, k->helds, k->sums};
     for (size_t m = 0; m < sizeof memory / sizeof *memory; m++) free(memory[m]);
-    Set *sets[] = {&k->touched, &k->latest, &k->previous, &k->listed, &k->taken};
-    for (size_t s = 0; s < sizeof sets / sizeof *sets; s++) {
-        free(sets[s]->head);
-        free(sets[s]->as);
-        free(sets[s]->links);
-    }
+    Set *sets[] = {&k->touched, &k->previous, &k->listed, &k->taken};
+    for (size_t s = 0; s < sizeof sets / sizeof *sets; s++) free_set(sets[s]);
     free(k);
-}
-
-/* Takes memory, zeroed, for `count` items. Without memory it says so in `error`. */
-static void *zeroed(Kernel *k, size_t count, size_t size)
-{
-    void *items = calloc(count, size);
-    if (items == NULL) k->error = MARS2D_NO_MEMORY;
-    return items;
-}
-
-#define ZEROED(k, items, count) ((items) = zeroed(k, count, sizeof *(items)))
-
-static void make_set(Kernel *k, Set *set, size_t n)
-{
-    ZEROED(k, set->head, n);
-    for (size_t i = 0; i < n && !k->error; i++) set->head[i] = -1;
 }
 
 Kernel *mars2d_kernel_new(const Team *team, const Engine *engine, Interrupted interrupted)
@@ -138,12 +140,16 @@ Kernel *mars2d_kernel_new(const Team *team, const Engine *engine, Interrupted in
     size_t n = (size_t)team->n;
     ZEROED(k, k->near, n);
     ZEROED(k, k->wanted, n);
+    ZEROED(k, k->group_of, n);
+    ZEROED(k, k->member, n);
     ZEROED(k, k->place, n);
+    ZEROED(k, k->parent, n);
+    ZEROED(k, k->target, n);
     ZEROED(k, k->speed, n);
     ZEROED(k, k->before, n);
     ZEROED(k, k->aimed, 2 * n);
     ZEROED(k, k->aimed_spin, 2 * n);
-    ZEROED(k, k->who, n);
+    ZEROED(k, k->nears, n);
     ZEROED(k, k->touching, n);
     ZEROED(k, k->velocity, n);
     ZEROED(k, k->bend, n);
@@ -152,13 +158,13 @@ Kernel *mars2d_kernel_new(const Team *team, const Engine *engine, Interrupted in
     ZEROED(k, k->first_wall, n + 1);
     ZEROED(k, k->cell, n);
     ZEROED(k, k->next, n);
-    make_set(k, &k->touched, n);
-    make_set(k, &k->latest, n);
-    make_set(k, &k->previous, n);
-    make_set(k, &k->listed, n);
-    make_set(k, &k->taken, n);
+    make_set(k, &k->touched, team->n);
+    make_set(k, &k->previous, team->n);
+    make_set(k, &k->listed, team->n);
+    make_set(k, &k->taken, team->n);
     k->wide = 3 + (int)sqrt(4.0 * team->n); /* some four cells a robot */
     ZEROED(k, k->cells, (size_t)k->wide * (size_t)k->wide);
+    if (!k->error) make_spaces(k);
     if (k->error) {
         mars2d_kernel_free(k);
         return NULL;

@@ -54,22 +54,45 @@ typedef struct {
 /* A robot and a segment within its skin. */
 typedef struct { int robot, segment; } Hit;
 
+/* Robots that are stepped together, in one space: all of a small team. A large one is stepped in
+   parts, each only as finely as it needs itself. */
+typedef struct {
+    void *space;
+    double last_step;
+    int *members, count, room;
+    Set latest; /* who touched after the last substep */
+    /* Those of its members that are near, and their pairs: where they begin in the kernel's lists. */
+    int first_near, near_count, first_pair, pair_count;
+    /* Shapes of walls and their bodies, if the kernel has made them: of each segment; a body is that
+       of the first segment of its obstacle. */
+    void **walls, **grounds;
+} Group;
+
 struct Kernel {
     Team team;
     Engine engine;
     Interrupted interrupted;
+    Group *groups;    /* of which there are `team.groups` */
+    Group *group;     /* that is stepped now */
     unsigned substep; /* how many there have been */
-    int error; /* why it was broken off, for good; 0: it was not */
+    int error;        /* why it was broken off, for good; 0: it was not */
     /* The twists of this control step, (n) each. */
     const double *forward, *left, *spin;
     /* Of all robots, (n). Of their control bodies: the second half of `aimed`, (2 n). */
     uint8_t *near, *wanted;
-    int *place; /* in `who` */
+    int *group_of, *member; /* which group it is in, and where among the members */
+    int *place;             /* where among those that are near in its group */
+    int *parent, *target;   /* of those that may touch each other: see groups.c */
+    void **disc;            /* its shape, if the kernel has made it */
     double *speed;
     State *before;
     Vector *aimed; /* what the engine is told */
     double *aimed_spin;
-    /* Of those that are near, `near_count` of them, by their places in `who`. */
+    /* Those that are near, by groups; what may touch, as it was found and by groups. */
+    int *nears;
+    Pair *found, *ordered;
+    int found_count, found_room, ordered_room;
+    /* Of those that are near in this group, `near_count` of them, by their places in `who`. */
     int near_count, *who;
     uint8_t *touching;
     Vector *velocity; /* as they move now */
@@ -84,9 +107,8 @@ struct Kernel {
     int wide, *cells, *cell, *next;
     Hit *hits;
     int hit_count, hit_room;
-    /* What may touch during the time to come. */
-    Pair *pairs;
-    int pair_count, pair_room;
+    Pair *pairs; /* what may touch during the time to come */
+    int pair_count;
     /* The contacts of this control step. */
     Row *rows;
     Substep *substeps;
@@ -94,16 +116,20 @@ struct Kernel {
     int row_count, row_room, substep_count, substep_room, held_count, held_room;
     Vector *sums;
     int sum_room;
-    /* Who touches now, who did after the last substep, and after the last control step; who is
-       listed by the solver, and whose contacts are taken. */
-    Set touched, latest, previous, listed, taken;
+    /* Who touches now, and who did after the last control step; who is listed by the solver, and
+       whose contacts are taken. */
+    Set touched, previous, listed, taken;
 };
 
 /* memory.c */
+void *zeroed(Kernel *k, size_t count, size_t size);
+#define ZEROED(k, items, count) ((items) = zeroed(k, count, sizeof *(items)))
 void *grown(Kernel *k, void *items, int *room, int wanted, size_t size);
 #define GROW(k, items, room, wanted) ((items) = grown(k, items, &(room), wanted, sizeof *(items)))
 
 /* sets.c */
+void make_set(Kernel *k, Set *set, int n);
+void free_set(Set *set);
 void empty(Set *set);
 int find(const Set *set, int a, int b);
 int add(Kernel *k, Set *set, int a, int b);
@@ -123,15 +149,28 @@ void list_anew(Kernel *k);
 
 /* near.c */
 double find_near(Kernel *k, double duration);
-void encounter(Kernel *k, double reach);
+void find_pairs(Kernel *k, double reach);
 int measure(Kernel *k);
 
 /* bodies.c */
 void put(Kernel *k, int i, Vector where);
 void read_state(Kernel *k, int all);
-void engage(Kernel *k, const uint8_t *wanted);
+void make_joints(Kernel *k, int i);
+void add_joints(Kernel *k, int i);
+void remove_joints(Kernel *k, int i);
+void engage(Kernel *k, int i);
+void disengage(Kernel *k, int i);
 void renew(Kernel *k, int i);
 void space_step(Kernel *k, double h, int all);
+
+/* groups.c */
+void assign_groups(Kernel *k);
+void join_groups(Kernel *k);
+void order_by_groups(Kernel *k);
+
+/* spaces.c */
+void make_spaces(Kernel *k);
+void free_spaces(Kernel *k);
 
 /* contacts.c */
 void note_contacts(Kernel *k, double time, double h, int any);

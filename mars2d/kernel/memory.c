@@ -1,12 +1,19 @@
-/* Memory that grows. */
+/* Memory, taken and grown. Without it `error` says so. */
 
 #include <limits.h>
 #include <stdlib.h>
 
 #include "kernel.h"
 
-/* Returns the items with room for as many as wanted. Without memory it says so in `error`, and
-   nothing has changed. */
+/* Takes memory, zeroed, for `count` items. */
+void *zeroed(Kernel *k, size_t count, size_t size)
+{
+    void *items = calloc(MAX(count, 1), size);
+    if (items == NULL) k->error = MARS2D_NO_MEMORY;
+    return items;
+}
+
+/* Returns the items with room for as many as wanted. Without memory nothing has changed. */
 void *grown(Kernel *k, void *items, int *room, int wanted, size_t size)
 {
     if (wanted <= *room) return items;

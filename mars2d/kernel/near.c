@@ -76,15 +76,13 @@ double find_near(Kernel *k, double duration)
     Team *t = &k->team;
     double path = 0.0, fastest = 0.0;
     begin_with_slipping(k);
-    for (int i = 0; i < t->n; i++) t->reach[i] = k->speed[i] * duration;
     for (int now = count_near(k, &fastest), count = -1; now != count && !k->error;) {
         count = now;
-        may_touch(k);
-        now = count_near(k, &fastest);
-        if (now == 0) break;
-        path = t->slack * fastest * duration;
+        if (now > 0) path = t->slack * fastest * duration;
         for (int i = 0; i < t->n; i++)
             t->reach[i] = k->near[i] ? path + t->max_overlap : k->speed[i] * duration;
+        may_touch(k);
+        now = count_near(k, &fastest);
     }
     for (int i = 0; i < t->n; i++) {
         t->moved[i] += t->reach[i];
@@ -93,37 +91,28 @@ double find_near(Kernel *k, double duration)
     return path;
 }
 
-static void list_pair(Kernel *k, Pair pair)
+static void list_pair(Kernel *k, int a, int b, int segment, double radii)
 {
-    GROW(k, k->pairs, k->pair_room, k->pair_count + 1);
-    if (!k->error) k->pairs[k->pair_count++] = pair;
+    GROW(k, k->found, k->found_room, k->found_count + 1);
+    if (!k->error) k->found[k->found_count++] = (Pair){-1, -1, segment, a, b, radii, 0.0, {0.0, 0.0}};
 }
 
-/* Lists what may touch among those that are near, each moving by at most `reach`. */
-void encounter(Kernel *k, double reach)
+/* Finds what may touch among those that are near, each moving by at most `reach`. */
+void find_pairs(Kernel *k, double reach)
 {
     const Team *t = &k->team;
-    k->near_count = k->pair_count = 0;
-    for (int i = 0; i < t->n; i++) {
-        k->place[i] = k->near[i] ? k->near_count : -1;
-        if (k->near[i]) k->who[k->near_count++] = i;
-    }
-    for (int i = 0; i < k->near_count; i++) {
-        int a = k->who[i];
-        for (int p = k->first_robot[a]; p < k->first_robot[a + 1]; p++) {
+    k->found_count = 0;
+    for (int a = 0; a < t->n; a++)
+        for (int p = k->first_robot[a]; k->near[a] && p < k->first_robot[a + 1]; p++) {
             int b = k->robots[p];
-            if (!k->near[b] || !within(t, a, b, 2 * reach)) continue;
-            double radii = t->radius[a] + t->radius[b];
-            list_pair(k, (Pair){i, k->place[b], -1, a, b, radii, 0.0, {0.0, 0.0}});
+            if (k->near[b] && within(t, a, b, 2 * reach))
+                list_pair(k, a, b, -1, t->radius[a] + t->radius[b]);
         }
-    }
-    for (int i = 0; i < k->near_count; i++) {
-        int a = k->who[i];
-        if (t->wall_gap[a] > 0) continue;
+    for (int a = 0; a < t->n; a++) {
+        if (!k->near[a] || t->wall_gap[a] > 0) continue;
         for (int w = k->first_wall[a]; w < k->first_wall[a + 1]; w++) {
-            int s = k->walls[w], b = -1 - t->obstacle[s];
-            if (wall_within(t, a, s, reach))
-                list_pair(k, (Pair){i, -1, s, a, b, t->radius[a], 0.0, {0.0, 0.0}});
+            int s = k->walls[w];
+            if (wall_within(t, a, s, reach)) list_pair(k, a, -1 - t->obstacle[s], s, t->radius[a]);
         }
     }
 }

@@ -1,6 +1,21 @@
 /* Sets of pairs of bodies. */
 
+#include <stdlib.h>
+
 #include "kernel.h"
+
+void make_set(Kernel *k, Set *set, int n)
+{
+    ZEROED(k, set->head, (size_t)n);
+    for (int i = 0; i < n && !k->error; i++) set->head[i] = -1;
+}
+
+void free_set(Set *set)
+{
+    free(set->head);
+    free(set->as);
+    free(set->links);
+}
 
 void empty(Set *set)
 {

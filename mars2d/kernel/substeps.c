@@ -85,7 +85,7 @@ static double time_to_grip(Kernel *k, double h)
     }
     if (!any) return h;
     h = MIN(h, t->contact_step);
-    h = MIN(h, t->growth * t->last_step);
+    h = MIN(h, t->growth * k->group->last_step);
     for (int w = 0; w < k->near_count; w++) {
         double brake = time_to_brake(k, k->who[w]);
         if (brake < h) h = brake;
@@ -126,7 +126,6 @@ static void aim(Kernel *k, double h)
 {
     Team *t = &k->team;
     int brief = h <= t->contact_step, any = 0;
-    memset(k->wanted, 0, (size_t)t->n);
     for (int w = 0; w < k->near_count; w++) {
         int i = k->who[w], slips = t->slipping[i];
         const State *s = t->state + i;
@@ -139,8 +138,11 @@ static void aim(Kernel *k, double h)
         k->aimed[t->n + i] = chord(k, i, s->angle + k->aimed_spin[i] * h, h);
         k->aimed_spin[t->n + i] = k->spin[i];
     }
-    engage(k, k->wanted);
-    if (!any || !(t->growth * h < t->last_step)) return;
+    for (int w = 0; w < k->near_count; w++)
+        if (k->wanted[k->who[w]] && !t->engaged[k->who[w]]) engage(k, k->who[w]);
+    for (int w = 0; w < k->near_count; w++)
+        if (t->engaged[k->who[w]] && !k->wanted[k->who[w]]) disengage(k, k->who[w]);
+    if (!any || !(t->growth * h < k->group->last_step)) return;
     for (int w = 0; w < k->near_count; w++)
         if (t->slipping[k->who[w]]) renew(k, k->who[w]);
 }
@@ -152,8 +154,8 @@ static void note_effort(Kernel *k)
     for (int w = 0; w < k->near_count; w++) {
         int i = k->who[w];
         if (!t->slipping[i]) continue;
-        double push = k->engine.get_impulse(t->pivot[i]) / (t->force[i] * t->last_step);
-        double turn = k->engine.get_impulse(t->gear[i]) / (t->torque[i] * t->last_step);
+        double push = k->engine.get_impulse(t->pivot[i]) / (t->force[i] * k->group->last_step);
+        double turn = k->engine.get_impulse(t->gear[i]) / (t->torque[i] * k->group->last_step);
         double most = MAX(push, turn);
         t->effort[i] = MAX(t->effort[i], most);
     }

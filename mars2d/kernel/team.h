@@ -32,6 +32,12 @@ typedef struct {
     double *effort, *wall_gap, *moved;
     double *reach; /* how far each may move in this control step */
     double skin, last_step;
+    /* In how many groups the team is stepped. With several the kernel makes spaces, bodies and joints
+       of its own, by the numbers that follow, and `space` to `gear` and `address` are unused. */
+    int groups, iterations;
+    double slop;
+    double *friction, *restitution;           /* (n) */
+    double *wall_friction, *wall_restitution; /* of each segment */
     /* The engine's objects: the space; bodies, controls and joints, (n) each. */
     void *space;
     void **body, **control, **pivot, **gear;
@@ -71,6 +77,29 @@ typedef struct {
     int (*count_of)(void *arbiter);
     Vector (*point_a)(void *arbiter, int contact);
     Vector (*point_b)(void *arbiter, int contact);
+    void *(*new_space)(void);
+    void (*set_iterations)(void *space, int iterations);
+    void (*set_slop)(void *space, double slop);
+    void *(*new_body)(double mass, double moment);
+    void *(*new_kinematic)(void);
+    void *(*new_static)(void);
+    void (*set_angle)(void *body, double angle);
+    void (*set_data)(void *body, void *data);
+    void *(*data_of)(void *body);
+    void *(*new_circle)(void *body, double radius, Vector offset);
+    void *(*new_segment)(void *body, Vector a, Vector b, double radius);
+    void (*set_friction)(void *shape, double friction);
+    void (*set_elasticity)(void *shape, double elasticity);
+    void *(*alloc_pivot)(void);
+    void *(*alloc_gear)(void);
+    void *(*add_body)(void *space, void *body);
+    void *(*add_shape)(void *space, void *shape);
+    void (*remove_body)(void *space, void *body);
+    void (*remove_shape)(void *space, void *shape);
+    void (*free_space)(void *space);
+    void (*free_body)(void *body);
+    void (*free_shape)(void *shape);
+    void (*free_joint)(void *joint);
 } Engine;
 
 typedef struct Kernel Kernel;
@@ -94,6 +123,9 @@ enum {
     MARS2D_LOST = -2,
     MARS2D_INTERRUPTED = -3
 };
+
+/* How many robots a group has. */
+int mars2d_kernel_group_size(const Kernel *kernel, int group);
 
 /* Goes on by `duration` under twists (3, n). Returns the sum of what is left, or an error. */
 int mars2d_kernel_drive(Kernel *kernel, const double *twist, double duration, double time);
