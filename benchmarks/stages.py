@@ -11,13 +11,13 @@ from __future__ import annotations
 import argparse
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from mars2d.bench.scenes import SCENES
-from mars2d.bench.suite import WARM_UP
-from mars2d.bench.worlds import SETTINGS, world_of
+from mars2d.bench.scenes import SCENES, Scene
+from mars2d.bench.suite import STEPS, warmed_up
+from mars2d.bench.worlds import SETTINGS
 from mars2d.world import World
 
 STAGES = {
@@ -49,17 +49,29 @@ class Watch:
         return timed
 
 
-def shares(world: World, least_time: float) -> dict[str, float]:
-    """Step a world and return microseconds of a control step, and the parts of its stages."""
+def shares(scene: Scene, max_overlap: float, least_time: float) -> dict[str, float]:
+    """Return microseconds of a scene's control step, and the parts of its stages."""
     watches = {stage: Watch() for stage in STAGES}
-    for stage, method in STAGES.items():
-        setattr(world, method, watches[stage].around(getattr(world, method)))
-    steps, start = 0, time.perf_counter()
-    while (taken := time.perf_counter() - start) < least_time:
-        world.step()
-        steps += 1
+    world = watched(scene, max_overlap, watches)
+    steps, taken = 0, 0.0
+    while taken < least_time:
+        if steps and scene.proximity:  # see mars2d/bench/suite.py
+            world = watched(scene, max_overlap, watches)
+        start = time.perf_counter()
+        for _ in range(STEPS[scene.name]):
+            world.step()
+        taken += time.perf_counter() - start
+        steps += STEPS[scene.name]
     parts = {stage: watch.seconds / taken for stage, watch in watches.items()}
     return {"us": 1e6 * taken / steps, **parts, "rest": 1 - sum(parts.values())}
+
+
+def watched(scene: Scene, max_overlap: float, watches: Mapping[str, Watch]) -> World:
+    """Return a world whose stages are timed."""
+    world = warmed_up(scene, max_overlap)
+    for stage, method in STAGES.items():
+        setattr(world, method, watches[stage].around(getattr(world, method)))
+    return world
 
 
 def main() -> None:
@@ -75,10 +87,7 @@ def main() -> None:
     for name in arguments.scene:
         scene = SCENES[name]()
         for setting, max_overlap in SETTINGS.items():
-            world = world_of(scene, max_overlap)
-            for _ in range(round(WARM_UP / scene.sampling_time)):
-                world.step()
-            row = rows[f"{name} {setting}"] = shares(world, arguments.seconds)
+            row = rows[f"{name} {setting}"] = shares(scene, max_overlap, arguments.seconds)
             parts = (f"{100 * row[column]:>6.0f} %" for column in columns)
             print(f"{name} {setting:<9}{row['us']:>9,.0f} us", *parts, flush=True)
     if arguments.json is not None:
