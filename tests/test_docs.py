@@ -403,7 +403,7 @@ def test_every_module_stands_in_the_picture_of_the_design():
     parts = {path.name for path in package.glob("*.py")}
     parts |= {f"{path.parent.name}/" for path in package.glob("*/__init__.py")}
     parts.discard("examples/")
-    folders = "bodies|sensors|addons|props|joints|commands|view|output|testing|bench"
+    folders = "bodies|sensors|addons|props|joints|commands|view|output|testing|bench|kernel"
     named = set(re.findall(rf"\w+\.py|\b(?:{folders})/", picture))
     assert named - {"base.py"} == parts
 

@@ -24,6 +24,7 @@ __all__ = [
     "box_round",
     "cover",
     "disc",
+    "draw_on",
     "drawn_finely",
     "edged",
     "extent_of",
@@ -88,10 +89,17 @@ def layer(color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0) -> pygame.
     if factor == 0:
         factor = 4 if box.width * box.height < 250_000 else 2
     large = pygame.Surface((box.width * factor, box.height * factor), pygame.SRCALPHA, 32)
+    draw_on(large, color, box, draw, factor)
+    return large if factor == 1 else pygame.transform.smoothscale(large, box.size)
+
+
+def draw_on(
+    large: pygame.Surface, color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 1
+) -> None:
+    """Draw within `box` on a surface that is so many times larger, and nothing else."""
     # The colour without opacity, so that averaging changes the opacity alone.
     large.fill((*color[:3], 0))
     draw(large, box.left, box.top, factor, color)
-    return large if factor == 1 else pygame.transform.smoothscale(large, box.size)
 
 
 def scaled(points: Float, left: float, top: float, factor: float) -> list[tuple[float, float]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["clip_lines", "clip_polygon"]
+__all__ = ["clip_lines", "clip_polygon", "simplified"]
 
 Float = NDArray[np.float64]
 Box = tuple[float, float, float, float]
@@ -64,6 +64,18 @@ def clip_lines(points: Float, box: Box) -> list[Float]:
     if run:
         pieces.append(np.array(run))
     return pieces
+
+
+def simplified(points: Float, tolerance: float) -> Float:
+    """Return a polygon (k, 2) without the corners that move its edge by no more than a tolerance.
+
+    Source: Douglas & Peucker (1973).
+    """
+    import shapely
+
+    line = shapely.simplify(shapely.linestrings(points), tolerance, preserve_topology=False)
+    corners: Float = shapely.get_coordinates(line)
+    return corners
 
 
 def _inside(points: Float, box: Box) -> bool:

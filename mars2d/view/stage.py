@@ -33,7 +33,8 @@ class Stage:
     """Draws frames of one experiment after another; used by the window, pictures and films alike.
 
     The workspace, the grid, the obstacles and the initial poses are drawn once a camera. On a copy
-    of that the paths grow. What moves is drawn anew each time.
+    of that the paths grow. On a copy of that is what the sensors have read, until they read again.
+    What moves is drawn anew each time.
     """
 
     def __init__(self, painter: Painter) -> None:
@@ -44,6 +45,8 @@ class Stage:
         self._scenario: Scenario | None = None
         self._trailed: pygame.Surface | None = None
         self._trails: tuple[Trails, ...] = ()  # of the props, of the robots
+        self._sensed: pygame.Surface | None = None
+        self._sensed_of: tuple[object, ...] = ()
         self._labels: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._camera: Camera | None = None
         self._seconds = 0.0
@@ -75,13 +78,15 @@ class Stage:
             picture = self._with_trails(still, frame, camera) if layers.trails else still
             if self._camera != camera:
                 self._camera, self._seconds = camera, perf_counter() - start
+            if layers.sensors:
+                picture = self._with_sensors(picture, frame, camera)
             surface.blit(picture, plot, plot)
             if layers.trails:
                 for trails, poses in zip(self._trails, (frame.prop_pose, frame.pose), strict=False):
                     trails.loose_ends(surface, poses[:2])
+        elif layers.sensors:
+            self.painter.paint(surface, scenes.sensors(frame).shapes, camera)
         moving = scenes.addons(frame)
-        if layers.sensors:
-            moving.extend(scenes.sensors(frame).shapes)
         if layers.messages:
             moving.extend(messages(frame).shapes)
         for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):
@@ -170,6 +175,18 @@ class Stage:
         for trails, path in zip(self._trails, paths, strict=True):
             trails.prolong(self._trailed, path)
         return self._trailed
+
+    def _with_sensors(
+        self, picture: pygame.Surface, frame: Frame, camera: Camera
+    ) -> pygame.Surface:
+        """Return a picture with what the sensors have read on it: as before, if nothing is new."""
+        poses = frame.pose if frame.sensed is None else frame.sensed, frame.pose
+        stay = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
+        drawn = [trails.drawn for trails in self._trails]
+        source = picture, frame.readings, poses[0], None if stay else poses[1]
+        if self._sensed is None or not self._same(source, drawn):
+            pass
+        return self._sensed
 
     def _new_trails(self, scenario: Scenario, camera: Camera) -> tuple[Trails, Trails]:
         thin = scenes.prop_trail_colors(scenario), scenes.PROP_TRAIL_WIDTH
