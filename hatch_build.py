@@ -27,7 +27,7 @@ class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         except Exception as error:  # whatever a compiler may lack
             self.app.display_warning(
                 f"The kernel was not compiled ({type(error).__name__}: {error}). MARS2D works "
-                "without it, with the same results, but large teams are several times slower."
+                "without it, but teams are several times slower."
             )
             return
         build_data["pure_python"] = False

@@ -37,8 +37,8 @@ overlap is allowed than by default, a larger part of it is: speed is wanted then
 FINE = 1e-3
 """The overlap allowed by default, metres."""
 
-
 LEAST = float(np.finfo(float).tiny)
+"""The smallest normal number: nothing is divided by less."""
 
 
 class Clutches:

@@ -55,20 +55,20 @@ The solver begins with what they did in the substep before. From where the next 
 shorter than that, they begin anew.
 """
 
-
 GROUP = 64
 """How many robots of a large team are stepped together, about: each group as finely as it needs."""
 
+ALIKE = 2.0
+"""How many times as heavy as another a robot of a team may be that is stepped in groups.
+
+Groups can't wait for one of which a robot is thrown further than was thought possible.
+"""
+
+SLACK_OF_GROUPS = 2.5
+"""What `SLACK` is for them: more than what robots of such masses throw each other on to, in turns."""
+
 NOTHING = np.empty(0, dtype=CONTACT)
 NOTHING.flags.writeable = False
-
-
-def thrown(ratio: float) -> float:
-    """Return how many times as fast as both were a body may be thrown, head-on without loss.
-
-    ratio: of the masses of what throws it and its own, at least 1.
-    """
-    return (3 * ratio - 1) / (ratio + 1)
 
 
 class Engine(Motion):
@@ -108,10 +108,9 @@ class Engine(Motion):
             return None
         if reason_without():
             return None
-        self._groups = 1 if self.n < 2 * GROUP else self.n // GROUP
-        slack = SLACK
-        if self._groups > 1:  # they can't wait for each other, should one be thrown further
-            slack *= thrown(float(self._mass.max() / self._mass.min()))
+        alike = self._mass.max() <= ALIKE * self._mass.min()
+        self._groups = self.n // GROUP if alike and self.n >= 2 * GROUP else 1
+        slack = SLACK if self._groups == 1 else SLACK_OF_GROUPS
         self._placed, self._reach = np.zeros(self.n, dtype=bool), np.zeros(self.n)
         arrays = {
             "state": self._state, "slipping": self._slipping, "placed": self._placed,
@@ -179,8 +178,8 @@ class Engine(Motion):
         self._left |= left
         if self._groups > 1:
             self.space.misplace_all(self._state)
-        elif left & PLACED:
-            self.space.misplace(np.flatnonzero(self._placed))
+        else:
+            self.space.misplace(np.flatnonzero(self._placed).tolist() if left & PLACED else ())
 
     def take_contacts(self) -> NDArray[np.void]:
         """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""

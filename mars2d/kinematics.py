@@ -9,7 +9,7 @@ from mars2d.contact import ContactLog, Solved
 from mars2d.encounter import Bounds, Encounter
 from mars2d.engine import SLOP
 from mars2d.floor import Floor
-from mars2d.motion import Arcs, Motion, chord_velocity, point_velocity
+from mars2d.motion import Arcs, Motion, point_velocity
 from mars2d.scenario import Scenario
 from mars2d.space import Space
 
@@ -67,8 +67,9 @@ class Kinematics(Motion):
         self.bounds.clearance.moved(reach)
         who = np.flatnonzero(near)
         start = self._state
-        self._state = self._moved(twist, start, duration)
-        self._state[:, 3:] = self._now(twist, self._state)
+        arcs = Arcs(twist, self._in_robot_frame)
+        self._state = self._moved(arcs, start, duration)
+        self._state[:, 3:] = self._now(arcs, self._state)
         if len(who):
             encounter = self.bounds.encounter(who, float(reach[who].max()))
             self._state[who] = self._substeps(twist, start, duration, time, who, encounter)[who]
@@ -76,16 +77,16 @@ class Kinematics(Motion):
             self.contacts.add_nothing()
         self.space.place_all(self._state[:, :3])
 
-    def _now(self, twist: Float, state: Float) -> Float:
+    def _now(self, arcs: Arcs, state: Float) -> Float:
         """Return the velocities (N, 3) now."""
         now, n = state[:, 3:].copy(), self.n
-        now[:n] = chord_velocity(twist, state[:n, 2], 0.0, self._in_robot_frame)
+        now[:n] = arcs.chord(state[:n, 2], 0.0)
         return now
 
-    def _moved(self, twist: Float, state: Float, h: float) -> Float:
+    def _moved(self, arcs: Arcs, state: Float, h: float) -> Float:
         """Return the states (N, 6) after h seconds."""
         after, n = state.copy(), self.n
-        chord = chord_velocity(twist, state[:n, 2], h, self._in_robot_frame)
+        chord = arcs.chord(state[:n, 2], h)
         after[:n, :3] += h * chord
         after[:n, 3:] = chord
         moved, end = self._floor.glide(state[n:, 3:], self._everyone, h)
@@ -104,10 +105,11 @@ class Kinematics(Motion):
     ) -> Float:
         """Return the states (N, 6) after `duration`, having looked at each touch of `who`."""
         twist, n = twist.copy(), self.n
+        arcs = Arcs(twist, self._in_robot_frame)
         elapsed = h = 0.0
         while True:
             encounter.measure(state[who])
-            now = self._now(twist, state)
+            now = self._now(arcs, state)
             if elapsed > 0 and encounter.any_touch:
                 self._note(time + elapsed, h, state, now, encounter)
             elif elapsed > 0:
@@ -118,15 +120,16 @@ class Kinematics(Motion):
             if self._stops and encounter.any_touch:
                 stopped = who[encounter.inwards(now[who]) > INWARDS]
                 twist[:, stopped[stopped < n]] = 0.0
+                arcs = Arcs(twist, self._in_robot_frame)
                 state[stopped[stopped >= n], 3:] = 0.0
-                now = self._now(twist, state)
+                now = self._now(arcs, state)
             bend = np.zeros(len(state))
-            bend[:n] = Arcs(twist, self._in_robot_frame).bend
+            bend[:n] = arcs.bend
             reach = self.bounds.reach[n:]
             bend[n:] = self._floor.braking(state[n:, 3:], reach, self._everyone)
             left = h = duration - elapsed
             h = min(h, encounter.time_to_touch(now[who], bend[who], self._depth, again=self._stops))
-            state = self._moved(twist, state, h)
+            state = self._moved(arcs, state, h)
             elapsed = duration if h == left else elapsed + h
 
     def _note(

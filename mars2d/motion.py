@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Arcs", "Motion", "chord_velocity", "point_velocity"]
+__all__ = ["Arcs", "Motion", "point_velocity"]
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -86,11 +86,3 @@ class Arcs:
         velocity[..., 1] = self._forward * s + self._left * c
         velocity[..., 2] = self.spin
         return velocity
-
-
-def chord_velocity(twist: Float, theta: Float, h: float, in_robot_frame: Mask) -> Float:
-    """Return (k, 3): the velocities that bring robots at headings (k,) along their arcs in h.
-
-    twist: (3, k), of which the first two are along the robot's axes or the world's.
-    """
-    return Arcs(twist, in_robot_frame).chord(theta, h)

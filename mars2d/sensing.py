@@ -235,16 +235,21 @@ class Sensing:
 
 def _grouped(devices: Sequence[Device]) -> list[list[Device]]:
     """Return devices that are read together, in the order of the first of each group."""
-    groups: list[list[Device]] = []
+    groups: dict[Device | Sensor, list[Device]] = {}
     for device in devices:
-        together = not device.when_asked and "read_all" in vars(type(device.sensor))
-        for group in groups if together else ():
-            if group[0].described == device.described and not group[0].when_asked:
-                group.append(device)
-                break
-        else:
-            groups.append([device])
-    return groups
+        groups.setdefault(device.described if _may_join(device) else device, []).append(device)
+    return list(groups.values())
+
+
+def _may_join(device: Device) -> bool:
+    """Return whether a device is read together with those whose sensors are equal."""
+    if device.when_asked or "read_all" not in vars(type(device.sensor)):
+        return False
+    try:
+        hash(device.described)
+    except TypeError:  # a field of the user's own, such as a list
+        return False
+    return True
 
 
 def _kept(reading: Any) -> Any:

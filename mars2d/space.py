@@ -226,9 +226,12 @@ class Space:
                     contact.jnAcc *= ratio
                     contact.jtAcc *= ratio
 
-    def misplace(self, which: Index) -> None:
-        """Note that bodies have been put somewhere else, where the next query is to find them."""
-        self._misplaced.update(which.tolist())
+    def misplace(self, which: Iterable[int]) -> None:
+        """Note which bodies, and no others, have been put somewhere else since the last step.
+
+        The next query is to find them there.
+        """
+        self._misplaced = set(which)
 
     def misplace_all(self, state: Float) -> None:
         """Note that all bodies have states (N, 6), where the next query is to find them."""

@@ -416,8 +416,24 @@ except KeyboardInterrupt:
 """
 
 
+ALARM = """
+def late(*_):
+    raise TimeoutError("too late")
+
+signal.signal(signal.SIGINT, late)
+"""
+
+
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise")
 def test_ctrl_c_ends_a_control_step_of_ten_million_substeps(child):
     done = child(LONG, timeout=20)
     assert done.stdout == "Interrupted by Ctrl-C\n"
+    assert done.stderr == ""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise")
+def test_so_does_what_the_handler_of_another_signal_raises(child):
+    code = LONG.replace("walls =", ALARM + "walls =").replace("KeyboardInterrupt", "TimeoutError")
+    done = child(code, timeout=20)
+    assert done.stdout == "Error: TimeoutError: too late\n"
     assert done.stderr == ""

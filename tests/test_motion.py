@@ -7,16 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d.motion import chord_velocity
+from mars2d.motion import Arcs
 
 speeds = st.floats(-10, 10)
 
 
 @given(forward=speeds, left=speeds, spin=speeds, theta=st.floats(-7, 7), h=st.floats(1e-6, 2))
 def test_the_chord_is_the_integral_of_the_arc(forward, left, spin, theta, h):
-    chord = chord_velocity(
-        np.array([[forward], [left], [spin]]), np.array([theta]), h, np.array([True])
-    )
+    arcs = Arcs(np.array([[forward], [left], [spin]]), np.array([True]))
+    chord = arcs.chord(np.array([theta]), h)
     # Gauss and Legendre's rule with 40 points integrates 20 rad of a sine to the last digits.
     points, weights = np.polynomial.legendre.leggauss(40)
     angle = theta + spin * h * (points + 1) / 2
@@ -27,5 +26,5 @@ def test_the_chord_is_the_integral_of_the_arc(forward, left, spin, theta, h):
 
 def test_in_the_worlds_frame_a_chord_is_the_command():
     twist = np.array([[0.3], [-0.2], [2.0]])
-    chord = chord_velocity(twist, np.array([1.0]), 5.0, np.array([False]))
+    chord = Arcs(twist, np.array([False])).chord(np.array([1.0]), 5.0)
     assert chord.tolist() == [[0.3, -0.2, 2.0]]

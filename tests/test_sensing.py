@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import inf, nan, pi
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -651,6 +651,23 @@ def test_sensors_that_differ_are_recorded_in_the_order_of_their_robots():
         sensor = world.scenario.robots[robot.index].sensors[0]
         assert np.array_equal(reading, sensor.read(robot, world.surroundings, robot.rng))
     assert (row[[1, 3]] > 1.5).any()
+
+
+def test_what_may_be_changed_is_not_read_with_a_team():
+    """Whether two arrays are equal is no question of yes or no."""
+
+    class Chart(Sensor):
+        table: Any
+
+        def read(self, robot, world, rng):
+            return self.table[robot.index]
+
+        def read_all(self, robots, world, rngs):
+            raise AssertionError
+
+    world = team([Chart(table=np.array([1.0, 2.0]))], [Chart(table=np.array([3.0, 4.0]))])
+    world.observe()
+    assert [robot.sense.chart for robot in world.robots] == [1.0, 4.0]
 
 
 def test_what_is_not_recorded_is_not_read_with_a_team():

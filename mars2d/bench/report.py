@@ -29,8 +29,8 @@ KIND = "mars2d bench"
 ALIKE = 0.05
 """By what part runs of the same program differ on a machine that does nothing else."""
 
-
 USED = "used"
+"""What stands for the kernel among the versions, where no reason stands why it was not used."""
 
 
 @dataclass(frozen=True)

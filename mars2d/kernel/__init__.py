@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import os
+import threading
 from collections.abc import Mapping
 from functools import cache, partial
 from importlib import import_module
@@ -33,9 +34,14 @@ PLACED, CONTACTS, EFFORT = 1, 2, 4
 ERRORS = {
     -1: (MemoryError, "no memory for what the kernel keeps of robots that are near each other"),
     -2: (FloatingPointError, "the robots' motion is lost: a number is not finite, or nearly so"),
-    -3: (KeyboardInterrupt, ""),
 }
-"""Why the kernel broke off; see ``team.h``."""
+"""Why the kernel broke off by itself; see ``team.h``."""
+
+INTERRUPTED = -3
+"""What the kernel returns when Python broke it off; see ``team.h``."""
+
+_caught = threading.local()
+"""Holds what broke it off, as `error`: Ctrl-C, or what the handler of another signal raised."""
 
 SAMPLE = np.concatenate([np.linspace(-60.0, 60.0, 997), np.geomspace(1e-9, 3.0, 200)])
 """Angles at which the kernel's sines are compared with numpy's."""
@@ -69,12 +75,13 @@ def _compiled() -> tuple[Any, str]:
 
 
 def _listen(ffi: Any) -> None:
-    """Let Ctrl-C end a long control step: Python is called now and then, and may say so."""
+    """Let Ctrl-C end a long control step: Python is called now and then, and may raise."""
 
-    def silent(*_: object) -> None:
-        """Do not print what breaks it off: it is raised after the call."""
+    def catch(_kind: object, error: BaseException, _trace: object) -> None:
+        """Keep what breaks it off: it is raised after the call."""
+        _caught.error = error
 
-    ffi.def_extern("mars2d_kernel_interrupted", error=1, onerror=silent)(lambda: 0)
+    ffi.def_extern("mars2d_kernel_interrupted", error=1, onerror=catch)(lambda: 0)
 
 
 def _sines(module: Any) -> tuple[Float, Float, Float]:
@@ -111,7 +118,6 @@ class Kernel:
             raise MemoryError("no memory for the kernel")
         # Its arrays are to be there still when it is freed.
         self._kernel = self._ffi.gc(made, partial(_free, self._lib, self._arrays))
-        self._team = self._lib.mars2d_kernel_team(made)
 
     def _described(self, numbers: Mapping[str, float]) -> Any:
         """Return the team for the kernel: numbers, and where arrays and fields of structs are."""
@@ -131,8 +137,9 @@ class Kernel:
         """Move the team for `duration` seconds under twists (3, n); see `Engine.drive`.
 
         Returns the sum of `PLACED`, if robots were put somewhere between steps, and of `CONTACTS`
-        and `EFFORT`, if there are some. Raises MemoryError, KeyboardInterrupt, and
-        FloatingPointError where the plain engine would not end; from then on, each time.
+        and `EFFORT`, if there are some. Raises MemoryError, what a signal raises as
+        KeyboardInterrupt, and FloatingPointError where the plain engine would not end. It does not
+        go on after that.
         """
         pointer = self._ffi.from_buffer("double *", twist)
         return self._check(self._lib.mars2d_kernel_drive(self._kernel, pointer, duration, time))
@@ -147,6 +154,8 @@ class Kernel:
 
     @staticmethod
     def _check(result: int) -> int:
+        if result == INTERRUPTED:
+            raise vars(_caught).pop("error", KeyboardInterrupt())
         if result < 0:
             kind, text = ERRORS[result]
             raise kind(text)

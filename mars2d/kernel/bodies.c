@@ -47,7 +47,8 @@ void remove_joints(Kernel *k, int i)
     k->engine.remove_constraint(space, k->team.gear[i]);
 }
 
-/* Makes joints, which are in no space now, as if they had not held anything yet; see `_clutch`. */
+/* Makes joints, which are in no space now, as if they had not held anything yet; see
+   `Space._clutch`. */
 void make_joints(Kernel *k, int i)
 {
     const Team *t = &k->team;
@@ -61,7 +62,7 @@ void make_joints(Kernel *k, int i)
     e->set_max_force(t->gear[i], t->torque[i]);
 }
 
-/* Lets a drive act; see `Clutches._engage`. */
+/* Lets a drive act; see `Space.engage`. */
 void engage(Kernel *k, int i)
 {
     make_joints(k, i);

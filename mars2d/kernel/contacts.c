@@ -18,8 +18,8 @@ typedef struct { /* mars2d.contact.CONTACT */
 
 /* -- after a substep -------------------------------------------------------------------------- */
 
-/* The number of a body, or 0 with `known` unset. */
-static int number_of(const Kernel *k, void *body, int *known)
+/* The number of a body that is a robot or an obstacle; no others have shapes. */
+static int number_of(const Kernel *k, void *body)
 {
     const Team *t = &k->team;
     if (t->groups > 1) return (int)(intptr_t)k->engine.data_of(body);
@@ -30,7 +30,6 @@ static int number_of(const Kernel *k, void *body, int *known)
         if (t->address[middle] <= address) low = middle;
         else high = middle;
     }
-    if (t->address[low] != address) *known = 0;
     return (int)t->name[low];
 }
 
@@ -83,9 +82,7 @@ static void note_contact(void *arbiter, void *data)
     Kernel *k = data;
     void *body_a, *body_b;
     k->engine.bodies_of(arbiter, &body_a, &body_b);
-    int known = 1;
-    int first = number_of(k, body_a, &known), second = number_of(k, body_b, &known);
-    if (!known) return;
+    int first = number_of(k, body_a), second = number_of(k, body_b);
     int a = MAX(first, second), b = MIN(first, second);
     if (a < 0 || find(&k->touched, b < 0 ? a : b, b < 0 ? b : a) < 0) return;
     GROW(k, k->rows, k->row_room, k->row_count + 1);
@@ -178,7 +175,7 @@ int mars2d_kernel_take(Kernel *k, void *memory)
 {
     Contact *contacts = memory;
     int count = k->taken.count, filled = 0;
-    memset(k->sums, 0, (size_t)count * sizeof *k->sums);
+    if (count > 0) memset(k->sums, 0, (size_t)count * sizeof *k->sums);
     for (int r = 0; r < k->row_count; r++) {
         const Row *row = k->rows + r;
         int c = find(&k->taken, row->a, row->b); /* they were added in this order */

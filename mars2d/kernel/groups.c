@@ -40,7 +40,9 @@ static void move(Kernel *k, int i, int to)
     enter(k, i, to);
     e->add_body(k->groups[k->group_of[i]].space, body);
     e->add_shape(k->groups[k->group_of[i]].space, k->disc[i]);
-    if (k->team.engaged[i]) add_joints(k, i);
+    if (!k->team.engaged[i]) return;
+    make_joints(k, i); /* what they did was for steps of another length */
+    add_joints(k, i);
 }
 
 /* A robot and one of its coordinates, to be sorted by it. */

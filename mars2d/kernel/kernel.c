@@ -16,10 +16,9 @@ static void carry(Kernel *k, double duration)
 {
     Team *t = &k->team;
     for (int i = 0; i < t->n; i++) {
-        if (!k->near[i]) {
-            if (t->engaged[i]) disengage(k, i);
-            t->since[i] = t->linger + 1;
-        }
+        if (k->near[i]) continue; /* see `aim` */
+        if (t->engaged[i]) disengage(k, i);
+        t->since[i] = t->linger + 1;
         k->aimed[i] = chord(k, i, t->state[i].angle, duration);
         k->aimed_spin[i] = k->spin[i];
     }
@@ -110,8 +109,6 @@ int mars2d_kernel_drive(Kernel *k, const double *twist, double duration, double 
 }
 
 /* -- making and freeing ----------------------------------------------------------------------- */
-
-Team *mars2d_kernel_team(Kernel *k) { return &k->team; }
 
 void mars2d_kernel_free(Kernel *k)
 {

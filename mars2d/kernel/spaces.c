@@ -5,13 +5,11 @@
 
 #include "kernel.h"
 
-/* Adds the segment of a wall to a group's space. */
-static void add_wall(Kernel *k, Group *group, int segment)
+/* Adds the segment of a wall to a group's space. first: that of its obstacle. */
+static void add_wall(Kernel *k, Group *group, int segment, int first)
 {
     const Team *t = &k->team;
     const Engine *e = &k->engine;
-    int first = segment;
-    while (first > 0 && t->obstacle[first - 1] == t->obstacle[segment]) first--;
     if (first == segment) {
         group->grounds[first] = e->new_static();
         e->set_data(group->grounds[first], (void *)(intptr_t)(-1 - t->obstacle[segment]));
@@ -66,7 +64,10 @@ static void make_own_spaces(Kernel *k)
         group->space = k->engine.new_space();
         k->engine.set_iterations(group->space, t->iterations);
         k->engine.set_slop(group->space, t->slop);
-        for (int s = 0; s < t->segments; s++) add_wall(k, group, s);
+        for (int s = 0, first = 0; s < t->segments; s++) {
+            if (t->obstacle[s] != t->obstacle[first]) first = s;
+            add_wall(k, group, s, first);
+        }
     }
     for (int i = 0; i < t->n && !k->error; i++) add_robot(k, i);
 }

@@ -110,7 +110,6 @@ typedef int (*Interrupted)(void);
 /* Returns NULL when there is no memory. The kernel keeps the arrays' addresses, and frees none. */
 Kernel *mars2d_kernel_new(const Team *team, const Engine *engine, Interrupted interrupted);
 void mars2d_kernel_free(Kernel *kernel);
-Team *mars2d_kernel_team(Kernel *kernel);
 
 enum {
     /* What a control step may leave: robots that were placed, contacts, efforts. */
