@@ -65,7 +65,7 @@ Groups can't wait for one of which a robot is thrown further than was thought po
 """
 
 SLACK_OF_GROUPS = 2.5
-"""What `SLACK` is for them: more than what robots of such masses throw each other on to, in turns."""
+"""What `SLACK` is for them: more than what such robots throw each other on to, in turns."""
 
 NOTHING = np.empty(0, dtype=CONTACT)
 NOTHING.flags.writeable = False

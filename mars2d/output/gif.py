@@ -164,7 +164,10 @@ def _colors(surface: pygame.Surface) -> Entries:
         ink = tuple(bytes.fromhex(banner[1:]))
         wanted += [_mixed(ink, (255, 255, 255), share) for share in (1.0, 0.8, 0.6, 0.4, 0.2)]
     wanted += [(r, g, b) for r in (0, 128, 255) for g in (0, 128, 255) for b in (0, 128, 255)]
-    picture = Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
+    # Every other pixel tells as much, and is counted several times as fast.
+    width, height = surface.get_size()
+    picture = Image.frombytes("RGB", (width, height), pygame.image.tobytes(surface, "RGB"))
+    picture = picture.resize((width // 2, height // 2), Image.Resampling.NEAREST)
     reduced = picture.quantize(colors=256, method=Image.Quantize.MEDIANCUT)
     rest = reduced.getpalette() or []
     wanted += [tuple(rest[k : k + 3]) for k in range(0, len(rest), 3)]

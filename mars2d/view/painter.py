@@ -157,7 +157,7 @@ class Painter:
     def _area(self, surface: pygame.Surface, points: Float, color: Rgba, box: pygame.Rect) -> None:
         """Fill what lies within `box` of a large faint polygon, as laser scanners sweep them.
 
-        Always in the same memory, which the processor has at hand: that takes half as long.
+        Always in the same memory: what is fresh from the system is slow to write to.
         """
         size = 4 * box.width * box.height
         if size <= 0:

@@ -79,7 +79,7 @@ class Stage:
             if self._camera != camera:
                 self._camera, self._seconds = camera, perf_counter() - start
             if layers.sensors:
-                picture = self._with_sensors(picture, frame, camera)
+                picture = self._with_sensors(picture, frame, camera, plot)
             surface.blit(picture, plot, plot)
             if layers.trails:
                 for trails, poses in zip(self._trails, (frame.prop_pose, frame.pose), strict=False):
@@ -177,15 +177,24 @@ class Stage:
         return self._trailed
 
     def _with_sensors(
-        self, picture: pygame.Surface, frame: Frame, camera: Camera
+        self, picture: pygame.Surface, frame: Frame, camera: Camera, plot: pygame.Rect
     ) -> pygame.Surface:
-        """Return a picture with what the sensors have read on it: as before, if nothing is new."""
-        poses = frame.pose if frame.sensed is None else frame.sensed, frame.pose
-        stay = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
-        drawn = [trails.drawn for trails in self._trails]
-        source = picture, frame.readings, poses[0], None if stay else poses[1]
-        if self._sensed is None or not self._same(source, drawn):
-            pass
+        """Return a copy of a picture with what the sensors have read on it, drawn if it is new."""
+        sensors = (sensor for robot in frame.scenario.robots for sensor in robot.sensors)
+        stays = all(sensor.stays for sensor in sensors)
+        sensed = frame.pose if frame.sensed is None else frame.sensed
+        made_of = picture, frame.path, frame.readings, sensed, None if stays else frame.pose
+        same = all(a is b for a, b in zip(made_of, self._sensed_of, strict=False))
+        if self._sensed is None or not same:
+            shapes = scenes.sensors(frame).shapes
+            if not shapes:
+                return picture
+            if self._sensed is None or self._sensed.get_size() != picture.get_size():
+                self._sensed = picture.copy()
+            self._sensed.set_clip(plot)
+            self._sensed.blit(picture, plot, plot)
+            self.painter.paint(self._sensed, shapes, camera)
+            self._sensed_of = made_of
         return self._sensed
 
     def _new_trails(self, scenario: Scenario, camera: Camera) -> tuple[Trails, Trails]:

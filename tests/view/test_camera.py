@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mars2d.view.camera import Camera
-from mars2d.view.clip import clip_lines, clip_polygon
+from mars2d.view.clip import clip_lines, clip_polygon, simplified
 from mars2d.view.grid import label, spacing, ticks
 
 
@@ -82,3 +82,14 @@ def test_lines_are_cut_where_they_leave_and_stay_whole_inside():
     (piece,) = clip_lines(line, (0, 0, 100, 50))
     assert piece.tolist() == [[0, 10], [50, 10], [50, 20], [100, 20]]
     assert clip_lines(line + 1000, (0, 0, 100, 50)) == []
+
+
+def test_corners_that_hardly_move_the_edge_are_left_out():
+    square = np.array([(0, 0), (40, 0.2), (80, -0.2), (100, 0), (100, 100), (50, 101), (0, 100)])
+    assert simplified(square, 0.3).tolist() == np.delete(square, [1, 2], axis=0).tolist()
+    angles = np.linspace(0, 2 * np.pi, 180, endpoint=False)
+    circle = 200 * np.column_stack([np.cos(angles), np.sin(angles)])
+    fewer = simplified(circle, 0.3)
+    assert len(fewer) < 90
+    middles = (fewer + np.roll(fewer, -1, axis=0)) / 2
+    assert np.hypot(*middles.T).min() > 200 - 0.4

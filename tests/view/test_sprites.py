@@ -7,7 +7,7 @@ import pytest
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.animation import Animation
-from mars2d.sensors import RangeFinder
+from mars2d.sensors import Proximity, RangeFinder
 from mars2d.view.painter import Painter
 from mars2d.view.picture import Artist
 from mars2d.view.source import Playback
@@ -41,9 +41,9 @@ def test_one_that_is_too_large_is_not_kept():
 # -- pictures -------------------------------------------------------------------------------------
 
 
-def run(**animation):
+def run(sensor=None, **animation):
     """Return the record of a team that scans and wanders among obstacles."""
-    seeing = Robot(diameter=0.4, sensors=[RangeFinder(range=4.0)])
+    seeing = Robot(diameter=0.4, sensors=[sensor or RangeFinder(range=4.0)])
     places = [(-3, -2, 0.3), (2.5, 1, 2.0), (0, 3, -1.0), (3, -3, 1.2)]
     scenario = Scenario(
         robots=[seeing.at(*pose) for pose in places],
@@ -72,10 +72,13 @@ class Viewer:
         if plain:
             self.window._painter = Painter(kept=0)
             self.window._stage.painter = self.window._panel.painter = self.window._painter
+        self.plain = plain
         self.size = (1280, 720)
 
     def draw(self):
         self.window._hurry = 0.0  # as after a rest: a moving camera may show rough pictures
+        if self.plain:
+            self.window._stage._sensed = None
         surface = pygame.Surface(self.size, 0, 32)
         self.window.draw(surface)
         return surface
@@ -134,8 +137,7 @@ def test_what_is_kept_changes_no_pixel(record, situation):
         situation(viewer)
         viewer.play(5, draw=True)
     assert len(kept.window._painter._sprites) > 0
-    assert len(kept.window._painter._areas) > 0
-    assert len(plain.window._painter._sprites) == len(plain.window._painter._areas) == 0
+    assert len(plain.window._painter._sprites) == 0
     assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
 
 
@@ -151,6 +153,15 @@ def test_what_has_grown_looks_as_if_it_were_drawn_at_once(record, situation):
     assert np.abs(seen - wanted).mean() < 0.06
     assert (np.abs(seen - wanted).max(axis=2) > 80).sum() < 10
     assert len(np.unique(wanted.reshape(-1, 3), axis=0)) > 100
+
+
+def test_what_a_sensor_sees_moves_with_its_robot_between_two_readings():
+    record = run(Proximity(range=1.0))
+    kept, plain = Viewer(record), Viewer(record, plain=True)
+    for viewer in (kept, plain):
+        viewer.play(21, draw=True)
+        viewer.play(1, draw=False)  # between the same control steps
+    assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
 
 
 def test_other_colours_of_the_same_team_are_seen_at_once(record):
@@ -169,19 +180,18 @@ def test_what_stays_between_two_pictures_is_not_drawn_again(record, monkeypatch)
     before = viewer.draw()
 
     def refuse(*arguments, **options):
-        raise AssertionError("a sprite was drawn anew")
+        raise AssertionError("a shape was drawn anew")
 
-    monkeypatch.setattr("mars2d.view.painter.brushes.layer", refuse)
+    monkeypatch.setattr("mars2d.view.brushes.draw_on", refuse)
     assert np.array_equal(pixels(viewer.draw()), pixels(before))
 
 
 def test_what_is_kept_has_a_bound(record):
     viewer = Viewer(record)
     painter = viewer.window._painter
-    painter._sprites, painter._areas = Sprites(20_000), Sprites(500_000)
-    most = 0, 0
+    painter._sprites = Sprites(20_000)
+    most = 0
     for _ in range(30):
         viewer.play(2, draw=True)
-        most = max(most[0], painter._sprites.kept), max(most[1], painter._areas.kept)
-    assert 15_000 < most[0] <= 20_000
-    assert 300_000 < most[1] <= 500_000
+        most = max(most, painter._sprites.kept)
+    assert 15_000 < most <= 20_000
