@@ -81,6 +81,10 @@ def main() -> None:
     parser.add_argument("--json", type=Path, metavar="OUT.json", help="write the figures")
     parser.add_argument("--seconds", type=float, default=3.0, help="for each")
     arguments = parser.parse_args()
+    if unknown := {*arguments.scene} - {*SCENES}:
+        parser.error(f"no scene {', '.join(sorted(unknown))}; there are {', '.join(SCENES)}")
+    if not arguments.seconds > 0:
+        parser.error(f"--seconds {arguments.seconds:g}: expected more than 0")
     columns = [*STAGES, "rest"]
     print(f"{'':<12}{'step':>12}", *(f"{name:>8}" for name in columns))
     rows = {}

@@ -69,7 +69,7 @@ def _kernel() -> Finding:
 
     why = reason_without()
     if why:
-        text = f"not in use: {why}; large teams take several times longer"
+        text = f"not in use, and large teams take several times longer: {why}"
         return Finding("kernel", text, ok=None)
     return Finding("kernel", "compiled, and rounds as numpy does")
 

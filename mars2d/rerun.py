@@ -76,9 +76,16 @@ def _departs(row: int, world: World, record: Record) -> Departure | None:
 
 
 def _contacts_depart(first: Record, second: Record) -> Departure | None:
-    """Return where the contacts of two records with the same poses part."""
+    """Return where the contacts of two records with the same poses part.
+
+    A run that was broken off may have contacts of a control step that its rows do not tell of: what
+    went on touching has its start as their time, the end of the rows.
+    """
     end = first.time[-1] if len(first) else 0.0
-    mine, other = (r.contacts[r.contacts["time"] <= end] for r in (first, second))
+    mine, other = (
+        r.contacts[(r.contacts["time"] < end) | ((r.contacts["time"] == end) & r.contacts["began"])]
+        for r in (first, second)
+    )
     same = len(mine) == len(other) and all(
         np.array_equal(mine[name], other[name]) for name in CONTACT.names or ()
     )

@@ -194,6 +194,12 @@ def test_a_difference_is_noise_where_the_yardstick_varied_by_as_much():
     assert not Change.between(row(1e-3), row(13 * np.array(STEADY))).noise
 
 
+def test_between_a_quick_and_a_slow_machine_smaller_differences_are_noise():
+    slow = tuple(1.6 * np.array(STEADY))
+    assert Change.between(row(1e-3), row(1.6 * 1.12e-3, bare=slow)).noise
+    assert not Change.between(row(1e-3), row(1.6 * 1.5e-3, bare=slow)).noise
+
+
 def test_a_difference_is_noise_where_the_rounds_disagree():
     scattered = 1e-3 * np.array([0.3, 2.0, 0.4, 1.5, 2.1, 0.5, 1.8, 0.6, 1.7])
     assert Change.between(row(1e-3), row(scattered)).noise

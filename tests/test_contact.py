@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mars2d import Holonomic, Robot, Scenario, Unicycle, World
+from mars2d import Holonomic, LawError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.contact import CONTACT, ContactLog, Solved, episodes
 from mars2d.props import Box, Puck
+from mars2d.rerun import rerun
 
 
 def world_of(*robots: Robot, **fields) -> World:
@@ -407,3 +408,23 @@ def test_without_forces_contacts_are_reported_without_impulses(physics):
     assert contacts["speed"][0] == pytest.approx(0.4)
     assert not contacts["impulse"].any()
     assert (contacts["normal"] == pytest.approx(np.tile([1.0, 0], (len(contacts), 1)))) is True
+
+
+def test_a_run_that_a_law_breaks_off_in_contact_can_be_run_again():
+    """The last control step may have been done, and its contacts noted, but no row written."""
+
+    def law(world):
+        if world.iteration == 60:
+            raise RuntimeError("no more")
+        return [[0.3, 0.3], [0.0, 0.0]]
+
+    scenario = Scenario(
+        robots=[Robot(pose=(0, 0, 0)), Robot(pose=(0.6, 0, np.pi))], sampling_time=0.05
+    )
+    world = World(scenario, law)
+    with pytest.raises(LawError) as error:
+        while True:
+            world.step()
+    record = error.value.record
+    assert record.contacts["time"][-1] == record.time[-1]
+    assert rerun(record) is None

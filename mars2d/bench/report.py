@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
-from math import inf
+from math import inf, log
 from pathlib import Path
 from statistics import fmean, median
 from typing import Any, NamedTuple
@@ -97,11 +97,13 @@ class Change(NamedTuple):
         """Compare two rows round by round: the same ones do the same control steps.
 
         The difference may be chance where it is no more than `ALIKE`, or than the yardstick itself
-        varied in either run, or where the middle half of the rounds holds 1.
+        varied in either run, or a third as much as between them (what is quicker for one loop is
+        not as much so for another), or where the middle half of the rounds holds 1.
         """
         ratios = [a / b for a, b in zip(old.shares, new.shares, strict=False)]
         low, ratio, high = np.percentile(ratios, [25, 50, 75]).tolist()
-        chance = 1 + max(ALIKE, old.unrest, new.unrest)
+        between = abs(log(median(old.yardsticks) / median(new.yardsticks))) / 3
+        chance = 1 + max(ALIKE, old.unrest, new.unrest, between)
         return cls(ratio, noise=low <= 1 <= high or max(ratio, 1 / ratio) <= chance)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -64,6 +65,8 @@ def _check_output(path: Path | None) -> None:
         raise InputError(f"--save {path}: there is no folder {path.parent}")
     if path.is_dir():
         raise InputError(f"--save {path}: this is a folder")
+    if not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise InputError(f"--save {path}: can't be written: permission denied")
 
 
 def _measured(names: list[str], effort: suite.Effort, old: Report | None, *, say: bool) -> Report:

@@ -199,6 +199,8 @@ def _check_record(path: Path) -> None:
         print(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
     departure = rerun(record)
     if departure is not None:
-        where = f"row {departure.row}, by {departure.distance:.3g} m or rad"
+        far = departure.distance
+        what = f"by {far:.3g} m or rad" if far else "in efforts or contacts"
+        where = f"row {departure.row}, {what}"
         raise Mars2dError(f"{path}: run again, it departs at {where}")
     print("run again   bit-identical")
