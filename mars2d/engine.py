@@ -64,11 +64,19 @@ ALIKE = 2.0
 Groups can't wait for one of which a robot is thrown further than was thought possible.
 """
 
-SLACK_OF_GROUPS = 2.5
-"""What `SLACK` is for them: more than what such robots throw each other on to, in turns."""
+SLACK_OF_GROUPS = 1.5
+"""What `SLACK` is for them, with equal masses: two that squeeze a third give it no more."""
 
 NOTHING = np.empty(0, dtype=CONTACT)
 NOTHING.flags.writeable = False
+
+
+def thrown(ratio: float) -> float:
+    """Return how many times as fast as both were a body may be thrown, head-on without loss.
+
+    ratio: of the masses of what throws it and its own, at least 1.
+    """
+    return (3 * ratio - 1) / (ratio + 1)
 
 
 class Engine(Motion):
@@ -108,9 +116,9 @@ class Engine(Motion):
             return None
         if reason_without():
             return None
-        alike = self._mass.max() <= ALIKE * self._mass.min()
-        self._groups = self.n // GROUP if alike and self.n >= 2 * GROUP else 1
-        slack = SLACK if self._groups == 1 else SLACK_OF_GROUPS
+        ratio = float(self._mass.max() / self._mass.min())
+        self._groups = self.n // GROUP if ratio <= ALIKE and self.n >= 2 * GROUP else 1
+        slack = SLACK if self._groups == 1 else SLACK_OF_GROUPS * thrown(ratio)
         self._placed, self._reach = np.zeros(self.n, dtype=bool), np.zeros(self.n)
         arrays = {
             "state": self._state, "slipping": self._slipping, "placed": self._placed,
