@@ -33,6 +33,7 @@ __all__ = [
     "NOTHING",
     "NUMBER",
     "Quantity",
+    "Scanner",
     "Sensor",
     "Sighting",
     "Surroundings",
@@ -401,3 +402,13 @@ class Sensor(Live):
     def lost(self, reading: Any) -> Any:
         """Return what is read in place of a reading that has not arrived."""
         return self._imperfection.lost(reading)
+
+
+class Scanner(Sensor):
+    """The base of sensors that look many ways at once: a robot reads what a team of one reads."""
+
+    stays: ClassVar[bool] = True
+
+    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Any:
+        """Return the perfect reading now."""
+        return self.read_all([robot], world, [rng])[0]

@@ -12,7 +12,7 @@ import numpy as np
 from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
 from mars2d.scene import Scene, color_of, faded, rgb
-from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Sensor, Surroundings, sight_angle
+from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Scanner, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -23,7 +23,7 @@ NEAR, FAR = 0.07, 0.085
 """Between these shares of the range the line of pixels is drawn."""
 
 
-class LineCamera(Sensor):
+class LineCamera(Scanner):
     """Sees the colours of robots, props and obstacles in a line of pixels, over an angle.
 
     The reading is an array (pixels, 3) of red, green and blue, from 0 to 1; nan where nothing is
@@ -32,7 +32,6 @@ class LineCamera(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (COLOR,)
-    stays: ClassVar[bool] = True
 
     pixels: int = integer(default=64, low=1, high=100_000, doc="how many pixels it has")
     range: float = number(default=10.0, above=0, high=1e6, unit="m", doc="how far it sees")
@@ -42,10 +41,6 @@ class LineCamera(Sensor):
     def angles(self) -> Float:
         """The bearings of the pixels (pixels,): radians from the sensor's heading."""
         return beam_angles(self.pixels, self.field_of_view)
-
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:
-        """Return the colours (pixels, 3) of what the pixels see."""
-        return np.asarray(self.read_all([robot], world, [rng])[0])
 
     def read_all(
         self,

@@ -12,7 +12,7 @@ import numpy as np
 from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings, sight_angle
+from mars2d.sensors.base import DISTANCE, Float, Quantity, Scanner, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["RangeFinder"]
 
 
-class RangeFinder(Sensor):
+class RangeFinder(Scanner):
     """Measures along evenly spaced beams how far it is to the first surface: a laser scanner.
 
     The reading is an array (beams,), metres from the sensor; inf where nothing is within range. The
@@ -34,7 +34,6 @@ class RangeFinder(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (DISTANCE,)
-    stays: ClassVar[bool] = True
 
     beams: int = integer(default=180, low=1, high=100_000, doc="how many beams it has")
     range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")
@@ -44,10 +43,6 @@ class RangeFinder(Sensor):
     def angles(self) -> Float:
         """The bearings of the beams (beams,): radians from the sensor's heading."""
         return beam_angles(self.beams, self.field_of_view)
-
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:
-        """Return the distances (beams,) to the first surfaces."""
-        return np.asarray(self.read_all([robot], world, [rng])[0])
 
     def read_all(
         self,

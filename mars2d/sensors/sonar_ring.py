@@ -13,7 +13,7 @@ from mars2d.bearings import beam_angles
 from mars2d.description import integer, number
 from mars2d.geometry import Point
 from mars2d.scene import Scene, faded
-from mars2d.sensors.base import DISTANCE, Float, Quantity, Sensor, Surroundings, sight_angle
+from mars2d.sensors.base import DISTANCE, Float, Quantity, Scanner, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.views import RobotView
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["SonarRing"]
 
 
-class SonarRing(Sensor):
+class SonarRing(Scanner):
     """Measures in each of several cones how far it is to the nearest surface: a ring of sonars.
 
     The reading is an array (sonars,), metres from the sensor; inf where nothing is within range.
@@ -36,7 +36,6 @@ class SonarRing(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (DISTANCE,)
-    stays: ClassVar[bool] = True
 
     sonars: int = integer(default=8, low=1, high=10_000, doc="how many sonars it has")
     cone: float = sight_angle(default=0.35, doc="the angle in which each one hears")
@@ -47,10 +46,6 @@ class SonarRing(Sensor):
     def angles(self) -> Float:
         """The bearings of the cones' axes (sonars,): radians from the sensor's heading."""
         return beam_angles(self.sonars, self.field_of_view)
-
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:
-        """Return the distances (sonars,) to the nearest surfaces."""
-        return np.asarray(self.read_all([robot], world, [rng])[0])
 
     def read_all(
         self,
