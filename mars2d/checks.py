@@ -17,6 +17,7 @@ from mars2d.geometry import Outline, Point
 
 __all__ = [
     "LIMIT",
+    "function",
     "identifier",
     "instance",
     "law",
@@ -185,15 +186,22 @@ def unique(name: str, keys: list[str]) -> None:
 
 def law(name: str, value: object, subject: str) -> object:
     """Check a control law: something to be called with one argument, the `subject`."""
+    return function(name, value, subject)
+
+
+def function(name: str, value: object, *arguments: str) -> object:
+    """Check something to be called with these arguments, described in words."""
+    count = {1: "one argument", 2: "two arguments"}[len(arguments)]
+    words = " and ".join(arguments)
     if not callable(value):
-        raise wrong(name, value, f"a function of one argument, {subject}")
+        raise wrong(name, value, f"a function of {count}, {words}")
     try:
-        inspect.signature(value).bind(None)
+        inspect.signature(value).bind(*arguments)
     except TypeError:
         given = inspect.signature(value)
         called = getattr(value, "__name__", type(value).__name__)
         raise InputError(
-            f"{name} = {called}{given}: expected a function of exactly one argument, {subject}"
+            f"{name} = {called}{given}: expected a function of exactly {count}, {words}"
         ) from None
     except ValueError:
         pass  # a built-in without a signature: the first call will tell

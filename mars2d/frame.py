@@ -29,6 +29,7 @@ __all__ = [
     "props",
     "robots",
     "sensors",
+    "theory",
     "trail_colors",
     "trails",
     "workspace",
@@ -49,9 +50,18 @@ def addons(frame: Frame) -> Scene:
     scene = Scene()
     for addon in frame.scenario.addons:
         with called(f"add-on {addon.key!r}", addon.draw):
-            addon.draw(scene, frame.time)
+            addon.draw(scene, frame)
     if frame.draw_addons is not None:
         frame.draw_addons(scene)
+    return scene
+
+
+def theory(frame: Frame) -> Scene:
+    """Return what the add-ons draw of what theory predicts."""
+    scene = Scene()
+    for addon in frame.scenario.addons:
+        with called(f"add-on {addon.key!r}", addon.theory):
+            addon.theory(scene, frame)
     return scene
 
 

@@ -27,7 +27,7 @@ __all__ = ["MOVING", "from_description", "to_scenario", "to_value"]
 
 
 def from_description(value: Any) -> Any:
-    """Return a description as dicts, lists, text and numbers; a law is its name."""
+    """Return a description as dicts, lists, text and numbers; of a function there is its name."""
     if isinstance(value, Description):
         kind = type(value)
         if kind.__module__.startswith("mars2d."):
@@ -44,7 +44,7 @@ def from_description(value: Any) -> Any:
         return [from_description(item) for item in value]
     if value is None or isinstance(value, (bool, int, float, str)):
         return value
-    return getattr(value, "__name__", type(value).__name__)
+    return {"function": getattr(value, "__name__", type(value).__name__)}
 
 
 def _fields(value: Description, kind: type[Description] | None = None) -> dict[str, Any]:
@@ -97,9 +97,10 @@ MOVING = ("drive", "joint", "shape")
 def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
     """Return the scenario that `from_description` made plain, and what is missing of it.
 
-    Laws do not come back, nor does what is of the user's own: sensors and joints are left out, of
-    add-ons only the obstacles stay. A prop is replaced by a Solid of its shape, mass and surface, a
-    shape by the parts that were drawn of it, a drive by a Unicycle, a neighbourhood by Everyone.
+    Laws do not come back, nor do parts that hold a function of the user's own, nor what is of the
+    user's own itself: sensors and joints are left out, of add-ons only the obstacles stay. A prop
+    is replaced by a Solid of its shape, mass and surface, a shape by the parts that were drawn of
+    it, a drive by a Unicycle, a neighbourhood by Everyone.
     All are named in the second value, as ``sensor Eyes``. A part that a package ships by an entry
     point comes back where that package is installed, else it is named with it, as
     ``sensor Lidar (of the package acme)``. Raises InputError for anything that is no scenario.
@@ -126,11 +127,17 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         return [item for item in items if item is not _LEFT_OUT]
     if not isinstance(value, dict):
         return value
+    if _is_function(value):
+        return value["function"]
     if "from" in value:
         shipped = _shipped(value, missing)
         if shipped is not None:
             return shipped
     unread = ("type", "own", "from", "controller")
+    functions = [v["function"] for k, v in value.items() if k not in unread and _is_function(v)]
+    if functions and "own" not in value:
+        missing.append(f"{value['type']}, with its function {functions[0]}")
+        return _LEFT_OUT
     fields = {k: _to_description(v, missing) for k, v in value.items() if k not in unread}
     if "own" in value:
         package = f" (of the package {value['from']})" if "from" in value else ""
@@ -139,6 +146,10 @@ def _to_description(value: Any, missing: list[str]) -> Any:
             missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
         return _stand_in(value["own"], fields)
     return _kinds()[value["type"]](**fields)
+
+
+def _is_function(value: Any) -> bool:
+    return isinstance(value, dict) and [*value] == ["function"]
 
 
 def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:

@@ -104,6 +104,7 @@ class World:
         delay = scenario.command_delay + self._drives.dead_time
         self._delay = DelayLine(delay, scenario.sampling_time, n)
         self._still = np.zeros((2, n))
+        self._held: list[int] = []
         self._command = _frozen(self._still)
         self._take_state()
         self._velocity_at = -1, self._pose
@@ -250,6 +251,11 @@ class World:
             if not self._stepping:
                 self._close()
 
+    def hold(self, robot: int) -> None:
+        """Let a robot stand still from now on, whatever its law says: it is out of the game."""
+        if self.scenario.robots[robot] and robot not in self._held:
+            self._held.append(robot)
+
     def break_off(self, why: str) -> None:
         """End the experiment at once, without a last control step, as after an error."""
         if not self.over:
@@ -342,6 +348,9 @@ class World:
         if self._watch is not None:
             self._watch(self)
         wanted = self._ask_laws() if command is None else self._given(command)
+        if self._held:
+            wanted = wanted.copy()
+            wanted[:, self._held] = 0.0
         self._command = _frozen(self._saturate(wanted))
         self._write_row()
         self._check_workspace()

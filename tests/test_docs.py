@@ -42,7 +42,8 @@ from mars2d.views import PropView, RobotView
 
 ROOT = Path(__file__).parents[1]
 SENSORS = sorted((ROOT / "docs" / "sensors").glob("*.md"))
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS]
+EXPERIMENTS = sorted((ROOT / "docs" / "experiments").glob("*.md"))
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS, *EXPERIMENTS]
 EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
 SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest -n auto']
@@ -163,7 +164,7 @@ def without_display() -> dict[str, str]:
     return environment | {"SDL_VIDEODRIVER": "dummy", "PYTHONIOENCODING": "utf-8"}
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda p: str(p.relative_to(ROOT)))
 def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("docs/pictures").mkdir(parents=True)
@@ -247,12 +248,52 @@ def pictures(document: Path) -> list[str]:
     return [Path(name).name for name in shown]
 
 
+def films(document: Path) -> list[str]:
+    """The names of the films that a document shows."""
+    shown = re.findall(r"!\[[^\]]+\]\(([^)]+\.gif)\)", prose(document))
+    return [Path(name).name for name in shown]
+
+
 def test_pictures_are_small_and_each_is_shown():
     files = list((ROOT / "docs" / "pictures").iterdir())
-    shown = {name for document in DOCUMENTS for name in pictures(document)}
+    shown = {name for document in DOCUMENTS for name in pictures(document) + films(document)}
     assert {file.name for file in files} == shown
     for file in files:
-        assert file.stat().st_size < 200_000, file.name
+        assert file.stat().st_size < (600_000 if file.suffix == ".gif" else 200_000), file.name
+
+
+EXPERIMENT_PAGES = [path for path in EXPERIMENTS if path.stem != "index"]
+
+
+@pytest.mark.parametrize("page", EXPERIMENT_PAGES, ids=lambda path: path.stem)
+def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(page):
+    name = page.stem
+    titles = re.findall(r"^## (.+)$", prose(page), flags=re.M)
+    assert titles == ["Run it", "The law", "Theory and measurement", "Exercises", "Model answer"]
+    assert f"{name}.png" in pictures(page)
+    assert films(page) == [f"{name}.gif"]
+    commands = [block.text for block in blocks(page) if block.language == "console"]
+    assert any(f"mars2d run {name} " in command for command in commands)
+    answer = ROOT / "examples" / "solutions" / f"{name}.py"
+    assert f"(../../examples/solutions/{name}.py)" in page.read_text(encoding="utf-8")
+    experiment = open_experiment(answer)
+    assert experiment.checks is not None
+
+
+@pytest.mark.parametrize("page", EXPERIMENT_PAGES, ids=lambda path: path.stem)
+def test_the_model_answer_of_an_experiment_checks_itself(page):
+    answer = open_experiment(ROOT / "examples" / "solutions" / f"{page.stem}.py")
+    predictions = answer.predictions(mars2d.run(answer.scenario, control=answer.control))
+    assert predictions
+    assert [p for p in predictions if not p.ok] == []
+
+
+def test_each_experiments_page_is_in_their_index():
+    index = (ROOT / "docs" / "experiments" / "index.md").read_text(encoding="utf-8")
+    for page in EXPERIMENT_PAGES:
+        assert f"({page.name})" in index
+    for answer in (ROOT / "examples" / "solutions").glob("*.py"):
+        assert answer.stem in {page.stem for page in EXPERIMENT_PAGES}, answer.name
 
 
 # -- tables -----------------------------------------------------------------------------------
@@ -346,7 +387,8 @@ def test_each_drive_prop_and_joint_is_documented(document):
 
 def test_each_example_that_checks_itself_is_a_lesson_with_a_picture():
     courses = ("contact.md", "communication.md", "information.md", "sensing.md")
-    text = "\n".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in courses)
+    pages = [*(ROOT / "docs" / name for name in courses), *EXPERIMENTS]
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
     lessons = set(re.findall(r"^mars2d run (\w+) .*--figure", text, flags=re.M))
     checked = {name for name, path in examples().items() if open_experiment(path).checks}
     assert checked <= lessons
@@ -404,6 +446,7 @@ def test_every_module_stands_in_the_picture_of_the_design():
     parts |= {f"{path.parent.name}/" for path in package.glob("*/__init__.py")}
     parts.discard("examples/")
     folders = "bodies|sensors|addons|props|joints|commands|view|output|testing|bench|kernel"
+    folders += "|maps|paper"
     named = set(re.findall(rf"\w+\.py|\b(?:{folders})/", picture))
     assert named - {"base.py"} == parts
 

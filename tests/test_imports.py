@@ -38,8 +38,9 @@ LAYERS = [
         "usercode",
         "quantity",
         "neighbours",
+        "tessellation",
     },
-    {"shapes", "bearings", "imperfection", "reckoning", "kernel"},
+    {"shapes", "bearings", "imperfection", "reckoning", "kernel", "maps"},
     {"bodies", "sensors", "addons", "animation", "joints", "rigid"},
     {"props", "robot", "tie", "starts", "encounter", "sensing"},
     {"looks", "limits", "floor", "tethers"},
@@ -63,6 +64,7 @@ LAYERS = [
     {"view"},
     {"output"},
     {"session", "doctor"},
+    {"paper"},
     {"commands"},
     {"cli"},
     {"__main__"},
@@ -72,7 +74,7 @@ LAYERS = [
 LAZY_UPWARDS = {("record", "output")}
 """Record.plot draws by output.figure, which it imports when it is called."""
 
-HEAVY = {"pygame", "matplotlib", "scipy", "shapely"}
+HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "svgelements", "yaml"}
 
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if "examples" not in path.parts)
 

@@ -6,6 +6,17 @@ from mars2d.addons.communication import Communication
 from mars2d.addons.estimate import Estimate
 from mars2d.addons.floor import Floor
 from mars2d.addons.map import Map
+from mars2d.addons.theory import Theory
 from mars2d.burst import Burst
 
-__all__ = ["HOOKS", "Addon", "Beacon", "Burst", "Communication", "Estimate", "Floor", "Map"]
+__all__ = [
+    "HOOKS",
+    "Addon",
+    "Beacon",
+    "Burst",
+    "Communication",
+    "Estimate",
+    "Floor",
+    "Map",
+    "Theory",
+]

@@ -17,6 +17,7 @@ from mars2d.registry import snake_case
 from mars2d.scene import Scene
 
 if TYPE_CHECKING:
+    from mars2d.frame import Frame
     from mars2d.world import World
 
 __all__ = ["HOOKS", "Addon", "Color"]
@@ -86,8 +87,14 @@ class Addon(Live):
         """
         return None
 
-    def draw(self, scene: Scene, time: float) -> None:
-        """Draw what its fields and the time [s] alone say: so replays of a record show it, too."""
+    def draw(self, scene: Scene, frame: Frame) -> None:
+        """Draw what its fields and the frame alone say: so replays of a record show it, too.
+
+        frame: one instant: its time [s], pose (3, n), the path (k, 3, n) before, its scenario.
+        """
+
+    def theory(self, scene: Scene, frame: Frame) -> None:
+        """Draw what theory predicts of a frame; it is shown by a key, and by ``--theory``."""
 
     def on_start(self, world: World) -> None:
         """Do what is to be done once, before the first step."""

@@ -16,6 +16,7 @@ from mars2d.geometry import Outline, Point
 from mars2d.scene import Scene, color, faded
 
 if TYPE_CHECKING:
+    from mars2d.frame import Frame
     from mars2d.world import World
 
 __all__ = ["Beacon"]
@@ -107,12 +108,12 @@ class Beacon(Addon):
         """Take the world's clock."""
         self._world = world
 
-    def draw(self, scene: Scene, time: float) -> None:
+    def draw(self, scene: Scene, frame: Frame) -> None:
         """Draw a lamp with its name, and its path."""
         if self.path is not None:
             ring = [*self.path, self.path[0]] if len(self.path) > 2 else self.path
             scene.line(ring, stroke=faded(self.color, 0.6), width=1.0, style=":")
-        here = self.where(time)
+        here = self.where(frame.time)
         scene.circle(here, 0.0, fill=faded(self.color, 0.3), pixels=9.0)
         scene.circle(here, 0.0, fill=self.color, stroke="#444444", width=1.0, pixels=4.5)
         scene.text((here[0], here[1]), f"{self.key}\n", size=10.0, anchor="above", halo="#ffffff")

@@ -9,6 +9,7 @@ from mars2d.commands.base import (
     FILM_FPS,
     SHORT_FILM,
     add_run_arguments,
+    add_theory,
     has_display,
     make_folder,
     print_examples,
@@ -33,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument("name", nargs="?", metavar="NAME", help="an example; else all are listed")
     add_run_arguments(parser)
+    add_theory(parser)
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -45,7 +47,9 @@ def execute(arguments: argparse.Namespace) -> None:
     known = examples()
     if name not in known:
         raise InputError(f"{name}: there is no such example{nearest(name, known)}")
-    experiment = open_experiment(known[name])
+    experiment = open_experiment(
+        known[name], {"animation.theory": True} if arguments.theory else None
+    )
     try:
         if not arguments.headless and has_display():
             record = show(experiment, None, arguments.seed)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
-from mars2d.commands.base import add_speed, has_display
+from mars2d.commands.base import add_speed, add_theory, has_display
 from mars2d.errors import InputError
 from mars2d.record import load
 
@@ -16,6 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument("record", type=Path, metavar="RECORD", help="a saved run, .npz")
     add_speed(parser)
+    add_theory(parser)
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -27,5 +29,8 @@ def execute(arguments: argparse.Namespace) -> None:
         raise InputError(NO_DISPLAY.replace("run it", "run the experiment"))
     from mars2d.view.show import show_record
 
+    if arguments.theory:
+        animation = record.scenario.animation.replace(theory=True)
+        record = replace(record, scenario=record.scenario.replace(animation=animation))
     speed = arguments.speed
     show_record(record, record.scenario.animation.playback_speed if speed is None else speed)

@@ -14,6 +14,7 @@ from mars2d.commands.base import (
     add_options,
     add_run_arguments,
     add_speed,
+    add_theory,
     check_outputs,
     film_speed,
     has_display,
@@ -48,6 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
     add("--at", type=_times, metavar="T1,T2,...", help="snapshots at these times in the figure")
     add("--video", type=Path, metavar="OUT", help="make a film: .gif, .mp4")
+    add_theory(parser)
     add("--json", action="store_true", help="print the outcome as one line of JSON")
 
 

@@ -253,6 +253,8 @@ def paint_row(ax: Axes, record: Record, row: int) -> None:
     drawn = scenario.animation.show_real_shape
     scale = min(max(radius / 9, 0.1), 0.75) if drawn else 0.75 if few else 0.5
     paint(seen.addons(now), ax, scale=0.75)
+    if scenario.animation.theory:
+        paint(seen.theory(now), ax, scale=0.75)
     if scenario.animation.wake:
         trails = seen.trails(now)
         if not few:

@@ -31,6 +31,7 @@ KEYS = (
     Key("sensors", ("s",), ("S",), "sensors on and off; of a selected robot, its own alone"),
     Key("messages", ("m",), ("M",), "messages between robots on and off"),
     Key("forces", ("c",), ("C",), "forces of contacts, and who slips, on and off"),
+    Key("theory", ("y",), ("Y",), "what theory predicts, where add-ons draw it, on and off"),
     Key("select", ("tab",), ("Tab",), "select the next robot or prop: the force on it over time"),
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
     Key("restart", ("r",), ("R",), "restart from time 0"),

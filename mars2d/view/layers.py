@@ -19,10 +19,15 @@ class Layers:
     sensors: bool = True
     messages: bool = True
     forces: bool = False
+    theory: bool = False
 
     @classmethod
     def of(cls, animation: Animation, *, sensors: bool = True) -> Self:
         """Return what an experiment starts with."""
         return cls(
-            grid=animation.grid, trails=animation.wake, sensors=sensors, forces=animation.forces
+            grid=animation.grid,
+            trails=animation.wake,
+            sensors=sensors,
+            forces=animation.forces,
+            theory=animation.theory,
         )

@@ -23,7 +23,7 @@ class Artist:
 
     size: pixels. camera: where the world lies, by default so that the workspace fits. status: what
     the chip beside the time says, as "10x". footer: reserve the strip for the message at the end.
-    grid, trails, forces: None does as the scenario's animation says.
+    grid, trails, forces, theory: None does as the scenario's animation says.
     """
 
     def __init__(
@@ -35,6 +35,7 @@ class Artist:
         grid: bool | None = None,
         trails: bool | None = None,
         forces: bool | None = None,
+        theory: bool | None = None,
         footer: bool = True,
         status: str = "",
     ) -> None:
@@ -47,7 +48,8 @@ class Artist:
         self.painter.ui = self.layout.ui
         self._stage = Stage(self.painter)
         self._camera = camera
-        self._sensors, self._grid, self._trails, self._forces = sensors, grid, trails, forces
+        self._sensors, self._grid, self._trails = sensors, grid, trails
+        self._forces, self._theory = forces, theory
         self._status = Status(status) if status else None
 
     def paint(self, frame: Frame, surface: pygame.Surface | None = None) -> pygame.Surface:
@@ -60,6 +62,7 @@ class Artist:
             trails=animation.wake if self._trails is None else self._trails,
             sensors=self._sensors,
             forces=animation.forces if self._forces is None else self._forces,
+            theory=animation.theory if self._theory is None else self._theory,
         )
         camera = self._camera or fitted(frame.scenario, self.size, self.layout)
         self._stage.draw(surface, frame, camera, layers, self.layout.plot)
@@ -86,6 +89,7 @@ def paint_frame(
     grid: bool | None = None,
     trails: bool | None = None,
     forces: bool | None = None,
+    theory: bool | None = None,
     footer: bool = True,
 ) -> pygame.Surface:
     """Return the picture of one frame: title, time, iteration, message and all. See `Artist`."""
@@ -96,6 +100,7 @@ def paint_frame(
         grid=grid,
         trails=trails,
         forces=forces,
+        theory=theory,
         footer=footer,
     )
     return artist.paint(frame)

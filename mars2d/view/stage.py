@@ -87,6 +87,8 @@ class Stage:
         elif layers.sensors:
             self.painter.paint(surface, scenes.sensors(frame).shapes, camera)
         moving = scenes.addons(frame)
+        if layers.theory:
+            moving.extend(scenes.theory(frame).shapes)
         if layers.messages:
             moving.extend(messages(frame).shapes)
         for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):

@@ -87,6 +87,7 @@ class Window:
             "sensors": lambda: self._toggle("sensors"),
             "messages": lambda: self._toggle("messages"),
             "forces": lambda: self._toggle("forces"),
+            "theory": lambda: self._toggle("theory"),
             "select": self._select_next,
             "fit": self._fit,
             "restart": self.player.restart,

@@ -1,0 +1,37 @@
+"""Make the films of the experiments' pages, docs/pictures/NAME.gif.
+
+python docs/make_experiments.py [NAME ...]
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import mars2d
+from mars2d.output.film import film_rows, save_film
+
+DOCS = Path(__file__).parent
+SIZE = (480, 400)
+FPS = 12
+SECONDS = 8
+"""How long a film is."""
+
+
+def make(name: str) -> Path:
+    """Run an example and make its film of it."""
+    record = mars2d.run(name)
+    speed = float(record.time[-1]) / SECONDS
+    rows = film_rows(record.time, speed, FPS)
+    path = DOCS / "pictures" / f"{name}.gif"
+    frames = (record.frame(row) for row in rows)
+    save_film(frames, path, fps=FPS, size=SIZE, status=f"{speed:.3g}x")
+    return path
+
+
+if __name__ == "__main__":
+    pages = (DOCS / "experiments").glob("*.md")
+    names = sys.argv[1:] or sorted(page.stem for page in pages if page.stem != "index")
+    for each in names:
+        film = make(each)
+        print(f"{film.name}: {film.stat().st_size // 1000} kB")

@@ -1,0 +1,42 @@
+"""What a formula predicts, drawn over what happens."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from mars2d.addons.base import Addon
+from mars2d.checks import function
+from mars2d.description import entry
+from mars2d.scene import Scene
+
+if TYPE_CHECKING:
+    from mars2d.frame import Frame
+
+__all__ = ["Theory"]
+
+
+def _drawing(name: str, value: object) -> object:
+    return function(name, value, "the scene", "the frame")
+
+
+class Theory(Addon):
+    """Draws what a formula predicts, by a function of the experiment's own.
+
+    >>> def circle(scene, frame):
+    ...     scene.circle((0, 0), 1.91, stroke="#7b3294")
+    >>> Theory(circle).key
+    'theory'
+
+    The function gets the scene to draw on and the frame, one instant: its time [s], pose (3, n) and
+    the path (k, 3, n) before. It is called where theory is shown: after the key Y in a window, or
+    with ``--theory``; it neither changes the run nor is it kept in a saved record.
+    """
+
+    draws: Callable[[Scene, Frame], Any] = entry(
+        check=_drawing, kw_only=False, doc="the function: draws(scene, frame)"
+    )
+
+    def theory(self, scene: Scene, frame: Frame) -> None:
+        """Draw what the function draws."""
+        self.draws(scene, frame)

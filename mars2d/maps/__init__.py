@@ -1,0 +1,1 @@
+"""Outlines from files: drawings, occupancy grids, images, shapes of the world."""

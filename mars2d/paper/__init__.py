@@ -1,0 +1,1 @@
+"""The figures of the MARS paper, regenerated, each beside what paper and theory say."""
