@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mars2d.addons import Theory
 from mars2d.animation import Animation
 from mars2d.contact import CONTACT
 from mars2d.errors import LawError
@@ -14,6 +15,13 @@ from mars2d.scenario import Scenario
 from mars2d.sensors import Proximity
 
 
+VIOLET = "#7b3294"
+
+
+def predicted(scene, frame):
+    scene.circle((0, 0), 1.0, fill=VIOLET)
+
+
 def circling_scenario(sampling_time=0.1, rows=100, robots=2, animation=None, **changes):
     robot = Robot(diameter=0.6, sensors=[Proximity(range=1.0)])
     return Scenario(
@@ -22,6 +30,7 @@ def circling_scenario(sampling_time=0.1, rows=100, robots=2, animation=None, **c
         sampling_time=sampling_time,
         stop_time=rows * sampling_time,
         animation=animation or Animation(),
+        addons=[Theory(predicted)],
         **changes,
     )
 

@@ -159,6 +159,7 @@ def share(pixels, color):
 
 FORCE = (0xA3, 0x00, 0x3C)
 SLIP = (0xFF, 0xC2, 0x0A)
+VIOLET = (0x7B, 0x32, 0x94)
 
 
 def has(seen, color):
@@ -236,6 +237,7 @@ def test_layers_begin_as_the_animation_says(open_window):
         "sensors": True,
         "messages": True,
         "forces": False,
+        "theory": False,
     }
     before = window.still()
     window.press("g")
@@ -255,6 +257,19 @@ def test_c_shows_forces_and_who_slips(open_window):
     assert window.shows(lambda seen: has(seen, FORCE) and has(seen, SLIP))
     window.press("c")
     window.until(lambda s: not s["layers"]["forces"])
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+
+
+@needs_screen
+def test_y_shows_what_theory_predicts(open_window):
+    window = open_window(0)
+    before = window.still()
+    assert not has(before, VIOLET)
+    window.press("y")
+    window.until(lambda s: s["layers"]["theory"])
+    assert window.shows(lambda seen: has(seen, VIOLET))
+    window.press("y")
+    window.until(lambda s: not s["layers"]["theory"])
     assert window.shows(lambda seen: differing(before, seen) == 0)
 
 
