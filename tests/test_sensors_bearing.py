@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, LawError, Robot, Scenario, World, addons, sensors
+from mars2d import InputError, LawError, Robot, Scenario, World, addons, frame, sensors
 from mars2d.addons import Map
 from mars2d.bearings import hold_missing, sighted
 from mars2d.geometry import wrap
@@ -410,8 +410,29 @@ def test_a_beacon_moves_along_its_path_by_arc_length():
 
 def test_a_path_that_is_written_closed_or_crosses_itself_is_the_same_path():
     ring = [(0, 0), (1, 1), (1, 0), (0, 1)]
-    closed = addons.Beacon(path=[*ring, ring[0]], speed=1)
-    assert closed.path == addons.Beacon(path=ring, speed=1).path == tuple(ring)
+    written = addons.Beacon(path=[*ring, ring[0]], speed=1)
+    plain = addons.Beacon(path=ring, speed=1)
+    for now in (0.0, 1.0, 2.7, 4.0, 4.9, 11.0):
+        assert written.where(now) == plain.where(now)
+
+
+def test_a_beacon_on_an_open_path_goes_along_it_once_and_stays_at_its_end():
+    beacon = addons.Beacon(path=[(0, 0), (3, 0), (3, 4)], speed=2.0, closed=False)  # 3.5 s
+    assert beacon.where(1.5) == (3, 0)
+    assert beacon.where(2.5) == (3, 2)
+    assert beacon.where(3.5) == beacon.where(3.75) == beacon.where(7.0) == (3, 4)
+    lap = addons.Beacon(path=[(0, 0), (1, 0), (1, 1), (0, 0)], speed=1.0, closed=False)
+    assert lap.where(2.0) == (1, 1)
+    assert lap.where(100.0) == (0, 0)
+
+
+def test_the_path_of_a_beacon_is_drawn_open_where_it_ends():
+    corners = [(1, 0), (2, 0), (2, 1)]
+    for closed, drawn in ((True, [*corners, corners[0]]), (False, corners)):
+        world = World(Scenario(addons=[addons.Beacon(path=corners, speed=1, closed=closed)]))
+        scene = frame.addons(world.frame)
+        (line,) = [shape for shape in scene.shapes if isinstance(shape, Line)]
+        assert line.points.tolist() == [list(corner) for corner in drawn]
 
 
 def test_the_world_knows_where_a_moving_beacon_is_now():
@@ -434,7 +455,7 @@ def test_a_beacon_is_drawn_where_it_is_now_with_its_name():
     for _ in range(10):
         world.step()
     scene = Scene()
-    world.addons.ferry.draw(scene, world.time)
+    world.addons.ferry.draw(scene, world.frame)
     lamp = [shape for shape in scene.shapes if isinstance(shape, Circle)][-1]
     assert lamp.center == pytest.approx((1.5, 0))
     assert lamp.fill == "#00ff00"
@@ -454,6 +475,7 @@ def test_beacons_are_in_nobodys_way():
         ({}, "expected where it stands"),
         ({"at": (0, 0), "path": [(0, 0), (1, 0)], "speed": 1}, "expected where it stands"),
         ({"at": (0, 0), "speed": 1}, r"Beacon.speed = 1: a beacon with `at` stands"),
+        ({"at": (0, 0), "closed": False}, r"Beacon.closed = False: it is said of a `path`"),
         ({"path": [(0, 0), (1, 0)]}, r"Beacon.speed is missing"),
         ({"path": [(0, 0)], "speed": 1}, r"Beacon.path = .*: expected at least two points"),
         ({"path": [(0, 0), (0, 0), (1, 1)], "speed": 1}, r"points 0 and 1 are the same"),

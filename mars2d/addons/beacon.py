@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from mars2d import checks
 from mars2d.addons.base import Addon
-from mars2d.description import entry, number, wrong
+from mars2d.description import entry, flag, number, wrong
 from mars2d.errors import InputError
 from mars2d.geometry import Outline, Point
 from mars2d.scene import Scene, color, faded
@@ -30,17 +30,15 @@ def _at(name: str, value: object) -> Point | None:
 
 
 def _path(name: str, value: object) -> Outline | None:
-    """Check a closed path: unlike an obstacle it may cross itself."""
+    """Check a path: unlike an obstacle it may cross itself, and end where it starts."""
     if value is None:
         return None
     if not isinstance(value, (tuple, list)) or len(value) < 2:
         raise wrong(name, value, PATH)
     points = [checks.point(f"{name}[{i}]", item) for i, item in enumerate(value)]
-    if len(points) > 2 and points[0] == points[-1]:
-        points.pop()  # a ring written closed
-    for i, (a, b) in enumerate(zip(points, [*points[1:], points[0]], strict=True)):
+    for i, (a, b) in enumerate(pairwise(points)):
         if a == b:
-            raise InputError(f"{name}: points {i} and {(i + 1) % len(points)} are the same, {a}")
+            raise InputError(f"{name}: points {i} and {i + 1} are the same, {a}")
     return tuple(points)
 
 
@@ -52,17 +50,21 @@ class Beacon(Addon):
 
     Its name is that of the add-on. It is in nobody's way. Give `at`, or else `path` and `speed`: it
     starts at the first point of the path, goes to the next, and from the last one back to the
-    first, on and on. Two points are a way there and back.
+    first, on and on. Two points are a way there and back. With ``closed=False`` it goes along the
+    path once, and stays at its last point.
     """
 
     at: Point | None = entry(
         default=None, check=_at, unit="m", kw_only=False, doc="where it stands"
     )
     path: Outline | None = entry(
-        default=None, check=_path, unit="m", doc="the corners of the closed path that it moves on"
+        default=None, check=_path, unit="m", doc="the corners of the path that it moves on"
     )
     speed: float | None = number(
         default=None, above=0, high=1e3, unit="m/s", optional=True, doc="its speed along the path"
+    )
+    closed: bool = flag(
+        default=True, doc="whether it goes on from the path's end to its start; else it stays there"
     )
     color: str = entry(default="#e8c500", check=color, doc="its colour, for pictures only")
 
@@ -79,20 +81,30 @@ class Beacon(Addon):
             raise InputError(
                 f"Beacon.speed = {self.speed:g}: a beacon with `at` stands; to move it needs `path`"
             )
+        if self.path is None and not self.closed:
+            raise InputError("Beacon.closed = False: it is said of a `path`, and there is none")
 
     def where(self, time: float) -> Point:
         """Return where it is at a time [s]: (x, y) in metres."""
         if self.path is None or self.speed is None:
             assert self.at is not None
             return self.at
-        corners = [*self.path, self.path[0]]
+        corners = self._way(self.path)
         sides = [hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(corners)]
         ends = [0.0, *accumulate(sides)]
-        gone = (self.speed * time) % ends[-1]
+        gone = self.speed * time
+        if not self.closed and gone >= ends[-1]:
+            return corners[-1]
+        gone %= ends[-1]
         k = min(bisect_right(ends, gone) - 1, len(sides) - 1)
         (ax, ay), (bx, by) = corners[k], corners[k + 1]
         share = (gone - ends[k]) / sides[k]
         return ax + share * (bx - ax), ay + share * (by - ay)
+
+    def _way(self, path: Outline) -> Outline:
+        """Return the corners that it passes in one round: of a closed path the first one again."""
+        ring = self.closed and path[0] != path[-1]
+        return (*path, path[0]) if ring else path
 
     @property
     def position(self) -> Point:
@@ -111,8 +123,8 @@ class Beacon(Addon):
     def draw(self, scene: Scene, frame: Frame) -> None:
         """Draw a lamp with its name, and its path."""
         if self.path is not None:
-            ring = [*self.path, self.path[0]] if len(self.path) > 2 else self.path
-            scene.line(ring, stroke=faded(self.color, 0.6), width=1.0, style=":")
+            way = self._way(self.path) if len(self.path) > 2 else self.path
+            scene.line(way, stroke=faded(self.color, 0.6), width=1.0, style=":")
         here = self.where(frame.time)
         scene.circle(here, 0.0, fill=faded(self.color, 0.3), pixels=9.0)
         scene.circle(here, 0.0, fill=self.color, stroke="#444444", width=1.0, pixels=4.5)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
-import warnings
 from collections.abc import Sequence
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,19 +12,17 @@ from numpy.typing import NDArray
 
 from mars2d import checks
 from mars2d.addons.base import Addon, Color
-from mars2d.description import entry, real, wrong
+from mars2d.description import entry, wrong
 from mars2d.errors import InputError
 from mars2d.geometry import Outline, Point, bounds_of, inside_polygon
-from mars2d.scene import LARGEST_IMAGE, Scene, rgb
+from mars2d.picture import Bounds, Picture, Pixels, image_bounds, image_file, read_picture
+from mars2d.scene import Scene, rgb
 from mars2d.scene import color as checked_color
 
 if TYPE_CHECKING:
     from mars2d.world import World
 
 __all__ = ["Floor"]
-
-Pixels = NDArray[np.uint8]
-Bounds = tuple[float, float, float, float]
 
 
 def _optional(name: str, value: object) -> str | None:
@@ -54,37 +50,6 @@ def _patches(name: str, value: object) -> tuple[tuple[Outline, str], ...]:
     return tuple(patches)
 
 
-def _image(name: str, value: object) -> str | None:
-    if value is None:
-        return None
-    if not isinstance(value, (str, os.PathLike)) or Path(value).suffix.lower() != ".png":
-        raise wrong(name, value, "the name of a file that ends in .png, or None")
-    return str(value)
-
-
-def _bounds(name: str, value: object) -> Bounds | None:
-    expected = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"
-    if value is None:
-        return None
-    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 4:
-        xmin, xmax, ymin, ymax = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
-        far = max(map(abs, (xmin, xmax, ymin, ymax))) > checks.LIMIT
-        if xmin < xmax and ymin < ymax and not far:
-            return xmin, xmax, ymin, ymax
-    raise wrong(name, value, expected)
-
-
-class _Picture:
-    """Pixels (rows, columns, 3) that all copies of an add-on share; they can't be written."""
-
-    def __init__(self, pixels: Pixels) -> None:
-        pixels.flags.writeable = False
-        self.pixels = pixels
-
-    def __deepcopy__(self, memo: object) -> _Picture:
-        return self
-
-
 class Floor(Addon):
     """The colours of the floor, for the sensor Ground: one everywhere, an image on it, patches.
 
@@ -104,9 +69,12 @@ class Floor(Addon):
     patches: Sequence[tuple[Outline, str]] = entry(
         default=(), check=_patches, unit="m", doc="polygons and their colours: (outline, colour)"
     )
-    image: str | None = entry(default=None, check=_image, doc="a file with the floor's picture")
+    image: str | None = entry(default=None, check=image_file, doc="a file with the floor's picture")
     bounds: Bounds | None = entry(
-        default=None, check=_bounds, unit="m", doc="where the image lies: (xmin, xmax, ymin, ymax)"
+        default=None,
+        check=image_bounds,
+        unit="m",
+        doc="where the image lies: (xmin, xmax, ymin, ymax)",
     )
     color: str | None = entry(
         default=None, check=_optional, doc="the colour of the rest; None: what lies beneath"
@@ -130,10 +98,9 @@ class Floor(Addon):
         return self._picture.pixels
 
     @cached_property
-    def _picture(self) -> _Picture:
+    def _picture(self) -> Picture:
         assert self.image is not None
-        path = Path(self.image)
-        return _picture_of(path, _version(path), self.color)
+        return read_picture("Floor.image", self.image, self.color)
 
     @cached_property
     def _colored(self) -> tuple[tuple[Bounds, NDArray[np.float64], Color], ...]:
@@ -191,63 +158,3 @@ class Floor(Addon):
                 scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), f"{name} is not there")
         for outline, color in self.patches:
             scene.polygon(outline, fill=color)
-
-
-def _read_png(name: str, path: Path) -> Pixels:
-    """Return the pixels (rows, columns, 4) of a PNG. Raises InputError, beginning with `name`."""
-    from PIL import Image, UnidentifiedImageError
-
-    quiet = warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning)
-    try:
-        with quiet, Image.open(path, formats=["PNG"]) as image:
-            problem = _problem(image.size, image.mode)
-            if not problem:
-                return np.asarray(image.convert("RGBA"))
-    except FileNotFoundError:
-        where = "" if path.is_absolute() else f" in {Path.cwd()}"
-        beside = f"Path(__file__).with_name({path.name!r})"
-        problem = f"there is no such file{where}; beside the experiment it is {beside}"
-    except UnidentifiedImageError:
-        problem = "this is no PNG image"
-    except Image.DecompressionBombError:
-        problem = f"it has more than {LARGEST_IMAGE} x {LARGEST_IMAGE} pixels"
-    except (OSError, SyntaxError, ValueError) as error:
-        problem = f"can't be read, {error}"
-    raise InputError(f"{name} = {str(path)!r}: {problem}")
-
-
-def _problem(size: tuple[int, int], mode: str) -> str:
-    """Return why an image of this size [pixels] and kind can't be used, or nothing."""
-    if max(size) > LARGEST_IMAGE:
-        most = f"{LARGEST_IMAGE} x {LARGEST_IMAGE}"
-        return f"{size[0]} x {size[1]} pixels; expected at most {most}"
-    if mode.startswith(("I", "F")):
-        return "16 bits a channel; save it with 8 bits a channel"
-    return ""
-
-
-def _version(path: Path) -> tuple[str, int, int]:
-    """Return what tells a file from any other, and from itself when it has been changed."""
-    try:
-        known = path.stat()
-        return str(path.absolute()), known.st_mtime_ns, known.st_size
-    except (OSError, ValueError):  # it can't be read either, which says why
-        return "", 0, 0
-
-
-@lru_cache(maxsize=4)
-def _picture_of(path: Path, version: tuple[str, int, int], color: str | None) -> _Picture:  # noqa: ARG001
-    """Return an image over a colour; it is read anew when the file has another version."""
-    return _Picture(_over(_read_png("Floor.image", path), color))
-
-
-def _over(pixels: Pixels, color: str | None) -> Pixels:
-    """Return pixels (rows, columns, 4) laid over a colour, or over white, (rows, columns, 3)."""
-    result = pixels[..., :3].copy()
-    opacity = pixels[..., 3]
-    clear = opacity < 255
-    if clear.any():
-        share = opacity[clear][:, None] / 255
-        beneath = 255 * np.array(rgb(color or "#ffffff"))
-        result[clear] = np.round(result[clear] * share + beneath * (1 - share))
-    return result

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from itertools import pairwise
+from pathlib import Path
 
 from mars2d.addons.base import Addon
 from mars2d.checks import outlines, polylines
-from mars2d.description import entry
+from mars2d.description import entry, wrong
 from mars2d.errors import InputError
 from mars2d.geometry import Outline
+from mars2d.usercode import file_beside
 
 __all__ = ["Map"]
 
@@ -28,6 +31,8 @@ class Map(Addon):
 
     >>> len(Map(walls=[[(0, 0), (4, 0), (4, 3)]]).obstacles())
     2
+
+    `Map.from_file` reads them from drawings, occupancy grids and images.
 
     Concave outlines stay concave. A contact has the product of both surfaces' friction and
     restitution: with 1 and 1 here, those of the robot decide.
@@ -54,3 +59,35 @@ class Map(Addon):
     def obstacles(self) -> tuple[Outline, ...]:
         """Return the outlines, and the walls piece by piece."""
         return (*self.outlines, *(piece for wall in self.walls for piece in pairwise(wall)))
+
+    @classmethod
+    def from_file(
+        cls,
+        path: str | Path | Map,
+        *,
+        layers: str | Sequence[str] | None = None,
+        unit: str | float | None = None,
+        resolution: float | None = None,
+        tolerance: float = 0.02,
+        at: Sequence[float] | None = None,
+    ) -> Map:
+        """Return the map in a file: .dxf, .svg, .yaml of ROS, .pgm, .png, .jpg, .geojson, .wkt.
+
+        path: a relative one is looked for beside the file that calls this, then in the current
+        folder; a Map is returned as it is. layers: names or patterns such as ``*WALL*``, a list
+        or one text with commas. unit: ``mm``, ``cm``, ``m``, ``in``, ``ft`` or metres, in place of
+        what the file says. resolution: metres per pixel of an image. tolerance: how far corners
+        may move to have fewer of them [m]. at: (x, y) [m] of the lower left corner of what
+        is read. Raises InputError, which names the file and what was expected.
+        """
+        if isinstance(path, Map):
+            return path
+        if not isinstance(path, (str, Path)):
+            raise wrong("Map.from_file(path)", path, "the name of a file, as 'plan.dxf'")
+        from mars2d import maps
+
+        caller = Path(sys._getframe(1).f_code.co_filename)
+        file = file_beside(Path(path), caller, "a map", maps.SUFFIXES)
+        drawing = maps.read(file, layers=layers, unit=unit, resolution=resolution, at=at)
+        found = maps.obstacles(drawing, tolerance)
+        return cls(found.outlines, walls=found.walls)

@@ -1,0 +1,152 @@
+"""Densities: how much each place of the workspace matters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d import checks
+from mars2d.addons.base import Addon
+from mars2d.description import entry
+from mars2d.errors import InputError
+from mars2d.geometry import Outline, bounds_of
+from mars2d.picture import Bounds, Picture, image_bounds, image_file, read_picture
+from mars2d.scene import Scene, color, rgb
+from mars2d.tessellation import Weight, density_at
+from mars2d.usercode import called
+
+if TYPE_CHECKING:
+    from mars2d.world import World
+
+__all__ = ["Density"]
+
+Float = NDArray[np.float64]
+
+RASTER = 200
+"""How many places along the workspace's longer side are looked at, for checks and pictures."""
+
+OPACITY = 0.5
+"""That of the densest place, in pictures."""
+
+
+def _function(name: str, value: object) -> object:
+    return None if value is None else checks.function(name, value, "x [m]", "y [m]")
+
+
+class Density(Addon, Weight):
+    """How much each place matters: a function phi(x, y) >= 0, or an image, dark where it is dense.
+
+    >>> hill = Density(lambda x, y: 1 / (1 + x * x + y * y))
+    >>> hill.of([[0, 2], [0, 0]]).tolist()
+    [1.0, 0.2]
+
+    A Voronoi in the same scenario weighs its cells by it. The function gets arrays x and y of
+    coordinates [m], and returns an array as long. An image covers `bounds`, its upper row at ymax:
+    black is 1 and white is 0, between the middles of its pixels it changes evenly, and beyond it
+    there is nothing. It is a PNG as that of `Floor`. In a picture denser places are darker.
+    """
+
+    function: Callable[[Float, Float], Any] | None = entry(
+        default=None, check=_function, kw_only=False, doc="phi(x, y) >= 0 of arrays [m]"
+    )
+    image: str | None = entry(default=None, check=image_file, doc="a PNG file, dark where dense")
+    bounds: Bounds | None = entry(
+        default=None, check=image_bounds, unit="m",
+        doc="where the image lies: (xmin, xmax, ymin, ymax)",
+    )  # fmt: skip
+    color: str = entry(default="#3f4a5a", check=color, doc="where it is dense, for pictures only")
+
+    def _validate(self) -> None:
+        super()._validate()
+        if (self.function is None) == (self.image is None):
+            raise InputError(
+                "Density: expected either a function, as Density(lambda x, y: 1 + x * x), or an "
+                "image, as Density(image='city.png', bounds=(-5, 5, -5, 5))"
+            )
+        if (self.image is None) != (self.bounds is None):
+            problem = "is missing" if self.bounds is None else "is given without an image"
+            raise InputError(
+                f"Density.bounds {problem}: where the image lies, (xmin, xmax, ymin, ymax) [m]"
+            )
+
+    def of(self, points: Any) -> Float:
+        """Return the density (k,) at points (2, k) [m].
+
+        Raises InputError where a function returns what is negative, not finite or of another shape.
+        """
+        places = np.asarray(points, dtype=float)
+        return self._of_image(*places) if self.function is None else self._of_function(places)
+
+    def _of_function(self, places: Float) -> Float:
+        def phi(x: Float, y: Float) -> Any:
+            assert self.function is not None
+            with called("Density.function", self.function):
+                return self.function(x, y)
+
+        return density_at("Density.function", phi, places)
+
+    def _of_image(self, x: Float, y: Float) -> Float:
+        assert self.bounds is not None
+        xmin, xmax, ymin, ymax = self.bounds
+        dark = self._picture.darkness
+        rows, columns = dark.shape
+        across = np.clip((x - xmin) / (xmax - xmin) * columns - 0.5, 0, columns - 1)
+        down = np.clip((ymax - y) / (ymax - ymin) * rows - 0.5, 0, rows - 1)
+        i, j = down.astype(int), across.astype(int)
+        below, right = np.minimum(i + 1, rows - 1), np.minimum(j + 1, columns - 1)
+        u, v = across - j, down - i
+        upper = dark[i, j] * (1 - u) + dark[i, right] * u
+        lower = dark[below, j] * (1 - u) + dark[below, right] * u
+        inside = (xmin <= x) & (x <= xmax) & (ymin <= y) & (y <= ymax)
+        return np.asarray(np.where(inside, upper * (1 - v) + lower * v, 0.0))
+
+    @cached_property
+    def _picture(self) -> Picture:
+        assert self.image is not None
+        return read_picture("Density.image", self.image)
+
+    def on_start(self, world: World) -> None:
+        """Look at it everywhere in the workspace, so that what is wrong with it is said at once."""
+        xmin, xmax, ymin, ymax = world.bounds
+        corners = ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
+        _, _, phi = self._raster(world.workspace or corners)
+        if not phi.any():
+            what = "Density.function" if self.image is None else f"Density.image = {self.image!r}"
+            raise InputError(f"{what}: it is 0 everywhere in the workspace")
+
+    def _raster(self, area: Outline) -> tuple[Bounds, NDArray[np.bool_], Float]:
+        """Return an area's bounds, which of a raster's places lie in it, and the density there."""
+        import shapely
+
+        xmin, xmax, ymin, ymax = bounds = bounds_of(area)
+        step = max(xmax - xmin, ymax - ymin) / RASTER
+        columns, rows = (max(round(side / step), 1) for side in (xmax - xmin, ymax - ymin))
+        at_x = xmin + (np.arange(columns) + 0.5) * (xmax - xmin) / columns
+        at_y = ymax - (np.arange(rows) + 0.5) * (ymax - ymin) / rows
+        x, y = np.meshgrid(at_x, at_y)
+        inside = shapely.contains_xy(shapely.Polygon(area), x, y)
+        return bounds, inside, self.of([x[inside], y[inside]])
+
+    def paint(self, scene: Scene, area: Outline) -> None:
+        """Add it to the floor of an area, the darker the denser.
+
+        Where an image can't be read any more, as that of a record may be, its name is written.
+        """
+        xmin, xmax, ymin, ymax = bounds_of(area)
+        try:
+            bounds, inside, phi = self._raster(area)
+        except InputError:
+            if self.image is None:
+                raise
+            name = Path(self.image).name
+            scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), f"{name} is not there")
+            return
+        pixels = np.zeros((*inside.shape, 4), dtype=np.uint8)
+        pixels[..., :3] = np.round(255 * np.array(rgb(self.color)))
+        pixels[inside, 3] = np.round(255 * OPACITY * phi / max(phi.max(), 1e-300))
+        scene.image(pixels, bounds)

@@ -1,0 +1,73 @@
+"""What the robots' sensors could see, drawn in figures and films as well."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from mars2d.addons.base import Addon
+from mars2d.description import entry, wrong
+from mars2d.errors import InputError, nearest
+from mars2d.scene import Scene, faded
+
+if TYPE_CHECKING:
+    from mars2d.frame import Frame
+    from mars2d.sensors.base import Sensor
+    from mars2d.world import World
+
+__all__ = ["FieldOfView"]
+
+FAR = 50.0
+"""A field that reaches further is drawn only if its sensor is named, metres."""
+
+
+def _names(name: str, value: object) -> tuple[str, ...] | None:
+    if value is None:
+        return None
+    listed = isinstance(value, (tuple, list)) and all(isinstance(item, str) for item in value)
+    if not listed or not value:
+        raise wrong(name, value, "a list of sensors' names, as ['range_bearing'], or None")
+    return tuple(value)  # type: ignore[arg-type]
+
+
+def _field(sensor: Sensor) -> tuple[float, float] | None:
+    """Return range [m] and angle [rad] of a sensor that has both."""
+    reach, angle = getattr(sensor, "range", None), getattr(sensor, "field_of_view", None)
+    return None if reach is None or angle is None else (float(reach), float(angle))
+
+
+class FieldOfView(Addon):
+    """Draws the fields of view of the robots' sensors: sectors of their range and angle.
+
+    >>> FieldOfView(sensors=["ahead"]).key
+    'field_of_view'
+
+    A sensor has the name under which laws find it in ``robot.sense``. The window shows all sensors
+    and what they read; this add-on draws the fields alone, in figures, films and replays too. Walls
+    do not cut them off.
+    """
+
+    sensors: tuple[str, ...] | None = entry(
+        default=None, check=_names, doc="the sensors' names; None: all that see up to 50 m"
+    )
+
+    def on_start(self, world: World) -> None:
+        """Look the sensors up; raise InputError if no robot has such a one."""
+        carried = [sensor for robot in world.scenario.robots for sensor in robot.sensors]
+        known = sorted({sensor.key for sensor in carried if _field(sensor)})
+        if not known:
+            raise InputError("FieldOfView: no robot has a sensor with range and field_of_view")
+        for name in self.sensors or ():
+            if name not in known:
+                expected = f"the names of sensors with a field_of_view{nearest(name, known)}"
+                raise wrong("FieldOfView.sensors", list(self.sensors or ()), expected)
+
+    def draw(self, scene: Scene, frame: Frame) -> None:
+        """Draw a sector, or a disc, for each sensor of each robot."""
+        scenario = frame.scenario
+        for robot, pose, color in zip(scenario.robots, frame.pose.T, scenario.colors, strict=True):
+            fill, stroke = faded(color, 0.08), faded(color, 0.45)
+            for sensor in robot.sensors:
+                reach, angle = _field(sensor) or (0.0, 0.0)
+                shown = reach <= FAR if self.sensors is None else sensor.key in self.sensors
+                if reach and shown:
+                    scene.sector(sensor.placed(pose), reach, angle, fill=fill, stroke=stroke)

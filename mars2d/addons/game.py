@@ -1,0 +1,311 @@
+"""Games of pursuit: who hunts whom, what a capture is, who has won."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.addons.base import Addon
+from mars2d.description import entry, real, wrong
+from mars2d.errors import InputError, likely, nearest
+from mars2d.scene import Scene, faded
+
+if TYPE_CHECKING:
+    from mars2d.frame import Frame
+    from mars2d.record import Record
+    from mars2d.scenario import Scenario
+    from mars2d.world import World
+
+__all__ = ["Capture", "Game", "Outcome"]
+
+Float = NDArray[np.float64]
+Role = tuple[str, tuple[str | int, ...]]
+Teams = tuple[tuple[int, ...], tuple[int, ...]]
+"""The indices of the hunters, and of the evaders."""
+
+CONTACT = "contact"
+ROLES = "two roles, that of the hunters first, as {'pursuer': ['red'], 'evader': ['blue']}"
+MARK = "#222222"
+"""The colour of what marks a caught robot."""
+
+
+class Capture(NamedTuple):
+    """One capture: when [s], and the indices of the robot that caught and of the caught one."""
+
+    time: float
+    hunter: int
+    evader: int
+
+
+class Outcome(NamedTuple):
+    """How a game stands: its captures in order, each role's score, the role that has won, or None.
+
+    The hunters' score is how many they have caught, that of the evaders how many are free.
+    """
+
+    captures: tuple[Capture, ...]
+    score: dict[str, int]
+    winner: str | None
+
+    @property
+    def capture_time(self) -> float:
+        """When the last one was caught, seconds; nan where one is free, or nobody was caught."""
+        caught = bool(self.captures) and list(self.score.values())[1] == 0
+        return self.captures[-1].time if caught else float("nan")
+
+
+def _roles(name: str, value: object) -> tuple[Role, ...]:
+    """Check two roles with their robots, a dict or, as in a file, pairs; keep them as pairs."""
+    pairs = list(value.items()) if isinstance(value, Mapping) else value
+    if not isinstance(pairs, (list, tuple)) or len(pairs) != 2:
+        raise wrong(name, value, ROLES)
+    for pair in pairs:
+        if not isinstance(pair, (list, tuple)) or len(pair) != 2 or not isinstance(pair[0], str):
+            raise wrong(name, value, ROLES)
+    if pairs[0][0] == pairs[1][0]:
+        raise InputError(f"{name}: two roles are called {pairs[0][0]!r}")
+    return tuple((role, _robots(f"{name}[{role!r}]", robots)) for role, robots in pairs)
+
+
+def _robots(name: str, value: object) -> tuple[str | int, ...]:
+    expected = "a list of robots, by their names or indices, as ['red', 'blue']"
+    if not isinstance(value, (list, tuple, range)):
+        raise wrong(name, value, expected)
+    if not value:
+        raise wrong(name, value, f"{expected}; nobody has this role")
+    for item in value:
+        if isinstance(item, bool) or not isinstance(item, (str, int, np.integer)):
+            raise wrong(name, value, expected)
+    return tuple(item if isinstance(item, str) else int(item) for item in value)
+
+
+def _capture(name: str, value: object) -> str | float:
+    expected = "'contact', or a distance between two robots' poses, > 0 [m]"
+    if isinstance(value, str):
+        if value != CONTACT:
+            raise wrong(name, value, expected + likely(value, [CONTACT]))
+        return value
+    distance = real(name, value, expected)
+    if distance <= 0:
+        raise wrong(name, value, expected)
+    return distance
+
+
+class Game(Addon):
+    """A game of pursuit: robots of the first role hunt those of the second.
+
+    >>> game = Game({"pursuer": ["red"], "evader": ["blue"]}, capture=0.4)
+    >>> game.roles
+    (('pursuer', ('red',)), ('evader', ('blue',)))
+
+    An evader is caught when a hunter touches it, or comes as near as `capture`; that is looked at
+    once a control step. It stands still from then on, and the game goes on with the others. The
+    hunters have won when all are caught, which ends the experiment; the evaders, when one is free
+    at the stop time. Whatever else ends an experiment leaves a game undecided.
+
+    Laws find how it stands in `score`, `winner`, `caught`, `free` and `capture_times`. Of a record,
+    `outcome` says the same, also of a loaded one.
+    """
+
+    roles: tuple[Role, ...] = entry(
+        check=_roles, kw_only=False, doc="the robots of both roles by name or index, hunters first"
+    )
+    capture: str | float = entry(
+        default=CONTACT, check=_capture, unit="m",
+        doc="'contact', or how near a hunter's pose has to come to an evader's",
+    )  # fmt: skip
+
+    # -- how it stands, in a world -----------------------------------------------------------------
+
+    def on_start(self, world: World) -> None:
+        """Find the robots; raise InputError if one is not there, or has two roles."""
+        self._teams = self.teams(world.scenario)
+        self._captures: tuple[Capture, ...] = ()
+        self._time_is_over = False
+
+    def on_step(self, world: World) -> None:
+        """Look who is caught; end the experiment when all are, or when time is over."""
+        now = self._found(
+            (self._teams[0], self.free), np.array([world.time]), world.pose[None], world.contacts
+        )
+        self._captures += now
+        for capture in now:
+            world.hold(capture.evader)
+        self._time_is_over = world.iteration >= world.scenario.last_iteration
+        if self.winner is not None:
+            world.stop(self._message(world))
+
+    @property
+    def captures(self) -> tuple[Capture, ...]:
+        """The captures so far, in order."""
+        return self._captures
+
+    @property
+    def caught(self) -> tuple[int, ...]:
+        """The indices of the caught robots, in order."""
+        return tuple(capture.evader for capture in self._captures)
+
+    @property
+    def capture_times(self) -> tuple[float, ...]:
+        """When they were caught, seconds."""
+        return tuple(capture.time for capture in self._captures)
+
+    @property
+    def hunters(self) -> tuple[int, ...]:
+        """The indices of the hunters."""
+        return self._teams[0]
+
+    @property
+    def free(self) -> tuple[int, ...]:
+        """The indices of the evaders that are not caught."""
+        caught = self.caught
+        return tuple(evader for evader in self._teams[1] if evader not in caught)
+
+    @property
+    def score(self) -> dict[str, int]:
+        """How many the hunters have caught, and how many evaders are free, by role."""
+        return self._outcome(self._teams, self._captures, self._time_is_over).score
+
+    @property
+    def winner(self) -> str | None:
+        """The role that has won, or None."""
+        return self._outcome(self._teams, self._captures, self._time_is_over).winner
+
+    def _message(self, world: World) -> str:
+        """Return why the game is over, in words."""
+        names = [str(robot.name) for robot in world.scenario.robots]
+        free, evaders = self.free, len(self._teams[1])
+        if free:
+            who = f"{len(free)} of {evaders} were" if evaders > 1 else f"{names[free[0]]} was"
+            return f"{who} not caught in {world.time:g} s: {self.winner} wins"
+        time, hunter, evader = self._captures[-1]
+        whom = f"{names[evader]}, the last of {evaders}," if evaders > 1 else names[evader]
+        return f"{names[hunter]} catches {whom} after {round(time, 2):g} s: {self.winner} wins"
+
+    # -- how it stands, by a record ----------------------------------------------------------------
+
+    def outcome(self, record: Record) -> Outcome:
+        """Return captures, score and winner of a record, loaded or just made."""
+        teams, end = self.teams(record.scenario), record.time.max(initial=0.0)
+        contacts = record.contacts[record.contacts["time"] <= end]
+        captures = self._found(teams, record.time, record.pose, contacts)
+        return self._outcome(teams, captures, len(record) > record.scenario.last_iteration)
+
+    def teams(self, scenario: Scenario) -> Teams:
+        """Return the indices of the hunters and of the evaders in a scenario.
+
+        Raises InputError for a robot that is not there, or that stands in the roles twice.
+        """
+        names = [str(robot.name) for robot in scenario.robots]
+        taken: dict[int, str] = {}
+        teams = []
+        for role, robots in self.roles:
+            team = []
+            for robot in robots:
+                index = _index(f"{type(self).__name__}.roles[{role!r}]", robot, names)
+                if index in taken:
+                    twice = f"is {taken[index]} and {role}"
+                    twice = f"stands twice as {role}" if taken[index] == role else twice
+                    raise InputError(f"{type(self).__name__}.roles: {names[index]} {twice}")
+                taken[index] = role
+                team.append(index)
+            teams.append(tuple(team))
+        return teams[0], teams[1]
+
+    def _outcome(self, teams: Teams, captures: tuple[Capture, ...], time_is_over: bool) -> Outcome:
+        (hunting, _), (evading, _) = self.roles
+        free = len(teams[1]) - len(captures)
+        winner = hunting if not free else evading if time_is_over else None
+        return Outcome(captures, {hunting: len(captures), evading: free}, winner)
+
+    def _found(
+        self, teams: Teams, time: Float, pose: Float, contacts: NDArray[np.void]
+    ) -> tuple[Capture, ...]:
+        """Return the first capture of each evader, in order.
+
+        time: (T,). pose: (T, 3, n). contacts: all in that time, in order.
+        """
+        hunters, evaders = teams
+        if self.capture == CONTACT:
+            touches = _touches(contacts, hunters, evaders)
+        else:
+            touches = _approaches(time, pose, hunters, evaders, float(self.capture))
+        first: dict[int, Capture] = {}
+        for touch in touches:
+            first.setdefault(touch.evader, touch)
+        return tuple(first.values())
+
+    # -- how it looks ------------------------------------------------------------------------------
+
+    def draw(self, scene: Scene, frame: Frame) -> None:
+        """Cross out the caught ones, with the time of their capture; draw the hunters' reach."""
+        scenario, teams = frame.scenario, self.teams(frame.scenario)
+        pose = np.concatenate([frame.path, frame.pose[None]])
+        time = np.arange(len(pose)) * np.float64(scenario.sampling_time)
+        found = self._found(teams, time, pose, frame.contact_log())
+        if self.capture != CONTACT:
+            for hunter in teams[0]:
+                color = faded(scenario.colors[hunter], 0.5)
+                scene.circle(frame.pose[:2, hunter], float(self.capture), stroke=color)
+        for capture in found:
+            self._mark(scene, frame, capture)
+
+    def _mark(self, scene: Scene, frame: Frame, capture: Capture) -> None:
+        """Cross out a caught robot, and write the time on the side away from who caught it."""
+        radius = frame.scenario.robots[capture.evader].radius
+        x, y = frame.pose[:2, capture.evader].tolist()
+        scene.circle((x, y), 1.25 * radius, stroke=MARK, width=1.2)
+        for side in (-1, 1):
+            arm = 1.25 * radius
+            scene.line(
+                [(x - arm, y - side * arm), (x + arm, y + side * arm)], stroke=MARK, width=1.2
+            )
+        below = y <= frame.pose[1, capture.hunter]
+        scene.text(
+            (x, y + (-1.25 if below else 1.25) * radius),
+            f"\n{round(capture.time, 1):g} s" if below else f"{round(capture.time, 1):g} s\n",
+            color=MARK, size=10.0, halo="#ffffff",
+        )  # fmt: skip
+
+
+def _index(name: str, robot: str | int, names: list[str]) -> int:
+    """Return the index of a robot that is named, or given by its index."""
+    if isinstance(robot, str):
+        if robot not in names:
+            raise InputError(f"{name}: there is no robot {robot!r}{nearest(robot, names)}")
+        return names.index(robot)
+    if not 0 <= robot < len(names):
+        raise InputError(f"{name}: there is no robot {robot}; they are 0 to {len(names) - 1}")
+    return robot
+
+
+def _touches(
+    contacts: NDArray[np.void], hunters: tuple[int, ...], evaders: tuple[int, ...]
+) -> list[Capture]:
+    """Return who touches whom, in the order of the contacts."""
+    a, b = contacts["a"], contacts["b"]
+    hunts = np.isin(a, hunters) & np.isin(b, evaders)
+    hunted = np.isin(b, hunters) & np.isin(a, evaders)
+    return [
+        Capture(float(contacts["time"][k]), int(h), int(e))
+        for k in np.flatnonzero(hunts | hunted)
+        for h, e in [(a[k], b[k]) if hunts[k] else (b[k], a[k])]
+    ]
+
+
+def _approaches(
+    time: Float, pose: Float, hunters: tuple[int, ...], evaders: tuple[int, ...], reach: float
+) -> list[Capture]:
+    """Return when each evader first has a hunter within reach, and the nearest one, in order."""
+    found = []
+    for evader in evaders:
+        x, y = (pose[:, k, list(hunters)] - pose[:, k, evader, None] for k in (0, 1))
+        distance = np.hypot(x, y)
+        rows = np.flatnonzero(distance.min(axis=1) <= reach)
+        if len(rows):
+            nearest_one = hunters[int(distance[rows[0]].argmin())]
+            found.append(Capture(float(time[rows[0]]), nearest_one, evader))
+    return sorted(found, key=lambda capture: capture.time)

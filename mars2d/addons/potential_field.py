@@ -1,0 +1,148 @@
+"""The artificial potential field of an experiment: waypoints attract, obstacles repel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from mars2d.addons.base import Addon
+from mars2d.description import number, text, wrong
+from mars2d.errors import InputError, nearest
+from mars2d.geometry import Outline, Point
+from mars2d.potential import Goals, Potential
+from mars2d.scene import Scene, faded
+
+if TYPE_CHECKING:
+    from mars2d.frame import Frame
+    from mars2d.scenario import Scenario
+    from mars2d.world import World
+
+__all__ = ["PotentialField"]
+
+PREDICTED = "#7b3294"
+"""The colour of what theory predicts."""
+
+CROSS = 0.4
+"""Half the width of a cross at a local minimum, metres."""
+
+
+class PotentialField(Addon):
+    """A potential in which each robot's next waypoint attracts it, and obstacles repel.
+
+    >>> PotentialField(reach=0.5).reach
+    0.5
+
+    Laws ask ``world.addons.potential_field.force(robot)``. Obstacles are those of the scenario,
+    goals those of the add-on Waypoints; `of` gives the `Potential` that they make, `plan` where it
+    leads without a run. Drawn as theory are where the force on one robot points, and crosses at
+    the local minima in which robots are caught.
+
+    Source: Khatib, Int. Journal of Robotics Research 5(1), 1986.
+    """
+
+    attraction: float = number(
+        default=1.0, above=0, high=1e6, unit="1/s", doc="k_p, of the way to the waypoint"
+    )
+    far: float = number(
+        default=0.5, above=0, high=1e6, unit="m", doc="d*: attraction grows up to this distance"
+    )
+    repulsion: float = number(
+        default=0.01, low=0, high=1e6, unit="m^4/s", doc="eta, of each edge of an obstacle"
+    )
+    reach: float = number(
+        default=0.6, above=0, high=1e6, unit="m", doc="rho_0: edges nearer to a robot's rim repel"
+    )
+    drawn: str | None = text(
+        default=None, optional=True, doc="whose field is drawn; None: that of the last robot"
+    )
+    spacing: float = number(
+        default=1.0, low=0.1, high=1e6, unit="m", doc="of the grid on which it is drawn"
+    )
+
+    def of(self, scenario: Scenario) -> Potential:
+        """Return the potential of a scenario, for robots as large as its largest."""
+        radius = max(robot.radius for robot in scenario.robots)
+        names = ("attraction", "far", "repulsion", "reach")
+        return _potential(scenario.obstacles, radius, *(getattr(self, name) for name in names))
+
+    def plan(self, scenario: Scenario) -> tuple[tuple[int, Point], ...]:
+        """Return for each route how many of its points the field leads to, and where that ends.
+
+        It ends at the last point, or at a local minimum before, (x, y) [m]. See `Potential.lead`.
+        """
+        field, goals = self.of(scenario), _goals(scenario)
+        starts = [robot.pose[:2] for robot in scenario.robots]
+        return tuple(
+            field.lead(start, tuple(route), goals.tolerance)
+            for start, route in zip(starts, goals.routes, strict=False)
+        )
+
+    def force(self, robot: int) -> Point:
+        """Return the force (Fx, Fy) [m/s] on a robot, by its index, where it is now."""
+        world = self.__dict__.get("_world")
+        if world is None:
+            raise InputError(
+                "PotentialField.force is that of a world: world.addons.potential_field"
+            )
+        return self._field.force(world.position[:, robot].tolist(), self._waypoints.goal(robot))
+
+    def on_start(self, world: World) -> None:
+        """Take the world, its obstacles, and its waypoints."""
+        names = [str(robot.name) for robot in world.scenario.robots]
+        if self.drawn is not None and self.drawn not in names:
+            expected = f"a robot's name{nearest(self.drawn, names)}"
+            raise wrong("PotentialField.drawn", self.drawn, expected)
+        self._world, self._field = world, self.of(world.scenario)
+        live = getattr(world.addons, _goals(world.scenario).key)
+        self._waypoints: Goals = live
+
+    def theory(self, scene: Scene, frame: Frame) -> None:
+        """Draw where the force on one robot points, and crosses where robots will be caught."""
+        scenario = frame.scenario
+        names, goals = [robot.name for robot in scenario.robots], _goals(scenario)
+        index = len(goals.routes) - 1 if self.drawn is None else names.index(self.drawn)
+        arrow = 0.3 * self.spacing
+        for (x, y), (ux, uy) in self._arrows(frame, goals, index):
+            tail, tip = (x - arrow * ux, y - arrow * uy), (x + arrow * ux, y + arrow * uy)
+            scene.arrow(tail, tip, fill=faded(PREDICTED, 0.45), width=1.0)
+        for route, (reached, (x, y)) in zip(goals.routes, self.plan(scenario), strict=True):
+            if reached < len(route):
+                for color, width in (("#ffffff", 4.5), (PREDICTED, 2.5)):
+                    for side in (CROSS, -CROSS):
+                        ends = [(x - CROSS, y - side), (x + CROSS, y + side)]
+                        scene.line(ends, stroke=color, width=width)
+
+    def _arrows(self, frame: Frame, goals: Goals, robot: int) -> tuple[tuple[Point, Point], ...]:
+        if robot >= len(goals.routes) or not goals.routes[robot]:
+            return ()
+        scenario = frame.scenario
+        return self.of(scenario).arrows(goals.goal(robot, frame), scenario.bounds, self.spacing)
+
+
+@lru_cache(maxsize=8)
+def _potential(
+    obstacles: Sequence[Outline],
+    radius: float,
+    attraction: float,
+    far: float,
+    repulsion: float,
+    reach: float,
+) -> Potential:
+    """Return a potential; the same one for the same scenario, since it keeps what it has drawn."""
+    return Potential(
+        obstacles,
+        radius=radius,
+        attraction=attraction,
+        far=far,
+        repulsion=repulsion,
+        reach=reach,
+    )
+
+
+def _goals(scenario: Scenario) -> Goals:
+    """Return the add-on that says where robots are to go."""
+    found = next((addon for addon in scenario.addons if isinstance(addon, Goals)), None)
+    if found is None:
+        raise InputError("PotentialField needs goals: add Waypoints([...]) to Scenario.addons")
+    return found

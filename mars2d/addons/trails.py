@@ -1,0 +1,108 @@
+"""The last seconds of the robots' ways, fading out behind them."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import ceil, floor
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mars2d.addons.base import Addon
+from mars2d.description import entry, number, wrong
+from mars2d.errors import InputError, nearest
+from mars2d.scene import Scene, color_of, rgb
+
+if TYPE_CHECKING:
+    from mars2d.frame import Frame
+    from mars2d.world import World
+
+__all__ = ["Trails"]
+
+PIECES = 12
+"""Of one trail, each fainter than the one before it."""
+
+LINES = 600
+"""In one frame at most, as far as each trail has one: with many robots trails have fewer pieces."""
+
+POINTS = 400
+"""Of one trail at most."""
+
+STRENGTH = 0.85
+"""Of the colour right behind a robot; at the trail's end there is only white left."""
+
+ROUNDING = 1e-9
+"""Of a number of sampling times."""
+
+
+def _names(name: str, value: object) -> tuple[str, ...] | None:
+    if value is None:
+        return None
+    if not isinstance(value, (tuple, list)) or not all(isinstance(item, str) for item in value):
+        raise wrong(name, value, "a list of robots' names, as ['robot0', 'leader'], or None")
+    for item in value:
+        if value.count(item) > 1:
+            raise InputError(f"{name}: {item!r} stands there twice")
+    return tuple(value)
+
+
+class Trails(Addon):
+    """Draws the last seconds of the robots' ways, which fade out behind them.
+
+    >>> Trails(duration=20, robots=["leader"]).key
+    'trails'
+
+    It does so in the window, in figures, films and replays. Beside it the paths from the start on
+    are switched off by ``Animation(wake=False)``. What it costs to draw does not grow with the
+    duration: a long trail has fewer points, and in a large team a trail fades in fewer steps.
+    """
+
+    duration: float = number(
+        default=10.0, above=0, high=1e6, unit="s", doc="how far back a trail goes"
+    )
+    robots: tuple[str, ...] | None = entry(
+        default=None, check=_names, doc="the names of those that have one; None: all robots"
+    )
+    width: float = number(
+        default=2.5, above=0, high=50, unit="points", doc="of the line, on the screen or page"
+    )
+
+    def on_start(self, world: World) -> None:
+        """Look the robots up; raise InputError if there is none of such a name."""
+        known = [str(robot.name) for robot in world.scenario.robots]
+        for name in self.robots or ():
+            if name not in known:
+                expected = f"robots' names{nearest(name, known)}"
+                raise wrong("Trails.robots", list(self.robots or ()), expected)
+
+    def draw(self, scene: Scene, frame: Frame) -> None:
+        """Draw where the robots came from in the last `duration` seconds."""
+        listed = zip(frame.scenario.robots, frame.scenario.colors, strict=True)
+        chosen = [
+            (i, color)
+            for i, (robot, color) in enumerate(listed)
+            if self.robots is None or robot.name in self.robots
+        ]
+        period = frame.scenario.sampling_time
+        rows = min(len(frame.path), floor(frame.time / period + ROUNDING) + 1)
+        first = max(0, ceil((frame.time - self.duration) / period - ROUNDING))
+        stride = 1
+        while (rows - first) > stride * POINTS:
+            stride *= 2
+        # Multiples of the stride: so the points that are kept are the same from frame to frame.
+        kept = np.arange(-(-first // stride) * stride, rows, stride)
+        path = np.concatenate([frame.path[kept, :2], frame.pose[None, :2]])  # (k, 2, n)
+        age = frame.time - np.append(kept * period, frame.time)
+        pieces = max(1, min(PIECES, LINES // max(len(chosen), 1)))
+        freshness = np.clip(np.ceil((1 - age / self.duration) * pieces), 1, pieces).astype(int)
+        starts = np.searchsorted(freshness, np.arange(1, pieces + 2))
+        for i, color in chosen:
+            for level, (start, stop) in enumerate(pairwise(starts.tolist()), 1):
+                points = path[max(start - 1, 0) : stop, :, i]  # on from the last piece's end
+                if start < stop and len(points) > 1:
+                    scene.line(points, stroke=_pale(color, level / pieces), width=self.width)
+
+
+def _pale(color: str, share: float) -> str:
+    """Return a share of a colour over white: pieces of one opacity would show where they meet."""
+    return color_of(1 - STRENGTH * share * (1 - value) for value in rgb(color))

@@ -1,0 +1,149 @@
+"""Voronoi cells of the robots: who is nearest to which part of the workspace."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.addons.base import Addon
+from mars2d.description import number, text, wrong
+from mars2d.errors import InputError, nearest
+from mars2d.geometry import Outline
+from mars2d.scene import Scene, faded
+from mars2d.tessellation import Segment, Tessellation, Weight
+
+if TYPE_CHECKING:
+    from mars2d.frame import Frame
+    from mars2d.scenario import Scenario
+    from mars2d.world import World
+
+__all__ = ["Voronoi"]
+
+EDGE, THEORY = "#5b6470b0", "#7b3294"
+
+
+class Voronoi(Addon):
+    """The workspace divided among the robots: to each cell belongs what is nearest to its robot.
+
+    >>> from mars2d import Robot, Scenario, World
+    >>> team = [Robot(pose=(-2, 0)), Robot(pose=(2, 0))]
+    >>> World(Scenario(robots=team, addons=[Voronoi()])).addons.voronoi.centroids.tolist()
+    [[-2.5, 2.5], [0.0, 0.0]]
+
+    Laws find the cells of this instant as ``world.addons.voronoi.cells`` and so on; those of a
+    record are ``voronoi.of(record.frame(row))``. All is worked out when it is asked for, once a
+    control step. The workspace may be of any shape. With a Density in the scenario masses,
+    centroids and the cost are weighted by it. See `mars2d.tessellation.Tessellation`.
+
+    Drawn are the cells in their robots' colours; where theory is shown, the centroids.
+    """
+
+    density: str | None = text(
+        default=None, optional=True, doc="the name of the Density; None: the only one there is"
+    )
+    resolution: float | None = number(
+        default=None, above=0, high=1e6, unit="m", optional=True,
+        doc="of the sums over a density, see Tessellation; None: 1/12 of the workspace's side",
+    )  # fmt: skip
+
+    def of(self, frame: Frame) -> Tessellation:
+        """Return the cells at one instant, live or of a record; they have the same properties."""
+        return self._weighed(frame.scenario, frame.pose[:2])
+
+    @property
+    def cells(self) -> tuple[Any, ...]:
+        """The cells now, n polygons of shapely; some may be in several pieces, or empty."""
+        return self._now.cells
+
+    @property
+    def areas(self) -> NDArray[np.float64]:
+        """The cells' areas (n,), m^2."""
+        return self._now.areas
+
+    @property
+    def masses(self) -> NDArray[np.float64]:
+        """The integrals (n,) of the density over the cells."""
+        return self._now.masses
+
+    @property
+    def centroids(self) -> NDArray[np.float64]:
+        """The cells' weighted centroids (2, n), m."""
+        return self._now.centroids
+
+    @property
+    def cost(self) -> float:
+        """H, the sum over all robots of the integral of |q - p|^2 phi(q) over their cells."""
+        return self._now.cost
+
+    def neighbours(self, i: int) -> tuple[int, ...]:
+        """Return the robots whose cells share an edge with that of robot i in the workspace."""
+        return self._now.neighbours(i)
+
+    def edge(self, i: int, j: int) -> Segment | None:
+        """Return the ends of the edge that two robots' cells share in the workspace, or None."""
+        return self._now.edge(i, j)
+
+    def on_start(self, world: World) -> None:
+        """Take the world, and refuse a scenario that can't be divided."""
+        self._world, self._found = world, (0, self._weighed(world.scenario, world.position))
+
+    @property
+    def _now(self) -> Tessellation:
+        if "_world" not in self.__dict__:
+            raise InputError(
+                "Voronoi has cells in a world only, as world.addons.voronoi; those of a record are "
+                "voronoi.of(record.frame(row))"
+            )
+        if self._found[0] != self._world.iteration:
+            now = self._weighed(self._world.scenario, self._world.position)
+            self._found = self._world.iteration, now
+        return self._found[1]
+
+    def _weighed(self, scenario: Scenario, position: NDArray[np.float64]) -> Tessellation:
+        weight = self._weight(scenario)
+        return Tessellation(position, _region(scenario), weight, self.resolution)
+
+    def _weight(self, scenario: Scenario) -> Weight | None:
+        """Return the add-on whose density counts, if there is one."""
+        known = {addon.key: addon for addon in scenario.addons if isinstance(addon, Weight)}
+        if self.density is None and len(known) < 2:
+            return next(iter(known.values()), None)
+        if self.density is None:
+            raise InputError(f"Voronoi.density is missing: which one counts, {' or '.join(known)}")
+        if self.density not in known:
+            expected = f"the name of a Density in Scenario.addons{nearest(self.density, known)}"
+            raise wrong("Voronoi.density", self.density, expected)
+        return known[self.density]
+
+    def draw(self, scene: Scene, frame: Frame) -> None:
+        """Draw the cells, each in its robot's colour."""
+        import shapely
+
+        found = Tessellation(frame.pose[:2], _region(frame.scenario))
+        for cell, color in zip(found.cells, frame.scenario.colors, strict=True):
+            for piece in shapely.get_parts(cell):
+                scene.polygon(shapely.get_coordinates(piece)[:-1], fill=faded(color, 0.14))
+        for pieces in found.edges.values():
+            for ends in pieces:
+                scene.line(ends, stroke=EDGE, width=0.8)
+
+    def theory(self, scene: Scene, frame: Frame) -> None:
+        """Draw the centroids, and how far each robot is from that of its cell."""
+        try:
+            centroids = self.of(frame).centroids
+        except InputError:  # a saved record has no functions, and so perhaps not its Density
+            return
+        for place, centroid in zip(frame.pose[:2].T, centroids.T, strict=True):
+            scene.line([place, centroid], stroke=THEORY, width=1.2, style="--")
+            scene.circle(centroid, 0.0, fill="#ffffff", stroke=THEORY, width=1.4, pixels=3.0)
+
+
+def _region(scenario: Scenario) -> Outline:
+    if scenario.workspace is None:
+        raise InputError(
+            "Scenario.workspace = None: expected a polygon, which Voronoi divides among the "
+            "robots; with on_exit='ignore' they may leave it"
+        )
+    return scenario.workspace

@@ -1,0 +1,163 @@
+"""Waypoints: the lists of points that robots are to reach, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.addons.base import Addon
+from mars2d.checks import point
+from mars2d.description import entry, number, wrong
+from mars2d.errors import InputError, LawError, counted, shown
+from mars2d.geometry import Outline, Point, outside_polygon
+from mars2d.scene import Scene, faded
+
+if TYPE_CHECKING:
+    from mars2d.frame import Frame
+    from mars2d.world import World
+
+__all__ = ["Waypoints"]
+
+EXPECTED = "one list of points for each robot, as [[(x, y), ...], [(x, y), ...]] in metres"
+
+PALE = 0.35
+"""The opacity of what lies behind a robot."""
+
+
+def _routes(name: str, value: object) -> tuple[Outline, ...]:
+    """Check a list of lists of points, of which some but not all may be empty."""
+    if not isinstance(value, (list, tuple)):
+        raise wrong(name, value, EXPECTED)
+    routes = []
+    for i, route in enumerate(value):
+        if not isinstance(route, (list, tuple, np.ndarray)):
+            raise wrong(f"{name}[{i}]", route, "a list of points, as [(x, y), ...] in metres")
+        if len(route) and np.ndim(route[0]) == 0:
+            raise InputError(
+                f"{name} = {shown(value)}: expected {EXPECTED}; put one more pair of brackets "
+                "round it"
+            )
+        routes.append(tuple(point(f"{name}[{i}][{k}]", p) for k, p in enumerate(route)))
+    if not any(routes):
+        raise wrong(name, value, f"{EXPECTED}, and at least one point")
+    return tuple(routes)
+
+
+class Waypoints(Addon):
+    """The waypoints of each robot, which it is to reach in their order.
+
+    >>> Waypoints([[(1, 0), (2, 0)]]).passed([[(0, 0)], [(1, 0.1)], [(1.5, 0)]])
+    (1,)
+
+    Route k is that of robot k; an empty one says nothing, and robots without a route go where they
+    like. A waypoint is reached at the first control step at which the robot is no farther from it
+    than `tolerance`, after all those before it. Laws ask ``world.addons.waypoints`` for `goal`,
+    `arrived` and `reached`. It moves nobody.
+    """
+
+    routes: Sequence[Outline] = entry(
+        check=_routes, unit="m", kw_only=False, doc="for each robot the points (x, y) of its way"
+    )
+    tolerance: float = number(
+        default=0.3, above=0, high=1e6, unit="m", doc="how near to a waypoint is there"
+    )
+
+    def passed(self, path: ArrayLike) -> tuple[int, ...]:
+        """Return how many waypoints of each route are reached on a path.
+
+        path: (T, n, 2), the positions of all robots at all control steps [m].
+        """
+        positions = np.asarray(path, dtype=float)
+        return tuple(self._along(route, positions[:, i]) for i, route in enumerate(self.routes))
+
+    def _along(self, route: Outline, positions: NDArray[np.float64]) -> int:
+        """Return how many points of a route are reached along positions (T, 2)."""
+        row = 0
+        for k, (x, y) in enumerate(route):
+            near = np.hypot(positions[row:, 0] - x, positions[row:, 1] - y) <= self.tolerance
+            if not near.any():
+                return k
+            row += int(near.argmax())
+        return len(route)
+
+    def of(self, frame: Frame) -> tuple[int, ...]:
+        """Return how many waypoints of each route are reached at a frame."""
+        before = self.passed(frame.path[:, :2].swapaxes(1, 2))
+        return self._further(before, frame.pose[:2].T)
+
+    def _further(self, before: Sequence[int], positions: NDArray[np.float64]) -> tuple[int, ...]:
+        """Return how many are reached once the robots have come to positions (n, 2)."""
+        return tuple(
+            done + self._along(route[done:], positions[None, i])
+            for i, (route, done) in enumerate(zip(self.routes, before, strict=True))
+        )
+
+    @property
+    def reached(self) -> tuple[int, ...]:
+        """How many waypoints of each route are reached so far. In a scenario, none."""
+        found: tuple[int, ...] = self.__dict__.get("_reached", (0,) * len(self.routes))
+        return found
+
+    def goal(self, robot: int, frame: Frame | None = None) -> Point:
+        """Return the waypoint (x, y) [m] that a robot, by its index, is to go to now.
+
+        After the last one that stays its goal. frame: the instant that is meant, if not now. Raises
+        LawError for a robot that has no waypoints.
+        """
+        route = self._route(robot)
+        if not route:
+            raise LawError(f"{self.key}: robot {robot} has no waypoints to go to")
+        reached = self.reached if frame is None else self.of(frame)
+        return route[min(reached[robot], len(route) - 1)]
+
+    def arrived(self, robot: int) -> bool:
+        """Return whether a robot, by its index, has reached its last waypoint; or has none."""
+        route = self._route(robot)
+        return not route or self.reached[robot] == len(route)
+
+    def _route(self, robot: int) -> Outline:
+        """Return the route of a robot, which is empty beyond the last one that is given."""
+        if robot < 0:
+            raise LawError(f"{self.key}: there is no robot {robot}; the first is 0")
+        return self.routes[robot] if robot < len(self.routes) else ()
+
+    def on_start(self, world: World) -> None:
+        """Look whether the routes fit robots and workspace."""
+        robots = world.scenario.robots
+        if len(self.routes) > len(robots):
+            raise InputError(
+                f"Waypoints.routes has {counted(len(self.routes), 'route')}, but there "
+                f"{'is' if len(robots) == 1 else 'are'} {counted(len(robots), 'robot')}"
+            )
+        if world.workspace is not None and world.scenario.on_exit != "ignore":
+            self._check_inside(np.array(world.workspace))
+        self._reached = self.reached
+
+    def _check_inside(self, workspace: NDArray[np.float64]) -> None:
+        for i, route in enumerate(self.routes):
+            x, y = np.array(route, dtype=float).reshape(-1, 2).T
+            outside = outside_polygon(x, y, workspace)
+            if outside.any():
+                k = int(outside.argmax())
+                raise wrong(f"Waypoints.routes[{i}][{k}]", route[k], "a point of the workspace")
+
+    def on_step(self, world: World) -> None:
+        """See who has reached what."""
+        self._reached = self._further(self._reached, world.position.T)
+
+    def draw(self, scene: Scene, frame: Frame) -> None:
+        """Draw each route as a dotted line with its points; what is reached, paler."""
+        starts, colors = frame.scenario.initial_pose.T, frame.scenario.colors
+        for i, (route, done) in enumerate(zip(self.routes, self.of(frame), strict=True)):
+            points, color = [(starts[i, 0], starts[i, 1]), *route], colors[i]
+            for k, leg in enumerate(pairwise(points)):
+                ink = faded(color, PALE if k < done else 1.0)
+                scene.line(leg, stroke=ink, width=1.2, style=":")
+                scene.circle(leg[1], 0.0, fill=ink, pixels=3.5)
+            if route:
+                ink = faded(color, PALE if done == len(route) else 1.0)
+                scene.circle(route[-1], self.tolerance, stroke=ink, width=1.2)
