@@ -17,11 +17,13 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, cast
 
 from mars2d import checks
+from mars2d.addons.map import Map
 from mars2d.description import Description, wrong
 from mars2d.errors import InputError, LawError, Mars2dError, described, nearest, shown
+from mars2d.geometry import Outline, bounds_of
 from mars2d.prediction import Prediction
 from mars2d.scenario import Scenario
-from mars2d.usercode import called
+from mars2d.usercode import called, file_beside
 
 if TYPE_CHECKING:
     from mars2d.record import Record
@@ -92,14 +94,17 @@ def open_experiment(
     """Return the experiment that `source` names, with its fields overridden by `options`.
 
     source: a file, the name of a shipped example, a module, or a Scenario. options: dotted names
-    of fields, or keyword parameters of a scenario function, with their values. control: the law of
-    the team, in place of the experiment's own. Raises InputError, which points at file and line.
+    of fields, or keyword parameters of a scenario function, with their values; ``map`` is a file
+    whose walls take the place of the experiment's, or a Map, and ``map.unit`` and the like are how
+    it is read. control: the law of the team, in place of the experiment's own. Raises InputError,
+    which points at file and line.
     """
     if options is not None and not isinstance(options, Mapping):
         raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
     options = dict(options or {})
     if isinstance(source, Scenario):
-        return Experiment(_override(source, options), control)
+        chart = _MapOption.popped(options, Path())
+        return Experiment(_override(source, options, chart), control)
     if isinstance(source, ModuleType):
         module, name = source, getattr(source, "__file__", None) or source.__name__
     elif isinstance(source, (str, Path)):
@@ -110,7 +115,7 @@ def open_experiment(
             f"experiment = {shown(source)}: expected a file, the name of an example, or a Scenario"
         )
     try:
-        scenario = _scenario_of(module, options)
+        scenario = _scenario_of(module, options, Path(name))
         own = getattr(module, "control", None)
         if own is not None:
             checks.law("control", own, "the world")
@@ -141,29 +146,14 @@ def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
         raise wrong("load_law(path)", path, "the name of a law's file, as 'my_law.py'")
     if not isinstance(name, str):
         raise wrong("load_law(name)", name, "the name of a function, as 'control'")
-    file = _find_law(Path(path), Path(sys._getframe(1).f_code.co_filename))
+    caller = Path(sys._getframe(1).f_code.co_filename)
+    file = file_beside(Path(path), caller, "a law", [".py"])
     module = _load(file, "a law")
     try:
         return _law_of(module, name)
     except InputError as error:
         error.where = file.name
         raise
-
-
-def _find_law(path: Path, caller: Path) -> Path:
-    """Return the law's file that lies beside the caller's file, or else in the current folder."""
-    beside = [caller.parent] if caller.is_file() else []  # a notebook's cell lies nowhere
-    folders = [*beside, Path()]
-    for folder in folders:
-        if (folder / path).is_file():
-            return folder / path
-        if (folder / path).is_dir():
-            raise InputError(f"{path}: a folder; expected a law, a file that ends in .py")
-    known = {str(path.parent / file.name) for f in folders for file in _scripts(f / path)}
-    where = ""
-    if beside and not path.is_absolute():
-        where = f" beside {caller.name} or in the current folder"
-    raise InputError(f"{path}: there is no such file{where}{nearest(path, known)}")
 
 
 def _law_of(module: ModuleType, name: str) -> Callable[[Any], Any]:
@@ -242,7 +232,7 @@ def _line_in(error: BaseException, path: Path) -> str:
     return f"{path.name}, line {lines[-1]}" if lines else path.name
 
 
-def _scenario_of(module: ModuleType, options: dict[str, Any]) -> Scenario:
+def _scenario_of(module: ModuleType, options: dict[str, Any], path: Path) -> Scenario:
     """Return a module's scenario, made by its scenario function if it has one."""
     names = [name for name in vars(module) if not name.startswith("__")]
     if not hasattr(module, "scenario"):
@@ -252,11 +242,15 @@ def _scenario_of(module: ModuleType, options: dict[str, Any]) -> Scenario:
             f"has no `scenario`: an experiment's file needs `scenario = Scenario(...)`{hint}"
         )
     scenario = module.scenario
+    chart = _MapOption.popped(options, path)
     if callable(scenario) and not isinstance(scenario, Scenario):
+        if chart is not None and "map" in inspect.signature(scenario).parameters:
+            options["map"] = chart.value_for(inspect.signature(scenario).parameters["map"].default)
+            chart = None
         scenario = _call_scenario(scenario, options)
     if not isinstance(scenario, Scenario):
         raise InputError(f"scenario = {shown(scenario)}: expected a Scenario, or a function of one")
-    return _override(scenario, options)
+    return _override(scenario, options, chart)
 
 
 def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any:
@@ -289,8 +283,123 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
         raise problem from error
 
 
-def _override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
+@dataclass(frozen=True)
+class _MapOption:
+    """The option ``map`` with how it is to be read, ``map.unit`` and the like.
+
+    file: a file's name or a Map, None if it was not given. caller: a relative name is looked for
+    beside this file, then in the current folder.
+    """
+
+    file: Any
+    settings: dict[str, Any]
+    caller: Path
+
+    @classmethod
+    def popped(cls, options: dict[str, Any], caller: Path) -> _MapOption | None:
+        """Take the option out of others; None if it is not among them."""
+        names = [name for name in options if str(name).partition(".")[0] == "map"]
+        if not names:
+            return None
+        given = {name: options.pop(name) for name in names}
+        file = given.pop("map", None)
+        known = [n for n in inspect.signature(Map.from_file).parameters if n != "path"]
+        settings = {name.partition(".")[2]: value for name, value in given.items()}
+        for name in settings:
+            if name not in known:
+                raise InputError(f"there is no option 'map.{name}'{nearest(name, known)}")
+        return cls(file, settings, caller)
+
+    def value_for(self, default: Any) -> Any:
+        """Return what a scenario function's parameter `map` gets, in place of its default."""
+        file = default if self.file is None else self.file
+        return _MapOption(file, self.settings, self.caller).map() if self.settings else file
+
+    def map(self) -> Map:
+        """Return the map. Raises InputError if it can't be read."""
+        if isinstance(self.file, Map) and not self.settings:
+            return self.file
+        if not isinstance(self.file, (str, Path)):
+            if self.file is None or isinstance(self.file, Map):
+                raise InputError(f"map.{next(iter(self.settings))} needs map=FILE as well")
+            raise wrong("map", self.file, "the name of a map's file, as 'plan.dxf', or a Map")
+        from mars2d.maps import SUFFIXES
+
+        file = file_beside(Path(self.file), self.caller, "a map", SUFFIXES)
+        return Map.from_file(file.absolute(), **self.settings)
+
+
+MARGIN = 1.0
+"""From a map's walls to the edge of a workspace that is made for it, metres."""
+
+OPEN = Scenario.__dataclass_fields__["workspace"].default
+
+
+def _with_map(scenario: Scenario, options: Mapping[str, Any], chart: Map) -> Scenario:
+    """Return the scenario with a map in place of its own, and the options set.
+
+    A workspace that is the default one, or smaller than the map, becomes the rectangle round it.
+    """
+    rest = dict(options)
+    workspace = _workspace_for(scenario, chart)
+    if "workspace" in rest:
+        workspace = rest.pop("workspace")
+    own = next((addon for addon in scenario.addons if isinstance(addon, Map)), None)
+    if own is not None:  # keep its name and surface
+        chart = own.replace(outlines=chart.outlines, walls=chart.walls)
+    others = [addon for addon in scenario.addons if not isinstance(addon, Map)]
+    bare = _override(scenario.replace(addons=others, workspace=None), rest)
+    try:
+        return bare.replace(addons=[*bare.addons, chart], workspace=workspace)
+    except InputError as error:
+        raise InputError(f"{error}{_room(bare, chart, workspace)}") from error
+
+
+def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:
+    if scenario.workspace is None:
+        return None
+    xmin, xmax, ymin, ymax = bounds_of([p for o in chart.obstacles() for p in o])
+    left, right, low, high = bounds_of(scenario.workspace)
+    within = left <= xmin and xmax <= right and low <= ymin and ymax <= high
+    if within and scenario.workspace != OPEN:
+        return scenario.workspace
+    return _rectangle(xmin - MARGIN, xmax + MARGIN, ymin - MARGIN, ymax + MARGIN)
+
+
+def _rectangle(xmin: float, xmax: float, ymin: float, ymax: float) -> Outline:
+    return ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
+
+
+def _room(scenario: Scenario, chart: Map, workspace: Any) -> str:
+    """Return where the first body that stands in a wall, or outside, would have room."""
+    from mars2d.maps import nearest_room
+
+    outlines = chart.obstacles()
+    within = _rectangle(*bounds_of([p for o in outlines for p in o]))
+    if not isinstance(workspace, (tuple, list)):
+        workspace = within
+    for i, body in enumerate(scenario.bodies):
+        center, radius = body.bound
+        place = nearest_room(center, radius, outlines, workspace)
+        if place is None:
+            return f"; there is no room for {body.name} anywhere"
+        if place != center:
+            place = nearest_room(center, radius, outlines, within) or place  # indoors first
+            x, y, theta = body.pose
+            x, y = x + place[0] - center[0], y + place[1] - center[1]
+            kind, k = ("robots", i) if i < len(scenario.robots) else ("props", i)
+            k -= 0 if kind == "robots" else len(scenario.robots)
+            there = f"({x:.3f}, {y:.3f}, {theta:.4g})"
+            return f"; {body.name} has room at {kind}.{k}.pose={there}"
+    return ""
+
+
+def _override(
+    scenario: Scenario, options: Mapping[str, Any], chart: _MapOption | None = None
+) -> Scenario:
     """Return the scenario with all options set at once: they are only checked together."""
+    if chart is not None:
+        return _with_map(scenario, options, chart.map())
     tree: dict[str, Any] = {}
     for name, value in options.items():
         *path, last = str(name).split(".")

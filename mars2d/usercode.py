@@ -6,14 +6,14 @@ import functools
 import inspect
 import sysconfig
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mars2d.errors import InputError, LawError, described
+from mars2d.errors import InputError, LawError, described, nearest
 
-__all__ = ["called", "definition", "name_of", "users_line"]
+__all__ = ["called", "definition", "file_beside", "name_of", "users_line"]
 
 _PACKAGE = Path(__file__).parent
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
@@ -91,3 +91,30 @@ def definition(function: Callable[..., Any]) -> str | None:
 
 def _place(filename: str, line: int) -> str:
     return f"{Path(filename).name}, line {line}"
+
+
+def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[str]) -> Path:
+    """Return the file that lies beside the caller's file, or else in the current folder.
+
+    caller: a file of the user's code, or None. what: what the file is, with its article. suffixes:
+    how such files end. Raises InputError, with the nearest name.
+    """
+    beside = [caller.parent] if caller is not None and caller.is_file() else []  # or a notebook
+    folders = [*beside, Path()]
+    for folder in folders:
+        if (folder / path).is_file():
+            return folder / path
+        if (folder / path).is_dir():
+            ends = " or ".join(suffixes)
+            raise InputError(f"{path}: a folder; expected {what}, a file that ends in {ends}")
+    known = {
+        str(path.parent / file.name)
+        for folder in folders
+        if (folder / path).parent.is_dir()
+        for file in (folder / path).parent.iterdir()
+        if file.suffix.lower() in suffixes
+    }
+    where = ""
+    if beside and caller is not None and not path.is_absolute():
+        where = f" beside {caller.name} or in the current folder"
+    raise InputError(f"{path}: there is no such file{where}{nearest(path, known)}")

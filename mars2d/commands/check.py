@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import argparse
+import inspect
 import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
-from mars2d.commands.base import run_headless
-from mars2d.errors import InputError, Mars2dError, counted
-from mars2d.files import Experiment, open_experiment, open_module
+from mars2d import maps
+from mars2d.commands.base import check_outputs, run_headless
+from mars2d.errors import InputError, Mars2dError, counted, nearest
+from mars2d.files import Experiment, open_experiment, open_module, parse_setting
 from mars2d.joints import Joint
+from mars2d.output import figure
+from mars2d.output.chart import save_chart
 from mars2d.record import load
 from mars2d.rerun import rerun
 from mars2d.robot import Robot
@@ -40,19 +45,47 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file",
         metavar="FILE",
         help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
-        "or a record (.npz)",
+        "a record (.npz), or a map",
     )
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", help="how a map is read"
+    )
+    parser.add_argument("--figure", type=Path, metavar="OUT", help="draw a map: .png, .pdf, .svg")
 
 
 def execute(arguments: argparse.Namespace) -> None:
     """Say what a file holds and whether it is sound."""
     path = Path(arguments.file)
+    if path.suffix.lower() in maps.SUFFIXES:
+        check_outputs(arguments, {"figure": figure.SUFFIXES})
+        _check_map(path, dict(map(parse_setting, arguments.set)), arguments.figure)
+        return
+    for option in ("set", "figure"):
+        if getattr(arguments, option):
+            raise InputError(f"--{option} is for maps: {', '.join(maps.SUFFIXES)}")
     if path.suffix == ".npz":
         _check_record(path)
     elif path.suffix in ("", ".py"):
         _check_code(arguments.file)
     else:
-        raise InputError(f"{path}: expected a Python file (.py) or a record (.npz)")
+        raise InputError(
+            f"{path}: expected a Python file (.py), a record (.npz) or a map "
+            f"({', '.join(maps.SUFFIXES)})"
+        )
+
+
+def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> None:
+    """Say what was read of a map, and draw it."""
+    tolerance = settings.pop("tolerance", maps.TOLERANCE)
+    known = [name for name in inspect.signature(maps.read).parameters if name != "path"]
+    for name in settings:
+        if name not in known:
+            raise InputError(f"--set {name}: no option{nearest(name, [*known, 'tolerance'])}")
+    drawing = maps.read(path, **settings)
+    for name, text in maps.described(drawing, maps.obstacles(drawing, tolerance), tolerance):
+        print(f"{name:<12}{text}")
+    if picture is not None:
+        print(f"picture     {save_chart(drawing, picture)}")
 
 
 def _check_code(source: str) -> None:

@@ -1,0 +1,131 @@
+"""Which reader reads which file, and the options that it takes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from mars2d.checks import point
+from mars2d.description import real, wrong
+from mars2d.errors import InputError, likely
+from mars2d.maps.drawing import METRES, Drawing, Unit, too_large
+from mars2d.maps.grid import IMAGES
+
+__all__ = ["SUFFIXES", "read"]
+
+MEGABYTES = {".dxf": 10, ".svg": 10, ".geojson": 10, ".json": 10, ".wkt": 10, ".yaml": 1, ".yml": 1}
+"""How large files of each kind may be; images up to 20."""
+
+SUFFIXES = (*MEGABYTES, *IMAGES)
+"""The suffixes of files that are maps."""
+
+TAKES = {
+    ".dxf": ("layers", "unit"), ".svg": ("layers", "unit"), ".geojson": ("layers", "unit"),
+    ".json": ("layers", "unit"), ".wkt": ("unit",), ".yaml": (), ".yml": (),
+    **dict.fromkeys(IMAGES, ("resolution",)),
+}  # fmt: skip
+"""The options that each kind of file takes, besides `at`."""
+
+
+def read(
+    path: Path,
+    *,
+    layers: str | Sequence[str] | None = None,
+    unit: str | float | None = None,
+    resolution: float | None = None,
+    at: Sequence[float] | None = None,
+) -> Drawing:
+    """Read a map from a file: DXF, SVG, YAML of ROS, an image, GeoJSON, WKT.
+
+    layers: names or patterns such as ``*WALL*``, a list or one text with commas; None: all that
+    are shown. unit: that of the file, ``mm``, ``cm``, ``m``, ``in``, ``ft`` or a number of metres,
+    in place of what the file says. resolution: metres per pixel, for images, which don't say. at:
+    (x, y) [m] of the lower left corner of what is read; None: where the file has it. Raises
+    InputError, which names the file, what is wrong with it, and what was expected.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError(f"{path}: expected a map: {', '.join(SUFFIXES)}")
+    options = {"layers": layers, "unit": unit, "resolution": resolution}
+    for option, value in options.items():
+        if value is not None and option not in TAKES[suffix]:
+            takers = [kind for kind, takes in TAKES.items() if option in takes]
+            raise InputError(f"{path.name}: {option} is for {', '.join(takers)}, not {suffix}")
+    if suffix in IMAGES and resolution is None:
+        raise InputError(f"{path.name}: an image needs resolution=..., metres per pixel, as 0.05")
+    chosen = None if layers is None else _layers(layers)
+    place = None if at is None else point("at", at)
+    _check_file(path, suffix)
+    drawing = _read(path, suffix, _unit(unit), resolution).only(chosen)
+    if place is not None:
+        drawing = drawing.moved(place)
+    drawing.check_size()
+    return drawing
+
+
+def _read(path: Path, suffix: str, unit: Unit | None, resolution: Any) -> Drawing:
+    if suffix == ".dxf":
+        from mars2d.maps.dxf import read_dxf
+
+        return read_dxf(path, unit)
+    if suffix == ".svg":
+        from mars2d.maps.svg import read_svg
+
+        return read_svg(path, unit)
+    if suffix in (".geojson", ".json"):
+        from mars2d.maps.geo import read_geojson
+
+        return read_geojson(path, unit)
+    if suffix == ".wkt":
+        from mars2d.maps.geo import read_wkt
+
+        return read_wkt(path, unit)
+    from mars2d.maps.raster import read_occupancy, read_picture
+
+    if suffix in IMAGES:
+        return read_picture(path, resolution)
+    return read_occupancy(path)
+
+
+def _check_file(path: Path, suffix: str) -> None:
+    """Refuse what is no file, or too large a one, before it is read."""
+    if path.is_dir():
+        raise InputError(f"{path}: a folder; expected a map, a file that ends in {suffix}")
+    if not path.is_file():
+        raise InputError(f"{path}: there is no such file")
+    size = path.stat().st_size
+    most = MEGABYTES.get(suffix, 20) * 1_000_000
+    if size > most:
+        raise too_large(path.name, size, most)
+    if size == 0:
+        raise InputError(f"{path.name}: an empty file; expected a map")
+    if not os.access(path, os.R_OK):
+        raise InputError(f"{path}: can't be read: no permission")
+
+
+def _layers(value: Any) -> list[str]:
+    """Check names of layers: a list, or one text with commas."""
+    names = value.split(",") if isinstance(value, str) else value
+    expected = "names of layers, as ['WALLS'] or 'WALLS,DOORS'"
+    if not isinstance(names, (list, tuple)) or not names:
+        raise wrong("layers", value, expected)
+    if not all(isinstance(name, str) and name.strip() for name in names):
+        raise wrong("layers", value, expected)
+    return [name.strip() for name in names]
+
+
+def _unit(value: Any) -> Unit | None:
+    """Check a unit: its name, or its length in metres."""
+    if value is None:
+        return None
+    expected = f"one of {', '.join(METRES)}, or a number of metres > 0"
+    if isinstance(value, str):
+        if value not in METRES:
+            raise wrong("unit", value, expected + likely(value, METRES))
+        return Unit.named(value, "as given")
+    metres = real("unit", value, expected)
+    if not 1e-9 <= metres <= 1e6:
+        raise wrong("unit", value, expected)
+    return Unit(f"{metres:g} m", metres, "as given")
