@@ -1,11 +1,14 @@
 """Two robots wander among obstacles (MARS, Algorithm 2, Figure 2).
 
-Setting: distributed, sensors only. Source: Casini & Garulli (2016), section 4.
+Setting: distributed with sensors only. Source: Casini & Garulli (2016), section 4.
+Prediction: a turn is even in (90, 270) degrees: its mean is 180, its standard deviation ("spread")
+180 / sqrt(12). Robots that touch nothing go 0.2 m in each step in which they don't turn.
+Measured: all turns of both, to four standard errors; how far both went.
 """
 
 import numpy as np
 
-from mars2d import Animation, Robot, Scenario
+from mars2d import Animation, Prediction, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.sensors import Proximity
 
@@ -41,3 +44,14 @@ scenario = Scenario(
     ],
     animation=Animation(playback_speed=10),
 )
+
+
+def checks(record):
+    v, omega = record.command[:-1, 0], record.command[:-1, 1]  # (steps, n)
+    turns, spread = np.degrees(omega[v == 0]), 180 / np.sqrt(12)
+    if len(turns):
+        sure = 4 * spread / np.sqrt(len(turns))
+        yield Prediction("turn, mean", 180, turns.mean(), sure, "degrees")
+        yield Prediction("turn, spread", spread, turns.std(), sure * np.sqrt(0.2), "degrees")
+    path = np.hypot(*np.diff(record.pose[:, :2], axis=0).transpose(1, 0, 2)).sum()
+    yield Prediction.within("path of both", 0.2 * np.count_nonzero(v), path, percent=1, unit="m")
