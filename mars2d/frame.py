@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.addons.density import Density
 from mars2d.addons.floor import Floor
 from mars2d.contact import CONTACT
 from mars2d.looks import INK, OBSTACLE, draw_prop, draw_robot, draw_tie, prop_colors, prop_edge
@@ -115,12 +116,12 @@ def workspace(scenario: Scenario) -> Scene:
 
 
 def floor(scenario: Scenario) -> Scene:
-    """Return the colours of the floor, which lie on the workspace and beneath the grid."""
+    """Return the floor's colours and densities, which lie on the workspace, beneath the grid."""
     scene = Scene()
     xmin, xmax, ymin, ymax = scenario.bounds
     corners = ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
     for addon in scenario.addons:
-        if isinstance(addon, Floor):
+        if isinstance(addon, (Floor, Density)):
             addon.paint(scene, scenario.workspace or corners)
     return scene
 

@@ -11,7 +11,7 @@ from typing import Any, Self
 from mars2d.description import Description, entry, real, wrong
 from mars2d.errors import InputError, counted
 
-__all__ = ["Prediction", "table"]
+__all__ = ["Prediction", "number", "table"]
 
 WIDTH = 80
 """Columns of a terminal, which a table keeps to."""
@@ -123,8 +123,8 @@ def table(predictions: Sequence[Prediction]) -> str:
     rows = [("predicted", "measured", "tolerance", "", "")]
     rows += [
         (
-            _number(p.predicted, p.tolerance),
-            _number(p.measured, p.tolerance),
+            number(p.predicted, p.tolerance),
+            number(p.measured, p.tolerance),
             f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}",
             p.unit,
             "ok" if p.ok else "NOT OK",
@@ -146,8 +146,8 @@ def table(predictions: Sequence[Prediction]) -> str:
     return "\n".join(lines)
 
 
-def _number(value: float, tolerance: float) -> str:
-    """Return a number with the digits that count: two of the tolerance's, `DIGITS` at most."""
+def number(value: float, tolerance: float) -> str:
+    """Return a number as text with the digits that count: two of the tolerance's, 12 at most."""
     if math.isnan(value):
         return "not a number"
     if math.isinf(value):

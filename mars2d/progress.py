@@ -32,8 +32,11 @@ class Progress:
         """Show how far a world has come."""
         self.update(world.iteration)
 
-    def update(self, done: int) -> None:
-        """Show that `done` steps of all have been made, ten times a second at most."""
+    def update(self, done: int, doing: str = "") -> None:
+        """Show that `done` steps of all have been made, ten times a second at most.
+
+        doing: what is being done now, in place of how quick; for few steps that take long.
+        """
         if not self._on or (now := time.monotonic()) < self._next:
             return
         self._next = now + 0.1
@@ -43,7 +46,8 @@ class Progress:
         filled = round(30 * done / self._total)
         bar = "#" * filled + "-" * (30 - filled)
         part = 100 * done / self._total
-        self._stream.write(f"\r{bar} {part:3.0f} %  {rate:,.0f} {self._unit}/s  {left:.0f} s left ")
+        rest = doing or f"{rate:,.0f} {self._unit}/s  {left:.0f} s left"
+        self._stream.write(f"\r{bar} {part:3.0f} %  {rest:<38.38} ")
         self._stream.flush()
 
     def close(self) -> None:

@@ -205,7 +205,7 @@ class Arrow:
 class Image:
     """Pixels (rows, columns, 3), red, green and blue to 255, over (xmin, xmax, ymin, ymax) [m].
 
-    The first row is the upper one.
+    The first row is the upper one. With a fourth number, the opacity to 255, it is seen through.
     """
 
     pixels: NDArray[np.uint8]
@@ -290,14 +290,15 @@ class Scene:
     def image(self, pixels: ArrayLike, bounds: Sequence[float]) -> None:
         """Add an image: pixels (rows, columns, 3) from 0 to 255, the upper row first.
 
-        bounds: (xmin, xmax, ymin, ymax) in metres. It has 4096 rows and columns at most.
+        bounds: (xmin, xmax, ymin, ymax) in metres. It has 4096 rows and columns at most. Pixels of
+        four numbers, (rows, columns, 4), have an opacity as well.
         """
         given = np.asarray(pixels)
-        fits = given.ndim == 3 and given.shape[2] == 3 and min(given.shape) > 0
+        fits = given.ndim == 3 and given.shape[2] in (3, 4) and min(given.shape) > 0
         if not fits or max(given.shape) > LARGEST_IMAGE or given.dtype != np.uint8:
             raise InputError(
-                f"pixels of shape {given.shape}, {given.dtype}: expected (rows, columns, 3) of "
-                f"uint8, up to {LARGEST_IMAGE} rows and columns"
+                f"pixels of shape {given.shape}, {given.dtype}: expected (rows, columns, 3 or "
+                f"4) of uint8, up to {LARGEST_IMAGE} rows and columns"
             )
         xmin, xmax, ymin, ymax = np.asarray(bounds, dtype=float).tolist()
         if not (xmin < xmax and ymin < ymax):

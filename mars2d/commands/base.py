@@ -72,8 +72,9 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
             raise InputError(f"--{name} {path}: there is no folder {path.parent}")
         if path.is_dir():
             raise InputError(f"--{name} {path}: this is a folder")
-    if arguments.video is not None and arguments.video.suffix.lower() == ".mp4":
-        film.require_av(arguments.video)
+    video: Path | None = getattr(arguments, "video", None)
+    if video is not None and video.suffix.lower() == ".mp4":
+        film.require_av(video)
 
 
 def make_folder(path: Path) -> None:

@@ -49,6 +49,8 @@ SMALL = 10_000
 """The area in pixels up to which fill and edge of a polygon are drawn at once."""
 FAINT = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
+WIDE = 10_000
+"""The area in pixels beyond which it is."""
 UNSEEN = 0.3
 """The pixels by which such an edge may be drawn beside where it is."""
 
@@ -149,7 +151,7 @@ class Painter:
         if len(visible) < 3:
             return
         box = brushes.extent_of(visible, 1.0)
-        if color[3] < FAINT and box.width * box.height > brushes.LARGE:
+        if color[3] < FAINT and box.width * box.height > WIDE:
             self._area(surface, visible, color, box.clip(surface.get_clip()))
         else:
             brushes.cover(surface, color, box, brushes.filled(visible))
@@ -332,7 +334,10 @@ def _image(surface: pygame.Surface, shape: Image, camera: Camera) -> None:
         return
     place = across[0][0], down[0][0]
     seen = shape.pixels[down[1]][:, across[1]].swapaxes(0, 1)
-    part = pygame.surfarray.make_surface(np.ascontiguousarray(seen))
+    part = pygame.Surface(seen.shape[:2], pygame.SRCALPHA if seen.shape[2] == 4 else 0, 32)
+    pygame.surfarray.pixels3d(part)[:] = seen[..., :3]
+    if seen.shape[2] == 4:
+        pygame.surfarray.pixels_alpha(part)[:] = seen[..., 3]
     size = across[0][1] - across[0][0], down[0][1] - down[0][0]
     if part.get_size() != size:
         part = pygame.transform.smoothscale(part, size)
