@@ -17,15 +17,20 @@ FPS = 12
 SECONDS = 8
 """How long a film is."""
 
+LIGHTER = {"circular_motion": ((400, 340), 9)}
+"""Size and frames a second of films in which much moves; what sensors read is left out, too."""
+
 
 def make(name: str) -> Path:
     """Run an example and make its film of it."""
     record = mars2d.run(name)
     speed = float(record.time[-1]) / SECONDS
-    rows = film_rows(record.time, speed, FPS)
+    size, fps = LIGHTER.get(name, (SIZE, FPS))
+    rows = film_rows(record.time, speed, fps)
     path = DOCS / "pictures" / f"{name}.gif"
     frames = (record.frame(row) for row in rows)
-    save_film(frames, path, fps=FPS, size=SIZE, status=f"{speed:.3g}x")
+    sensors = name not in LIGHTER
+    save_film(frames, path, fps=fps, size=size, sensors=sensors, status=f"{speed:.3g}x")
     return path
 
 

@@ -40,7 +40,7 @@ def scenario(n=4, radius=0.7, k_b=0.63, k_v=0.75):  # -, m, rad/s, rad/s
     lamp = Beacon(path=[(3.6, 2.5), (1.3, 1.3)], speed=0.045, closed=False, name="lamp")
     ring = Theory(lambda scene, now: scene.circle(lamp.where(now.time), radius, stroke="#7b3294"))
     return Scenario(
-        title="Collective circular motion",
+        title="Circular motion",
         robots=[robot.at(2.5 + 1.9 * cos(a + 0.9), 2.5 + 1.9 * sin(a + 0.9), a) for a in turns],
         workspace=[(0, 0), (0, 5), (5, 5), (5, 0)],
         stop_time=200.0,

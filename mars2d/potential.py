@@ -115,8 +115,8 @@ class Potential(Description):
         distance = np.hypot(dx, dy)
         near = np.flatnonzero(distance < self.reach + self.radius)
         for d, ax, ay in np.array([distance, dx, dy])[:, near].T.tolist():
-            if d > 0:
-                yield max(d - self.radius, NEAREST), ax / d, ay / d
+            away = (ax / d, ay / d) if d > 0 else (0.0, 0.0)
+            yield max(d - self.radius, NEAREST), *away
 
     def force(self, at: Sequence[float] | Float, goal: Sequence[float] | Float) -> Point:
         """Return the force F = -grad U (Fx, Fy) at (x, y) [m], in m/s: a velocity to go with."""

@@ -45,3 +45,10 @@ def test_drawing_and_films_are_timed(tmp_path):
         assert figures[f"dummy: {what}"]["least_ms"] > 0
     assert all(figures[f"{suffix}: scans"]["ratio"] > 0 for suffix in ("mp4", "gif"))
     assert figures["dummy: bare"]["ratio"] == 1.0
+
+
+def test_cells_are_timed(tmp_path):
+    result = run("voronoi.py", "--sizes", "4", "--rounds", "1", cwd=tmp_path)
+    assert [row["region"] for row in result["cells"]] == ["square", "circle", "hook"]
+    assert all(row[way]["ms"] > 0 for row in result["cells"] for way in ("cells", "density"))
+    assert result["drawing"][0]["painting"]["ms"] > 0

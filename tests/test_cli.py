@@ -505,7 +505,7 @@ def test_the_checks_stand_in_the_json(roll, capsys):
 
 
 def test_the_json_of_an_experiment_without_checks_has_none(capsys):
-    assert cli.main(["run", "random_walk", "--headless", "--stop-time", "3", "--json"]) == 0
+    assert cli.main(["run", "go_to_point", "--headless", "--stop-time", "3", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["checks"] == []
 
 
@@ -545,7 +545,7 @@ def test_ctrl_c_says_that_checks_were_not_made(roll, tmp_path):
 def test_check_says_whether_an_experiment_has_checks(roll, capsys):
     assert cli.main(["check", str(roll)]) == 0
     assert "checks      checks(record), made after a whole run\n" in capsys.readouterr().out
-    assert cli.main(["check", "random_walk"]) == 0
+    assert cli.main(["check", "go_to_point"]) == 0
     assert "checks" not in capsys.readouterr().out
 
 

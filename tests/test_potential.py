@@ -71,6 +71,7 @@ def test_a_wall_drawn_in_pieces_or_twice_repels_as_one():
 def test_where_a_robot_has_no_room_the_potential_is_infinite():
     assert ROOM.potential((1.3, 0.2), (5, 5)) == inf  # within the box
     assert ROOM.potential((0.95, 0.2), (5, 5)) == inf  # its rim in the box
+    assert ROOM.potential((1.0, 0.2), (5, 5)) == inf  # on its edge
     assert ROOM.free((0.85, 0.2))
     assert not ROOM.free((0.0, 1.45))
 
@@ -140,8 +141,12 @@ def test_its_fields_are_the_potentials_gains():
 
 
 def test_it_needs_waypoints():
+    world = World(scenario())
     with pytest.raises(InputError, match=r"PotentialField needs goals: add Waypoints"):
-        World(scenario())
+        world.addons.potential_field.force(0)
+    scene = Scene()
+    world.scenario.addons[1].theory(scene, world.frame)
+    assert not scene.shapes
 
 
 def test_outside_of_a_world_there_is_no_force():

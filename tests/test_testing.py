@@ -9,6 +9,7 @@ import random
 import textwrap
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -930,7 +931,13 @@ def test_a_deadline_ends_with_its_block_and_can_be_used_again():
 
 
 SENSORS_NEED = {"Proximity": {"range": 1.0}}
-ADDONS_NEED = {"Beacon": {"at": (1.0, 1.0)}, "Map": {"outlines": [[(0, 1.6), (0.3, 1.6)]]}}
+DARK = Path(__file__).parents[1] / "docs" / "pictures" / "random_walk.png"
+ADDONS_NEED = {
+    "Beacon": {"at": (1.0, 1.0)},
+    "Density": {"image": str(DARK), "bounds": (-5, 5, -5, 5)},
+    "Map": {"outlines": [[(0, 1.6), (0.3, 1.6)]]},
+    "Waypoints": {"routes": [[(1.0, 0.0)]]},
+}
 """What parts of MARS2D's own need."""
 
 
@@ -997,6 +1004,21 @@ def test_a_file_of_parts_and_laws_without_a_scenario_is_checked(tmp_path, capsys
         "add-on Judge in a small world: sound",
         "law control of a robot, in a small world: sound",
     ]
+
+
+def test_classes_that_are_no_parts_are_left_alone(tmp_path, capsys):
+    file = tmp_path / "parts.py"
+    file.write_text(
+        "from typing import Protocol, runtime_checkable\n"
+        "from mars2d.addons import Addon\n"
+        "@runtime_checkable\n"
+        "class Seen(Protocol):\n"
+        "    time: float\n"
+        "class Counter(Addon):\n"
+        "    pass\n"
+    )
+    assert cli.main(["check", str(file)]) == 0
+    assert "add-on Counter" in capsys.readouterr().out
 
 
 def test_parts_are_tried_in_the_files_own_scenario(tmp_path, capsys):

@@ -15,7 +15,7 @@ import ezdxf
 from ezdxf.enums import TextEntityAlignment
 
 MM = 1000.0  # of a metre: below, all lengths are metres
-OUTER, INNER = 0.3, 0.15  # m, how thick walls are
+OUTER = 0.3  # m, how thick the outer walls are; the inner ones are half of it
 QUARTER = tan(pi / 8)  # the bulge of a quarter of a circle: tan(angle / 4)
 
 LAYERS = {"WALLS": 7, "DOORS": 3, "FURNITURE": 8, "TEXT": 5, "DIMENSIONS": 1}  # and their colours
@@ -128,5 +128,5 @@ def department():
 
 
 if __name__ == "__main__":
-    ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates: the same file each time
+    ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates in the file
     department().saveas(Path(__file__).with_name("department.dxf"))

@@ -7,10 +7,10 @@
    before it: 166.0 after 300 s. Four on a circle of 0.85 m leave one of 131.1, and do: 131.1.
 3. In even gaps the next robot is at the edge of the view. Seen from nearer than D_0 it turns one
    out of the circle, until it is out of view again: four see somebody for 49 % of the time, and go
-   at 0.706 m, six at 0.726 m, and not at 0.700 m. A view that is 5 % narrower leaves
-   room: XXXX.
-4. This file: alpha is taken from -PSI to 2 pi - PSI, the mirror image of the law. The same circle is
-   gone round to the right. Bearings of neighbours have a sign already: nothing changes there.
+   at 0.706 m, six at 0.726 m, and not at 0.700 m. Views that are 5 % narrower leave room: 0.700 m
+   for both, but the gaps are up to 101 and 64.8 degrees, and not 90 and 60.
+4. This file: alpha is taken from -PSI to 2 pi - PSI, the mirror image of the law. The same circle
+   is gone round to the right. The neighbours' bearings have a sign: nothing changes there.
 """
 
 from functools import partial
@@ -32,7 +32,7 @@ def circle(radius, k_b, k_v, robot):
 def scenario(n=4, radius=0.7, k_b=0.63, k_v=0.75):
     plain, law = base.scenario(n, radius, k_b, k_v), partial(circle, radius, k_b, k_v)
     robots = [robot.replace(controller=law) for robot in plain.robots]
-    return plain.replace(title="Collective circular motion to the right", robots=robots)
+    return plain.replace(title="Circular motion to the right", robots=robots)
 
 
 def checks(record):

@@ -3,12 +3,12 @@
 1. n = 4, gain = 0.2: predicted 4 x 0.05 / (0.2 pi) = 0.318 m, measured 0.318 m. With twice the
    speed the circle is twice as large, with twice the gain half as large.
 2. A round takes 2 pi radius / speed = 2 n / k_a, 120 s for six, whatever the speed.
-3. All go round alike: a robot turns by k_a a, and the line to the next one by k_r (sin(2 pi / n - a)
-   + sin a) = 2 k_r sin(pi / n) cos(pi / n - a). With the a for which both are equal the gap grows at
-   the rate k_r (cos(2 pi / n - a) - cos a). For ratio = 2.2 and 3 that is -0.00319 and -0.00651 1/s;
-   measured -0.00318 and -0.00652, until they touch. For 1.7 and speed = 5 it is 0.00373: 0.00372.
-4. This file: who runs beside the next one by `aside` turns at k_a (a - aside), still with a = pi / n
-   on the circle: the radius is speed / (k_a (pi / n - aside)). It goes to infinity for aside = pi / n.
+3. All go alike: a robot turns by k_a a, and the line to the next one by k_r (sin(2 pi / n - a) +
+   sin a) = 2 k_r sin(pi / n) cos(pi / n - a). With the a that makes them equal the gap grows as
+   exp(s t), s = k_r (cos(2 pi / n - a) - cos a). For ratio = 2.2 and 3 s is -0.00319 and -0.00651
+   1/s; measured -0.00318 and -0.00652, until they touch. For 1.7, speed = 5: 0.00373 and 0.00372.
+4. This file: who runs beside the next one, by `aside`, turns at k_a (a - aside), and a = pi / n on
+   a circle: its radius is speed / (k_a (pi / n - aside)). With aside = pi / n they go straight on.
 """
 
 from functools import partial

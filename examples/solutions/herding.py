@@ -1,6 +1,14 @@
 """Herding, a model answer: a dog that goes round the flock may start anywhere.
 
-TEXT
+1. It collects for 19 s, until the flock is within 2.32 m of its middle, then drives, all in 65 s.
+2. 30 of 30 flocks come in with 1, 5, 10, 20 and 30 sheep, in 49 s (the median) for one, and in 66
+   to 71 s for the others: the dog moves a flock, not sheep, and more sheep only make it wider.
+3. With FEAR = 2 m only 15 of 30 come in within 300 s: who is out of reach grazes, and a dog that
+   drives the near ones leaves the far ones behind. At 3 m all 30 do, in 94 s; at 8 m in 60 s.
+4. From (4, -1), between flock and pen, the law of the lesson drives the flock away first: 29 of 30
+   come in, in 138 s. Below, the dog keeps out of a circle round the flock until it is where it has
+   to be, always the same way round: who takes the shorter way may change sides again and again. So
+   30 of 30 come in, in 117 s.
 """
 
 import numpy as np

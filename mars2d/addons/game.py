@@ -243,7 +243,9 @@ class Game(Addon):
     def draw(self, scene: Scene, frame: Frame) -> None:
         """Cross out the caught ones, with the time of their capture; draw the hunters' reach."""
         scenario, teams = frame.scenario, self.teams(frame.scenario)
-        pose = np.concatenate([frame.path, frame.pose[None]])
+        pose = frame.pose[None]
+        if self.capture != CONTACT:
+            pose = np.concatenate([frame.path, pose])
         time = np.arange(len(pose)) * np.float64(scenario.sampling_time)
         found = self._found(teams, time, pose, frame.contact_log())
         if self.capture != CONTACT:
@@ -255,20 +257,14 @@ class Game(Addon):
 
     def _mark(self, scene: Scene, frame: Frame, capture: Capture) -> None:
         """Cross out a caught robot, and write the time on the side away from who caught it."""
-        radius = frame.scenario.robots[capture.evader].radius
+        arm = 1.25 * frame.scenario.robots[capture.evader].radius
         x, y = frame.pose[:2, capture.evader].tolist()
-        scene.circle((x, y), 1.25 * radius, stroke=MARK, width=1.2)
-        for side in (-1, 1):
-            arm = 1.25 * radius
-            scene.line(
-                [(x - arm, y - side * arm), (x + arm, y + side * arm)], stroke=MARK, width=1.2
-            )
-        below = y <= frame.pose[1, capture.hunter]
-        scene.text(
-            (x, y + (-1.25 if below else 1.25) * radius),
-            f"\n{round(capture.time, 1):g} s" if below else f"{round(capture.time, 1):g} s\n",
-            color=MARK, size=10.0, halo="#ffffff",
-        )  # fmt: skip
+        scene.circle((x, y), arm, stroke=MARK, width=1.2)
+        for up in (arm, -arm):
+            scene.line([(x - arm, y - up), (x + arm, y + up)], stroke=MARK, width=1.2)
+        above, when = y > frame.pose[1, capture.hunter], f"{round(capture.time, 1):g} s"
+        place, label = (y + arm, f"{when}\n") if above else (y - arm, f"\n{when}")
+        scene.text((x, place), label, color=MARK, size=10.0, halo="#ffffff")
 
 
 def _index(name: str, robot: str | int, names: list[str]) -> int:

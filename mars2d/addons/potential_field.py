@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 from mars2d.addons.base import Addon
@@ -79,27 +79,35 @@ class PotentialField(Addon):
         )
 
     def force(self, robot: int) -> Point:
-        """Return the force (Fx, Fy) [m/s] on a robot, by its index, where it is now."""
+        """Return the force (Fx, Fy) [m/s] on a robot, by its index, where it is now.
+
+        Raises InputError where there is no add-on Waypoints, LawError for one without a waypoint.
+        """
         world = self.__dict__.get("_world")
         if world is None:
             raise InputError(
                 "PotentialField.force is that of a world: world.addons.potential_field"
             )
-        return self._field.force(world.position[:, robot].tolist(), self._waypoints.goal(robot))
+        return self._field.force(world.position[:, robot].tolist(), self._live_goals.goal(robot))
 
     def on_start(self, world: World) -> None:
-        """Take the world, its obstacles, and its waypoints."""
+        """Take the world and its obstacles."""
         names = [str(robot.name) for robot in world.scenario.robots]
         if self.drawn is not None and self.drawn not in names:
             expected = f"a robot's name{nearest(self.drawn, names)}"
             raise wrong("PotentialField.drawn", self.drawn, expected)
         self._world, self._field = world, self.of(world.scenario)
-        live = getattr(world.addons, _goals(world.scenario).key)
-        self._waypoints: Goals = live
+
+    @cached_property
+    def _live_goals(self) -> Goals:
+        goals: Goals = getattr(self._world.addons, _goals(self._world.scenario).key)
+        return goals
 
     def theory(self, scene: Scene, frame: Frame) -> None:
         """Draw where the force on one robot points, and crosses where robots will be caught."""
         scenario = frame.scenario
+        if not any(isinstance(addon, Goals) for addon in scenario.addons):
+            return
         names, goals = [robot.name for robot in scenario.robots], _goals(scenario)
         index = len(goals.routes) - 1 if self.drawn is None else names.index(self.drawn)
         arrow = 0.3 * self.spacing

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -71,6 +72,7 @@ def read_dxf(path: Path, unit: Unit | None) -> Drawing:
     with broken(name, "a DXF drawing"):
         import ezdxf
 
+        _quiet()
         document = ezdxf.filemanagement.readfile(path)
         reader = _Reader(name, document)
         shapes = reader.layout()
@@ -85,6 +87,13 @@ def read_dxf(path: Path, unit: Unit | None) -> Drawing:
         name, "a DXF drawing", unit, tuple(pieces),
         hidden=frozenset({*hidden, "Defpoints"}), skipped=dict(reader.skipped),
     )  # fmt: skip
+
+
+def _quiet() -> None:
+    """Let the library's log go nowhere, unless the program that uses us wants it."""
+    log = logging.getLogger("ezdxf")
+    if not log.handlers:
+        log.addHandler(logging.NullHandler())
 
 
 def _unit(document: Document) -> Unit:

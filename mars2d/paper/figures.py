@@ -28,7 +28,7 @@ FIGURES = (
         "senses something nearer than 0.3 m, it backs off, turns at random, and goes on. This is "
         "the paper's Algorithm 2, of which it gives every number.",
         theory="A turn is even between 90 and 270 degrees, so in the mean it is half a turn. Where "
-        "a robot goes is chance; that it goes 0.2 m in each step that is no turn is not.",
+        "a robot goes is chance; how far is not: 0.2 m in each step, but for those with a turn.",
         law=(
             "something within 0.3 m: v = -0.2, omega = 0",
             "else, after going back: v = 0, omega = pi/2 + pi U(0, 1)",
@@ -39,7 +39,7 @@ FIGURES = (
             Run(
                 "random_walk",
                 "Two robots for 1000 s",
-                "Their paths fill the room and never cross an obstacle.",
+                "They wander through the whole room, and back off 0.3 m from what is in the way.",
             ),
         ),
         work=3,

@@ -24,7 +24,7 @@ __all__ = ["cell_area", "speed_ratio"]
 Float = NDArray[np.float64]
 
 
-RATIOS = (0.8, 0.9, 0.93, 0.94, 0.945, 0.95, 0.955, 0.96, 0.98, 1.0, 1.1)
+RATIOS = (0.8, 0.9, 0.94, 0.945, 0.95, 0.955, 0.96, 0.98, 1.0, 1.1)
 STARTS = ((-2.0, 2.0, 0.0), (0.0, 0.0, 0.0), (3.0, -3.0, 0.0))
 """Of the pursuer: metres and radians."""
 

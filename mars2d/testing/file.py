@@ -50,7 +50,8 @@ def defined_parts(module: ModuleType) -> dict[str, list[type[Description]]]:
     """Return the classes of parts that a file defines, by their family."""
     found: dict[str, list[type[Description]]] = {family: [] for family in FAMILIES}
     kinds = [k for k in vars(module).values() if isinstance(k, type)]
-    mine = list(dict.fromkeys(k for k in kinds if k.__module__ == module.__name__))
+    own = [k for k in kinds if k.__module__ == module.__name__ and issubclass(k, Description)]
+    mine = list(dict.fromkeys(own))
     for kind in mine:
         derived = any(other is not kind and issubclass(other, kind) for other in mine)
         for family, base in FAMILIES.items():
