@@ -37,7 +37,9 @@ class Voronoi(Addon):
     control step. The workspace may be of any shape. With a Density in the scenario masses,
     centroids and the cost are weighted by it. See `mars2d.tessellation.Tessellation`.
 
-    Drawn are the cells in their robots' colours; where theory is shown, the centroids.
+    Drawn are the cells in their robots' colours; where theory is shown, the centroids. A saved
+    record has no functions: a Density of a function is lost with it, and the cells of the loaded
+    record are not weighted, or with `density` named are refused.
     """
 
     density: str | None = text(
