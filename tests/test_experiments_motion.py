@@ -101,11 +101,11 @@ def gaps_of(x, y):
 
 def test_robots_circle_a_beacon_that_has_moved_evenly_and_to_the_left():
     record, checks = outcome("circular_motion")
-    speed, k_b, rho_0 = record.command[0, 0, 0], 0.63, 0.42
+    speed, k_b, rho_0 = record.command[-1, 0, 0], 0.63, 0.42
     radius = brentq(  # plain theory, for the speed that they have
         lambda rho: speed / rho - k_b * log((rho + rho_0) / (2 * rho_0)) * pi / 2, rho_0, 10
     )
-    assert np.all(record.command[:, 0] == speed)
+    assert np.all(record.command[1000:, 0] == speed)  # at first wheels are at their bounds
     x, y = about(record, (1.3, 1.3))
     assert np.hypot(x, y) == pytest.approx(radius, rel=0.03)
     assert gaps_of(x, y) == pytest.approx(90, abs=2)
@@ -130,11 +130,11 @@ def test_the_conditions_of_the_theorem_are_those_of_the_paper(gains, hold):
     base = open_module("circular_motion")
     record = mars2d.run(base.scenario(**gains), 1.0)
     (check, *_) = base.checks(record)
-    radius, k_b, k_v = record.scenario.robots[0].controller.args
+    _, k_b, k_v = record.scenario.robots[0].controller.args
     rho = np.linspace(0, 1, 10001)
     least = np.min(rho * np.log((rho + base.RHO_0) / (2 * base.RHO_0)))
     speed = record.command[0, 0, 0]
-    assert (least > -2 * speed / (3 * pi * k_b)) + (k_v <= 2 * k_b) == hold
+    assert int(least > -2 * speed / (3 * pi * k_b)) + int(k_v <= 2 * k_b) == hold
     assert (check.measured, check.ok) == (hold, hold == 2)
 
 

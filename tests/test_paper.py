@@ -260,6 +260,20 @@ def test_figures_are_those_of_the_paper_and_each_experiment_states_its_setting()
         assert all(text.endswith(".") for text in (each.paper, each.theory))
 
 
+def test_the_index_of_the_experiments_states_each_ones_setting_and_figure():
+    index = Path(__file__).parents[1] / "docs" / "experiments" / "index.md"
+    rows = re.findall(
+        r"^\| \[`(\w+)`\]\(\w+\.md\) \| (\d?) ?\| ([^|]+) \|",
+        index.read_text(encoding="utf-8"), flags=re.M,
+    )  # fmt: skip
+    assert len(rows) == 12
+    figures = {run.experiment: f"{f.number}" for f in FIGURES for run in f.runs}
+    for name, number, setting in rows:
+        assert number == figures.get(name, ""), name
+        stated = _setting(name).replace(" with", ",").lower()
+        assert stated.startswith(setting), f"{name}: {stated}"
+
+
 # -- the folder -------------------------------------------------------------------------------
 
 

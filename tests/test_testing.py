@@ -935,7 +935,10 @@ DARK = Path(__file__).parents[1] / "docs" / "pictures" / "random_walk.png"
 ADDONS_NEED = {
     "Beacon": {"at": (1.0, 1.0)},
     "Density": {"image": str(DARK), "bounds": (-5, 5, -5, 5)},
+    "FieldOfView": {"sensors": ["proximity"]},
+    "Game": {"roles": {"hunter": ["robot0"], "hunted": ["robot1"]}},
     "Map": {"outlines": [[(0, 1.6), (0.3, 1.6)]]},
+    "Theory": {"draws": lambda scene, frame: scene.circle((0, 0), 1.0, stroke="#7b3294")},
     "Waypoints": {"routes": [[(1.0, 0.0)]]},
 }
 """What parts of MARS2D's own need."""
@@ -949,7 +952,7 @@ def test_the_sensors_of_mars2d_are_sound(name):
 @pytest.mark.parametrize("name", sorted(members("addons")))
 def test_the_addons_of_mars2d_are_sound(name):
     addon = members("addons")[name](**ADDONS_NEED.get(name, {}))
-    check_addon(addon, sensors=[sensors.Odometry()])
+    check_addon(addon, sensors=[sensors.Odometry(), sensors.Proximity(range=1.0)])
 
 
 @pytest.mark.parametrize("name", sorted(members("bodies")))
@@ -1004,6 +1007,23 @@ def test_a_file_of_parts_and_laws_without_a_scenario_is_checked(tmp_path, capsys
         "add-on Judge in a small world: sound",
         "law control of a robot, in a small world: sound",
     ]
+
+
+def test_what_an_add_on_draws_of_a_frame_is_tried(tmp_path, capsys):
+    code, out, _ = checked(
+        tmp_path,
+        capsys,
+        """
+        class Halo(Addon):
+            def draw(self, scene, frame):
+                self.drawn = frame.time
+
+            def theory(self, scene, frame):
+                scene.circle((float("nan"), 0), 1.0)
+        """,
+    )
+    assert code == 2
+    assert "Halo.draw" in out
 
 
 def test_classes_that_are_no_parts_are_left_alone(tmp_path, capsys):

@@ -42,7 +42,8 @@ METHODS = {
     "obstacles": (),
     "beacons": (),
     "ground": ("point",),
-    "draw": ("scene", "time"),
+    "draw": ("scene", "frame"),
+    "theory": ("scene", "frame"),
 }
 """What an add-on can have of its own, and the arguments."""
 
@@ -194,6 +195,9 @@ class _Subject:
             self._look_at_beacons(live, time)
         if is_own(self.addon, "ground", Addon):
             self._look_at_ground(live, world)
+        for method in ("draw", "theory"):
+            if is_own(self.addon, method, Addon):
+                self._look_at_drawing(method, world)
 
     def _look_at_beacons(self, live: Addon, time: float) -> None:
         name = f"{self.notes.name}.beacons()"
@@ -220,6 +224,13 @@ class _Subject:
                     f"{self.notes.name}.ground((x, y)) returned {shown(color)}{at(world.time)}: "
                     "expected red, green and blue from 0 to 1, as (1.0, 0.5, 0.0), or None"
                 )
+
+    def _look_at_drawing(self, method: str, world: World) -> None:
+        """Draw as a replay does: by the add-on of the scenario, which is frozen."""
+        function, scene = getattr(self.kind, method), Scene()
+        with self.notes.calling(method, function, world.time):
+            function(self.addon, scene, world.frame)
+        check_finite(scene, f"{self.notes.name}.{method}", at(world.time), self.report)
 
     # -- after the runs -------------------------------------------------------------------------
 

@@ -89,6 +89,12 @@ def check_fields(part: Description, base: type[Description], notes: Notes) -> bo
     report, name, copies = notes.report, notes.name, True
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
+        if inspect.isroutine(value):
+            report.hint(
+                f"{name}.{field.name} = {shown(value)}: a function is not kept in a record's file, "
+                f"so a saved run is shown without {name}"
+            )
+            continue
         for what, attempt in (("copied", copy.deepcopy), ("sent to another process", pickle.dumps)):
             try:
                 attempt(value)
