@@ -344,6 +344,8 @@ def _with_map(scenario: Scenario, options: Mapping[str, Any], chart: Map) -> Sce
     workspace = _workspace_for(scenario, chart)
     if "workspace" in rest:
         workspace = rest.pop("workspace")
+        if workspace is not None:
+            workspace = checks.outline("Scenario.workspace", workspace, least=3)
     own = next((addon for addon in scenario.addons if isinstance(addon, Map)), None)
     if own is not None:  # keep its name and surface
         chart = own.replace(outlines=chart.outlines, walls=chart.walls)
@@ -370,17 +372,15 @@ def _rectangle(xmin: float, xmax: float, ymin: float, ymax: float) -> Outline:
     return ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
 
 
-def _room(scenario: Scenario, chart: Map, workspace: Any) -> str:
+def _room(scenario: Scenario, chart: Map, workspace: Outline | None) -> str:
     """Return where the first body that stands in a wall, or outside, would have room."""
     from mars2d.maps import nearest_room
 
     outlines = chart.obstacles()
     within = _rectangle(*bounds_of([p for o in outlines for p in o]))
-    if not isinstance(workspace, (tuple, list)):
-        workspace = within
     for i, body in enumerate(scenario.bodies):
         center, radius = body.bound
-        place = nearest_room(center, radius, outlines, workspace)
+        place = nearest_room(center, radius, outlines, workspace or within)
         if place is None:
             return f"; there is no room for {body.name} anywhere"
         if place != center:

@@ -50,7 +50,8 @@ def region(name: str, rings: Sequence[Float], *, even_odd: bool = False) -> list
     middles = shapely.get_coordinates(shapely.point_on_surface(faces))
     turns = _turns(name, middles, _edges(edges))
     inside = turns % 2 != 0 if even_odd else turns != 0
-    return joined(name, faces[inside].tolist())
+    whole = shapely.coverage_union_all(faces[inside])  # faces meet edge to edge
+    return [part for part in shapely.get_parts(whole).tolist() if part.geom_type == "Polygon"]
 
 
 def joined(name: str, polygons: Sequence[shapely.Geometry]) -> list[shapely.Polygon]:
