@@ -385,6 +385,18 @@ def test_each_drive_prop_and_joint_is_documented(document):
             assert f"| `{name}` |" in text or f"\n## {name}\n" in text, name
 
 
+def test_each_sensor_and_add_on_has_its_fields_in_their_table():
+    titles = re.findall(r"^## (\w+)", (ROOT / "docs" / "fields.md").read_text(), flags=re.M)
+    assert {*members("sensors"), *members("addons")} <= {*titles}
+
+
+def test_each_add_on_is_in_their_page():
+    text = (ROOT / "docs" / "addons.md").read_text(encoding="utf-8")
+    rows = [row[0] for row in table(text)]
+    for name in members("addons"):
+        assert any(f"`{name}`" in row for row in rows), name
+
+
 def test_each_example_that_checks_itself_is_a_lesson_with_a_picture():
     courses = ("contact.md", "communication.md", "information.md", "sensing.md")
     pages = [*(ROOT / "docs" / name for name in courses), *EXPERIMENTS]
