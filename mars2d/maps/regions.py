@@ -23,8 +23,12 @@ GRID = 1e-5
 MOST_AREAS = 10_000
 """So many areas can be joined."""
 
-MOST_CROSSINGS = 2_000_000
-"""So many pairs of edges may be near each other: beyond it, to cut them takes for ever."""
+MOST_CROSSINGS = 30_000
+MOST_NEAR = 500_000
+"""So many pairs of edges may cross, and may have boxes that overlap: to cut more takes for ever."""
+
+AT_ONCE = 2_000_000
+"""So many answers are looked at together."""
 
 
 def region(name: str, rings: Sequence[Float], *, even_odd: bool = False) -> list[shapely.Polygon]:
@@ -72,14 +76,17 @@ def check_crossings(name: str, geometries: Sequence[shapely.Geometry]) -> None:
     """Refuse what crosses itself so often that nobody drew it. Raises InputError."""
     import shapely
 
-    boxes = shapely.envelope(shapely.linestrings(_edges(geometries)))
-    tree = shapely.STRtree(boxes)
-    at_once = max(16, MOST_CROSSINGS // max(len(boxes), 1))
-    pairs = 0
-    for first in range(0, len(boxes), at_once):
-        pairs += tree.query(boxes[first : first + at_once]).shape[1]
-        if pairs > 2 * MOST_CROSSINGS + 16 * len(boxes):
-            raise InputError(f"{name}: its lines cross each other millions of times")
+    edges = shapely.linestrings(_edges(geometries))
+    tree = shapely.STRtree(edges)
+    at_once = max(16, AT_ONCE // max(len(edges), 1))
+    near = crossing = 0
+    for first in range(0, len(edges), at_once):
+        some = edges[first : first + at_once]
+        near += tree.query(some).shape[1]
+        if near < MOST_NEAR + 16 * len(edges):
+            crossing += tree.query(some, "crosses").shape[1] // 2
+        if near > MOST_NEAR + 16 * len(edges) or crossing > MOST_CROSSINGS:
+            raise InputError(f"{name}: its lines cross each other too many times")
 
 
 def _edges(geometries: Sequence[shapely.Geometry]) -> Float:
@@ -105,12 +112,12 @@ def _turns(name: str, points: Float, edges: Float) -> NDArray[np.int64]:
     rays = shapely.linestrings(np.stack([points, ends], axis=1))
     tree = shapely.STRtree(shapely.linestrings(edges))
     turns = np.zeros(len(points), dtype=np.int64)
-    at_once = max(16, MOST_CROSSINGS // len(edges))
+    at_once = max(16, AT_ONCE // len(edges))
     met = 0
     for first in range(0, len(points), at_once):
         ray, edge = tree.query(rays[first : first + at_once])
         met += len(ray)
-        if met > 10 * MOST_CROSSINGS:
+        if met > 10 * AT_ONCE:
             raise InputError(f"{name}: an area of too many parts within parts")
         (x, y), (x1, y1), (x2, y2) = points[first + ray].T, edges[edge, 0].T, edges[edge, 1].T
         left = (x2 - x1) * (y - y1) - (x - x1) * (y2 - y1)

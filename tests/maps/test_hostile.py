@@ -206,6 +206,14 @@ def a_zigzag(folder: Path) -> Path:
     return path
 
 
+@case("cross each other too many times")
+def areas_upon_areas(folder: Path) -> Path:
+    path = folder / "bad.geojson"
+    rings = [[[[k / 99, 0], [k / 99 + 9, 0], [k / 99, 5], [k / 99, 0]]] for k in range(900)]
+    path.write_text(json.dumps({"type": "MultiPolygon", "coordinates": rings}))
+    return path
+
+
 @case("corners or more")
 def a_comb(folder: Path) -> Path:
     path = folder / "bad.geojson"
@@ -352,7 +360,7 @@ svg('<polyline fill="none" stroke="red" points="' + "1 1 2 2 " * 60_000 + '"/>',
     "more than 100000 points", "a polyline without end")  # fmt: skip
 TANGLE = " ".join(f"{k * 7919 % 10007} {k * 104729 % 10007}" for k in range(5000))
 svg(f'<path d="M{TANGLE}z"/>',
-    "cross each other millions of times", "a tangle")  # fmt: skip
+    "cross each other too many times", "a tangle")  # fmt: skip
 svg("<style>" + ".a{fill:none}" * 700_000 + '</style><rect width="5" height="5"/>',
     "too many attributes", "a style of megabytes")  # fmt: skip
 svg('<rect width="5" height="5"/>', "viewBox", "a viewBox of words", ' viewBox="a b c d">')

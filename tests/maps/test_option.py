@@ -143,6 +143,7 @@ def test_in_python_a_map_can_be_given_as_it_is():
             {"map": "room.wkt", "map.units": 1},
             "there is no option 'map.units'; did you mean 'unit'",
         ),
+        ({"map": "room.wkt", "workspace": [(0, 0)]}, "Scenario.workspace = [(0, 0)]: expected a"),
         ({"map": "room.wkt", "map.layers": "A"}, "room.wkt: layers is for .dxf, .svg"),
     ],
 )
