@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import ast
 import dataclasses
 import difflib
 import importlib.util
 import inspect
 import itertools
+import numbers
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
@@ -17,10 +17,10 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, cast
 
 from mars2d import checks
-from mars2d.addons.map import Map
-from mars2d.description import Description, wrong
+from mars2d.description import wrong
 from mars2d.errors import InputError, LawError, Mars2dError, described, nearest, shown
-from mars2d.geometry import Outline, bounds_of
+from mars2d.map_option import MapOption
+from mars2d.options import override
 from mars2d.prediction import Prediction
 from mars2d.scenario import Scenario
 from mars2d.usercode import called, file_beside
@@ -34,7 +34,6 @@ __all__ = [
     "load_law",
     "open_experiment",
     "open_module",
-    "parse_setting",
 ]
 
 _counter = itertools.count()
@@ -103,8 +102,8 @@ def open_experiment(
         raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
     options = dict(options or {})
     if isinstance(source, Scenario):
-        chart = _MapOption.popped(options, Path())
-        return Experiment(_override(source, options, chart), control)
+        chart = MapOption.popped(options, Path())
+        return Experiment(_set(source, options, chart), control)
     if isinstance(source, ModuleType):
         module, name = source, getattr(source, "__file__", None) or source.__name__
     elif isinstance(source, (str, Path)):
@@ -242,7 +241,7 @@ def _scenario_of(module: ModuleType, options: dict[str, Any], path: Path) -> Sce
             f"has no `scenario`: an experiment's file needs `scenario = Scenario(...)`{hint}"
         )
     scenario = module.scenario
-    chart = _MapOption.popped(options, path)
+    chart = MapOption.popped(options, path)
     if callable(scenario) and not isinstance(scenario, Scenario):
         if chart is not None and "map" in inspect.signature(scenario).parameters:
             options["map"] = chart.value_for(inspect.signature(scenario).parameters["map"].default)
@@ -250,7 +249,12 @@ def _scenario_of(module: ModuleType, options: dict[str, Any], path: Path) -> Sce
         scenario = _call_scenario(scenario, options)
     if not isinstance(scenario, Scenario):
         raise InputError(f"scenario = {shown(scenario)}: expected a Scenario, or a function of one")
-    return _override(scenario, options, chart)
+    return _set(scenario, options, chart)
+
+
+def _set(scenario: Scenario, options: Mapping[str, Any], chart: MapOption | None) -> Scenario:
+    """Return the scenario with the options set, and on a map if one is given."""
+    return override(scenario, options) if chart is None else chart.override(scenario, options)
 
 
 def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any:
@@ -273,198 +277,24 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
             f"scenario({', '.join(parameters)}) needs {missing[0]!r}: give it a default, "
             f"or set it with --set {missing[0]}=..."
         )
+    for name, value in chosen.items():
+        _check_kind(name, value, parameters[name].default)
     try:
         return function(**chosen)
     except (Exception, SystemExit) as error:
         problem = error if isinstance(error, Mars2dError) else InputError(described(error))
         code = getattr(function, "__code__", None)
         if code is not None:
-            problem.where = problem.where or _line_in(error, Path(code.co_filename))
+            given = "".join(f", with {name} = {shown(value)}" for name, value in chosen.items())
+            where = problem.where or _line_in(error, Path(code.co_filename))
+            problem.where = f"{where}{given}"
         raise problem from error
 
 
-@dataclass(frozen=True)
-class _MapOption:
-    """The option ``map`` with how it is to be read, ``map.unit`` and the like.
-
-    file: a file's name or a Map, None if it was not given. caller: a relative name is looked for
-    beside this file, then in the current folder.
-    """
-
-    file: Any
-    settings: dict[str, Any]
-    caller: Path
-
-    @classmethod
-    def popped(cls, options: dict[str, Any], caller: Path) -> _MapOption | None:
-        """Take the option out of others; None if it is not among them."""
-        names = [name for name in options if str(name).partition(".")[0] == "map"]
-        if not names:
-            return None
-        given = {name: options.pop(name) for name in names}
-        file = given.pop("map", None)
-        known = [n for n in inspect.signature(Map.from_file).parameters if n != "path"]
-        settings = {name.partition(".")[2]: value for name, value in given.items()}
-        for name in settings:
-            if name not in known:
-                raise InputError(f"there is no option 'map.{name}'{nearest(name, known)}")
-        return cls(file, settings, caller)
-
-    def value_for(self, default: Any) -> Any:
-        """Return what a scenario function's parameter `map` gets, in place of its default."""
-        file = default if self.file is None else self.file
-        return _MapOption(file, self.settings, self.caller).map() if self.settings else file
-
-    def map(self) -> Map:
-        """Return the map. Raises InputError if it can't be read."""
-        if isinstance(self.file, Map) and not self.settings:
-            return self.file
-        if not isinstance(self.file, (str, Path)):
-            if self.file is None or isinstance(self.file, Map):
-                raise InputError(f"map.{next(iter(self.settings))} needs map=FILE as well")
-            raise wrong("map", self.file, "the name of a map's file, as 'plan.dxf', or a Map")
-        from mars2d.maps import SUFFIXES
-
-        file = file_beside(Path(self.file), self.caller, "a map", SUFFIXES)
-        return Map.from_file(file.absolute(), **self.settings)
-
-
-MARGIN = 1.0
-"""From a map's walls to the edge of a workspace that is made for it, metres."""
-
-OPEN = Scenario.__dataclass_fields__["workspace"].default
-
-
-def _with_map(scenario: Scenario, options: Mapping[str, Any], chart: Map) -> Scenario:
-    """Return the scenario with a map in place of its own, and the options set.
-
-    A workspace that is the default one, or smaller than the map, becomes the rectangle round it.
-    """
-    rest = dict(options)
-    workspace = _workspace_for(scenario, chart)
-    if "workspace" in rest:
-        workspace = rest.pop("workspace")
-        if workspace is not None:
-            workspace = checks.outline("Scenario.workspace", workspace, least=3)
-    own = next((addon for addon in scenario.addons if isinstance(addon, Map)), None)
-    if own is not None:  # keep its name and surface
-        chart = own.replace(outlines=chart.outlines, walls=chart.walls)
-    others = [addon for addon in scenario.addons if not isinstance(addon, Map)]
-    bare = _override(scenario.replace(addons=others, workspace=None), rest)
-    try:
-        return bare.replace(addons=[*bare.addons, chart], workspace=workspace)
-    except InputError as error:
-        raise InputError(f"{error}{_room(bare, chart, workspace)}") from error
-
-
-def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:
-    if scenario.workspace is None:
-        return None
-    xmin, xmax, ymin, ymax = bounds_of([p for o in chart.obstacles() for p in o])
-    left, right, low, high = bounds_of(scenario.workspace)
-    within = left <= xmin and xmax <= right and low <= ymin and ymax <= high
-    if within and scenario.workspace != OPEN:
-        return scenario.workspace
-    return _rectangle(xmin - MARGIN, xmax + MARGIN, ymin - MARGIN, ymax + MARGIN)
-
-
-def _rectangle(xmin: float, xmax: float, ymin: float, ymax: float) -> Outline:
-    return ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
-
-
-def _room(scenario: Scenario, chart: Map, workspace: Outline | None) -> str:
-    """Return where the first body that stands in a wall, or outside, would have room."""
-    from mars2d.maps import nearest_room
-
-    outlines = chart.obstacles()
-    within = _rectangle(*bounds_of([p for o in outlines for p in o]))
-    for i, body in enumerate(scenario.bodies):
-        center, radius = body.bound
-        place = nearest_room(center, radius, outlines, workspace or within)
-        if place is None:
-            return f"; there is no room for {body.name} anywhere"
-        if place != center:
-            place = nearest_room(center, radius, outlines, within) or place  # indoors first
-            x, y, theta = body.pose
-            x, y = x + place[0] - center[0], y + place[1] - center[1]
-            kind, k = ("robots", i) if i < len(scenario.robots) else ("props", i)
-            k -= 0 if kind == "robots" else len(scenario.robots)
-            there = f"({x:.3f}, {y:.3f}, {theta:.4g})"
-            return f"; {body.name} has room at {kind}.{k}.pose={there}"
-    return ""
-
-
-def _override(
-    scenario: Scenario, options: Mapping[str, Any], chart: _MapOption | None = None
-) -> Scenario:
-    """Return the scenario with all options set at once: they are only checked together."""
-    if chart is not None:
-        return _with_map(scenario, options, chart.map())
-    tree: dict[str, Any] = {}
-    for name, value in options.items():
-        *path, last = str(name).split(".")
-        branch = tree
-        for part in path:
-            branch = branch.setdefault(part, {})
-            if not isinstance(branch, dict):
-                raise InputError(f"the options set {part!r} and a field of it, in {name!r}")
-        branch[last] = _Leaf(value)
-    return scenario if not tree else _replaced(scenario, tree, ())
-
-
-class _Leaf:
-    """A value that an option sets, at the end of its path."""
-
-    def __init__(self, value: Any) -> None:
-        self.value = value
-
-
-def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
-    """Return `target` with its fields set as the tree says; ``*`` is all items of a list."""
-    if isinstance(tree, _Leaf):
-        return tree.value
-    if isinstance(target, tuple):
-        items = list(target)
-        for part, branch in tree.items():
-            chosen = range(len(items)) if part == "*" else [_index(part, len(items), path)]
-            for i in chosen:
-                items[i] = _replaced(items[i], branch, (*path, part))
-        return tuple(items)
-    if isinstance(target, Description):
-        fields = [f.name for f in dataclasses.fields(target)]
-        for part in tree:
-            if part not in fields:
-                raise InputError(
-                    f"there is no option {'.'.join((*path, part))!r}: {type(target).__name__} has "
-                    f"no field {part!r}{nearest(part, fields)}"
-                )
-        changes = {
-            part: _replaced(getattr(target, part), branch, (*path, part))
-            for part, branch in tree.items()
-        }
-        return target.replace(**changes)
-    option = ".".join((*path, next(iter(tree))))
-    raise InputError(f"there is no option {option!r}: {shown(target)} has no fields")
-
-
-def _index(text: str, length: int, path: tuple[str, ...]) -> int:
-    if not text.isdigit() or int(text) >= length:
-        option = ".".join((*path, text))
-        raise InputError(
-            f"there is no option {option!r}: expected * or 0 to {length - 1}, not {text!r}"
-        )
-    return int(text)
-
-
-def parse_setting(text: str) -> tuple[str, Any]:
-    """Return (name, value) of a setting ``name=value`` from the command line.
-
-    The value is a Python literal, as ``0.5``, ``True`` or ``(1, 2)``; anything else is text.
-    """
-    name, equals, value = text.partition("=")
-    if not equals or not name.strip():
-        raise InputError(f"--set {text}: expected NAME=VALUE, as --set sampling_time=0.5")
-    try:
-        return name.strip(), ast.literal_eval(value.strip())
-    except (ValueError, SyntaxError, MemoryError, RecursionError):
-        return name.strip(), value.strip()
+def _check_kind(name: str, value: Any, default: Any) -> None:
+    """Refuse what is not a number for a parameter whose default is one, and text for a truth."""
+    if isinstance(default, bool):
+        if isinstance(value, str):
+            raise wrong(f"scenario({name})", value, f"True or False; its default is {default}")
+    elif isinstance(default, numbers.Real) and not isinstance(value, numbers.Real):
+        raise wrong(f"scenario({name})", value, f"a number; its default is {default}")

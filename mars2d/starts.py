@@ -71,10 +71,10 @@ def check_off_obstacles(
         else:
             found = tree.query(_core(body, overlap), "intersects")
         for k in sorted(found):
-            inside = shapes[k].contains(center)
-            hint = " (if it is a room, draw it as walls of two points)" if inside else ""
+            solid = len(outlines[k]) > 2 and shapes[k].contains(center)
+            hint = " (if it is a room, draw it as walls of two points)" if solid else ""
             raise InputError(
-                f"{_pose(body)}: starts {'inside' if inside else 'in contact with'} obstacle {k}, "
+                f"{_pose(body)}: starts {'inside' if solid else 'in contact with'} obstacle {k}, "
                 f"{shown(outlines[k], 80)}{hint}"
             )
 

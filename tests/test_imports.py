@@ -54,6 +54,8 @@ LAYERS = [
     {"props", "robot", "tie", "starts", "encounter", "sensing"},
     {"looks", "limits", "floor", "tethers"},
     {"scenario"},
+    {"options"},
+    {"map_option"},
     {"frame", "plain", "files", "pace", "space"},
     {
         "clutches",

@@ -12,9 +12,10 @@ import pytest
 
 from mars2d import Animation, Holonomic, InputError, Robot, Scenario, Unicycle
 from mars2d.addons import Addon, Map
-from mars2d.files import open_experiment, parse_setting
+from mars2d.files import open_experiment
 from mars2d.joints import Hinge, Joint, Rod, Rope, Spring
 from mars2d.materials import MATERIALS
+from mars2d.options import parse_setting
 from mars2d.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.rigid import Inertia
 from mars2d.sensors import Proximity

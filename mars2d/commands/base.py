@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from mars2d.animation import playback_speed
 from mars2d.errors import InputError
-from mars2d.files import Experiment, examples, parse_setting
+from mars2d.files import Experiment, examples
 from mars2d.frame import Frame
 from mars2d.loop import simulate
+from mars2d.options import parse_setting
 from mars2d.output import film
 from mars2d.prediction import Prediction, table
 from mars2d.progress import Progress

@@ -14,8 +14,9 @@ from typing import Any
 from mars2d import maps
 from mars2d.commands.base import check_outputs, run_headless
 from mars2d.errors import InputError, Mars2dError, counted, nearest
-from mars2d.files import Experiment, open_experiment, open_module, parse_setting
+from mars2d.files import Experiment, open_experiment, open_module
 from mars2d.joints import Joint
+from mars2d.options import parse_setting
 from mars2d.output import figure
 from mars2d.output.chart import save_chart
 from mars2d.record import load

@@ -14,7 +14,6 @@ from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.sensors import Proximity
 
-
 VIOLET = "#7b3294"
 
 

@@ -256,7 +256,8 @@ def test_what_keys_do(name, character, action):
     ("name", "action"),
     [
         ("space", "step"), ("return", "step"), ("right", "step"), ("a", "step"), ("up", "step"),
-        ("g", "grid"), ("m", "messages"), ("c", "forces"), ("y", "theory"), ("tab", "select"), ("escape", "leave"),
+        ("g", "grid"), ("m", "messages"), ("c", "forces"), ("y", "theory"), ("tab", "select"),
+        ("escape", "leave"),
         ("left shift", None), ("left ctrl", None),
     ],
 )  # fmt: skip
