@@ -15,8 +15,7 @@ from math import asin, cos, degrees, log, pi, sin
 
 import numpy as np
 
-from mars2d import Animation, Prediction, Robot, Scenario, sensors
-from mars2d.addons import Beacon, FieldOfView, Theory
+from mars2d import Animation, Prediction, Robot, Scenario, addons, sensors
 
 RHO_0, D_0, D_L, D_S, PSI = 0.42, 1.05, 1.4, 0.35, 7 * pi / 4  # m, m, m, m, rad
 
@@ -37,24 +36,25 @@ def scenario(n=4, radius=0.7, k_b=0.63, k_v=0.75):  # -, m, rad/s, rad/s
     eyes = sensors.Beacon(through_walls=True), ahead, sensors.RangeBearing(name="near", range=D_S)
     law, turns = partial(circle, radius, k_b, k_v), [2 * pi * k / n for k in range(n)]
     robot = Robot(diameter=0.12, sensors=eyes, controller=law, sees="sensors")
-    lamp = Beacon(path=[(3.6, 2.5), (1.3, 1.3)], speed=0.045, closed=False, name="lamp")
-    ring = Theory(lambda scene, now: scene.circle(lamp.where(now.time), radius, stroke="#7b3294"))
+    lamp = addons.Beacon(path=[(3.6, 2.5), (1.3, 1.3)], speed=0.045, closed=False, name="lamp")
+    ring = addons.Theory(lambda on, now: on.circle(lamp.where(now.time), radius, stroke="#7b3294"))
     return Scenario(
         title="Circular motion",
         robots=[robot.at(2.5 + 1.9 * cos(a + 0.9), 2.5 + 1.9 * sin(a + 0.9), a) for a in turns],
         workspace=[(0, 0), (0, 5), (5, 5), (5, 0)],
         stop_time=200.0,
-        addons=[lamp, FieldOfView(), ring],
+        addons=[lamp, addons.FieldOfView(), ring],
         animation=Animation(playback_speed=8),
     )
 
 
 def checks(record):
-    (radius, k_b, k_v), n = record.scenario.robots[0].controller.args, record.pose.shape[2]
+    (radius, k_b, k_v), end = record.scenario.robots[0].controller.args, record.time[-1]
     fine = (k_v <= 2 * k_b) + (radius * g(radius, RHO_0) > 3 * 0.1448 * RHO_0)
     yield Prediction("conditions that hold", 2, fine, 0)
-    x, y = record.pose[-1, :2] - np.transpose([record.scenario.addons[0].where(record.time[-1])])
-    yield Prediction.within("radius", radius, np.hypot(x, y).mean(), 3, "m")
-    angles = np.sort(np.degrees(np.arctan2(y, x)))
-    gap = 360 - (n - 1) * degrees(2 * asin(min(D_0 / 2 / radius, sin(pi / n))))
-    yield Prediction("widest gap", gap, np.diff(angles, append=angles[0] + 360).max(), 2, "degrees")
+    if fine == 2 and end >= 200:  # else theory is silent, or they are not there yet
+        x, y = record.pose[-1, :2] - np.transpose([record.scenario.addons[0].where(end)])
+        yield Prediction.within("radius", radius, np.hypot(x, y).mean(), 3, "m")
+        gaps = np.diff(np.sort(np.degrees(np.arctan2(y, x))))
+        gap = 360 - len(gaps) * degrees(2 * asin(min(D_0 / 2 / radius, sin(pi / len(x)))))
+        yield Prediction("widest gap", gap, max(*gaps, 360 - gaps.sum()), 2, "degrees")

@@ -4,8 +4,8 @@ Setting: distributed, partial information: its own pose, and those of its neighb
 Law: the point h, AHEAD before a robot, can go any way: at u if v = (cos, sin).u and w = (-sin,
 cos).u / AHEAD (feedback linearisation). u = (pace, 0) + gain sum of ((h_j - d_j) - (h - d)) over
 its neighbours j: d are the places in the shape. Source: Oh, Park and Ahn, Automatica 53 (2015).
-Prediction: what is off fades as exp(-gain l t), l being the second eigenvalue of the graph's
-Laplacian (Fiedler, 1973), for a ring of six 1, and the middle of all h goes at `pace`.
+Prediction: after each sampling time dt, 1 - gain l dt is left of what is off, so it fades at about
+gain l; l is the second eigenvalue of the graph's Laplacian (Fiedler, 1973), for a ring of six 1.
 """
 
 from functools import partial
@@ -13,7 +13,7 @@ from math import cos, log, pi, sin
 
 import numpy as np
 
-from mars2d import Animation, Prediction, Robot, Scenario, addons
+from mars2d import Animation, Prediction, Robot, Scenario, Unicycle, addons
 from mars2d.neighbours import Graph
 
 AHEAD, K = 0.2, np.arange(6) - 2.5  # m; the robots' numbers, counted from the middle
@@ -38,10 +38,10 @@ def scenario(shape: str = "wedge", gain: float = 0.15, pace: float = 0.05):
         scene.line(goals, stroke="#7b3294", width=1.5, style="o:")
 
     places, starts = np.array(SHAPES[shape]), [*((2 + 0.5 * np.sin(2 * K)) * CIRCLE), 8.4 * K]
-    robot = Robot(controller=partial(join, places, gain, pace), sees="partial")
+    law, drive = partial(join, places, gain, pace), Unicycle(max_linear_speed=5)
     return Scenario(
         title="Formation",
-        robots=[*map(robot.at, *starts)],
+        robots=[*map(Robot(drive=drive, controller=law, sees="partial").at, *starts)],
         neighbours=Graph(RING),
         workspace=[(-3, -3), (-3, 3), (6, 3), (6, -3)],
         stop_time=60.0,
@@ -51,10 +51,10 @@ def scenario(shape: str = "wedge", gain: float = 0.15, pace: float = 0.05):
 
 
 def checks(record):
-    places, gain, _ = record.scenario.robots[0].controller.args
+    (places, gain, _), dt = record.scenario.robots[0].controller.args, record.scenario.sampling_time
     off = np.ptp(aim(record.pose.swapaxes(0, 1), places[:, None]), axis=2).max(axis=0)  # (T,)
-    rate = gain * np.linalg.eigvalsh(np.diag(RING.sum(axis=1)) - RING)[1]
-    k, end = np.searchsorted(record.time, [2 / rate, 4 / rate])
-    if end < len(off):
+    gone = gain * dt * np.linalg.eigvalsh(np.diag(RING.sum(axis=1)) - RING)  # in a step, by mode
+    if gone[1] > 0 and gone[-1] < 1 and (rate := -log(1 - gone[1]) / dt) * record.time[-1] > 4:
+        k, end = np.searchsorted(record.time, [2 / rate, 4 / rate])
         fading = log(off[k] / off[end]) / (record.time[end] - record.time[k])
         yield Prediction.within("what is off fades at the rate", rate, fading, 5, "1/s")

@@ -46,7 +46,7 @@ def scenario(flock: int = 10, start: int = 1):
     places = np.random.default_rng(start).permutation([(k // 7 - 2, k % 7 - 3) for k in range(35)])
     return Scenario(
         title="Herding",
-        robots=[rex.at(-6, -4), *(lamb.at(*place) for place in places[:flock])],
+        robots=[rex.at(-6, -4), *(lamb.at(*places[k]) for k in range(flock))],
         workspace=None,
         stop_time=300,
         sees="positions",

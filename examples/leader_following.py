@@ -40,7 +40,7 @@ def follow(robot):
 
 
 def scenario(speed: float = 0.3, radius: float = 2.5):
-    eyes, drive, title = RangeBearing(range=50), Unicycle(max_linear_speed=1), "Leader following"
+    eyes, drive, title = RangeBearing(range=50), Unicycle(max_linear_speed=5), "Leader following"
     body = Robot(drive=drive, sensors=[eyes], sees="sensors", controller=follow)
     leader, *others = [body.at(x, y - radius, theta) for x, y, theta in STARTS]
     team = [leader.replace(controller=partial(lead, speed=speed, turn=speed / radius)), *others]
@@ -55,6 +55,6 @@ def orbits(radius):
 
 def checks(record):
     (v, w), (x, y) = record.command[-1, :, 0], record.pose[-1, :2]
-    for i, r in enumerate(orbits(v / w), start=1):
+    for i, r in enumerate(orbits(v / w) if w and record.scenario.stop_time > 20 else (), start=1):
         yield Prediction(f"radius of robot{i}", r, abs(complex(x[i], y[i])), 0.01, "m")
         yield Prediction(f"speed of robot{i}", abs(w) * r, record.command[-1, 0, i], 0.002, "m/s")

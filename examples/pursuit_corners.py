@@ -9,6 +9,7 @@ metre, and r = c tan(phi/2)^mu / sin phi (Bouguer, 1732). Points turn phi from a
 r becomes c = (1 - mu^2) SIDE there; least it is at cos phi = mu: a diameter or less is a capture.
 """
 
+from functools import partial
 from math import atan2, dist, pi, sqrt
 
 import numpy as np
@@ -17,7 +18,7 @@ from mars2d import Animation, Holonomic, Prediction, Robot, Scenario
 from mars2d.addons import Game, Theory
 from mars2d.geometry import wrap
 
-SPEED, SIDE, STEP = 0.2, 9.0, 0.1  # m/s, of the evader; m, between its points; s
+SPEED, SIDE = 0.2, 9.0  # m/s, of the evader; m, between its points
 POINTS = SIDE / 2 * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
 
 
@@ -26,14 +27,15 @@ def evade(robot, k=0):
         if dist(robot.position, POINTS[k]) < 1e-9:
             hunter = robot.neighbours[0].position
             k = max((k + 1) % 4, (k - 1) % 4, key=lambda j: dist(POINTS[j], hunter))
-        yield (POINTS[k] - robot.position) / STEP  # its drive limits this to SPEED
+        yield (POINTS[k] - robot.position) / robot.sampling_time  # its drive limits this to SPEED
+
+
+def pursue(mu, robot):
+    x, y = robot.neighbours[0].position - robot.position
+    return mu * SPEED, wrap(atan2(y, x) - robot.pose[2]) / robot.sampling_time
 
 
 def scenario(mu: float = 0.9):
-    def pursue(robot):
-        x, y = robot.neighbours[0].position - robot.position
-        return mu * SPEED, wrap(atan2(y, x) - robot.pose[2]) / STEP
-
     def cycle(scene, _):  # one side in complex numbers, turned four times
         phi = np.linspace(pi / 2, 2 ** (mu / (mu - 1)), 200)
         r = (1 - mu**2) * SIDE * np.tan(phi / 2) ** mu / np.sin(phi)
@@ -41,20 +43,18 @@ def scenario(mu: float = 0.9):
         path = np.outer([1, 1j, -1, -1j], way - r * np.exp(-1j * phi) - 0.5j * SIDE).ravel()
         scene.polygon(np.array([path.real, path.imag]).T, stroke="#7b329480", width=4)
 
-    red = Robot(name="red", diameter=0.55, sees="positions", controller=pursue)
+    red = Robot(name="red", diameter=0.55, sees="positions", controller=partial(pursue, mu))
     blue = red.replace(name="blue", drive=Holonomic(max_linear_speed=SPEED), controller=evade)
-    return Scenario(
-        title="Pursuit round four corners",
-        robots=[red.at(-2, 2), blue.at(*POINTS[0])],
-        stop_time=500.0,
-        addons=[Game({"pursuer": ["red"], "evader": ["blue"]}), Theory(cycle)][: 1 + (mu < 1)],
-        animation=Animation(base_colors=("red", "blue"), playback_speed=20),
-    )
+    robots, title = [red.at(-2, 2), blue.at(*POINTS[0])], "Pursuit round four corners"
+    addons = [Game({"pursuer": ["red"], "evader": ["blue"]}), Theory(cycle)][: 1 + (mu < 1)]
+    look = Animation(base_colors=("red", "blue"), playback_speed=20)
+    return Scenario(title=title, robots=robots, stop_time=500.0, addons=addons, animation=look)
 
 
 def checks(record):
-    mu, near = record.command[:, 0, 0].max() / SPEED, record.scenario.robots[0].diameter
-    if 0.87 < mu < 1:  # else phi is not yet 0 at the points
+    red, lap = record.scenario.robots[0], 4 * SIDE / SPEED
+    (mu,), near, late = red.controller.args, red.diameter, record.time > record.time[-1] - lap
+    if 0.87 < mu < 1 and (record.scenario.stop_time > 2 * lap or len(record.contacts)):
         least = sqrt(1 - mu**2) * ((1 - mu) / (1 + mu)) ** (mu / 2) * SIDE
-        r = np.hypot(*np.diff(record.pose[-int(4 * SIDE / SPEED / STEP) :, :2])[..., 0].T)
+        r = np.hypot(*np.diff(record.pose[late, :2])[..., 0].T)
         yield Prediction("least distance in the last round", max(least, near), r.min(), 0.04, "m")

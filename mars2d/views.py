@@ -210,6 +210,11 @@ class RobotView(_Body):
         return self._world.time
 
     @property
+    def sampling_time(self) -> float:
+        """The time from one command to the next, seconds."""
+        return self._world.sampling_time
+
+    @property
     def command(self) -> Float:
         """The last command (2,) that was issued, after saturation; zeros at first."""
         return _alone(self._world.command[:, self._index])
@@ -343,6 +348,11 @@ class TeamPositionsView:
     def time(self) -> float:
         """The simulated time, seconds."""
         return self._world.time
+
+    @property
+    def sampling_time(self) -> float:
+        """The time from one command to the next, seconds."""
+        return self._world.sampling_time
 
     @property
     def iteration(self) -> int:

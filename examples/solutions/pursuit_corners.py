@@ -27,10 +27,10 @@ def ahead(mu, lead):
         before = here = robot.neighbours[0].position
         while True:
             here = robot.neighbours[0].position
-            velocity = (here - before) / base.STEP
+            velocity = (here - before) / robot.sampling_time
             x, y = here - robot.position
             x, y = (x, y) + velocity * (lead * hypot(x, y) / (mu * base.SPEED))
-            yield mu * base.SPEED, wrap(atan2(y, x) - robot.pose[2]) / base.STEP
+            yield mu * base.SPEED, wrap(atan2(y, x) - robot.pose[2]) / robot.sampling_time
             before = here
 
     return pursue

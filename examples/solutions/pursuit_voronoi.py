@@ -20,7 +20,7 @@ from mars2d.files import open_module
 from mars2d.tessellation import Tessellation
 
 base = open_module("pursuit_voronoi")
-POINTS, SPEED, STEP = base.POINTS, base.SPEED, base.STEP
+POINTS, SPEED = base.POINTS, base.SPEED
 
 
 def control(world, k=0):
@@ -31,7 +31,7 @@ def control(world, k=0):
             k = max((k + 1) % 4, (k - 1) % 4, key=lambda j, near=near: near[j])
         edges = [world.addons.voronoi.edge(i, len(hunters)) for i in range(len(hunters))]
         goals = [np.mean(edge, axis=0) if edge else evader for edge in edges]
-        yield (np.transpose([*goals, POINTS[k]]) - world.position) / STEP
+        yield (np.transpose([*goals, POINTS[k]]) - world.position) / world.sampling_time
 
 
 def scenario(ratio: float = 0.8, hunters: int = 3):
