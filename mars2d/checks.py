@@ -22,6 +22,7 @@ __all__ = [
     "instance",
     "law",
     "listing",
+    "names",
     "outline",
     "outlines",
     "point",
@@ -175,6 +176,20 @@ def listing(kind: type, example: str) -> Check:
         return tuple(each(f"{name}[{i}]", item) for i, item in enumerate(items))
 
     return check
+
+
+def names(name: str, value: object, expected: str) -> tuple[str, ...] | None:
+    """Check a list of names, at least one, none of them twice; it may be None."""
+    if value is None:
+        return None
+    if not isinstance(value, (tuple, list)) or not value:
+        raise wrong(name, value, expected)
+    if not all(isinstance(item, str) for item in value):
+        raise wrong(name, value, expected)
+    for item in value:
+        if value.count(item) > 1:
+            raise InputError(f"{name}: {item!r} stands there twice")
+    return tuple(value)
 
 
 def unique(name: str, keys: list[str]) -> None:

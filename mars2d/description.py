@@ -212,6 +212,15 @@ class Description:
         current = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         return type(self)(**(current | changes))
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is copied and sent to other processes: all but what is worked out again."""
+        kind, worked_out = type(self), functools.cached_property
+        return {
+            name: value
+            for name, value in self.__dict__.items()
+            if not isinstance(getattr(kind, name, None), worked_out)
+        }
+
     def __repr__(self) -> str:
         changed = [
             f"{f.name}={shown(getattr(self, f.name), 200)}"

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, cast
 from mars2d import checks
 from mars2d.description import wrong
 from mars2d.errors import InputError, LawError, Mars2dError, described, nearest, shown
-from mars2d.map_option import MapOption
+from mars2d.map_option import MapOption, reading_options
 from mars2d.options import override
 from mars2d.prediction import Prediction
 from mars2d.scenario import Scenario
@@ -56,10 +56,12 @@ class Experiment:
     def predictions(self, record: Record) -> tuple[Prediction, ...]:
         """Return what `checks` makes of a run; nothing without checks, or of a run cut short.
 
+        Nor is there anything to compare in a run without a single step.
+
         Raises LawError, which points at file and line, where `checks` raises or returns anything
         but predictions.
         """
-        if self.checks is None or not record.finished:
+        if self.checks is None or not record.finished or len(record) < 2:
             return ()
         expected = "expected a list of Prediction(name, predicted, measured, tolerance)"
         with called("checks", self.checks):
@@ -264,7 +266,8 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
     fields = {f.name for f in dataclasses.fields(Scenario)}
     for name in options:
         if name.partition(".")[0] not in fields:
-            raise InputError(f"there is no option {name!r}{nearest(name, [*parameters, *fields])}")
+            known = [*parameters, *fields, *(f"map.{option}" for option in reading_options())]
+            raise InputError(f"there is no option {name!r}{nearest(name, known)}")
     missing = [
         name
         for name, p in parameters.items()

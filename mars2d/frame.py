@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.density import Density
-from mars2d.addons.floor import Floor
 from mars2d.contact import CONTACT
+from mars2d.geometry import rectangle
 from mars2d.looks import INK, OBSTACLE, draw_prop, draw_robot, draw_tie, prop_colors, prop_edge
 from mars2d.message import MESSAGE
 from mars2d.robot import Robot
@@ -116,13 +115,11 @@ def workspace(scenario: Scenario) -> Scene:
 
 
 def floor(scenario: Scenario) -> Scene:
-    """Return the floor's colours and densities, which lie on the workspace, beneath the grid."""
-    scene = Scene()
-    xmin, xmax, ymin, ymax = scenario.bounds
-    corners = ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
+    """Return what the add-ons paint on the workspace, beneath the grid."""
+    scene, area = Scene(), scenario.workspace or rectangle(*scenario.bounds)
     for addon in scenario.addons:
-        if isinstance(addon, (Floor, Density)):
-            addon.paint(scene, scenario.workspace or corners)
+        with called(f"add-on {addon.key!r}", addon.paint):
+            addon.paint(scene, area)
     return scene
 
 

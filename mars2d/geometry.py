@@ -6,6 +6,7 @@ Lengths in metres, angles in radians, counter-clockwise from +x.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import floor, log10
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,10 +16,12 @@ __all__ = [
     "distance_to_ring",
     "dot",
     "edges_of",
+    "grid_step",
     "inside_polygon",
     "length",
     "outside_polygon",
     "point_segment_distance",
+    "rectangle",
     "wrap",
 ]
 
@@ -60,6 +63,25 @@ def bounds_of(points: Sequence[Point] | Float) -> tuple[float, float, float, flo
     xy = np.asarray(points, dtype=float)
     (xmin, ymin), (xmax, ymax) = xy.min(axis=0), xy.max(axis=0)
     return float(xmin), float(xmax), float(ymin), float(ymax)
+
+
+def rectangle(xmin: float, xmax: float, ymin: float, ymax: float) -> Outline:
+    """Return the corners of a rectangle, counter-clockwise.
+
+    >>> rectangle(*bounds_of([(0, 3), (2, 1)]))
+    ((0.0, 1.0), (2.0, 1.0), (2.0, 3.0), (0.0, 3.0))
+    """
+    return ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
+
+
+def grid_step(wanted: float) -> float:
+    """Return a length that is 1, 2 or 5 times a power of ten, the smallest one >= `wanted` > 0.
+
+    >>> grid_step(0.3), grid_step(2.0), grid_step(7)
+    (0.5, 2.0, 10.0)
+    """
+    power = 10.0 ** floor(log10(wanted))
+    return next(k * power for k in (1, 2, 5, 10) if k * power >= wanted * (1 - 1e-9))
 
 
 def inside_polygon(x: Float, y: Float, polygon: Float) -> NDArray[np.bool_]:

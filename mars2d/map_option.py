@@ -12,12 +12,17 @@ from mars2d import checks
 from mars2d.addons.map import Map
 from mars2d.description import wrong
 from mars2d.errors import InputError, nearest
-from mars2d.geometry import Outline, bounds_of
+from mars2d.geometry import Outline, bounds_of, rectangle
 from mars2d.options import override
 from mars2d.scenario import Scenario
 from mars2d.usercode import file_beside
 
-__all__ = ["MapOption"]
+__all__ = ["MapOption", "reading_options"]
+
+
+def reading_options() -> list[str]:
+    """Return the names of what says how a map is read, ``unit`` and the like."""
+    return [name for name in inspect.signature(Map.from_file).parameters if name != "path"]
 
 
 @dataclass(frozen=True)
@@ -40,11 +45,12 @@ class MapOption:
             return None
         given = {name: options.pop(name) for name in names}
         file = given.pop("map", None)
-        known = [n for n in inspect.signature(Map.from_file).parameters if n != "path"]
+        known = reading_options()
         settings = {name.partition(".")[2]: value for name, value in given.items()}
         for name in settings:
             if name not in known:
-                raise InputError(f"there is no option 'map.{name}'{nearest(name, known)}")
+                near = nearest(f"map.{name}", [f"map.{n}" for n in known])
+                raise InputError(f"there is no option 'map.{name}'{near}")
         return cls(file, settings, caller)
 
     def value_for(self, default: Any) -> Any:
@@ -77,12 +83,18 @@ class MapOption:
 MARGIN = 1.0
 """From a map's walls to the edge of a workspace that is made for it, metres."""
 
+NAMED = 3
+"""For so many bodies room is named."""
+
 OPEN = Scenario.__dataclass_fields__["workspace"].default
 
 
 def _with_map(scenario: Scenario, options: Mapping[str, Any], chart: Map) -> Scenario:
     """Return the scenario with a map in place of its own, and the options set."""
     rest = dict(options)
+    for name in reading_options():
+        if name in rest:  # as mars2d check has it
+            raise InputError(f"there is no option {name!r}; did you mean 'map.{name}'?")
     workspace = _workspace_for(scenario, chart)
     if "workspace" in rest:
         workspace = rest.pop("workspace")
@@ -107,30 +119,31 @@ def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:
     within = left <= xmin and xmax <= right and low <= ymin and ymax <= high
     if within and scenario.workspace != OPEN:
         return scenario.workspace
-    return _rectangle(xmin - MARGIN, xmax + MARGIN, ymin - MARGIN, ymax + MARGIN)
-
-
-def _rectangle(xmin: float, xmax: float, ymin: float, ymax: float) -> Outline:
-    return ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
+    return rectangle(xmin - MARGIN, xmax + MARGIN, ymin - MARGIN, ymax + MARGIN)
 
 
 def _room(scenario: Scenario, chart: Map, workspace: Outline | None) -> str:
-    """Return where the first body that stands in a wall, or outside, would have room."""
+    """Return where bodies that stand in a wall, or outside, would have room."""
     from mars2d.maps import nearest_room
 
-    outlines = chart.obstacles()
-    within = _rectangle(*bounds_of([p for o in outlines for p in o]))
+    outlines = list(chart.obstacles())
+    within = rectangle(*bounds_of([p for o in outlines for p in o]))
+    hints: list[str] = []
     for i, body in enumerate(scenario.bodies):
         center, radius = body.bound
         place = nearest_room(center, radius, outlines, workspace or within)
         if place is None:
             return f"; there is no room for {body.name} anywhere"
-        if place != center:
-            place = nearest_room(center, radius, outlines, within) or place  # indoors first
-            x, y, theta = body.pose
-            x, y = x + place[0] - center[0], y + place[1] - center[1]
-            kind, k = ("robots", i) if i < len(scenario.robots) else ("props", i)
-            k -= 0 if kind == "robots" else len(scenario.robots)
-            there = f"({x:.3f}, {y:.3f}, {theta:.4g})"
-            return f"; {body.name} has room at {kind}.{k}.pose={there}"
-    return ""
+        if place == center:
+            continue
+        if len(hints) == NAMED:
+            return f"; {', '.join(hints)}, and others have none where they stand"
+        place = nearest_room(center, radius, outlines, within) or place  # indoors first
+        x, y, theta = body.pose
+        x, y = x + place[0] - center[0], y + place[1] - center[1]
+        kind, k = ("robots", i) if i < len(scenario.robots) else ("props", i)
+        k -= 0 if kind == "robots" else len(scenario.robots)
+        hints.append(f"{body.name} has room at {kind}.{k}.pose=({x:.3f}, {y:.3f}, {theta:.4g})")
+        (x, y), r = place, radius
+        outlines.append(rectangle(x - r, x + r, y - r, y + r))  # not for the next one as well
+    return f"; {', '.join(hints)}" if hints else ""

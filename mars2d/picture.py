@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from functools import cached_property, lru_cache
 from pathlib import Path
 
@@ -13,7 +12,8 @@ from numpy.typing import NDArray
 from mars2d.checks import LIMIT
 from mars2d.description import real, wrong
 from mars2d.errors import InputError
-from mars2d.scene import LARGEST_IMAGE, rgb
+from mars2d.pixels import opened_image
+from mars2d.scene import rgb
 
 __all__ = ["Bounds", "Picture", "Pixels", "image_bounds", "image_file", "read_picture"]
 
@@ -76,35 +76,16 @@ def read_picture(name: str, image: str, color: str | None = None) -> Picture:
 
 def _read_png(name: str, path: Path) -> Pixels:
     """Return the pixels (rows, columns, 4) of a PNG. Raises InputError, beginning with `name`."""
-    from PIL import Image, UnidentifiedImageError
-
-    quiet = warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning)
+    name = f"{name} = {str(path)!r}"
     try:
-        with quiet, Image.open(path, formats=["PNG"]) as image:
-            problem = _problem(image.size, image.mode)
-            if not problem:
-                return np.asarray(image.convert("RGBA"))
+        with opened_image(name, path, "PNG") as image:
+            return np.asarray(image.convert("RGBA"))
     except FileNotFoundError:
         where = "" if path.is_absolute() else f" in {Path.cwd()}"
         beside = f"Path(__file__).with_name({path.name!r})"
-        problem = f"there is no such file{where}; beside the experiment it is {beside}"
-    except UnidentifiedImageError:
-        problem = "this is no PNG image"
-    except Image.DecompressionBombError:
-        problem = f"it has more than {LARGEST_IMAGE} x {LARGEST_IMAGE} pixels"
-    except (OSError, SyntaxError, ValueError) as error:
-        problem = f"can't be read, {error}"
-    raise InputError(f"{name} = {str(path)!r}: {problem}")
-
-
-def _problem(size: tuple[int, int], mode: str) -> str:
-    """Return why an image of this size [pixels] and kind can't be used, or nothing."""
-    if max(size) > LARGEST_IMAGE:
-        most = f"{LARGEST_IMAGE} x {LARGEST_IMAGE}"
-        return f"{size[0]} x {size[1]} pixels; expected at most {most}"
-    if mode.startswith(("I", "F")):
-        return "16 bits a channel; save it with 8 bits a channel"
-    return ""
+        raise InputError(
+            f"{name}: there is no such file{where}; beside the experiment it is {beside}"
+        ) from None
 
 
 def _version(path: Path) -> tuple[str, int, int]:

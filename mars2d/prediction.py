@@ -19,6 +19,9 @@ WIDTH = 80
 DIGITS = 12
 """Significant digits that a table shows at most."""
 
+FEW = 6
+"""So many decimals may an exact 0 have."""
+
 
 def _line(name: str, value: object) -> str:
     if not isinstance(value, str) or len(value.splitlines()) > 1:
@@ -157,6 +160,8 @@ def number(value: float, tolerance: float) -> str:
     last = _exponent(tolerance) - 1  # the power of ten of the last digit
     first = _exponent(value) if value else 0
     decimals = max(-last, 0)
+    if value == 0 and decimals > FEW:
+        return "0"
     if decimals < DIGITS and max(first, 0) + 1 + decimals <= DIGITS:
         return f"{value:z.{decimals}f}"
     significant = min(max(first - last + 1, 2), DIGITS)

@@ -16,7 +16,7 @@ from mars2d.addons.base import Addon
 from mars2d.addons.communication import Communication
 from mars2d.animation import Animation
 from mars2d.description import Description, choice, entry, number, text, wrong
-from mars2d.errors import InputError
+from mars2d.errors import InputError, nearest
 from mars2d.geometry import Outline, bounds_of
 from mars2d.joints.base import Joint
 from mars2d.joints.hinge import Hinge
@@ -297,6 +297,20 @@ class Scenario(Description):
     def initial_pose(self) -> NDArray[np.float64]:
         """The poses at the start, (3, n)."""
         return np.array([robot.pose for robot in self.robots]).T
+
+    def index_of(self, field: str, robot: str | int) -> int:
+        """Return the index of a robot that is given by its name, or by its index.
+
+        Raises InputError, which begins with `field`, for one that is not there.
+        """
+        names = [str(each.name) for each in self.robots]
+        if isinstance(robot, str):
+            if robot not in names:
+                raise InputError(f"{field}: there is no robot {robot!r}{nearest(robot, names)}")
+            return names.index(robot)
+        if not 0 <= robot < len(names):
+            raise InputError(f"{field}: there is no robot {robot}; they are 0 to {len(names) - 1}")
+        return robot
 
     @property
     def last_iteration(self) -> int:

@@ -17,9 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.errors import InputError, nearest, shown
 from mars2d.geometry import Outline
+from mars2d.pixels import LARGEST_IMAGE
 
 __all__ = [
     "PALETTE",
+    "THEORY",
     "Arrow",
     "Circle",
     "Image",
@@ -40,6 +42,9 @@ Anchor = Literal["center", "left", "right", "above", "below"]
 
 # Okabe & Ito's colours, distinguishable with every common colour vision deficiency (2008).
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#5f4b8b", "#444444")
+
+THEORY = "#7b3294"
+"""The colour of what theory predicts."""
 
 _NAMED = {
     "black": "#000000", "white": "#ffffff", "gray": "#808080", "grey": "#808080",
@@ -213,9 +218,6 @@ class Image:
 
 
 Shape = Circle | Polygon | Line | Text | Arrow | Image
-
-LARGEST_IMAGE = 4096
-"""The most pixels along a side of an image."""
 
 
 @dataclass(slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property, lru_cache
 from math import frexp, ldexp, sqrt
 from typing import Any
@@ -58,7 +58,7 @@ class Tessellation:
     All is worked out when it is asked for, once. Points may lie outside of the region; one whose
     cell is empty has the area 0 and is its own centroid. Of several points at the same place the
     first one has the cell. Raises InputError for points or a region that can't be, and for a
-    density that is negative, not finite or of the wrong shape.
+    density that is negative, not finite or of the wrong shape. No array can be written to.
     """
 
     def __init__(
@@ -97,7 +97,7 @@ class Tessellation:
     def centroids(self) -> Float:
         """The weighted centroids (2, n) of the cells, m; that of one without mass is its point."""
         mass, first, _ = self._moments
-        return np.asarray(self.points + first / np.where(mass > 0, mass, 1.0))
+        return _unwritable(self.points + first / np.where(mass > 0, mass, 1.0))
 
     @cached_property
     def cost(self) -> float:
@@ -160,10 +160,12 @@ class Tessellation:
     @cached_property
     def _distinct(self) -> Index:
         """The points but for those at the same place as one before."""
-        size = self._frame[1]
-        x, y = self.points
-        near = np.hypot(x[:, None] - x, y[:, None] - y) <= SAME * size
-        return np.flatnonzero(~np.tril(near, -1).any(axis=1))
+        from scipy.spatial import KDTree
+
+        pairs = KDTree(self.points.T).query_pairs(SAME * self._frame[1], output_type="ndarray")
+        again = np.zeros(self.points.shape[1], dtype=bool)
+        again[pairs.max(axis=1)] = True
+        return np.flatnonzero(~again)
 
     @cached_property
     def _diagram(self) -> Any:
@@ -235,8 +237,7 @@ class Tessellation:
         cross *= sign[piece[side]]  # whichever way round
         square = ax * ax + ax * bx + bx * bx + ay * ay + ay * by + by * by
         sums = (cross / 2, cross * (ax + bx) / 6, cross * (ay + by) / 6, cross * square / 12)
-        mass, mx, my, second = (_totals(of[side], each, n) for each in sums)
-        return mass, np.array([mx, my]), second
+        return _totals(of[side], sums, n)
 
     @cached_property
     def _weighted_moments(self) -> tuple[Float, Float, Float]:
@@ -246,8 +247,7 @@ class Tessellation:
         mass = weights * self._phi(nodes)
         x, y = nodes - self.points[:, of]
         sums = (mass, mass * x, mass * y, mass * (x * x + y * y))
-        total, mx, my, second = (_totals(of, each, n) for each in sums)
-        return total, np.array([mx, my]), second
+        return _totals(of, sums, n)
 
     @cached_property
     def _nodes(self) -> tuple[Float, Float, Index]:
@@ -309,7 +309,7 @@ def _points(points: ArrayLike) -> Float:
     fits = found.ndim == 2 and found.shape[0] == 2 and found.shape[1] > 0
     if not fits or not np.isfinite(found).all() or np.abs(found).max() > checks.LIMIT:
         raise wrong("Tessellation.points", points, expected)
-    return found
+    return _unwritable(found)
 
 
 def _region(region: Outline) -> Any:
@@ -348,9 +348,19 @@ POLYGON, POLYGONS = 3, 6
 """What shapely calls polygons and several of them in one, by number."""
 
 
-def _totals(of: Index, values: Float, count: int) -> Float:
-    """Return the sums (count,) of values, each added to that of its index, in order."""
-    return np.asarray(np.bincount(of, values, count), dtype=float)
+def _totals(of: Index, moments: Sequence[Float], count: int) -> tuple[Float, Float, Float]:
+    """Return masses (count,), first moments (2, count) and second ones (count,) of all cells.
+
+    moments: what parts add to the cells `of` which they are: mass, first along x and y, second.
+    """
+    mass, x, y, second = (np.bincount(of, each, count).astype(float) for each in moments)
+    return _unwritable(mass), _unwritable(np.array([x, y])), _unwritable(second)
+
+
+def _unwritable(array: Float) -> Float:
+    """Return an array that can't be written from now on: all laws are shown the same one."""
+    array.flags.writeable = False
+    return array
 
 
 def _triangles(pieces: NDArray[Any], owner: Index) -> tuple[Float, Index]:

@@ -164,6 +164,11 @@ class World:
         return self.iteration * self.scenario.sampling_time
 
     @property
+    def sampling_time(self) -> float:
+        """The time from one command to the next, seconds."""
+        return self.scenario.sampling_time
+
+    @property
     def pose(self) -> Float:
         """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; new at each step."""
         return self._pose
@@ -252,9 +257,13 @@ class World:
                 self._close()
 
     def hold(self, robot: int) -> None:
-        """Let a robot stand still from now on, whatever its law says: it is out of the game."""
-        if self.scenario.robots[robot] and robot not in self._held:
-            self._held.append(robot)
+        """Let a robot stand still from now on, whatever its law says: it is out of the game.
+
+        robot: its index. Raises InputError if there is none.
+        """
+        index = self.scenario.index_of("World.hold", robot)
+        if index not in self._held:
+            self._held.append(index)
 
     def break_off(self, why: str) -> None:
         """End the experiment at once, without a last control step, as after an error."""

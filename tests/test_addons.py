@@ -223,3 +223,19 @@ def test_a_wall_is_checked_as_outlines_are_but_may_cross_itself():
 def test_a_map_without_anything_is_an_error():
     with pytest.raises(InputError, match="Map: expected outlines or walls"):
         Map()
+
+
+def test_an_own_addon_may_paint_the_floor():
+    class Carpet(Addon):
+        def paint(self, scene, area):
+            scene.polygon(area, fill="#ff0000")
+
+    (shape,) = frame.floor(Scenario(addons=[Carpet()], workspace=None)).shapes
+    assert np.ptp(shape.points, axis=0).tolist() == [2.0, 2.0]  # a metre round the only robot
+
+    class Torn(Carpet):
+        def paint(self, scene, area):
+            raise ValueError("torn")
+
+    with pytest.raises(LawError, match=r"add-on 'torn' raised ValueError: torn"):
+        frame.floor(Scenario(addons=[Torn()]))

@@ -613,3 +613,16 @@ def test_a_law_in_the_current_folder_plays_in_an_experiment_elsewhere(tmp_path):
     done = mars(*run, "--set", "red=my_lwa.py", cwd=tmp_path)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert "did you mean 'my_law.py'?" in done.stderr
+
+
+def test_a_closed_stdout_is_no_fault(tmp_path):
+    command = f"exec {sys.executable} -m mars2d list >&-"
+    done = subprocess.run(
+        ["sh", "-c", command],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")

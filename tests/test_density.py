@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -76,6 +78,18 @@ def test_all_worlds_share_an_images_pixels(picture):
     assert first is second
     with pytest.raises(ValueError, match="read-only"):
         first[0] = 0
+
+
+def test_a_scenario_that_was_drawn_is_sent_without_the_pixels(tmp_path):
+    noise = np.random.default_rng(0).integers(0, 256, (300, 300), dtype=np.uint8)
+    Image.fromarray(noise).save(tmp_path / "noise.png")
+    scenario = Scenario(addons=[Density(image=tmp_path / "noise.png", bounds=(-5, 5, -5, 5))])
+    sent = pickle.dumps(scenario)
+    (drawn,) = floor(scenario).shapes
+    assert len(pickle.dumps(scenario)) < len(sent) + 100
+    (again,) = floor(pickle.loads(sent)).shapes
+    assert (again.pixels == drawn.pixels).all()
+    assert pickle.loads(sent) == scenario
 
 
 def test_robots_gather_where_it_is_dense():

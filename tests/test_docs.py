@@ -466,24 +466,8 @@ def test_every_module_stands_in_the_picture_of_the_design():
 def test_the_layers_in_the_design_are_those_of_the_code():
     text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
     section = text.partition("## Layers")[2].partition("\n## ")[0]
-    layers = [
-        line.split(". ", 1)[1].split(", ")
-        for line in section.splitlines()
-        if re.match(r"\d+\. ", line)
-    ]
-    level = {part: k for k, layer in enumerate(layers) for part in layer}
-    imports = module(ROOT / "tests" / "test_imports.py")
-    for path in imports.FILES:
-        part = path.relative_to(imports.PACKAGE).with_suffix("").parts[0]
-        if part == "__init__":
-            continue
-        for name, lazy in imports._own_imports(path):
-            target = imports._part(name)
-            if not name.startswith("mars2d") or target == "__init__":
-                continue
-            if lazy and (part, target) == ("record", "output"):
-                continue  # the exception that the design names
-            assert level[target] <= level[part], f"{part} imports {target}"
+    layers = [set(line.split(", ")) for line in re.findall(r"^\d+\. (.+)$", section, flags=re.M)]
+    assert layers == module(ROOT / "tests" / "test_imports.py").LAYERS
 
 
 # -- names ------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import pi, sin, tan
 
 import numpy as np
@@ -43,7 +44,23 @@ def test_in_a_square_the_cost_never_rises_and_robots_end_at_their_centroids(holo
 def test_the_checks_see_a_law_that_goes_the_wrong_way():
     _, found = played("coverage_circle", k=-0.2)
     assert not found["largest rise of H"].ok
+
+
+@pytest.mark.parametrize("name", ["coverage_square", "coverage_circle"])
+def test_the_checks_see_a_robot_that_stands_still(name):
+    base = open_module(name)
+    scenario = base.scenario()
+    first, *others = scenario.robots
+    still = first.replace(controller=partial(lambda k, robot: (0.0, 0.0), 1.0))
+    found = {p.name: p for p in base.checks(mars2d.run(scenario.replace(robots=[still, *others])))}
     assert not found["farthest from its centroid"].ok
+
+
+@pytest.mark.parametrize("options", [{"k": 0.1}, {"stop_time": 5.0}])
+@pytest.mark.parametrize("name", ["coverage_square", "coverage_circle"])
+def test_of_robots_that_are_still_on_their_way_only_H_is_checked(name, options):
+    _, found = played(name, **options)
+    assert [(each.name, each.ok) for each in found.values()] == [("largest rise of H", True)]
 
 
 def test_the_cost_falls_at_the_rate_of_the_gradient():

@@ -1,5 +1,6 @@
 """The pursuits and the herding: what the paper found, and what theory says of it."""
 
+from functools import partial
 from math import hypot
 
 import numpy as np
@@ -42,6 +43,32 @@ def test_capture_begins_where_the_cycle_gets_as_narrow_as_a_robot(mu, winner):
     _, outcome, predictions = played("pursuit_corners", mu=mu)
     assert outcome.winner == winner
     assert all(p.ok for p in predictions)
+
+
+@pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi"])
+def test_the_checks_see_a_pursuer_that_is_slower_than_it_should_be(name):
+    experiment = open_experiment(name)
+    red, blue = experiment.scenario.robots
+    law, control = red.controller, experiment.control
+    if law is None:  # a centralised law
+
+        def control(world, law=experiment.control):
+            for command in law(world):
+                yield command * [0.0, 1.0]
+    else:
+        red = red.replace(controller=partial(lambda mu, robot: (0.0, 0.0), *law.args))
+    record = mars2d.run(experiment.scenario.replace(robots=[red, blue]), control=control)
+    assert not all(p.ok for p in experiment.predictions(record))
+
+
+def test_before_the_cycle_is_there_nothing_is_said_of_it():
+    _, _, predictions = played("pursuit_corners", stop_time=100)
+    assert predictions == ()
+
+
+@pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])
+def test_a_run_of_no_steps_is_no_error(name):
+    assert played(name, stop_time=0)[2] == ()
 
 
 def test_a_thinner_evader_is_caught_by_a_quicker_pursuer_only():

@@ -262,7 +262,7 @@ def files(folder):
         "empty.png": "this is no PNG image",
         "jpeg.png": "this is no PNG image",
         "long.png": "5000 x 2 pixels; expected at most 4096 x 4096",
-        "deep.png": "16 bits a channel; save it with 8",
+        "deep.png": "more than 8 bits a channel; save it with 8",
         "cut.png": "can't be read",
         "folder.png": "can't be read",
         "gone.png": "there is no such file in ",

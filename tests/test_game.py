@@ -262,5 +262,6 @@ def test_a_held_robot_slows_down_as_its_drive_can():
 
 
 def test_to_hold_a_robot_that_is_not_there_is_an_error():
-    with pytest.raises(IndexError):
-        World(Scenario()).hold(3)
+    for robot in (3, -1):
+        with pytest.raises(InputError, match=rf"World.hold: there is no robot {robot}; they are 0"):
+            World(Scenario()).hold(robot)

@@ -28,6 +28,7 @@ LAYERS = [
         "fans",
         "message",
         "burst",
+        "pixels",
     },
     {
         "registry",
@@ -233,11 +234,13 @@ def test_importing_the_package_has_no_side_effects(child, tmp_path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_importing_mars2d_adds_less_than_a_quarter_of_a_second_to_numpy_and_pymunk(child) -> None:
-    """The processor's time, not the clock's, since other tests run at the same time."""
+def test_importing_mars2d_adds_less_than_thrice_what_numpy_and_pymunk_take(child) -> None:
+    """The processor's time of both in one process: machines, and how busy they are, differ."""
     code = (
-        "import time, numpy, pymunk, pymunk.batch\n"
-        "start = time.process_time(); import mars2d; print(time.process_time() - start)"
+        "import time; start = time.process_time()\n"
+        "import numpy, pymunk, pymunk.batch; middle = time.process_time()\n"
+        "import mars2d; print(middle - start, time.process_time() - middle)"
     )
-    times = [float(child(code).stdout) for _ in range(3)]
-    assert min(times) < 0.25
+    times = [[float(each) for each in child(code).stdout.split()] for _ in range(3)]
+    theirs, ours = map(min, zip(*times, strict=True))
+    assert ours < 3 * theirs

@@ -162,7 +162,7 @@ def test_a_robot_without_waypoints_has_no_force():
 
 
 def test_the_robot_whose_field_is_drawn_is_one_of_the_team():
-    with pytest.raises(InputError, match=r"PotentialField.drawn = 'robot1'.*robot0"):
+    with pytest.raises(InputError, match=r"PotentialField.drawn: .*'robot1'.*robot0"):
         World(scenario(WAYS, field=PotentialField(drawn="robot1")))
 
 

@@ -241,3 +241,11 @@ def test_an_experiment_keeps_the_first_line_of_its_docstring(tmp_path):
     (tmp_path / "mine.py").write_text('"""How far does it go?\n\nMore.\n"""\n' + HEAD)
     assert open_experiment(tmp_path / "mine.py").summary == "How far does it go?"
     assert opened(tmp_path, "").summary == ""
+
+
+def test_an_exact_zero_is_short_where_the_tolerance_is_tiny():
+    from mars2d.prediction import number
+
+    assert number(0.0, 1.44e-10) == number(0.0, 3.49e-11) == "0"
+    assert number(0.0, 0.02) == "0.000"
+    assert number(3e-12, 1.44e-10) == "0.00000000000"

@@ -457,3 +457,20 @@ def test_options_of_props_and_joints_pass_the_same_gate():
 @pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
 def test_physics_is_an_option(physics):
     assert with_options(f"physics={physics}").physics == physics
+
+
+@pytest.mark.parametrize(
+    ("name", "option", "message"),
+    [
+        ("pursuit_corners", {"mu": "0,9"}, "scenario(mu) = '0,9': expected a number; its default"),
+        ("pursuit_corners", {"mu": (0, 9)}, "scenario(mu) = (0, 9): expected a number"),
+        ("herding", {"flock": None}, "scenario(flock) = None: expected a number"),
+        ("coverage_square", {"holonomic": "false"}, "scenario(holonomic) = 'false': expected True"),
+        ("cyclic_pursuit", {"n": 2.5}, "cyclic_pursuit.py, line 35, with n = 2.5: TypeError"),
+        ("pursuit_voronoi", {"ratio": -1}, "with ratio = -1: Holonomic.max_linear_speed = -0.2"),
+    ],
+)
+def test_what_a_scenario_function_cannot_use_is_named(name, option, message):
+    with pytest.raises(InputError) as caught:
+        open_experiment(name, option)
+    assert message in str(caught.value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from math import cos, pi, sin
 
 import numpy as np
@@ -112,6 +113,15 @@ def test_of_points_at_the_same_place_the_first_has_the_cell():
     assert (found.cells[2].is_empty, found.neighbours(2), found.edge(1, 2)) == (True, (), None)
     assert found.cost == Tessellation([[1, 3], [2, 2]], SQUARE).cost
     assert Tessellation([[1, 1], [1, 1]], SQUARE).areas.tolist() == pytest.approx([16, 0])
+
+
+def test_a_large_team_needs_memory_in_proportion():
+    tracemalloc.start()
+    points = np.random.default_rng(0).uniform(0, 4, (2, 4000))
+    assert Tessellation(points, SQUARE).areas.sum() == pytest.approx(16)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 30e6  # a table of all pairs would have 128 MB
 
 
 def test_points_outside_of_the_region_have_what_of_it_is_nearest_to_them():

@@ -317,7 +317,7 @@ SENSORS = {
     "a field can't be sent": (
         lambda: type("Probe", (Sensor,), {
             "__annotations__": {"gain": object},
-            "gain": entry(check=lambda _, v: v, default=lambda x: x), "read": value(1.0),
+            "gain": entry(check=lambda _, v: v, factory=type("Local", (), {})), "read": value(1.0),
         })(),
         ["Probe.gain", "can't be sent to another process"],
     ),
@@ -337,6 +337,18 @@ def test_a_fault_of_a_sensor_is_named(fault):
     make, words = SENSORS[fault]
     findings = sensor_findings(make())
     assert seen(findings, "wrong", *words), texts(findings, "wrong")
+
+
+def test_a_field_that_is_a_function_is_a_hint():
+    class Bent(Sensor):
+        curve: object = entry(check=lambda _, v: v)
+
+        def read(self, robot, world, rng):
+            return self.curve(1.0)
+
+    findings = sensor_findings(Bent(curve=lambda x: 2 * x))
+    assert not texts(findings, "wrong")
+    assert seen(findings, "hint", "Bent.curve", "a saved run is shown without Bent")
 
 
 def test_all_that_is_wrong_is_said_at_once():
@@ -1009,21 +1021,24 @@ def test_a_file_of_parts_and_laws_without_a_scenario_is_checked(tmp_path, capsys
     ]
 
 
-def test_what_an_add_on_draws_of_a_frame_is_tried(tmp_path, capsys):
-    code, out, _ = checked(
-        tmp_path,
-        capsys,
-        """
-        class Halo(Addon):
-            def draw(self, scene, frame):
-                self.drawn = frame.time
-
-            def theory(self, scene, frame):
-                scene.circle((float("nan"), 0), 1.0)
-        """,
-    )
+@pytest.mark.parametrize(
+    ("method", "does", "words"),
+    [
+        ("draw(self, scene, frame)", "self.drawn = frame.time", "Halo.draw raised Frozen"),
+        (
+            "theory(self, scene, frame)",
+            "scene.circle((float('nan'), 0), 1.0)",
+            "Halo.theory draws a circle with nan",
+        ),
+        ("paint(self, scene, area)", "scene.polygon(area[9])", "Halo.paint raised IndexError"),
+        ("paint(self, scene)", "pass", "Halo.paint has the arguments (self, scene)"),
+    ],
+)
+def test_what_an_add_on_draws_is_tried(tmp_path, capsys, method, does, words):
+    source = f"class Halo(Addon):\n    def {method}:\n        {does}\n"
+    code, out, err = checked(tmp_path, capsys, source)
     assert code == 2
-    assert "Halo.draw" in out
+    assert words in out + err
 
 
 def test_classes_that_are_no_parts_are_left_alone(tmp_path, capsys):

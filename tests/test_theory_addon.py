@@ -73,6 +73,17 @@ def test_figures_at_several_times_show_theory_in_each_panel():
     assert discs(theory=True) == [1, 1]
 
 
+def test_in_a_figure_theory_lies_above_the_paths_that_may_cover_it():
+    from matplotlib.patches import Circle as Disc
+
+    halo = scenario(addons=[Halo()], animation=Animation(theory=True))
+    drawn = mars2d.run(halo, control=east).plot().get_children()
+    (ring,) = (k for k, a in enumerate(drawn) if isinstance(a, Disc) and a.radius == 1.0)
+    (path,) = (k for k, a in enumerate(drawn) if len(getattr(a, "get_xdata", list)()) == 21)
+    assert path < ring
+    assert drawn[path].get_zorder() <= drawn[ring].get_zorder()
+
+
 def test_theory_does_not_change_a_run():
     plain = mars2d.run(scenario(), control=east)
     assert mars2d.run(scenario(addons=[Theory(circle)]), control=east).digest == plain.digest

@@ -131,6 +131,7 @@ def test_a_window_a_replay_and_a_figure_show_the_same_trails(tmp_path):
     [
         ({"duration": 0}, r"Trails.duration = 0: expected a number > 0"),
         ({"robots": "robot0"}, r"Trails.robots = 'robot0': expected a list of robots' names"),
+        ({"robots": []}, r"Trails.robots = \[\]: expected a list of robots' names"),
         ({"robots": ["a", "a"]}, r"Trails.robots: 'a' stands there twice"),
         ({"width": -1}, r"Trails.width = -1: expected a number > 0"),
     ],
@@ -141,5 +142,5 @@ def test_trails_that_can_not_be_are_an_error(fields, message):
 
 
 def test_a_name_that_no_robot_has_is_an_error_that_knows_the_nearest():
-    with pytest.raises(InputError, match=r"Trails.robots = .*did you mean 'leader'\?"):
+    with pytest.raises(InputError, match=r"Trails.robots: .*'laeder'.*did you mean 'leader'\?"):
         World(Scenario(robots=[Robot(name="leader")], addons=[Trails(robots=["laeder"])]))

@@ -87,6 +87,12 @@ class Addon(Live):
         """
         return None
 
+    def paint(self, scene: Scene, area: Outline) -> None:
+        """Paint the floor of an area, beneath all else: what its fields alone say.
+
+        area: the workspace, or what stands in for it. It is asked once for many frames.
+        """
+
     def draw(self, scene: Scene, frame: Frame) -> None:
         """Draw what its fields and the frame alone say: so replays of a record show it, too.
 

@@ -14,7 +14,7 @@ from mars2d import checks
 from mars2d.addons.base import Addon
 from mars2d.description import entry
 from mars2d.errors import InputError
-from mars2d.geometry import Outline, bounds_of
+from mars2d.geometry import Outline, bounds_of, rectangle
 from mars2d.picture import Bounds, Picture, image_bounds, image_file, read_picture
 from mars2d.scene import Scene, color, rgb
 from mars2d.tessellation import Weight, density_at
@@ -112,9 +112,7 @@ class Density(Addon, Weight):
 
     def on_start(self, world: World) -> None:
         """Look at it everywhere in the workspace, so that what is wrong with it is said at once."""
-        xmin, xmax, ymin, ymax = world.bounds
-        corners = ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
-        _, _, phi = self._raster(world.workspace or corners)
+        _, _, phi = self._raster(world.workspace or rectangle(*world.bounds))
         if not phi.any():
             what = "Density.function" if self.image is None else f"Density.image = {self.image!r}"
             raise InputError(f"{what}: it is 0 everywhere in the workspace")

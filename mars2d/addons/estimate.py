@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.description import entry, number, text, wrong
-from mars2d.errors import InputError, nearest
+from mars2d.description import entry, number, text
+from mars2d.errors import InputError
 from mars2d.reckoning import grown
 from mars2d.scene import Scene, color, faded
 
@@ -90,9 +90,8 @@ class Estimate(Addon):
     def _found(self, world: World) -> tuple[int, Odometry]:
         """Return the robot's index, and its sensor."""
         robots = world.scenario.robots
-        names = [str(robot.name) for robot in robots]
-        if self.robot is not None and self.robot not in names:
-            raise wrong("Estimate.robot", self.robot, f"a robot's name{nearest(self.robot, names)}")
+        if self.robot is not None:
+            world.scenario.index_of("Estimate.robot", self.robot)
         for index, robot in enumerate(robots):
             for sensor in robot.sensors:
                 reckons = hasattr(sensor, "drift") and hasattr(sensor, "origin")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from mars2d.addons.base import Addon
+from mars2d.checks import names
 from mars2d.description import entry, wrong
 from mars2d.errors import InputError, nearest
 from mars2d.scene import Scene, faded
@@ -21,12 +22,7 @@ FAR = 50.0
 
 
 def _names(name: str, value: object) -> tuple[str, ...] | None:
-    if value is None:
-        return None
-    listed = isinstance(value, (tuple, list)) and all(isinstance(item, str) for item in value)
-    if not listed or not value:
-        raise wrong(name, value, "a list of sensors' names, as ['range_bearing'], or None")
-    return tuple(value)  # type: ignore[arg-type]
+    return names(name, value, "a list of sensors' names, as ['range_bearing'], or None")
 
 
 def _field(sensor: Sensor) -> tuple[float, float] | None:

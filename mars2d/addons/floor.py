@@ -14,7 +14,7 @@ from mars2d import checks
 from mars2d.addons.base import Addon, Color
 from mars2d.description import entry, wrong
 from mars2d.errors import InputError
-from mars2d.geometry import Outline, Point, bounds_of, inside_polygon
+from mars2d.geometry import Outline, Point, bounds_of, inside_polygon, rectangle
 from mars2d.picture import Bounds, Picture, Pixels, image_bounds, image_file, read_picture
 from mars2d.scene import Scene, rgb
 from mars2d.scene import color as checked_color
@@ -152,8 +152,7 @@ class Floor(Addon):
                 scene.image(self.pixels, self.bounds)
             except InputError:
                 xmin, xmax, ymin, ymax = self.bounds
-                corners = [(xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax)]
-                scene.polygon(corners, fill="#e6e9ed")
+                scene.polygon(rectangle(*self.bounds), fill="#e6e9ed")
                 name = Path(str(self.image)).name
                 scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), f"{name} is not there")
         for outline, color in self.patches:

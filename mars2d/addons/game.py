@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.base import Addon
 from mars2d.description import entry, real, wrong
-from mars2d.errors import InputError, likely, nearest
+from mars2d.errors import InputError, likely
 from mars2d.scene import Scene, faded
 
 if TYPE_CHECKING:
@@ -205,7 +205,7 @@ class Game(Addon):
         for role, robots in self.roles:
             team = []
             for robot in robots:
-                index = _index(f"{type(self).__name__}.roles[{role!r}]", robot, names)
+                index = scenario.index_of(f"{type(self).__name__}.roles[{role!r}]", robot)
                 if index in taken:
                     twice = f"is {taken[index]} and {role}"
                     twice = f"stands twice as {role}" if taken[index] == role else twice
@@ -265,17 +265,6 @@ class Game(Addon):
         above, when = y > frame.pose[1, capture.hunter], f"{round(capture.time, 1):g} s"
         place, label = (y + arm, f"{when}\n") if above else (y - arm, f"\n{when}")
         scene.text((x, place), label, color=MARK, size=10.0, halo="#ffffff")
-
-
-def _index(name: str, robot: str | int, names: list[str]) -> int:
-    """Return the index of a robot that is named, or given by its index."""
-    if isinstance(robot, str):
-        if robot not in names:
-            raise InputError(f"{name}: there is no robot {robot!r}{nearest(robot, names)}")
-        return names.index(robot)
-    if not 0 <= robot < len(names):
-        raise InputError(f"{name}: there is no robot {robot}; they are 0 to {len(names) - 1}")
-    return robot
 
 
 def _touches(

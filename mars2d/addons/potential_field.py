@@ -7,11 +7,11 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 from mars2d.addons.base import Addon
-from mars2d.description import number, text, wrong
-from mars2d.errors import InputError, nearest
+from mars2d.description import number, text
+from mars2d.errors import InputError
 from mars2d.geometry import Outline, Point
 from mars2d.potential import Goals, Potential
-from mars2d.scene import Scene, faded
+from mars2d.scene import THEORY, Scene, faded
 
 if TYPE_CHECKING:
     from mars2d.frame import Frame
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from mars2d.world import World
 
 __all__ = ["PotentialField"]
-
-PREDICTED = "#7b3294"
-"""The colour of what theory predicts."""
 
 CROSS = 0.4
 """Half the width of a cross at a local minimum, metres."""
@@ -54,7 +51,7 @@ class PotentialField(Addon):
         default=0.6, above=0, high=1e6, unit="m", doc="rho_0: edges nearer to a robot's rim repel"
     )
     drawn: str | None = text(
-        default=None, optional=True, doc="whose field is drawn; None: that of the last robot"
+        default=None, optional=True, doc="whose field is drawn; None: that of the last route"
     )
     spacing: float = number(
         default=1.0, low=0.1, high=1e6, unit="m", doc="of the grid on which it is drawn"
@@ -92,10 +89,8 @@ class PotentialField(Addon):
 
     def on_start(self, world: World) -> None:
         """Take the world and its obstacles."""
-        names = [str(robot.name) for robot in world.scenario.robots]
-        if self.drawn is not None and self.drawn not in names:
-            expected = f"a robot's name{nearest(self.drawn, names)}"
-            raise wrong("PotentialField.drawn", self.drawn, expected)
+        if self.drawn is not None:
+            world.scenario.index_of("PotentialField.drawn", self.drawn)
         self._world, self._field = world, self.of(world.scenario)
 
     @cached_property
@@ -108,15 +103,17 @@ class PotentialField(Addon):
         scenario = frame.scenario
         if not any(isinstance(addon, Goals) for addon in scenario.addons):
             return
-        names, goals = [robot.name for robot in scenario.robots], _goals(scenario)
-        index = len(goals.routes) - 1 if self.drawn is None else names.index(self.drawn)
+        goals = _goals(scenario)
+        index = len(goals.routes) - 1
+        if self.drawn is not None:
+            index = scenario.index_of("PotentialField.drawn", self.drawn)
         arrow = 0.3 * self.spacing
         for (x, y), (ux, uy) in self._arrows(frame, goals, index):
             tail, tip = (x - arrow * ux, y - arrow * uy), (x + arrow * ux, y + arrow * uy)
-            scene.arrow(tail, tip, fill=faded(PREDICTED, 0.45), width=1.0)
+            scene.arrow(tail, tip, fill=faded(THEORY, 0.45), width=1.0)
         for route, (reached, (x, y)) in zip(goals.routes, self.plan(scenario), strict=True):
             if reached < len(route):
-                for color, width in (("#ffffff", 4.5), (PREDICTED, 2.5)):
+                for color, width in (("#ffffff", 4.5), (THEORY, 2.5)):
                     for side in (CROSS, -CROSS):
                         ends = [(x - CROSS, y - side), (x + CROSS, y + side)]
                         scene.line(ends, stroke=color, width=width)

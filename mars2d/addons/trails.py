@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mars2d.addons.base import Addon
-from mars2d.description import entry, number, wrong
-from mars2d.errors import InputError, nearest
+from mars2d.checks import names
+from mars2d.description import entry, number
 from mars2d.scene import Scene, color_of, rgb
 
 if TYPE_CHECKING:
@@ -36,14 +36,7 @@ ROUNDING = 1e-9
 
 
 def _names(name: str, value: object) -> tuple[str, ...] | None:
-    if value is None:
-        return None
-    if not isinstance(value, (tuple, list)) or not all(isinstance(item, str) for item in value):
-        raise wrong(name, value, "a list of robots' names, as ['robot0', 'leader'], or None")
-    for item in value:
-        if value.count(item) > 1:
-            raise InputError(f"{name}: {item!r} stands there twice")
-    return tuple(value)
+    return names(name, value, "a list of robots' names, as ['robot0', 'leader'], or None")
 
 
 class Trails(Addon):
@@ -69,11 +62,8 @@ class Trails(Addon):
 
     def on_start(self, world: World) -> None:
         """Look the robots up; raise InputError if there is none of such a name."""
-        known = [str(robot.name) for robot in world.scenario.robots]
         for name in self.robots or ():
-            if name not in known:
-                expected = f"robots' names{nearest(name, known)}"
-                raise wrong("Trails.robots", list(self.robots or ()), expected)
+            world.scenario.index_of("Trails.robots", name)
 
     def draw(self, scene: Scene, frame: Frame) -> None:
         """Draw where the robots came from in the last `duration` seconds."""

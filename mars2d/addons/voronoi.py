@@ -11,7 +11,7 @@ from mars2d.addons.base import Addon
 from mars2d.description import number, text, wrong
 from mars2d.errors import InputError, nearest
 from mars2d.geometry import Outline
-from mars2d.scene import Scene, faded
+from mars2d.scene import THEORY, Scene, faded
 from mars2d.tessellation import Segment, Tessellation, Weight
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Voronoi"]
 
-EDGE, THEORY = "#5b6470b0", "#7b3294"
+EDGE = "#5b6470b0"
 
 
 class Voronoi(Addon):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import inspect
 import os
 import sys
 from collections.abc import Callable
@@ -16,9 +15,10 @@ from mars2d.commands.base import check_outputs, run_headless
 from mars2d.errors import InputError, Mars2dError, counted, nearest
 from mars2d.files import Experiment, open_experiment, open_module
 from mars2d.joints import Joint
+from mars2d.map_option import reading_options
 from mars2d.options import parse_setting
 from mars2d.output import figure
-from mars2d.output.chart import save_chart
+from mars2d.output.map import save_map
 from mars2d.record import load
 from mars2d.rerun import rerun
 from mars2d.robot import Robot
@@ -69,24 +69,25 @@ def execute(arguments: argparse.Namespace) -> None:
     elif path.suffix in ("", ".py"):
         _check_code(arguments.file)
     else:
+        advice = "; save the drawing as DXF" if path.suffix.lower() == ".dwg" else ""
         raise InputError(
             f"{path}: expected a Python file (.py), a record (.npz) or a map "
-            f"({', '.join(maps.SUFFIXES)})"
+            f"({', '.join(maps.SUFFIXES)}){advice}"
         )
 
 
 def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> None:
     """Say what was read of a map, and draw it."""
-    tolerance = settings.pop("tolerance", maps.TOLERANCE)
-    known = [name for name in inspect.signature(maps.read).parameters if name != "path"]
+    known = reading_options()
     for name in settings:
         if name not in known:
-            raise InputError(f"--set {name}: no option{nearest(name, [*known, 'tolerance'])}")
+            raise InputError(f"--set {name}: no option{nearest(name, known)}")
+    tolerance = settings.pop("tolerance", maps.TOLERANCE)
     drawing = maps.read(path, **settings)
     for name, text in maps.described(drawing, maps.obstacles(drawing, tolerance), tolerance):
         print(f"{name:<12}{text}")
     if picture is not None:
-        print(f"picture     {save_chart(drawing, picture)}")
+        print(f"picture     {save_map(drawing, picture)}")
 
 
 def _check_code(source: str) -> None:

@@ -10,7 +10,7 @@ from mars2d.errors import Mars2dError, counted
 from mars2d.paper.build import make_all, write_page
 from mars2d.paper.figure import Figure
 from mars2d.paper.figures import FIGURES
-from mars2d.paper.folder import prepare
+from mars2d.paper.folder import prepare, remove
 from mars2d.paper.page import verdict
 from mars2d.paper.result import Result
 from mars2d.progress import Progress
@@ -54,6 +54,7 @@ def execute(arguments: argparse.Namespace) -> None:
         make_all(figures, folder, seed, done, watch)
     finally:  # also after Ctrl-C: what is there is there
         progress.close()
+        remove([name for f in figures if f.number not in done for name in f.files], folder)
         path = write_page(folder, figures, done, seed)
         _report(figures, done, path)
     broken = [number for number, result in sorted(done.items()) if result.problems]

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isfinite
+from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -243,9 +244,11 @@ def broken(name: str, kind: str) -> Iterator[None]:
         raise InputError(f"{name}: can't be read as {kind}: {said}") from error
 
 
-def too_large(name: str, size: int, most: int) -> InputError:
-    """Return the error that says: this file has more bytes than it may."""
-    return InputError(f"{name}: {size / 1e6:.3g} MB; expected at most {most / 1e6:g} MB")
+def check_bytes(name: str, path: Path, most: int) -> None:
+    """Refuse a file of more than so many bytes. Raises InputError, which begins with `name`."""
+    size = path.stat().st_size
+    if size > most:
+        raise InputError(f"{name}: {size / 1e6:.3g} MB; expected at most {most / 1e6:g} MB")
 
 
 def listed(counts: Mapping[str, int], most: int = 8) -> str:

@@ -188,20 +188,12 @@ def _statements(name: str, text: str) -> Iterator[str]:
     depth, statement = 0, ""
     for line in text.splitlines():
         statement += line.strip() + " "
-        depth += line.count("(") - line.count(")")
-        if depth > DEEPEST:
-            raise InputError(f"{name}: brackets in brackets, more than {DEEPEST} deep")
+        for character in line:
+            depth += (character == "(") - (character == ")")
+            if depth > DEEPEST:
+                raise InputError(f"{name}: brackets in brackets, more than {DEEPEST} deep")
         if depth <= 0 and statement.strip():
-            _check_depth(name, statement)
             yield statement
             depth, statement = 0, ""
     if statement.strip():
         raise InputError(f"{name}: its last geometry is not closed by )")
-
-
-def _check_depth(name: str, text: str) -> None:
-    depth = 0
-    for character in text:
-        depth += (character == "(") - (character == ")")
-        if depth > DEEPEST:
-            raise InputError(f"{name}: brackets in brackets, more than {DEEPEST} deep")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.errors import InputError
+from mars2d.pixels import opened_image
 
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["IMAGES", "cells", "read_image"]
+__all__ = ["IMAGES", "MOST_BYTES", "cells", "read_image"]
 
 Mask = NDArray[np.bool_]
 Gray = NDArray[np.float32]
@@ -22,8 +22,8 @@ Gray = NDArray[np.float32]
 IMAGES = {".png": "PNG", ".pgm": "PPM", ".jpg": "JPEG", ".jpeg": "JPEG"}
 """The suffixes of images, and what Pillow calls their formats."""
 
-LARGEST = 4096
-"""Rows and columns of an image, at most."""
+MOST_BYTES = 20_000_000
+"""Of an image."""
 
 MOST_CORNERS = 100_000
 """An image whose cells have more corners is noise, not a map."""
@@ -35,39 +35,12 @@ def read_image(name: str, path: Path) -> tuple[Gray, Mask]:
     Both are (rows, columns), the upper row first; colours count by the mean of their channels.
     Raises InputError, which begins with `name`.
     """
-    from PIL import Image
-
-    kind = IMAGES[path.suffix.lower()]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            with Image.open(path, formats=[kind]) as image:
-                _check(name, image.size, image.mode)
-                if image.mode == "L":
-                    gray = np.asarray(image, dtype=np.float32)
-                    return gray, np.zeros(gray.shape, dtype=bool)
-                pixels = np.asarray(image.convert("RGBA"))
-        except InputError:
-            raise
-        except Image.DecompressionBombError:
-            raise InputError(f"{name}: far more than {LARGEST} x {LARGEST} pixels") from None
-        except Exception as error:  # Pillow raises whatever comes
-            said = " ".join(str(error).split())[:100] or type(error).__name__
-            what = path.suffix[1:].upper()
-            if "cannot identify" in said:
-                said = f"this is no {what} image"
-            raise InputError(f"{name}: can't be read as a {what} image: {said}") from error
+    with opened_image(name, path, IMAGES[path.suffix.lower()]) as image:
+        if image.mode == "L":
+            gray = np.asarray(image, dtype=np.float32)
+            return gray, np.zeros(gray.shape, dtype=bool)
+        pixels = np.asarray(image.convert("RGBA"))
     return pixels[..., :3].mean(axis=2, dtype=np.float32), pixels[..., 3] == 0
-
-
-def _check(name: str, size: tuple[int, int], mode: str) -> None:
-    """Refuse an image that is too large, or too fine, before its pixels are read."""
-    width, height = size
-    if max(width, height) > LARGEST:
-        most = f"{LARGEST} x {LARGEST}"
-        raise InputError(f"{name}: {width} x {height} pixels; expected at most {most}")
-    if mode.startswith(("I", "F")):
-        raise InputError(f"{name}: more than 8 bits a channel; save it with 8")
 
 
 def cells(name: str, occupied: Mask) -> list[shapely.Polygon]:

@@ -12,17 +12,13 @@ from numpy.typing import NDArray
 
 from mars2d.description import real, wrong
 from mars2d.errors import InputError, nearest
-from mars2d.maps.drawing import Drawing, Piece, Unit, broken, too_large
-from mars2d.maps.grid import IMAGES, cells, read_image
+from mars2d.maps.drawing import Drawing, Piece, Unit, broken, check_bytes
+from mars2d.maps.grid import IMAGES, MOST_BYTES, cells, read_image
 
 __all__ = ["read_occupancy", "read_picture"]
 
 Mask = NDArray[np.bool_]
 Pose = tuple[float, float, float]
-
-MOST_YAML = 64_000
-MOST_IMAGE = 20_000_000
-"""Bytes of a YAML file, and of an image."""
 
 MOST_BRACKETS = 100
 
@@ -127,9 +123,6 @@ def _fields(name: str, path: Path) -> dict[str, Any]:
     """Return what a YAML file says, plain values only."""
     import yaml
 
-    size = path.stat().st_size
-    if size > MOST_YAML:
-        raise too_large(name, size, MOST_YAML)
     with broken(name, "YAML"):
         text = path.read_text(encoding="utf-8")
         if max(text.count("["), text.count("{")) > MOST_BRACKETS:
@@ -163,7 +156,5 @@ def _beside(name: str, path: Path, image: Any) -> Path:
         raise wrong(f"{name}: image", image, f"{expected}, no link that leads elsewhere")
     if not found.is_file():
         raise InputError(f"{name}: image = {image!r}: there is no such file beside it")
-    size = found.stat().st_size
-    if size > MOST_IMAGE:
-        raise too_large(f"{name}: image {image}", size, MOST_IMAGE)
+    check_bytes(f"{name}: image {image}", found, MOST_BYTES)
     return found

@@ -10,15 +10,19 @@ from typing import Any
 from mars2d.checks import point
 from mars2d.description import real, wrong
 from mars2d.errors import InputError, likely
-from mars2d.maps.drawing import METRES, Drawing, Unit, too_large
-from mars2d.maps.grid import IMAGES
+from mars2d.maps.drawing import METRES, Drawing, Unit, check_bytes
+from mars2d.maps.grid import IMAGES, MOST_BYTES
 
 __all__ = ["SUFFIXES", "read"]
 
-MEGABYTES = {".dxf": 10, ".svg": 10, ".geojson": 10, ".json": 10, ".wkt": 10, ".yaml": 1, ".yml": 1}
-"""How large files of each kind may be; images up to 20."""
+LARGEST = {
+    **dict.fromkeys((".dxf", ".svg", ".geojson", ".json", ".wkt"), 10_000_000),
+    **dict.fromkeys((".yaml", ".yml"), 64_000),
+    **dict.fromkeys(IMAGES, MOST_BYTES),
+}
+"""How large files of each kind may be, bytes."""
 
-SUFFIXES = (*MEGABYTES, *IMAGES)
+SUFFIXES = tuple(LARGEST)
 """The suffixes of files that are maps."""
 
 TAKES = {
@@ -47,7 +51,8 @@ def read(
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise InputError(f"{path}: expected a map: {', '.join(SUFFIXES)}")
+        advice = "; save the drawing as DXF" if suffix == ".dwg" else ""
+        raise InputError(f"{path}: expected a map: {', '.join(SUFFIXES)}{advice}")
     options = {"layers": layers, "unit": unit, "resolution": resolution}
     for option, value in options.items():
         if value is not None and option not in TAKES[suffix]:
@@ -94,12 +99,11 @@ def _check_file(path: Path, suffix: str) -> None:
     if path.is_dir():
         raise InputError(f"{path}: a folder; expected a map, a file that ends in {suffix}")
     if not path.is_file():
-        raise InputError(f"{path}: there is no such file")
-    size = path.stat().st_size
-    most = MEGABYTES.get(suffix, 20) * 1_000_000
-    if size > most:
-        raise too_large(path.name, size, most)
-    if size == 0:
+        folder = path.parent
+        beside = [f for f in folder.iterdir() if f.suffix in SUFFIXES] if folder.is_dir() else []
+        raise InputError(f"{path}: there is no such file{likely(path, map(str, beside))}")
+    check_bytes(path.name, path, LARGEST[suffix])
+    if not path.stat().st_size:
         raise InputError(f"{path.name}: an empty file; expected a map")
     if not os.access(path, os.R_OK):
         raise InputError(f"{path}: can't be read: no permission")

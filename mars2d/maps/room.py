@@ -8,6 +8,12 @@ from mars2d.geometry import Outline, Point
 
 __all__ = ["nearest_room"]
 
+SPARE = (4.0, 1.0, 0.05)
+"""How far from walls a disc is to stand, in its radii, if there is such a place."""
+
+LEAST = 0.03
+"""Rooms that are smaller than this share of the largest one are nooks, where none is to stand."""
+
 
 def nearest_room(
     place: Point, radius: float, outlines: Sequence[Outline], workspace: Outline
@@ -15,7 +21,8 @@ def nearest_room(
     """Return the point nearest to a place where a disc stands within a workspace, off obstacles.
 
     place: (x, y) [m]; it is returned as it is if the disc stands there. radius: that of the disc
-    [m]. None: there is no room for it.
+    [m]. Where there is room to turn and drive, that is preferred to a gap or a corner. None: there
+    is no room for it.
     """
     import shapely
 
@@ -25,8 +32,12 @@ def nearest_room(
     free = shapely.difference(shapely.Polygon(workspace), taken)
     if shapely.covers(free, where):
         return place
-    inner = shapely.buffer(free, -0.05 * radius)  # not just beside a wall
-    if inner.is_empty:
-        return None
-    _, nearest = shapely.shortest_line(where, inner).coords
-    return float(nearest[0]), float(nearest[1])
+    for spare in SPARE:
+        inner = shapely.buffer(free, -spare * radius)
+        if not inner.is_empty:
+            parts = shapely.get_parts(inner)
+            areas = shapely.area(parts)
+            rooms = shapely.multipolygons(parts[areas >= LEAST * areas.max()])
+            _, nearest = shapely.shortest_line(where, rooms).coords
+            return float(nearest[0]), float(nearest[1])
+    return None

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.errors import InputError, counted
-from mars2d.output.figure import INK, MUTED, View, dress, label, paint_row, save_drawing
+from mars2d.output.figure import INK, MUTED, View, dress, label, new_figure, paint_row, save_drawing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -144,14 +144,10 @@ def plot_comparison(comparison: Comparison) -> Figure:
 
     Returns a matplotlib figure that pyplot does not know of.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     column = (WIDTH - LEFT - RIGHT - 2 * GAP) / 3
     width, height = comparison.view.inches(column, 1.3 * column)
     tall = HEAD + TITLES + height + LABELS + DRIFT + FOOT
-    figure = Figure(figsize=(WIDTH, tall), facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = new_figure(WIDTH, tall, layout=None)
 
     def place(left: float, bottom: float, wide: float, high: float) -> Axes:
         return figure.add_axes((left / WIDTH, bottom / tall, wide / WIDTH, high / tall))

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from io import BytesIO
-from math import ceil, floor, log, log10
+from math import ceil, log
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d import frame as seen
 from mars2d.errors import InputError, shown
 from mars2d.forces import FORCE, LABEL_SIZE, force_scale, forces, in_newtons, round_force
+from mars2d.geometry import grid_step
 from mars2d.links import messages
 from mars2d.output.artists import paint, points_per_metre
 from mars2d.output.extent import View
@@ -36,6 +37,7 @@ __all__ = [
     "View",
     "dress",
     "label",
+    "new_figure",
     "paint_row",
     "plot_paths",
     "plot_snapshots",
@@ -44,6 +46,7 @@ __all__ = [
 ]
 
 Float = NDArray[np.float64]
+Layout = Literal["constrained"] | None
 
 SUFFIXES = (".png", ".pdf", ".svg")
 """The formats of `save_figure`."""
@@ -80,7 +83,7 @@ def plot_paths(record: Record, ax: Axes | None = None) -> Axes:
     if ax is None:
         legend_width = _legend_width(record.scenario)
         width, height = view.inches(5.2, 4.8)
-        figure = _new_figure(width + 0.8 + legend_width, height + 0.9)
+        figure = new_figure(width + 0.8 + legend_width, height + 0.9)
         ax = figure.add_subplot()
     else:
         _check_axes(ax)
@@ -114,7 +117,7 @@ def plot_snapshots(record: Record, times: ArrayLike, figure: Figure | None = Non
     if figure is None:
         room = min(3.2, 9.6 / cols)
         width, height = view.inches(room, room)
-        figure = _new_figure(
+        figure = new_figure(
             cols * (width + 0.25) + 0.6 + _legend_width(scenario), lines * (height + 0.4) + 0.9
         )
     panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
@@ -178,12 +181,12 @@ def save_drawing(draw: Callable[[], Figure], path: str | Path, *, trim: bool = T
     return path
 
 
-def _new_figure(width: float, height: float) -> Figure:
+def new_figure(width: float, height: float, *, layout: Layout = "constrained") -> Figure:
     """Return a figure [inches] that pyplot does not know of."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(width, height), layout="constrained", facecolor="white")
+    figure = Figure(figsize=(width, height), layout=layout, facecolor="white")
     FigureCanvasAgg(figure)
     return figure
 
@@ -227,9 +230,7 @@ def _set_ticks(ax: Axes) -> None:
     """Set the ticks of both axes at the same distance: 1, 2 or 5 times a power of ten metres."""
     from matplotlib.ticker import MultipleLocator
 
-    wanted = TICK_SPACING / points_per_metre(ax)
-    power = 10.0 ** floor(log10(wanted))
-    step = next(factor * power for factor in (1, 2, 5, 10) if factor * power >= wanted * (1 - 1e-9))
+    step = grid_step(TICK_SPACING / points_per_metre(ax))
     ax.xaxis.set_major_locator(MultipleLocator(step))
     ax.yaxis.set_major_locator(MultipleLocator(step))
 
@@ -253,13 +254,13 @@ def paint_row(ax: Axes, record: Record, row: int) -> None:
     drawn = scenario.animation.show_real_shape
     scale = min(max(radius / 9, 0.1), 0.75) if drawn else 0.75 if few else 0.5
     paint(seen.addons(now), ax, scale=0.75)
-    if scenario.animation.theory:
-        paint(seen.theory(now), ax, scale=0.75)
     if scenario.animation.wake:
         trails = seen.trails(now)
         if not few:
             trails = Scene([_paler(shape) for shape in trails.shapes])
         paint(trails, ax, scale=0.55 if few else 0.4)
+    if scenario.animation.theory:  # above the paths, as in the window: they may cover it
+        paint(seen.theory(now), ax, scale=0.75)
     if scenario.animation.show_initial_pose:
         paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75))
     paint(messages(now), ax, scale=max(0.4, scale))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from mars2d.output.figure import GRID, INK, MUTED
+from mars2d.output.figure import GRID, INK, MUTED, new_figure
+from mars2d.scene import THEORY
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -13,8 +14,8 @@ if TYPE_CHECKING:
 
 __all__ = ["BAD", "MEASURED", "OTHERS", "THEORY", "charts", "logarithmic", "name"]
 
-MEASURED, THEORY, BAD = "#0072b2", "#7b3294", "#b42318"
-"""Colours: of what was measured, of what a formula says, of what is told from both."""
+MEASURED, BAD = "#0072b2", "#b42318"
+"""Colours: of what was measured, and of what is told from that and from theory."""
 
 OTHERS = ("#d55e00", "#0072b2", "#009e73")
 """Colours of several curves that were measured."""
@@ -27,11 +28,7 @@ def charts(count: int = 1, *, width: float = 7.6, height: float = 3.0) -> tuple[
 
     width, height: of the whole figure, inches. pyplot does not know of it.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height), layout="constrained", facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = new_figure(width, height)
     axes = figure.subplots(1, count, squeeze=False).ravel().tolist()
     for ax in axes:
         ax.grid(visible=True, color=GRID, linewidth=0.6)

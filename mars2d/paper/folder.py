@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mars2d.errors import InputError
 
-__all__ = ["MARK", "NUMBERS", "PAGE", "prepare"]
+__all__ = ["MARK", "NUMBERS", "PAGE", "prepare", "remove"]
 
 PAGE, NUMBERS = "index.html", "numbers.json"
 
@@ -50,3 +50,9 @@ def _refuse_others(folder: Path, inside: list[Path], own: set[str]) -> None:
                 f"{folder}: holds {path.name}, which is not of `mars2d paper`; nothing was "
                 "changed. Name a new folder, or an empty one"
             )
+
+
+def remove(pictures: Iterable[str], folder: Path) -> None:
+    """Remove those pictures of the folder that are there: the page does not show them."""
+    for name in pictures:
+        (folder / name).unlink(missing_ok=True)

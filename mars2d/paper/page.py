@@ -41,13 +41,13 @@ $style</style>
 <h1>The figures of the MARS paper, regenerated</h1>
 <p class="lead">Figures 2 to 9 of <cite>$paper</cite>, run anew by MARS2D $version with seed $seed.
 Beside each stands what the paper reports, in our own words, what theory predicts, and what was
-measured. In the pictures, robots are hollow where they start and filled where they are; violet,
-dashed lines are theory.</p>
+measured. In the pictures, robots are hollow where they start and filled where they are; violet
+is theory.</p>
 </header>
 <main>
 $missing<div class="scroll" role="region" aria-label="All figures" tabindex="0">
 <table class="summary">
-<caption>All figures, and how many of the numbers predicted were measured</caption>
+<caption>All figures, and how many of the predictions hold</caption>
 <thead><tr><th scope="col">Figure</th><th scope="col">Experiment</th>
 <th scope="col">Predictions</th></tr></thead>
 <tbody>

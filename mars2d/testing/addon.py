@@ -11,6 +11,7 @@ import numpy as np
 from mars2d import checks
 from mars2d.addons.base import HOOKS, Addon
 from mars2d.errors import InputError, shown
+from mars2d.geometry import rectangle
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
 from mars2d.sensors.base import Sensor
@@ -42,6 +43,7 @@ METHODS = {
     "obstacles": (),
     "beacons": (),
     "ground": ("point",),
+    "paint": ("scene", "area"),
     "draw": ("scene", "frame"),
     "theory": ("scene", "frame"),
 }
@@ -195,7 +197,7 @@ class _Subject:
             self._look_at_beacons(live, time)
         if is_own(self.addon, "ground", Addon):
             self._look_at_ground(live, world)
-        for method in ("draw", "theory"):
+        for method in ("paint", "draw", "theory"):
             if is_own(self.addon, method, Addon):
                 self._look_at_drawing(method, world)
 
@@ -227,9 +229,10 @@ class _Subject:
 
     def _look_at_drawing(self, method: str, world: World) -> None:
         """Draw as a replay does: by the add-on of the scenario, which is frozen."""
+        area = world.workspace or rectangle(*world.bounds)
         function, scene = getattr(self.kind, method), Scene()
         with self.notes.calling(method, function, world.time):
-            function(self.addon, scene, world.frame)
+            function(self.addon, scene, area if method == "paint" else world.frame)
         check_finite(scene, f"{self.notes.name}.{method}", at(world.time), self.report)
 
     # -- after the runs -------------------------------------------------------------------------

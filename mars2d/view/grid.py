@@ -8,6 +8,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from mars2d.geometry import grid_step
 from mars2d.view.camera import Camera
 from mars2d.view.fonts import Fonts
 from mars2d.view.theme import GRID, GRID_AXIS, MUTED, PAGE
@@ -26,12 +27,7 @@ def spacing(scale: float, least: float) -> float:
 
     The smallest for which lines are at least `least` pixels apart, at `scale` pixels a metre.
     """
-    wanted = least / scale
-    power = 10.0 ** floor(log10(wanted))
-    for factor in (1, 2, 5):
-        if factor * power >= wanted * (1 - 1e-9):
-            return factor * power
-    return 10 * power
+    return grid_step(least / scale)
 
 
 def ticks(low: float, high: float, step: float) -> Float:

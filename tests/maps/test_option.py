@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 
@@ -83,8 +84,8 @@ def test_how_it_is_read_is_set_by_options_of_the_map(folder):
 @pytest.mark.parametrize(
     ("pose", "said"),
     [
-        ("(0.05, 2, 0)", "robot0 has room at robots.0.pose=(0.158, 2.000, 0)"),
-        ("(2, -4, 1)", "robot0 has room at robots.0.pose=(2.000, 0.158, 1)"),
+        ("(0.05, 2, 0)", "robot0 has room at robots.0.pose=(0.750, 2.000, 0)"),
+        ("(2, -4, 1)", "robot0 has room at robots.0.pose=(2.000, 0.750, 1)"),
     ],
 )
 def test_a_robot_that_would_stand_in_a_wall_or_outside_is_told_where_there_is_room(
@@ -97,6 +98,26 @@ def test_a_robot_that_would_stand_in_a_wall_or_outside_is_told_where_there_is_ro
     assert str(caught.value).endswith(said)
     place = eval(said.partition("=")[2])
     assert open_experiment(path, {"map": "room.wkt", "robots.0.pose": place})
+
+
+def test_all_that_have_no_room_are_told_of_a_place_each_and_at_most_three(folder):
+    four = ", ".join(f"Robot(pose=({x}, -4, 0), diameter=0.3)" for x in (2, 2.5, 3, 3.5))
+    path = experiment(folder, f"scenario = Scenario(robots=[{four}])")
+    with pytest.raises(InputError) as caught:
+        open_experiment(path, {"map": "room.wkt"})
+    said = str(caught.value).rpartition("; ")[2]
+    assert said.endswith(", and others have none where they stand")
+    found = dict(re.findall(r"(robots\.\d\.pose)=(\(.*?\))", said))
+    assert list(found) == ["robots.0.pose", "robots.1.pose", "robots.2.pose"]
+    options = {name: eval(pose) for name, pose in found.items()}
+    assert open_experiment(path, {"map": "room.wkt", **options, "robots.3.pose": (5, 3, 0)})
+
+
+def test_in_a_narrow_place_a_robot_is_told_of_what_room_there_is(folder):
+    (folder / "room.wkt").write_text("LINESTRING (0 0, 6 0, 6 0.32, 0 0.32, 0 0)")
+    path = experiment(folder, "scenario = Scenario(robots=[Robot(pose=(3, 0, 0), diameter=0.3)])")
+    with pytest.raises(InputError, match=r"has room at robots.0.pose=\(3.000, 0.158, 0\)"):
+        open_experiment(path, {"map": "room.wkt"})
 
 
 def test_a_robot_too_large_for_the_map_is_told_so(folder):
@@ -141,8 +162,9 @@ def test_in_python_a_map_can_be_given_as_it_is():
         ({"map.unit": "cm"}, "map.unit needs map=FILE as well"),
         (
             {"map": "room.wkt", "map.units": 1},
-            "there is no option 'map.units'; did you mean 'unit'",
+            "there is no option 'map.units'; did you mean 'map.unit'?",
         ),
+        ({"map": "room.wkt", "unit": "cm"}, "no option 'unit'; did you mean 'map.unit'?"),
         ({"map": "room.wkt", "workspace": [(0, 0)]}, "Scenario.workspace = [(0, 0)]: expected a"),
         ({"map": "room.wkt", "map.layers": "A"}, "room.wkt: layers is for .dxf, .svg"),
     ],
@@ -189,6 +211,12 @@ def test_check_shows_what_was_read_and_draws_it(folder):
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_check_names_the_nearest_file_and_how_to_bring_a_dwg(folder):
+    said = "mars2d: rom.wkt: there is no such file; did you mean 'room.wkt'?\n"
+    assert mars("check", "rom.wkt").stderr == said
+    assert mars("check", "plan.dwg").stderr.endswith("; save the drawing as DXF\n")
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -208,10 +236,10 @@ def test_check_says_what_it_can_not_do(words, said):
 @pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
 def test_a_picture_of_a_map_is_the_same_each_time(folder, suffix):
     from mars2d.maps import read
-    from mars2d.output.chart import save_chart
+    from mars2d.output.map import save_map
 
     for name in ("a", "b"):
-        save_chart(read(folder / "room.wkt"), folder / f"{name}.{suffix}")
+        save_map(read(folder / "room.wkt"), folder / f"{name}.{suffix}")
     first, second = ((folder / f"{name}.{suffix}").read_bytes() for name in ("a", "b"))
     assert first == second
     assert len(first) > 1000

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from math import floor, log10
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mars2d.geometry import grid_step
 from mars2d.maps import Drawing
-from mars2d.output.figure import GRID, INK, MUTED, label, save_drawing
+from mars2d.output.figure import GRID, INK, MUTED, label, new_figure, save_drawing
 from mars2d.scene import PALETTE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["plot_drawing", "save_chart"]
+__all__ = ["plot_map", "save_map"]
 
 LONGER, SHORTER = 8.0, 1.6
 """The sides of the drawing, inches: the longer one, and how short the other may get."""
@@ -28,25 +28,21 @@ REST = "#aab2bb"
 NAME_LIMIT = 30
 
 
-def save_chart(drawing: Drawing, path: str | Path) -> Path:
+def save_map(drawing: Drawing, path: str | Path) -> Path:
     """Save a picture of a map as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
     Raises InputError for another suffix, and for a path that can't be written.
     """
-    return save_drawing(lambda: plot_drawing(drawing), path)
+    return save_drawing(lambda: plot_map(drawing), path)
 
 
-def plot_drawing(drawing: Drawing) -> Figure:
+def plot_map(drawing: Drawing) -> Figure:
     """Draw a map, areas filled and walls as lines, in a new figure with axes in metres."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     width, height = (max(side, max(drawing.size) / 20) for side in drawing.size)
     scale = LONGER / max(width, height)
     legend = 0.5 + 0.075 * min(max(map(len, drawing.layers)), NAME_LIMIT + 6)
     size = max(scale * width, SHORTER) + 0.9 + legend, max(scale * height, SHORTER) + 0.9
-    figure = Figure(figsize=size, layout="constrained", facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = new_figure(*size)
     ax = figure.add_subplot()
     _dress(ax, drawing)
     names = list(drawing.layers)
@@ -68,7 +64,7 @@ def _dress(ax: Axes, drawing: Drawing) -> None:
     ax.set_aspect("equal")
     ax.set_xlim(xmin - margin, xmax + margin)
     ax.set_ylim(ymin - margin, ymax + margin)
-    step = _round_step(longer / 12)
+    step = grid_step(longer / 12)
     ax.xaxis.set_major_locator(MultipleLocator(step))
     ax.yaxis.set_major_locator(MultipleLocator(step))
     ax.set_axisbelow(True)
@@ -79,12 +75,6 @@ def _dress(ax: Axes, drawing: Drawing) -> None:
     width, height = drawing.size
     title = f"{drawing.source}, {width:.3g} m x {height:.3g} m"
     ax.set_title(title, fontsize=12, color=INK, parse_math=False)
-
-
-def _round_step(wanted: float) -> float:
-    """Return 1, 2 or 5 times a power of ten, the smallest that is not below a number."""
-    power = 10.0 ** floor(log10(wanted))
-    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= wanted)
 
 
 def _paint(ax: Axes, drawing: Drawing, layer: str, color: str) -> None:
