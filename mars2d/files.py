@@ -287,10 +287,10 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
     except (Exception, SystemExit) as error:
         problem = error if isinstance(error, Mars2dError) else InputError(described(error))
         code = getattr(function, "__code__", None)
-        if code is not None:
-            given = "".join(f", with {name} = {shown(value)}" for name, value in chosen.items())
-            where = problem.where or _line_in(error, Path(code.co_filename))
-            problem.where = f"{where}{given}"
+        if code is not None and problem.where is None:
+            unsaid = {k: v for k, v in chosen.items() if str(v) not in str(problem)}
+            given = "".join(f", with {name} = {shown(value)}" for name, value in unsaid.items())
+            problem.where = f"{_line_in(error, Path(code.co_filename))}{given}"
         raise problem from error
 
 

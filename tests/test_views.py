@@ -22,8 +22,8 @@ from mars2d.views import (
 )
 
 OF_ITSELF = {
-    "command", "drive", "effort", "inbox", "index", "memory", "name", "radius", "rng", "send",
-    "sense", "time",
+    "command", "drive", "effort", "inbox", "index", "memory", "name", "radius", "rng",
+    "sampling_time", "send", "sense", "time",
 }  # fmt: skip
 ITS_STATE = {"contacts", "pose", "position", "velocity"}
 OTHERS = {"neighbours"}
@@ -47,13 +47,13 @@ REFUSALS = {
 
 OF_POSITIONS = {
     "addons", "bounds", "command", "effort", "iteration", "obstacles", "position", "rng", "robots",
-    "stop", "time", "workspace",
+    "sampling_time", "stop", "time", "workspace",
 }  # fmt: skip
 """What of `world` a law may touch that sees positions only."""
 
 MORE = {
     "break_off", "channel", "contacts", "driven", "filename", "frame", "geometric_center",
-    "history", "neighbour_indices", "observe", "over", "over_message", "pose", "prop_pose",
+    "history", "hold", "neighbour_indices", "observe", "over", "over_message", "pose", "prop_pose",
     "prop_velocity", "props", "record", "scenario", "seed", "step", "stream", "surroundings",
     "velocity",
 }  # fmt: skip
