@@ -185,9 +185,13 @@ def print_table(title: str, lines: Mapping[str, str]) -> None:
 
 
 def print_examples() -> None:
-    """Print the examples with the first line of each."""
+    """Print the examples with the first line of each, those of the paper first, by its figures."""
+    from mars2d.paper.figures import FIGURES
+
     lines = {}
     for name, path in examples().items():
         first = path.read_text(encoding="utf-8").partition("\n")[0]
         lines[name] = first.strip('" ')
-    print_table("Examples", lines)
+    paper = dict.fromkeys(run.experiment for figure in FIGURES for run in figure.runs)
+    print_table("Experiments of the MARS paper", {k: lines.pop(k) for k in paper if k in lines})
+    print_table("Other examples", lines)

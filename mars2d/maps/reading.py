@@ -57,7 +57,9 @@ def read(
     for option, value in options.items():
         if value is not None and option not in TAKES[suffix]:
             takers = [kind for kind, takes in TAKES.items() if option in takes]
-            raise InputError(f"{path.name}: {option} is for {', '.join(takers)}, not {suffix}")
+            raise InputError(
+                f"{path.name}: {option} is for {', '.join(takers)}, not {suffix}; leave it None"
+            )
     if suffix in IMAGES and resolution is None:
         raise InputError(f"{path.name}: an image needs resolution=..., metres per pixel, as 0.05")
     chosen = None if layers is None else _layers(layers)
