@@ -13,7 +13,10 @@ import numpy as np
 
 __all__ = ["Finding", "examine"]
 
-LIBRARIES = ("pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow")
+LIBRARIES = (
+    "pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow", "ezdxf",
+    "svgelements", "pyyaml",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
