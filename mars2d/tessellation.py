@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property, lru_cache
-from math import frexp, ldexp, sqrt
+from math import frexp, ldexp
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from mars2d import checks
 from mars2d.description import real, wrong
 from mars2d.errors import InputError, shown
 from mars2d.geometry import Outline, Point
+from mars2d.quadrature import nodes
 
 __all__ = ["Tessellation", "Weight", "density_at"]
 
@@ -30,9 +31,6 @@ FAR = 8.0
 
 FINENESS = 12
 """Without a resolution, triangles of the quadrature are the region's longer side over this."""
-
-FINEST = 64
-"""A triangle is divided along its sides into this many parts at most."""
 
 
 class Weight:
@@ -243,34 +241,20 @@ class Tessellation:
     def _weighted_moments(self) -> tuple[Float, Float, Float]:
         """Sum over points of Gauss on triangles; weights are positive, as a density's should be."""
         n = self.points.shape[1]
-        nodes, weights, of = self._nodes
-        mass = weights * self._phi(nodes)
-        x, y = nodes - self.points[:, of]
+        points, areas, of = self._nodes
+        mass = areas * self._phi(points)
+        x, y = points - self.points[:, of]
         sums = (mass, mass * x, mass * y, mass * (x * x + y * y))
         return _totals(of, sums, n)
 
     @cached_property
     def _nodes(self) -> tuple[Float, Float, Index]:
         """The points (2, k) of the quadrature, their areas (k,), and whose cells they lie in."""
-        triangles, owner = _triangles(*self._pieces)
         xmin, ymin, xmax, ymax = self._polygon.bounds
         resolution = self._resolution or max(xmax - xmin, ymax - ymin) / FINENESS
-        a, b, c = np.moveaxis(triangles, 1, 0)
-        ab, ac, bc = b - a, c - a, c - b
-        area = np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]) / 2
-        longest = np.max([np.hypot(*side.T) for side in (ab, ac, bc)], axis=0)
-        parts = np.minimum(np.ceil(longest / resolution), FINEST).astype(int)
-        nodes, weights, of = [np.empty((2, 0))], [np.empty(0)], [np.empty(0, dtype=np.intp)]
-        for count in np.unique(parts[area > 0]).tolist():
-            k = np.flatnonzero((parts == count) & (area > 0))
-            u, v, share = _rule(count)
-            x, y = (
-                a[k, axis, None] + u * ab[k, axis, None] + v * ac[k, axis, None] for axis in (0, 1)
-            )
-            nodes.append(np.array([x.ravel(), y.ravel()]))
-            weights.append((area[k, None] * share).ravel())
-            of.append(np.repeat(owner[k], len(share)))
-        return np.hstack(nodes), np.concatenate(weights), np.concatenate(of)
+        pieces, owner = self._pieces
+        points, areas, piece = nodes(pieces, resolution)
+        return points, areas, owner[piece]
 
     def _phi(self, points: Float) -> Float:
         assert self.density is not None
@@ -361,52 +345,3 @@ def _unwritable(array: Float) -> Float:
     """Return an array that can't be written from now on: all laws are shown the same one."""
     array.flags.writeable = False
     return array
-
-
-def _triangles(pieces: NDArray[Any], owner: Index) -> tuple[Float, Index]:
-    """Return triangles (m, 3, 2) that the polygons (k,) consist of, and their owners (m,)."""
-    import shapely
-
-    corners, piece = shapely.get_coordinates(pieces, return_index=True)
-    side = np.flatnonzero(piece[1:] == piece[:-1])
-    count = np.bincount(piece[side], minlength=len(pieces))
-    middle = np.array([np.bincount(piece[side], axis[side], len(pieces)) for axis in corners.T])
-    middle = (middle / np.maximum(count, 1)).T
-    fan = np.stack([middle[piece[side]], corners[side], corners[side + 1]], axis=1)
-    ab, ac = fan[:, 1] - fan[:, 0], fan[:, 2] - fan[:, 0]
-    turn = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
-    right, left = (np.bincount(piece[side], s * turn > 0, len(pieces)) > 0 for s in (-1, 1))
-    starry = ~(right & left)  # its middle sees all of its corners
-    keep = starry[piece[side]]
-    parts, of = fan[keep], owner[piece[side][keep]]
-    if starry.all():
-        return parts, of
-    rest = np.flatnonzero(~starry)
-    cut = shapely.constrained_delaunay_triangles(pieces[rest])
-    cut, index = shapely.get_parts(cut, return_index=True)
-    more = shapely.get_coordinates(cut).reshape(-1, 4, 2)[:, :3]
-    return np.vstack([parts, more]), np.concatenate([of, owner[rest][index]])
-
-
-@lru_cache(maxsize=64)
-def _rule(count: int) -> tuple[Float, Float, Float]:
-    """Return nodes u, v (m,) and shares (m,) of a quadrature on a triangle a + u (b-a) + v (c-a).
-
-    count: how many parts each side is divided into; each of count^2 triangles has seven nodes,
-    exact for polynomials of degree 5. Source: Radon, Monatshefte fuer Mathematik 52, 1948.
-    """
-    root = sqrt(15)
-    u, v, share = [1 / 3], [1 / 3], [9 / 40]
-    for s in (-1, 1):
-        near, weight = (6 + s * root) / 21, (155 + s * root) / 1200
-        u += [near, near, 1 - 2 * near]
-        v += [near, 1 - 2 * near, near]
-        share += [weight] * 3
-    nodes = np.array([u, v])
-    up = [(i, j) for i in range(count) for j in range(count - i)]
-    down = [(i + 1, j + 1) for i in range(count) for j in range(count - i - 1)]
-    all_nodes = [(np.array([corner]).T + nodes) / count for corner in up]
-    all_nodes += [(np.array([corner]).T - nodes) / count for corner in down]
-    shares = np.tile(share, count * count) / (count * count)
-    whole = np.hstack(all_nodes)
-    return whole[0], whole[1], shares

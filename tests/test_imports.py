@@ -29,6 +29,7 @@ LAYERS = [
         "message",
         "burst",
         "pixels",
+        "quadrature",
     },
     {
         "registry",
@@ -234,13 +235,19 @@ def test_importing_the_package_has_no_side_effects(child, tmp_path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_importing_mars2d_adds_less_than_twice_what_numpy_and_pymunk_take(child) -> None:
-    """The processor's time of both in one process: machines, and how busy they are, differ."""
+def test_importing_mars2d_takes_less_than_one_and_a_half_times_numpy_and_pymunk(
+    child, tmp_path
+) -> None:
+    """The processor's time of both in one process: machines, and how busy they are, differ.
+
+    Modules are compiled by the first run, as those of an installed package are.
+    """
     code = (
         "import time; start = time.process_time()\n"
         "import numpy, pymunk, pymunk.batch; middle = time.process_time()\n"
         "import mars2d; print(middle - start, time.process_time() - middle)"
     )
-    times = [[float(each) for each in child(code).stdout.split()] for _ in range(3)]
-    theirs, ours = map(min, zip(*times, strict=True))
-    assert ours < 2 * theirs
+    compiled = {"PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": str(tmp_path)}
+    times = [[float(each) for each in child(code, **compiled).stdout.split()] for _ in range(4)]
+    theirs, ours = map(min, zip(*times[1:], strict=True))
+    assert ours < 1.5 * theirs
