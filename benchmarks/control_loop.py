@@ -13,13 +13,13 @@ on a noisy machine.
 from __future__ import annotations
 
 import argparse
-import json
 import statistics
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+
+import outcome
 
 import mars2d
 from mars2d.bench.scenes import SPEED, team
@@ -87,11 +87,7 @@ def main() -> None:
     walk = random_walk(arguments.rounds)
     print(f"random_walk: {walk['ticks']} ticks in {walk['seconds']:.3f} s")
     result = {"substeps_of_bare": SUBSTEPS, "teams": rows, "random_walk": walk}
-    if arguments.json is not None:
-        arguments.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
-    else:
-        json.dump(result, sys.stdout)
-        print()
+    outcome.write(result, arguments.json)
 
 
 if __name__ == "__main__":

@@ -17,15 +17,14 @@ recording; the real-time factor is simulated time over wall time.
 from __future__ import annotations
 
 import argparse
-import json
 import statistics
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import outcome
 import pymunk
 from numpy.typing import NDArray
 
@@ -245,11 +244,7 @@ def main() -> None:
         f" {wandering['real_time_factor']:.0f} times as fast as time"
     )
     result = {"rays": rows, "team": wandering}
-    if arguments.json is not None:
-        arguments.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
-    else:
-        json.dump(result, sys.stdout)
-        print()
+    outcome.write(result, arguments.json)
 
 
 if __name__ == "__main__":

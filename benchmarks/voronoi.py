@@ -12,16 +12,15 @@ for each of 40 places of the team. `drawing`: the shapes for a picture, and thei
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import statistics
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import outcome
 from numpy.typing import NDArray
 
 from mars2d import Robot, Scenario, World
@@ -154,11 +153,7 @@ def main() -> None:
             f"drawing {row['n']:>5}: {shapes:.2f} ms for the shapes, {painting:.2f} to paint them"
         )
     result = {"cells": rows, "drawing": pictures}
-    if arguments.json is not None:
-        arguments.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
-    else:
-        json.dump(result, sys.stdout)
-        print()
+    outcome.write(result, arguments.json)
 
 
 if __name__ == "__main__":

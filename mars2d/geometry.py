@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import floor, log10
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +20,7 @@ __all__ = [
     "grid_step",
     "inside_polygon",
     "length",
+    "lines_and_areas",
     "outside_polygon",
     "point_segment_distance",
     "rectangle",
@@ -72,6 +74,13 @@ def rectangle(xmin: float, xmax: float, ymin: float, ymax: float) -> Outline:
     ((0.0, 1.0), (2.0, 1.0), (2.0, 3.0), (0.0, 3.0))
     """
     return ((xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax))
+
+
+def lines_and_areas(outlines: Sequence[Outline]) -> list[Any]:
+    """Return outlines as geometries of shapely: two vertices make a line, more a polygon."""
+    import shapely
+
+    return [shapely.LineString(o) if len(o) == 2 else shapely.Polygon(o) for o in outlines]
 
 
 def grid_step(wanted: float) -> float:

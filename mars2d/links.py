@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, pi, sin
+from math import hypot, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +53,8 @@ def messages(frame: Frame) -> Scene:
             scene.line([tail, tip], stroke=faded(LOST_LINK, 0.75), width=WIDTH / 2, style="--")
             length = float(np.hypot(*(tip - tail)))
             size = min(CROSS * min(sizes), length / 4)
-            _cross(scene, tail + 0.6 * (tip - tail), size)
+            center = tail + 0.6 * (tip - tail)
+            scene.cross(center, sqrt(0.5) * size, stroke=LOST_LINK, width=WIDTH)
     return scene
 
 
@@ -74,9 +75,3 @@ def _share(row: np.void, time: float) -> float:
     """Return how far a message has got at a time, from 0 to 1."""
     sent, arrival = float(row["time"]), float(row["arrival"])
     return min(max((time - sent) / (arrival - sent), 0.0), 1.0)
-
-
-def _cross(scene: Scene, center: NDArray[np.float64], size: float) -> None:
-    for angle in (pi / 4, 3 * pi / 4):
-        arm = size * np.array([cos(angle), sin(angle)])
-        scene.line([center - arm, center + arm], stroke=LOST_LINK, width=WIDTH)

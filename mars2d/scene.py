@@ -289,6 +289,12 @@ class Scene:
         fill, stroke = _checked("fill", fill), _paint(stroke, "stroke")
         self.shapes.append(Arrow((ax, ay), (bx, by), fill, stroke, width))
 
+    def cross(self, center: ArrayLike, arm: float, *, stroke: str, width: float = 1.0) -> None:
+        """Add a lying cross, as wide and as high as twice its `arm` [m]."""
+        x, y = np.asarray(center, dtype=float)[:2].tolist()
+        for up in (arm, -arm):
+            self.line([(x - arm, y - up), (x + arm, y + up)], stroke=stroke, width=width)
+
     def image(self, pixels: ArrayLike, bounds: Sequence[float]) -> None:
         """Add an image: pixels (rows, columns, 3) from 0 to 255, the upper row first.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mars2d.errors import InputError, shown
-from mars2d.geometry import Outline, distance_to_ring, outside_polygon
+from mars2d.geometry import Outline, distance_to_ring, lines_and_areas, outside_polygon
 from mars2d.rigid import Rigid
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def check_off_obstacles(
     """Refuse bodies that start inside an obstacle, or cut into one."""
     import shapely
 
-    shapes = [shapely.LineString(o) if len(o) == 2 else shapely.Polygon(o) for o in outlines]
+    shapes = lines_and_areas(outlines)
     tree = shapely.STRtree(shapes)
     for body in bodies:
         middle, radius = body.bound

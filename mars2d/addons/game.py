@@ -260,8 +260,7 @@ class Game(Addon):
         arm = 1.25 * frame.scenario.robots[capture.evader].radius
         x, y = frame.pose[:2, capture.evader].tolist()
         scene.circle((x, y), arm, stroke=MARK, width=1.2)
-        for up in (arm, -arm):
-            scene.line([(x - arm, y - up), (x + arm, y + up)], stroke=MARK, width=1.2)
+        scene.cross((x, y), arm, stroke=MARK, width=1.2)
         above, when = y > frame.pose[1, capture.hunter], f"{round(capture.time, 1):g} s"
         place, label = (y + arm, f"{when}\n") if above else (y - arm, f"\n{when}")
         scene.text((x, place), label, color=MARK, size=10.0, halo="#ffffff")

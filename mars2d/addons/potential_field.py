@@ -111,12 +111,10 @@ class PotentialField(Addon):
         for (x, y), (ux, uy) in self._arrows(frame, goals, index):
             tail, tip = (x - arrow * ux, y - arrow * uy), (x + arrow * ux, y + arrow * uy)
             scene.arrow(tail, tip, fill=faded(THEORY, 0.45), width=1.0)
-        for route, (reached, (x, y)) in zip(goals.routes, self.plan(scenario), strict=True):
+        for route, (reached, end) in zip(goals.routes, self.plan(scenario), strict=True):
             if reached < len(route):
-                for color, width in (("#ffffff", 4.5), (THEORY, 2.5)):
-                    for side in (CROSS, -CROSS):
-                        ends = [(x - CROSS, y - side), (x + CROSS, y + side)]
-                        scene.line(ends, stroke=color, width=width)
+                scene.cross(end, CROSS, stroke="#ffffff", width=4.5)
+                scene.cross(end, CROSS, stroke=THEORY, width=2.5)
 
     def _arrows(self, frame: Frame, goals: Goals, robot: int) -> tuple[tuple[Point, Point], ...]:
         if robot >= len(goals.routes) or not goals.routes[robot]:

@@ -47,13 +47,16 @@ def add_theory(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--theory", action="store_true", help="draw what theory predicts")
 
 
+def theory_of(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return the options that `add_theory` has asked for."""
+    return {"animation.theory": True} if arguments.theory else {}
+
+
 def options_of(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return the options that `add_options` has asked for, by the names of fields."""
     options = dict(parse_setting(setting) for setting in arguments.set)
     if arguments.stop_time is not None:
         options["stop_time"] = arguments.stop_time
-    if getattr(arguments, "theory", False):
-        options["animation.theory"] = True
     return options
 
 

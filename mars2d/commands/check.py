@@ -69,10 +69,9 @@ def execute(arguments: argparse.Namespace) -> None:
     elif path.suffix in ("", ".py"):
         _check_code(arguments.file)
     else:
-        advice = "; save the drawing as DXF" if path.suffix.lower() == ".dwg" else ""
         raise InputError(
             f"{path}: expected a Python file (.py), a record (.npz) or a map "
-            f"({', '.join(maps.SUFFIXES)}){advice}"
+            f"({', '.join(maps.SUFFIXES)}){maps.advice(path)}"
         )
 
 

@@ -17,6 +17,7 @@ from mars2d.commands.base import (
     run_headless,
     save_footage,
     show,
+    theory_of,
     warn_unchecked,
 )
 from mars2d.errors import InputError, nearest
@@ -47,9 +48,7 @@ def execute(arguments: argparse.Namespace) -> None:
     known = examples()
     if name not in known:
         raise InputError(f"{name}: there is no such example{nearest(name, known)}")
-    experiment = open_experiment(
-        known[name], {"animation.theory": True} if arguments.theory else None
-    )
+    experiment = open_experiment(known[name], theory_of(arguments))
     try:
         if not arguments.headless and has_display():
             record = show(experiment, None, arguments.seed)

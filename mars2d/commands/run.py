@@ -24,6 +24,7 @@ from mars2d.commands.base import (
     run_headless,
     save_footage,
     show,
+    theory_of,
     warn_unchecked,
 )
 from mars2d.errors import InputError, Mars2dError, counted
@@ -65,7 +66,7 @@ def execute(arguments: argparse.Namespace) -> None:
     check_outputs(arguments, OUTPUTS)
     if arguments.at is not None and arguments.figure is None:
         raise InputError("--at needs --figure OUT")
-    experiment = open_experiment(arguments.experiment, options_of(arguments))
+    experiment = open_experiment(arguments.experiment, options_of(arguments) | theory_of(arguments))
     _check_times(arguments, experiment)
     start = time.perf_counter()
     try:

@@ -3,7 +3,7 @@
 from mars2d.maps.describe import described
 from mars2d.maps.drawing import Drawing, Piece
 from mars2d.maps.obstacles import TOLERANCE, Obstacles, obstacles
-from mars2d.maps.reading import SUFFIXES, read
+from mars2d.maps.reading import SUFFIXES, advice, read
 from mars2d.maps.room import nearest_room
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "Drawing",
     "Obstacles",
     "Piece",
+    "advice",
     "described",
     "nearest_room",
     "obstacles",

@@ -13,7 +13,7 @@ from mars2d.errors import InputError, likely
 from mars2d.maps.drawing import METRES, Drawing, Unit, check_bytes
 from mars2d.maps.grid import IMAGES, MOST_BYTES
 
-__all__ = ["SUFFIXES", "read"]
+__all__ = ["SUFFIXES", "advice", "read"]
 
 LARGEST = {
     **dict.fromkeys((".dxf", ".svg", ".geojson", ".json", ".wkt"), 10_000_000),
@@ -51,8 +51,7 @@ def read(
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        advice = "; save the drawing as DXF" if suffix == ".dwg" else ""
-        raise InputError(f"{path}: expected a map: {', '.join(SUFFIXES)}{advice}")
+        raise InputError(f"{path}: expected a map: {', '.join(SUFFIXES)}{advice(path)}")
     options = {"layers": layers, "unit": unit, "resolution": resolution}
     for option, value in options.items():
         if value is not None and option not in TAKES[suffix]:
@@ -70,6 +69,11 @@ def read(
         drawing = drawing.moved(place)
     drawing.check_size()
     return drawing
+
+
+def advice(path: Path) -> str:
+    """Return what to do with a drawing that can't be read, or nothing."""
+    return "; save the drawing as DXF" if path.suffix.lower() == ".dwg" else ""
 
 
 def _read(path: Path, suffix: str, unit: Unit | None, resolution: Any) -> Drawing:

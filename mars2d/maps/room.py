@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mars2d.geometry import Outline, Point
+from mars2d.geometry import Outline, Point, lines_and_areas
 
 __all__ = ["nearest_room"]
 
@@ -27,7 +27,7 @@ def nearest_room(
     import shapely
 
     where = shapely.Point(place)
-    shapes = [shapely.LineString(o) if len(o) == 2 else shapely.Polygon(o) for o in outlines]
+    shapes = lines_and_areas(outlines)
     taken = shapely.union_all(shapely.buffer(shapes, radius, quad_segs=4))
     free = shapely.difference(shapely.Polygon(workspace), taken)
     if shapely.covers(free, where):

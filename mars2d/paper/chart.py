@@ -11,8 +11,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
 
-__all__ = ["BAD", "MEASURED", "OTHERS", "THEORY", "charts", "logarithmic", "name"]
+__all__ = ["BAD", "MEASURED", "OTHERS", "THEORY", "charts", "from_zero", "logarithmic", "name"]
 
 MEASURED, BAD = "#0072b2", "#b42318"
 """Colours: of what was measured, and of what is told from that and from theory."""
@@ -52,6 +53,13 @@ def name(ax: Axes, title: str, x: str, y: str) -> None:
             columnspacing=1.0, handletextpad=0.4, borderpad=0.0,
         )  # fmt: skip
         legend.set_in_layout(False)
+
+
+def from_zero(ax: Axes, time: ArrayLike, values: ArrayLike, title: str, unit: str) -> None:
+    """Draw what was measured over time [s], from zero on, and name it."""
+    ax.plot(time, values, color=MEASURED, linewidth=1.8)
+    ax.set_ylim(0, None)
+    name(ax, title, "time [s]", unit)
 
 
 def logarithmic(axis: Axis) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons import Voronoi
 from mars2d.errors import counted
-from mars2d.paper.chart import MEASURED, OTHERS, THEORY, charts, logarithmic, name
+from mars2d.paper.chart import MEASURED, OTHERS, THEORY, charts, from_zero, logarithmic, name
 from mars2d.paper.figure import Study
 from mars2d.paper.runs import addon, some_rows
 
@@ -77,9 +77,7 @@ def two_ends(records: Sequence[Record]) -> Study:
         left.plot(time, cost, color=MEASURED, linewidth=1.8, label="A")
         left.plot(time, other, color=OTHERS[0], linewidth=1.8, label="B")
         name(left, "Cost H", "time [s]", "[m⁴]")
-        right.plot(time, apart, color=MEASURED, linewidth=1.8)
-        right.set_ylim(0, None)
-        name(right, "Furthest from where it is in the other run", "time [s]", "[m]")
+        from_zero(right, time, apart, "Furthest from where it is in the other run", "[m]")
         return figure
 
     return Study(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons import Game, Voronoi
-from mars2d.paper.chart import BAD, MEASURED, OTHERS, THEORY, charts, name
+from mars2d.paper.chart import BAD, MEASURED, OTHERS, THEORY, charts, from_zero, name
 from mars2d.paper.figure import Study
 from mars2d.paper.runs import addon, run, some_rows, top_speed
 from mars2d.prediction import Prediction
@@ -107,12 +107,8 @@ def cell_area(records: Sequence[Record]) -> Study:
 
     def draw() -> Drawing:
         figure, (left, right) = charts(2)
-        left.plot(time, area, color=MEASURED, linewidth=1.8)
-        left.set_ylim(0, None)
-        name(left, "Area of the evader's cell", "time [s]", "[m²]")
-        right.plot(time, distance, color=MEASURED, linewidth=1.8)
-        right.set_ylim(0, None)
-        name(right, "Distance of the two", "time [s]", "[m]")
+        from_zero(left, time, area, "Area of the evader's cell", "[m²]")
+        from_zero(right, time, distance, "Distance of the two", "[m]")
         return figure
 
     return Study(
