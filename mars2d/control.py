@@ -35,7 +35,7 @@ class Law:
         self, function: Callable[[Any], Any], subject: Any, still: Any = (0.0, 0.0)
     ) -> None:
         """Take the user's function, what it is called with, and the command to stand still."""
-        self._function = function
+        self.function = function
         self._subject = subject
         self._still = still
         self._running: Iterator[Any] | None = None
@@ -46,7 +46,7 @@ class Law:
         """Return what the law commands now, unchecked. Raises LawError where the law raises."""
         with self._calling:
             if self._running is None:
-                result = self._function(self._subject)
+                result = self.function(self._subject)
                 if not inspect.isgenerator(result):
                     return result
                 self._running = result
@@ -55,7 +55,7 @@ class Law:
     def refuse(self, message: str) -> NoReturn:
         """Raise the error that the law's command can't be used; it points at the law."""
         error = LawError(f"{self.name} {message}")
-        error.where = definition(self._function)
+        error.where = definition(self.function)
         raise error
 
 

@@ -18,7 +18,7 @@ from mars2d.contact import CONTACT, ContactLog
 from mars2d.encounter import Bounds, Encounter
 from mars2d.grips import Grips
 from mars2d.kernel import CONTACTS, EFFORT, PLACED, Kernel, reason_without
-from mars2d.motion import Motion
+from mars2d.motion import Motion, Start
 from mars2d.scenario import Scenario
 from mars2d.space import Space
 from mars2d.tethers import Tethers
@@ -82,8 +82,11 @@ def thrown(ratio: float) -> float:
 class Engine(Motion):
     """The motion of one world's bodies: robots first, then props."""
 
-    def __init__(self, scenario: Scenario) -> None:
-        """Build robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls."""
+    def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
+        """Build robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls.
+
+        start: how everything moves at first, by default as the scenario says.
+        """
         bodies = scenario.bodies
         self.n, self.count = len(scenario.robots), len(bodies)
         mass = self._mass = np.array([body.inertia.mass for body in bodies])
@@ -105,6 +108,9 @@ class Engine(Motion):
         self._slipping = np.zeros(self.count, dtype=bool)
         self._state = self.space.read().copy()
         self._twist = np.zeros((3, self.n))
+        if start is not None:
+            self.space.place_all(start.state[:, :3])
+            self._state[:], self._slipping[:], self._twist[:] = start
         self._kernel = self._compiled(scenario)
         self._left = 0  # of what the kernel did: contacts, efforts
         self._idle = np.zeros(self.n)
@@ -163,6 +169,38 @@ class Engine(Motion):
         return velocity
 
     # -- motion -----------------------------------------------------------------------------
+
+    @property
+    def motion(self) -> Start:
+        """How everything moves now: an engine that starts with it goes on from here."""
+        state = self._state.copy()
+        state[:, 3:] = self.velocity.T
+        return Start(state, self._slipping.copy(), self._twist)
+
+    def push(self, body: int, change: Float) -> None:
+        """Change the velocity of a body at once by (3,): m/s, m/s and rad/s, as a blow does.
+
+        The drive of a robot then has to bring it back.
+        """
+        self._state[body, 3:] = self.velocity[:, body] + change
+        self._slipping[body] = True
+
+    def bears(self, body: int, force: float, torque: float) -> bool:
+        """Return whether what holds a body takes a force [N] and torque [N m] without yielding.
+
+        That is the drive of a robot that follows its command, and the floor under a prop at rest.
+        """
+        if self._slipping[body]:
+            return False
+        if body >= self.n:
+            return self._grips.bears(self._state[body, 3:], body, force, torque)
+        drives = self._clutches
+        share = max(force / drives.force[body], torque / drives.torque[body])
+        if share > 1.0:
+            return False
+        drives.effort[body] = max(drives.effort[body], share)
+        self._left |= EFFORT
+        return True
 
     def drive(self, twist: Float, duration: float, time: float) -> None:
         """Move everything for `duration` seconds, the robots driven by constant twists (3, n).

@@ -12,6 +12,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, cast
@@ -44,7 +45,9 @@ class Experiment:
     """A scenario, the law of its team, and what its file says of it.
 
     filename: the file's name, or empty. checks: the function of the record that compares a run with
-    theory, or None. summary: the first line of the file's docstring, or empty.
+    theory, or None. summary: the first line of the file's docstring, or empty. path: where the file
+    lies, or None. opened: opens the experiment anew, with laws that share nothing with these; None
+    where it does not come from a file.
     """
 
     scenario: Scenario
@@ -52,6 +55,15 @@ class Experiment:
     filename: str = ""
     checks: Callable[[Any], Any] | None = None
     summary: str = ""
+    path: Path | None = None
+    opened: Callable[[], Experiment] | None = None
+
+    def reopened(self) -> Experiment:
+        """Return the experiment opened anew, or itself where it does not come from a file.
+
+        Raises InputError, as `open_experiment` does, where the file has changed for the worse.
+        """
+        return self if self.opened is None else self.opened()
 
     def predictions(self, record: Record) -> tuple[Prediction, ...]:
         """Return what `checks` makes of a run; nothing without checks, or of a run cut short.
@@ -94,15 +106,16 @@ def open_experiment(
 ) -> Experiment:
     """Return the experiment that `source` names, with its fields overridden by `options`.
 
-    source: a file, the name of a shipped example, a module, or a Scenario. options: dotted names
-    of fields, or keyword parameters of a scenario function, with their values; ``map`` is a file
-    whose walls take the place of the experiment's, or a Map, and ``map.unit`` and the like are how
-    it is read. control: the law of the team, in place of the experiment's own. Raises InputError,
-    which points at file and line.
+    source: a file (.py, or .toml of a scenario), the name of a shipped example, a module, or a
+    Scenario. options: dotted names of fields, or keyword parameters of a scenario function, with
+    their values; ``map`` is a file whose walls take the place of the experiment's, or a Map, and
+    ``map.unit`` and the like are how it is read. control: the law of the team, in place of the
+    experiment's own. Raises InputError, which points at file and line.
     """
     if options is not None and not isinstance(options, Mapping):
         raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
-    options = dict(options or {})
+    given = options or {}
+    options = dict(given)
     if isinstance(source, Scenario):
         chart = MapOption.popped(options, Path())
         return Experiment(_set(source, options, chart), control)
@@ -110,6 +123,8 @@ def open_experiment(
         module, name = source, getattr(source, "__file__", None) or source.__name__
     elif isinstance(source, (str, Path)):
         path = _find(source)
+        if path.suffix.lower() == ".toml":
+            return _of_scenario_file(source, path, given, control)
         module, name = _load(path), str(path)
     else:
         raise InputError(
@@ -128,7 +143,30 @@ def open_experiment(
         raise
     law = own if control is None else control
     summary = (module.__doc__ or "").strip().partition("\n")[0]
-    return Experiment(scenario, law, Path(name).name, check, summary)
+    path, opened = None, None
+    if isinstance(source, (str, Path)):
+        path, opened = Path(name).absolute(), partial(open_experiment, source, dict(given), control)
+    return Experiment(scenario, law, Path(name).name, check, summary, path, opened)
+
+
+def _of_scenario_file(
+    source: str | Path,
+    path: Path,
+    options: Mapping[str, Any],
+    control: Callable[[Any], Any] | None,
+) -> Experiment:
+    from mars2d import scenario_file
+
+    scenario, own = scenario_file.read(path)
+    rest = dict(options)
+    try:
+        scenario = _set(scenario, rest, MapOption.popped(rest, path))
+    except Mars2dError as error:
+        error.where = error.where or path.name
+        raise
+    law = own if control is None else control
+    opened = partial(open_experiment, source, dict(options), control)
+    return Experiment(scenario, law, path.name, path=path.absolute(), opened=opened)
 
 
 def open_module(source: str | Path) -> ModuleType:
@@ -148,27 +186,32 @@ def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
     if not isinstance(name, str):
         raise wrong("load_law(name)", name, "the name of a function, as 'control'")
     caller = Path(sys._getframe(1).f_code.co_filename)
-    file = file_beside(Path(path), caller, "a law", [".py"])
+    return law_in(file_beside(Path(path), caller, "a law", [".py"]), name)
+
+
+def law_in(file: Path, name: str, subject: str = "the robot") -> Callable[[Any], Any]:
+    """Return the law called `name` in a file, which is run anew; `subject` is what it is of."""
     module = _load(file, "a law")
     try:
-        return _law_of(module, name)
+        return _law_of(module, name, subject)
     except InputError as error:
         error.where = file.name
         raise
 
 
-def _law_of(module: ModuleType, name: str) -> Callable[[Any], Any]:
+def _law_of(module: ModuleType, name: str, subject: str) -> Callable[[Any], Any]:
     law = getattr(module, name, None)
     if law is None:
         functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
         raise InputError(f"has no law {name!r}{nearest(name, functions)}")
-    checks.law(name, law, "the robot")
+    checks.law(name, law, subject)
     return cast("Callable[[Any], Any]", law)
 
 
 def _scripts(path: Path) -> list[Path]:
-    """Return the Python files beside a path."""
-    return [*path.parent.glob("*.py")] if path.parent.is_dir() else []
+    """Return the experiments beside a path, written in Python or as scenario files."""
+    files = path.parent.iterdir() if path.parent.is_dir() else ()
+    return [file for file in files if file.suffix in (".py", ".toml")]
 
 
 def _find(source: str | Path) -> Path:
@@ -179,7 +222,9 @@ def _find(source: str | Path) -> Path:
     if str(source) in known:
         return known[str(source)]
     if path.is_dir():
-        raise InputError(f"{path}: a folder; expected an experiment, a file that ends in .py")
+        raise InputError(
+            f"{path}: a folder; expected an experiment, a file that ends in .py or .toml"
+        )
     beside = [str(file) for file in _scripts(path)]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
     raise InputError(f"{source}: there is no such {kind}{nearest(source, [*beside, *known], 0.75)}")
@@ -188,7 +233,8 @@ def _find(source: str | Path) -> Path:
 def _load(path: Path, what: str = "an experiment") -> ModuleType:
     """Run a file as a module of its own, which no other one can see."""
     if path.suffix != ".py":
-        raise InputError(f"{path}: expected {what}, a file that ends in .py")
+        or_toml = " or .toml" if what == "an experiment" else ""
+        raise InputError(f"{path}: expected {what}, a file that ends in .py{or_toml}")
     name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
     assert spec is not None

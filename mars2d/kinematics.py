@@ -9,7 +9,7 @@ from mars2d.contact import ContactLog, Solved
 from mars2d.encounter import Bounds, Encounter
 from mars2d.engine import SLOP
 from mars2d.floor import Floor
-from mars2d.motion import Arcs, Motion, point_velocity
+from mars2d.motion import Arcs, Motion, Start, point_velocity
 from mars2d.scenario import Scenario
 from mars2d.space import Space
 
@@ -31,8 +31,11 @@ class Kinematics(Motion):
     "ideal" it goes through. Contacts are noted either way, without impulses. Joints do not act.
     """
 
-    def __init__(self, scenario: Scenario) -> None:
-        """Take robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls."""
+    def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
+        """Take robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls.
+
+        start: how everything moves at first, by default as the scenario says.
+        """
         bodies = scenario.bodies
         self.n = len(scenario.robots)
         self._stops = scenario.physics == "stop"
@@ -44,6 +47,15 @@ class Kinematics(Motion):
         self._everyone = np.arange(len(scenario.props))
         self._depth = min(SLOP, min(body.shape.thickness for body in bodies) / 32)
         self._state = self.space.read().copy()
+        if start is not None:
+            self._state[:] = start.state
+            self.space.place_all(self._state[:, :3])
+
+    @property
+    def motion(self) -> Start:
+        """How everything moves now: one that starts with it goes on from here."""
+        nobody, still = np.zeros(len(self._state), dtype=bool), np.zeros((3, self.n))
+        return Start(self._state.copy(), nobody, still)
 
     def take_effort(self) -> Float:
         """Return zeros (n,): no drive has to make an effort."""

@@ -9,7 +9,7 @@ from mars2d.pace import RealTime
 from mars2d.record import Record
 from mars2d.world import Watcher, World
 
-__all__ = ["Interrupted", "open_world", "simulate"]
+__all__ = ["Interrupted", "open_world", "simulate", "watch_by"]
 
 
 class Interrupted(KeyboardInterrupt):
@@ -49,14 +49,20 @@ def simulate(
 def open_world(experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()) -> World:
     """Return the world of an experiment, which calls the watchers at each control step."""
 
-    def watch(world: World) -> None:
-        for watcher in watchers:
-            watcher(world)
-
     return World(
         experiment.scenario,
         experiment.control,
         seed,
         filename=experiment.filename,
-        watch=watch if watchers else None,
+        watch=watch_by(watchers),
     )
+
+
+def watch_by(watchers: Sequence[Watcher]) -> Watcher | None:
+    """Return what calls all watchers at each control step; None if there are none."""
+
+    def watch(world: World) -> None:
+        for watcher in watchers:
+            watcher(world)
+
+    return watch if watchers else None

@@ -2,16 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Arcs", "Motion", "point_velocity"]
+__all__ = ["Arcs", "Motion", "Start", "point_velocity"]
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Index = NDArray[np.integer[Any]]
+
+
+class Start(NamedTuple):
+    """How bodies move at an instant: their states (N, 6), which of them slip (N,), twists (3, n).
+
+    A state is x, y [m], theta [rad], and their rates; a twist is what a robot's drive is asked for.
+    """
+
+    state: Float
+    slipping: Mask
+    twist: Float
+
+    def moved(self, poses: Mapping[int, tuple[float, float, float]]) -> Start:
+        """Return the same with some bodies at other poses, where they stand still."""
+        state, slipping = self.state.copy(), self.slipping.copy()
+        for body, pose in poses.items():
+            state[body] = (*pose, 0.0, 0.0, 0.0)
+            slipping[body] = False
+        return Start(state, slipping, self.twist)
 
 
 class Motion:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,10 +15,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import plain
+from mars2d import interventions, plain
 from mars2d.contact import CONTACT
 from mars2d.errors import InputError, counted
 from mars2d.frame import Frame
+from mars2d.interventions import Change, Intervention
 from mars2d.message import MESSAGE, in_flight
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
@@ -48,7 +50,8 @@ class Record:
     `mars2d.message.MESSAGE`; contents: the JSON texts of what was sent, which their field `content`
     numbers. over_message: why the run ended. finished: False when an error or Ctrl-C ended it, or
     while it is not over. drawn: what the add-ons drew at its end, which a file does not keep.
-    missing: parts of the user's own that a file did not hold.
+    missing: parts of the user's own that a file did not hold. interventions: what was done to the
+    world from outside, in order; `scenario` is what it was at the start.
     """
 
     scenario: Scenario
@@ -70,6 +73,7 @@ class Record:
     versions: Mapping[str, str] = field(default_factory=dict)
     drawn: Scene = field(default_factory=Scene, repr=False)
     missing: tuple[str, ...] = ()
+    interventions: tuple[Intervention, ...] = ()
 
     def __post_init__(self) -> None:
         for name in (*_COLUMNS, "contacts", "messages"):
@@ -121,7 +125,7 @@ class Record:
             for name, values in self.sensors.items()
         }
         return Frame(
-            scenario=self.scenario,
+            scenario=self.scenario_at(row),
             time=float(self.time[row]),
             iteration=row,
             pose=self.pose[row],
@@ -137,6 +141,15 @@ class Record:
             messages=self._messages_before(row),
             draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
         )
+
+    def scenario_at(self, row: int) -> Scenario:
+        """Return the scenario as it was at row `row`, after what was changed there."""
+        k = bisect_right(self._changes, row, key=lambda change: change.row)
+        return self._changes[k - 1].scenario if k else self.scenario
+
+    @cached_property
+    def _changes(self) -> list[Change]:
+        return [each for each in self.interventions if isinstance(each, Change)]
 
     @cached_property
     def _contact_rows(self) -> NDArray[np.intp]:
@@ -189,6 +202,7 @@ class Record:
             "versions": dict(self.versions),
             "messages": bool(self.contents),
             "sensor_robots": {name: list(robots) for name, robots in self.sensor_robots.items()},
+            "interventions": [interventions.to_plain(each) for each in self.interventions],
             "digest": self.digest,
         }
         text = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
@@ -283,6 +297,7 @@ def _assemble(header: Any, columns: dict[str, NDArray[Any]]) -> Record:
         filename=header["filename"],
         versions=dict(header["versions"]),
         missing=missing,
+        interventions=tuple(interventions.of_plain(each) for each in header["interventions"]),
     )
 
 

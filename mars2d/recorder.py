@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mars2d.contact import CONTACT
 from mars2d.errors import LawError, shown
 from mars2d.imperfection import as_numbers
+from mars2d.interventions import Intervention
 from mars2d.kernel import reason_without
 from mars2d.message import MESSAGE, as_of, in_flight
 from mars2d.record import Record
@@ -194,7 +195,13 @@ class Recorder:
         return self._columns[name].upto(self.rows)
 
     def record(
-        self, seed: int, over_message: str, finished: bool, filename: str, drawn: Scene
+        self,
+        seed: int,
+        over_message: str,
+        finished: bool,
+        filename: str,
+        drawn: Scene,
+        interventions: Sequence[Intervention] = (),
     ) -> Record:
         """Return the record so far; what is written later does not change it."""
         now = float(self.column("time")[-1]) if self.rows else 0.0
@@ -217,6 +224,7 @@ class Recorder:
             filename=filename,
             versions=versions(),
             drawn=drawn,
+            interventions=tuple(each for each in interventions if each.row < self.rows),
         )
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mars2d.addons.map import Map
 from mars2d.contact import CONTACT
 from mars2d.errors import InputError
+from mars2d.interventions import Change, Intervention
 from mars2d.plain import MOVING
 from mars2d.record import Record
 from mars2d.scenario import Scenario
@@ -41,6 +42,9 @@ def rerun(record: Record) -> Departure | None:
         scenario = scenario.replace(on_exit="ignore")
     world = World(scenario, seed=record.seed)
     for row, command in enumerate(record.command):
+        for intervention in record.interventions:
+            if intervention.row == row:
+                world.hands.redo(_in_motion_of(intervention))
         departure = _departs(row, world, record)
         if departure is not None:
             return departure
@@ -65,6 +69,13 @@ def _in_motion(scenario: Scenario) -> Scenario:
         if addon.obstacles()
     ]
     return scenario.replace(addons=addons, robots=[r.replace(sensors=()) for r in scenario.robots])
+
+
+def _in_motion_of(intervention: Intervention) -> Intervention:
+    """Return an intervention with all that matters to motion."""
+    if isinstance(intervention, Change):
+        return replace(intervention, scenario=_in_motion(intervention.scenario), control=None)
+    return intervention
 
 
 def _departs(row: int, world: World, record: Record) -> Departure | None:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numbers
-from collections.abc import Sequence
+import sys
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import cos, floor, hypot, pi, sin
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,7 +29,7 @@ from mars2d.rigid import Rigid
 from mars2d.robot import Robot
 from mars2d.shapes import known_shape
 from mars2d.tie import Tie
-from mars2d.usercode import called
+from mars2d.usercode import called, file_beside
 
 __all__ = ["Obstacle", "Scenario"]
 
@@ -163,6 +165,34 @@ class Scenario(Description):
         self._check_bodies()
         self._check_joints()
         self._check_starts()
+
+    @staticmethod
+    def from_file(path: str | Path) -> Scenario:
+        """Return the scenario in a .toml file, as `save` writes it and people write it.
+
+        path: a relative one is looked for beside the file that calls this, then in the current
+        folder. Raises InputError, which points at the line. The law of the team, if the file names
+        one, is not part of a scenario: `mars2d.run` and `open_experiment` take the file with it.
+        """
+        from mars2d import scenario_file
+
+        if not isinstance(path, (str, Path)):
+            raise wrong("Scenario.from_file(path)", path, "the name of a file, as 'room.toml'")
+        caller = Path(sys._getframe(1).f_code.co_filename)
+        file = file_beside(Path(path), caller, "a scenario", [scenario_file.SUFFIX])
+        return scenario_file.read(file)[0]
+
+    def save(
+        self, path: str | Path, control: Callable[[Any], Any] | str | None = None
+    ) -> tuple[str, ...]:
+        """Write it to a .toml file, over what is there; return what could not be written.
+
+        control: the law of the team, as a function of a file or as ``team.py:control``. Of laws the
+        place is written, code of one's own is not. Raises InputError if the file can't be written.
+        """
+        from mars2d import scenario_file
+
+        return scenario_file.save(self, path, control)
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
@@ -303,14 +333,11 @@ class Scenario(Description):
 
         Raises InputError, which begins with `field`, for one that is not there.
         """
-        names = [str(each.name) for each in self.robots]
-        if isinstance(robot, str):
-            if robot not in names:
-                raise InputError(f"{field}: there is no robot {robot!r}{nearest(robot, names)}")
-            return names.index(robot)
-        if not 0 <= robot < len(names):
-            raise InputError(f"{field}: there is no robot {robot}; they are 0 to {len(names) - 1}")
-        return robot
+        return _index_of(field, "robot", robot, [str(each.name) for each in self.robots])
+
+    def body_index_of(self, field: str, body: str | int) -> int:
+        """Return the index in `bodies` of a robot or prop that is given as in `index_of`."""
+        return _index_of(field, "body", body, [rigid.name for rigid in self.bodies])
 
     @property
     def last_iteration(self) -> int:
@@ -322,6 +349,16 @@ class Scenario(Description):
         """The robots' colours, each its own or the next of the animation's base colours."""
         base = self.animation.base_colors
         return tuple(robot.color or base[i % len(base)] for i, robot in enumerate(self.robots))
+
+
+def _index_of(field: str, kind: str, wanted: str | int, names: list[str]) -> int:
+    if isinstance(wanted, str):
+        if wanted not in names:
+            raise InputError(f"{field}: there is no {kind} {wanted!r}{nearest(wanted, names)}")
+        return names.index(wanted)
+    if not 0 <= wanted < len(names):
+        raise InputError(f"{field}: there is no {kind} {wanted}; they are 0 to {len(names) - 1}")
+    return int(wanted)
 
 
 def _named(part: Any, kind: str, index: int, taken: set[str | None]) -> Any:

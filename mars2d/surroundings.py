@@ -34,8 +34,14 @@ class Around:
 
     def __init__(self, world: World, space: Space) -> None:
         self._world = world
+        self.renew(space)
+
+    def renew(self, space: Space) -> None:
+        """Take another space, after the world has been changed; what was worked out is forgotten."""
         self._space = space
         self._placed: Float | None = None  # the poses at which the fans' bodies are
+        for name in ("_fans", "_colors", "_addons"):
+            vars(self).pop(name, None)
 
     @property
     def time(self) -> float:

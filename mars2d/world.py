@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from types import SimpleNamespace
@@ -15,6 +15,7 @@ from mars2d import checks
 from mars2d.addons.base import HOOKS, Addon
 from mars2d.addons.communication import Communication
 from mars2d.bodies.drives import Drives
+from mars2d.changes import check_same, hooks_of, with_poses
 from mars2d.channel import Channel
 from mars2d.contact import CONTACT
 from mars2d.control import Law, commands, team_command
@@ -24,7 +25,10 @@ from mars2d.engine import Engine
 from mars2d.errors import InputError, LawError, UnknownNameError, described, nearest
 from mars2d.frame import Frame
 from mars2d.geometry import Outline, outside_polygon
+from mars2d.hands import Hands
+from mars2d.interventions import Change
 from mars2d.kinematics import Kinematics
+from mars2d.motion import Start
 from mars2d.record import Record
 from mars2d.recorder import History, Recorder
 from mars2d.scenario import Scenario
@@ -69,7 +73,7 @@ class World:
     the experiment's file, for the record. watch: called with the world once a control step, between
     sensing and control: to draw, to wait, to count.
 
-    over: whether the experiment is over, and over_message why.
+    over: whether the experiment is over, and over_message why. watch may be set anew.
     """
 
     def __init__(
@@ -86,7 +90,7 @@ class World:
         self.scenario = scenario
         self.seed = check_seed(seed)
         self.filename = filename
-        self._watch = watch
+        self.watch = watch
         self.iteration = 0
         self.over = False
         self.over_message = ""
@@ -97,6 +101,7 @@ class World:
         self._engine = ENGINES[scenario.physics](scenario)
         self._recorder = Recorder(scenario)
         self.history = History(self._recorder)
+        self.hands = Hands(self)
         self._workspace = None if scenario.workspace is None else np.array(scenario.workspace)
         n = len(scenario.robots)
         drives = {str(robot.name): robot.drive for robot in scenario.robots}
@@ -104,7 +109,6 @@ class World:
         delay = scenario.command_delay + self._drives.dead_time
         self._delay = DelayLine(delay, scenario.sampling_time, n)
         self._still = np.zeros((2, n))
-        self._held: list[int] = []
         self._command = _frozen(self._still)
         self._take_state()
         self._velocity_at = -1, self._pose
@@ -115,6 +119,8 @@ class World:
         self.robots = [RobotView(self, i, mind) for i, mind in enumerate(self._minds)]
         self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
         self._driven: list[tuple[float, Float]] = []
+        self._own: list[tuple[int, Law]] = []
+        self._central: Law | None = None
         self._build_laws(control)
         self._build_addons()
         self._build_sensors()
@@ -134,24 +140,39 @@ class World:
         )
 
     def _build_laws(self, control: Callable[[World], Any] | None) -> None:
-        self._own = [
-            (i, Law(robot.controller, VIEWS[robot.sees](self, i, self._minds[i])))
-            for i, robot in enumerate(self.scenario.robots)
-            if robot.controller is not None
-        ]
-        if control is not None:
+        """Take the laws of the scenario and of the team; those that are there already go on."""
+        own = {i: law for i, law in self._own}
+        self._own = []
+        for i, robot in enumerate(self.scenario.robots):
+            if robot.controller is not None:
+                law = own.get(i)
+                if law is None or law.function is not robot.controller:
+                    law = Law(robot.controller, VIEWS[robot.sees](self, i, self._minds[i]))
+                self._own.append((i, law))
+        if control is None:
+            self._central = None
+        elif self._central is None or self._central.function is not control:
             checks.law("control", control, "the world")
-        partial = self.scenario.sees == "positions"
-        seen = TeamPositionsView(self, self._minds) if partial else self
-        self._central = None if control is None else Law(control, seen, self._still)
+            partial = self.scenario.sees == "positions"
+            seen = TeamPositionsView(self, self._minds) if partial else self
+            self._central = Law(control, seen, self._still)
 
-    def _build_addons(self) -> None:
-        live = [a.live(rng=self.stream(f"add-on {a.key}")) for a in self.scenario.addons]
-        self.addons = Addons(**{addon.key: addon for addon in live})
+    def _take_addons(self, there: Mapping[str, Addon]) -> None:
+        """Take the scenario's add-ons; those that are there already, by name, go on."""
+        live = {
+            a.key: there.get(a.key) or a.live(rng=self.stream(f"add-on {a.key}"))
+            for a in self.scenario.addons
+        }
+        self.addons = Addons(**live)
         # Only hooks that an add-on has of its own are called.
         self._hooks = {
-            hook: [(a.key, getattr(a, hook)) for a in live if _overrides(a, hook)] for hook in HOOKS
+            hook: [(key, getattr(a, hook)) for key, a in live.items() if hook in hooks_of(a)]
+            for hook in HOOKS
         }
+
+    def _build_addons(self) -> None:
+        self._take_addons({})
+        live = vars(self.addons).values()
         talk = next((a for a in live if isinstance(a, Communication)), None)
         self._channel = None if talk is None else Channel(self, talk, self._recorder)
         self._call("on_start", self)
@@ -162,6 +183,11 @@ class World:
     def time(self) -> float:
         """The simulated time, seconds: iteration x sampling time."""
         return self.iteration * self.scenario.sampling_time
+
+    @property
+    def finished(self) -> bool:
+        """Whether the experiment is over, and was not broken off."""
+        return self.over and self._finished
 
     @property
     def sampling_time(self) -> float:
@@ -256,14 +282,12 @@ class World:
             if not self._stepping:
                 self._close()
 
-    def hold(self, robot: int) -> None:
+    def hold(self, robot: str | int) -> None:
         """Let a robot stand still from now on, whatever its law says: it is out of the game.
 
-        robot: its index. Raises InputError if there is none.
+        robot: its index or name. Raises InputError if there is none.
         """
-        index = self.scenario.index_of("World.hold", robot)
-        if index not in self._held:
-            self._held.append(index)
+        self.hands.hold(robot)
 
     def break_off(self, why: str) -> None:
         """End the experiment at once, without a last control step, as after an error."""
@@ -310,6 +334,14 @@ class World:
         with self._busy():
             self._control_step(command)
 
+    def follow(self, command: Any) -> None:
+        """Do one control step under a command (2, n) that is known from before.
+
+        The laws are asked all the same, so that they remember what they did then.
+        """
+        with self._busy():
+            self._control_step(command, ask=True)
+
     def observe(self) -> None:
         """Call the add-ons and read the sensors for the present instant, as the next step would.
 
@@ -351,16 +383,16 @@ class World:
         with self._busy():
             self._control_step(None)
 
-    def _control_step(self, command: Any) -> None:
+    def _control_step(self, command: Any, *, ask: bool = False) -> None:
         """Do what MARS's Algorithm 1 does in one pass of its loop."""
         self._observe()
-        if self._watch is not None:
-            self._watch(self)
-        wanted = self._ask_laws() if command is None else self._given(command)
-        if self._held:
-            wanted = wanted.copy()
-            wanted[:, self._held] = 0.0
-        self._command = _frozen(self._saturate(wanted))
+        if self.watch is not None:
+            self.watch(self)
+        wanted = self._still if command is None else self._given(command)
+        if ask or command is None:
+            asked = self._ask_laws()
+            wanted = asked if command is None else wanted
+        self._command = _frozen(self._saturate(self.hands.command(wanted)))
         self._write_row()
         self._check_workspace()
         if self.iteration >= self.scenario.last_iteration:
@@ -442,7 +474,7 @@ class World:
         for duration, command in self._delay.send(self._command):
             twist = self._drives.twist(command)
             self._driven.append((duration, twist))
-            self._engine.drive(twist, duration, time)
+            self.hands.drive(self._engine, twist, duration, time)
             time += duration
         self._contacts = _frozen(self._engine.take_contacts())
         self._recorder.write_contacts(self._contacts)
@@ -456,6 +488,52 @@ class World:
         pose = _frozen(self._engine.pose)
         self._pose, self._prop_pose = pose[:, :n], pose[:, n:]
 
+    # -- changes while it runs --------------------------------------------------------------------
+
+    @property
+    def control(self) -> Callable[[World], Any] | None:
+        """The law of the team."""
+        return None if self._central is None else self._central.function
+
+    @property
+    def motion(self) -> Start:
+        """How everything moves at this instant."""
+        return self._engine.motion
+
+    def change(
+        self,
+        scenario: Scenario,
+        control: Callable[[World], Any] | None = None,
+        moved: Mapping[int, tuple[float, float, float]] | None = None,
+    ) -> None:
+        """Go on with another scenario from now on: other obstacles, another workspace, other laws.
+
+        Bodies stay where they are, and laws that are the same keep what they remember. control: the
+        law of the team from now on, `world.control` for the one that it has. moved: poses of bodies
+        that are put elsewhere with it, by index in `Scenario.bodies`. Raises InputError where
+        something in `scenario` is different that needs a new start, such as a robot, a sensor or
+        the sampling time, and where a body would be in an obstacle.
+        """
+        moved = dict(moved or {})
+        check_same(self.scenario, scenario)
+        self.observe()
+        start = self.motion.moved(moved)
+        changed = with_poses(scenario, start.state[:, :3].T)
+        self.hands.log.append(Change(self.iteration, scenario, tuple(moved.items()), control))
+        same = {a.key for a in self.scenario.addons if a in changed.addons}
+        self.scenario = changed
+        self._workspace = None if changed.workspace is None else np.array(changed.workspace)
+        self._take_addons({key: a for key, a in vars(self.addons).items() if key in same})
+        self._build_laws(control)
+        self.rebuild(start)
+
+    def rebuild(self, start: Start) -> None:
+        """Go on with everything moving like this."""
+        self._engine = ENGINES[self.scenario.physics](self.scenario, start)
+        self._take_state()
+        self._velocity_at = -1, self._pose
+        self.surroundings.renew(self._engine.space)
+
     # -- what comes out ------------------------------------------------------------------------
 
     @property
@@ -464,9 +542,10 @@ class World:
         return self._recorder.record(
             self.seed,
             self.over_message if self.over else "not over",
-            self.over and self._finished,
+            self.finished,
             self.filename,
             Scene([*self._drawn.shapes]),
+            self.hands.log,
         )
 
     @property
@@ -499,7 +578,3 @@ def _frozen(array: NDArray[Any]) -> NDArray[Any]:
     view = array.view()
     view.flags.writeable = False
     return view
-
-
-def _overrides(addon: Addon, hook: str) -> bool:
-    return getattr(type(addon), hook) is not getattr(Addon, hook)

@@ -30,6 +30,8 @@ LAYERS = [
         "burst",
         "pixels",
         "quadrature",
+        "layout",
+        "reference",
     },
     {
         "registry",
@@ -49,6 +51,7 @@ LAYERS = [
         "kernel",
         "maps",
         "picture",
+        "excerpt",
         "potential",
         "tessellation",
     },
@@ -58,7 +61,8 @@ LAYERS = [
     {"scenario"},
     {"options"},
     {"map_option"},
-    {"frame", "plain", "files", "pace", "space"},
+    {"frame", "plain", "files", "pace", "space", "changes"},
+    {"interventions", "scenario_file", "listing"},
     {
         "clutches",
         "grips",
@@ -72,8 +76,10 @@ LAYERS = [
     },
     {"engine", "recorder"},
     {"kinematics"},
+    {"hands"},
     {"world"},
     {"loop", "rerun", "testing", "bench"},
+    {"timeline"},
     {"view"},
     {"output"},
     {"session", "doctor"},
@@ -84,8 +90,14 @@ LAYERS = [
 ]
 """The modules and folders of the package, low to high: each imports from below only."""
 
-LAZY_UPWARDS = {("record", "output")}
-"""Record.plot draws by output.figure, which it imports when it is called."""
+LAZY_UPWARDS = {
+    ("record", "output"),
+    ("scenario", "scenario_file"),
+    ("files", "scenario_file"),
+}
+"""Imported when they are called: output.figure by Record.plot; scenario_file by Scenario.from_file,
+Scenario.save and open_experiment, since what reads a scenario loads laws as experiments are.
+"""
 
 HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "svgelements", "yaml"}
 

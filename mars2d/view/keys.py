@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-__all__ = ["KEYS", "MODIFIERS", "Key", "action_of"]
+__all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "action_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,29 +22,59 @@ class Key:
     repeats: bool = False
 
 
-KEYS = (
+TIME = (
     Key("pause", ("space",), ("Space",), "pause, go on; in manual mode one step"),
-    Key("step", ("right",), ("→",), "one step, and pause", repeats=True),
+    Key("step", ("right",), ("→",), "one step, and pause; after a number so many", repeats=True),
+    Key("back", ("left",), ("←",), "one step back; after a number so many", repeats=True),
+    Key("leap", ("page down",), ("PgDn",), "ten steps, and pause", repeats=True),
+    Key("leap_back", ("page up",), ("PgUp",), "ten steps back", repeats=True),
+    Key("start", ("home",), ("Home",), "look at the start"),
+    Key("newest", ("end",), ("End",), "look at the newest step"),
     Key("faster", ("+", "=", "[+]"), ("+",), "faster", repeats=True),
     Key("slower", ("-", "[-]"), ("\N{MINUS SIGN}",), "slower", repeats=True),
+    Key("restart", ("r",), ("R",), "restart from time 0, with the file as it is now"),
+    Key("branch", ("b",), ("B",), "the other branch: what was run before something was changed"),
+)
+
+SEE = (
     Key("grid", ("g",), ("G",), "grid on and off"),
     Key("trails", ("t",), ("T",), "trails on and off"),
     Key("sensors", ("s",), ("S",), "sensors on and off; of a selected robot, its own alone"),
     Key("messages", ("m",), ("M",), "messages between robots on and off"),
-    Key("forces", ("c",), ("C",), "forces of contacts, and who slips, on and off"),
+    Key("forces", ("x",), ("X",), "contacts, their forces, and who slips, on and off"),
     Key("theory", ("y",), ("Y",), "what theory predicts, where add-ons draw it, on and off"),
-    Key("select", ("tab",), ("Tab",), "select the next robot or prop: the force on it over time"),
+    Key("addons", ("o",), ("O",), "what add-ons draw on and off"),
+    Key("names", ("i",), ("I",), "names on and off"),
+    Key("velocities", ("u",), ("U",), "velocities on and off"),
+    Key("select", ("tab",), ("Tab",), "select the next robot or prop, and inspect it"),
+    Key("follow", ("l",), ("L",), "let the camera follow what is selected, or all robots"),
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
-    Key("restart", ("r",), ("R",), "restart from time 0"),
-    Key("help", ("f1",), ("F1",), "all keys, on and off"),
-    Key("leave", ("escape",), ("Esc",), "close the help, select none, leave"),
+    Key("dark", ("d",), ("D",), "dark or light"),
+    Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
 )
+
+DO = (
+    Key("drive", ("h",), ("H",), "drive the selected robot by hand: arrows, WASD, game controller"),
+    Key("edit", ("e",), ("E",), "draw walls, robots and more, while paused"),
+    Key("picture", ("p",), ("P",), "save a picture"),
+    Key("film", ("v",), ("V",), "start and stop a film"),
+    Key("python", ("c",), ("C",), "save what is seen as a Python file, and copy it"),
+    Key("help", ("f1",), ("F1",), "all keys, on and off"),
+    Key("leave", ("escape",), ("Esc",), "close the help, let go, select none, leave"),
+)
+
+KEYS = (*TIME, *SEE, *DO)
 
 MOUSE = (
     Key("zoom", (), ("Wheel",), "zoom about the pointer"),
-    Key("pan", (), ("Drag",), "move the picture"),
+    Key("pan", (), ("Drag",), "move the picture; on the time bar, look at another time"),
     Key("pick", (), ("Click",), "select a robot or prop; beside them, none"),
+    Key("carry", (), ("Drag it",), "pull a robot or prop; while paused, put it elsewhere"),
+    Key("turn", (), ("Right drag",), "turn a robot or prop, while paused"),
 )
+
+GROUPS: Mapping[str, Sequence[Key]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}
+"""All of them, as the page of help shows them."""
 
 MODIFIERS = frozenset(
     f"{side} {key}" for side in ("left", "right") for key in ("shift", "ctrl", "alt", "meta", "gui")
@@ -61,6 +92,6 @@ def action_of(name: str, character: str, *, manual: bool) -> Key | None:
     manual: MARS's manual mode, where every key that is no other command does one step.
     """
     key = (_BY_NAME.get(character) if character in "+-" else None) or _BY_NAME.get(name)
-    if not manual or name in MODIFIERS:
+    if not manual or name in MODIFIERS or character.isdigit():
         return key
     return _STEP if key is None or key.action == "pause" else key

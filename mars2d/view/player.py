@@ -14,11 +14,19 @@ from mars2d.view.source import Source
 
 __all__ = ["SPEEDS", "Player", "between"]
 
+Status = tuple[str, str]
+"""What the clock does, in words, and its kind: running, waiting, past or error."""
+
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 """The rungs of + and -; above them lies "max"."""
 
 LONGEST_GAP = 0.1
 """Wall time beyond this between two pictures, seconds, is not caught up with."""
+
+SHARE = 9.0
+"""At speed max, how many times as long as the drawing of a picture the simulation may take..."""
+RAREST = 0.1
+"""... as long as there is a picture at least each so many seconds."""
 
 
 class Player:
@@ -41,6 +49,8 @@ class Player:
         self.speed = float("inf") if checked == "max" else float(checked)
         self.paused = False
         self.error: Mars2dError | None = None
+        self.drawing = 0.0  # seconds that the last picture took
+        self._todo = 0  # steps
         self._budget, self._clock = budget, clock
         self._present = source.frame
         self._previous: Frame | None = None
@@ -58,11 +68,19 @@ class Player:
         return not (self.paused or self.manual or self.over)
 
     @property
+    def past(self) -> bool:
+        """Whether what is shown was run before: there are newer rows."""
+        return self.source.row < self.source.newest
+
+    @property
+    def failed(self) -> bool:
+        """Whether what is shown is where a law, sensor or add-on has failed."""
+        return self.error is not None and not self.past
+
+    @property
     def over(self) -> bool:
         """Whether the last frame is reached and shown, or a law has failed."""
-        if self.error is not None:
-            return True
-        return self.source.over and self._time >= self._present.time
+        return self.failed or (self.source.over and self._time >= self._present.time)
 
     @property
     def frame(self) -> Frame:
@@ -82,6 +100,8 @@ class Player:
 
     def pass_time(self, wall: float) -> None:
         """Go on for `wall` seconds that have passed since the last picture."""
+        if self._todo:
+            self._do_steps()
         if not self.playing:
             self._pace.clear()
             return
@@ -98,23 +118,53 @@ class Player:
         while now - self._pace[0][0] > 1.5:
             self._pace.popleft()
 
-    def step(self) -> None:
-        """Go on by one sampling time, and pause."""
+    def step(self, count: int = 1) -> None:
+        """Go on by so many sampling times, and pause; by many as time allows between pictures."""
+        self.pause()
+        self._todo = count
+        self._do_steps()
+
+    def _do_steps(self) -> None:
+        """Do steps that are to be done, as many as a picture may wait for."""
+        deadline = self._clock() + self._budget
+        while self._todo and not (self.failed or self.source.over):
+            self._todo -= 1
+            if not self._advance() or self._clock() >= deadline:
+                break
+        else:
+            self._todo = 0
+        self._settle()
+
+    def back(self, count: int = 1) -> None:
+        """Go back by so many sampling times, and pause."""
+        self.go(self.source.row - count)
+
+    def go(self, row: int) -> None:
+        """Go to a row, or to the nearest one that there is as yet, and pause."""
+        self.pause()
+        self.source.go(row)
+        self._settle()
+
+    def pause(self) -> None:
+        """Stop time, if it passes."""
+        self._todo = 0
         if not self.manual:
             self.paused = True
-        self._settle()
-        if not self.over:
-            self._advance()
-        self._settle()
 
     def pause_or_resume(self) -> None:
         """Stop time or let it pass; in manual mode, one step."""
         if self.manual:
             self.step()
             return
+        self._todo = 0
         self.paused = not self.paused
         if self.paused:
             self._settle()
+
+    def set_speed(self, speed: float) -> None:
+        """Play at a factor of real time, or as fast as it goes: inf."""
+        self.speed = speed
+        self._pace.clear()
 
     def faster(self) -> None:
         """Go one rung up; from manual mode to the lowest."""
@@ -132,6 +182,7 @@ class Player:
     def restart(self) -> None:
         """Go back to the start; a law that failed gets another chance."""
         self.error = None
+        self._todo = 0
         self._pace.clear()
         try:
             self.source.restart()
@@ -139,21 +190,31 @@ class Player:
             self.error = error
         self._settle()
 
-    def status(self) -> tuple[str, bool]:
-        """Return the speed in words, and whether time stands still."""
+    def status(self) -> Status:
+        """Return what the clock does."""
+        if self.past:
+            ago = (self.source.newest - self.source.row) * self.source.scenario.sampling_time
+            return f"{self._pace_in_words() if self.playing else 'past'}  {ago:g} s ago", "past"
         if self.over:
-            return ("stopped" if self.error else "over"), True
+            return ("stopped", "error") if self.failed else ("over", "waiting")
+        if self._todo:
+            return f"{self._todo} steps", "running"
         if self.manual:
-            return "manual", True
-        if self.paused:
-            return "paused", True
+            return "manual", "waiting"
+        return ("paused", "waiting") if self.paused else (self._pace_in_words(), "running")
+
+    def _pace_in_words(self) -> str:
         factor = self.factor
         if self.speed == float("inf"):
-            return ("max" if factor is None else f"max  {_times(factor)}"), False
+            return "max" if factor is None else f"max  {_times(factor)}"
         text = _times(self.speed)
         if factor is not None and factor < 0.9 * self.speed:
             text += f"  reaches {_times(factor)}"
-        return text, False
+        return text
+
+    def settle(self) -> None:
+        """Show what was done to the world."""
+        self._settle()
 
     def fail(self, error: Mars2dError) -> None:
         """Stop at the present frame, without what add-ons and sensors draw: one of them raised."""
@@ -169,7 +230,7 @@ class Player:
 
     def _advance_for_long(self) -> None:
         """Go on for as long as a picture may take, asking for no frame in between."""
-        deadline = self._clock() + self._budget
+        deadline = self._clock() + max(self._budget, min(SHARE * self.drawing, RAREST))
         while not self.source.over and self._advance():
             if self._clock() >= deadline:
                 break
@@ -191,7 +252,7 @@ class Player:
             self.source.advance()
         except Mars2dError as error:
             self.error = error
-        return self.error is None
+        return not self.failed
 
 
 def between(first: Frame, second: Frame, time: float) -> Frame:

@@ -8,7 +8,8 @@ from mars2d.errors import InputError, Mars2dError
 from mars2d.files import Experiment
 from mars2d.loop import Interrupted
 from mars2d.record import Record
-from mars2d.view.source import Live, Playback
+from mars2d.timeline import Timeline
+from mars2d.view.source import Playback
 from mars2d.view.window import Window
 from mars2d.world import Watcher
 
@@ -23,7 +24,7 @@ def show_experiment(
     speed: simulated seconds per second, "max", or 0 for one step a key press. Raises InputError
     without a display, and what a law raised, once the window is closed.
     """
-    source = Live(experiment, seed, watchers)
+    source = Timeline(experiment, seed, watchers)
     try:
         Window(source, speed).run()
     except Mars2dError as error:

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
 from typing import Protocol
 
-from mars2d.files import Experiment
 from mars2d.frame import Frame
-from mars2d.loop import open_world
 from mars2d.record import Record
 from mars2d.scenario import Scenario
-from mars2d.world import Watcher
 
-__all__ = ["Live", "Playback", "Source"]
+__all__ = ["Playback", "Source"]
 
 
 class Source(Protocol):
-    """What the window plays: a sequence of frames, one a sampling time."""
+    """What the window plays: a sequence of frames, one a sampling time.
+
+    A `mars2d.timeline.Timeline` is one that can be changed, see there.
+    """
 
     @property
     def scenario(self) -> Scenario:
@@ -28,65 +26,25 @@ class Source(Protocol):
         """The present instant."""
 
     @property
+    def row(self) -> int:
+        """Which row that is."""
+
+    @property
+    def newest(self) -> int:
+        """The last row that there is as yet."""
+
+    @property
     def over(self) -> bool:
         """Whether there is no further frame."""
 
     def advance(self) -> None:
         """Go on by one sampling time. Raises Mars2dError when a law fails; nothing when over."""
 
+    def go(self, row: int) -> None:
+        """Go to a row, or to the nearest one that there is."""
+
     def restart(self) -> None:
         """Go back to the start."""
-
-
-class Live:
-    """A live experiment: each advance is one control step of its world."""
-
-    def __init__(
-        self, experiment: Experiment, seed: int = 0, watchers: Sequence[Watcher] = ()
-    ) -> None:
-        self._experiment = experiment
-        self._seed = seed
-        self._watchers = watchers
-        self.restart()
-
-    def restart(self) -> None:
-        """Build the world anew."""
-        self._world = open_world(self._experiment, self._seed, self._watchers)
-        self._observe()
-
-    @property
-    def scenario(self) -> Scenario:
-        """What is simulated."""
-        return self._world.scenario
-
-    @property
-    def frame(self) -> Frame:
-        """The present instant."""
-        return self._world.frame
-
-    @property
-    def over(self) -> bool:
-        """Whether the experiment is over."""
-        return self._world.over
-
-    @property
-    def record(self) -> Record:
-        """The record so far; where it is not over, it says that the window was closed."""
-        record = self._world.record
-        if self._world.over:
-            return record
-        return replace(record, over_message="The window was closed")
-
-    def advance(self) -> None:
-        """Do one control step. A LawError ends the experiment and carries its record."""
-        if not self._world.over:
-            self._world.step()
-            self._observe()
-
-    def _observe(self) -> None:
-        """Read the sensors of what is seen next."""
-        if not self._world.over:
-            self._world.observe()
 
 
 class Playback:
@@ -94,27 +52,36 @@ class Playback:
 
     def __init__(self, record: Record) -> None:
         self._record = record
-        self._row = 0
+        self.row = 0
 
     @property
     def scenario(self) -> Scenario:
         """What was simulated."""
-        return self._record.scenario
+        return self._record.scenario_at(self.row)
 
     @property
     def frame(self) -> Frame:
         """The present row."""
-        return self._record.frame(self._row)
+        return self._record.frame(self.row)
+
+    @property
+    def newest(self) -> int:
+        """The last row."""
+        return len(self._record) - 1
 
     @property
     def over(self) -> bool:
         """Whether this is the last row."""
-        return self._row == len(self._record) - 1
+        return self.row == self.newest
 
     def advance(self) -> None:
         """Go on by one row."""
-        self._row = min(self._row + 1, len(self._record) - 1)
+        self.go(self.row + 1)
+
+    def go(self, row: int) -> None:
+        """Go to a row, or to the nearest one that there is."""
+        self.row = min(max(row, 0), self.newest)
 
     def restart(self) -> None:
         """Go back to the first row."""
-        self._row = 0
+        self.row = 0

@@ -1,99 +1,138 @@
-"""The window: watch an experiment, stop it, step through it."""
+"""The window: watch an experiment, stop it, go back in it, put a hand to it."""
 
 from __future__ import annotations
 
 import math
 import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 import pygame
 
 from mars2d.errors import InputError, Mars2dError
+from mars2d.excerpt import excerpt_of
 from mars2d.frame import Frame
 from mars2d.scene import PALETTE, Scene
+from mars2d.timeline import Timeline
 from mars2d.view import keys
-from mars2d.view.bars import (
-    Banner,
-    Layout,
-    Status,
-    draw_footer,
-    draw_header,
-    draw_help,
-    fitted,
-    footer_height,
-)
+from mars2d.view.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.view.camera import Camera
 from mars2d.view.display import NO_DISPLAY, open_display
+from mars2d.view.help import draw_help
 from mars2d.view.layers import Layers
+from mars2d.view.layout import TEXT_SIZES, Layout
+from mars2d.view.notes import Notes, Progress, draw_progress
 from mars2d.view.painter import Painter
 from mars2d.view.panel import Panel
 from mars2d.view.picture import summary
-from mars2d.view.player import Player
+from mars2d.view.player import SPEEDS, Player
 from mars2d.view.selection import body_at, next_body, selection_mark, sensed_by
+from mars2d.view.slider import SpeedSlider
 from mars2d.view.source import Source
 from mars2d.view.stage import Stage
+from mars2d.view.theme import DARK, LIGHT
+from mars2d.view.timebar import TimeBar, TimeState
+from mars2d.view.viewpoint import Viewpoint, wheel_notches
+from mars2d.world import World
 
-__all__ = ["Window"]
+__all__ = ["Preferences", "Window"]
 
 PICTURES_A_SECOND = 60
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
-WHEEL_FACTOR = 1.15
-REST = 0.12
-"""The camera moves until it has rested for so many seconds."""
-HINTS = (("Space", "pause"), ("→", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"))
+HINTS = (
+    ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
+)  # fmt: skip
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
 CLICK = 5
 """A press of the mouse that moves by less, in pixels, is a click."""
-DEEPEST, WIDEST = 400.0, 0.05
-"""How far one can zoom in and out, times the scale at which the workspace fits."""
+LEAP = 10
+"""How many steps PgDn and PgUp do, unless a number is typed before."""
+MOST_STEPS = 1_000_000
+"""A number that is typed is no larger."""
+IDLE = 0.004
+"""The time of a picture that is left for other things, seconds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Preferences:
+    """How a person likes the window: dark: for a dark room; text: a factor on text and lines."""
+
+    dark: bool = False
+    text: float = 1.0
 
 
 class Window:
     """Shows a source on the screen until it is closed.
 
     speed: a factor of real time, 0 for one step a key press, or "max". size: pixels, at first.
-    Raises InputError when there is no display.
+    preferences: how it looks. Raises InputError when there is no display.
     """
 
     def __init__(
-        self, source: Source, speed: float | str = 1.0, size: tuple[int, int] = (1280, 720)
+        self,
+        source: Source,
+        speed: float | str = 1.0,
+        size: tuple[int, int] = (1280, 720),
+        preferences: Preferences | None = None,
     ) -> None:
         """Prepare; the window opens with `run`."""
+        preferences = preferences or Preferences()
         self.player = Player(source, speed)
         self.size = size
         self.title = f"{source.scenario.title} - MARS2D"
         self.layers = Layers.of(source.scenario.animation)
-        self.help = False
+        self.help: int | None = None  # the page of help that is open
         self.selected: int | None = None  # an index of Scenario.bodies
+        self.text = preferences.text
+        self.notes = Notes()
+        self._timeline = source if isinstance(source, Timeline) else None
+        self._way_back: Progress | None = None
+        self._number = 0  # typed before a key
         self._open = False
-        self._fits = True
-        self._hurry = 0.0
         self._held: set[int] = set()
         self._pressed: tuple[int, int] | None = None
-        self._painter = Painter()
+        self._grasped: Callable[[tuple[int, int]], None] | None = None  # what the mouse drags
+        self._painter = Painter(theme=DARK if preferences.dark else LIGHT)
         self._stage = Stage(self._painter)
         self._panel = Panel(self._painter)
-        self.layout = Layout.of(size)
-        self.camera = self._fitted()
+        self._time_bar, self._slider = TimeBar(), SpeedSlider(SPEEDS)
+        self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
         self._actions: dict[str, Callable[[], None]] = {
             "pause": self.player.pause_or_resume,
-            "step": self.player.step,
+            "step": lambda: self.player.step(self._typed(1)),
+            "back": lambda: self.player.back(self._typed(1)),
+            "leap": lambda: self.player.step(self._typed(LEAP)),
+            "leap_back": lambda: self.player.back(self._typed(LEAP)),
+            "start": lambda: self.player.go(0),
+            "newest": lambda: self.player.go(source.newest),
             "faster": self.player.faster,
             "slower": self.player.slower,
-            "grid": lambda: self._toggle("grid"),
-            "trails": lambda: self._toggle("trails"),
-            "sensors": lambda: self._toggle("sensors"),
-            "messages": lambda: self._toggle("messages"),
-            "forces": lambda: self._toggle("forces"),
-            "theory": lambda: self._toggle("theory"),
-            "select": self._select_next,
-            "fit": self._fit,
             "restart": self.player.restart,
-            "help": self._toggle_help,
+            "branch": self._other_branch,
+            **{
+                layer: lambda layer=layer: self._toggle(layer)  # type: ignore[misc]
+                for layer in ("grid", "trails", "sensors", "messages", "forces", "theory")
+            },
+            "select": self._select_next,
+            "follow": lambda: self.viewpoint.follow(self.selected),
+            "fit": self.viewpoint.fit,
+            "dark": self._change_theme,
+            "text": self._change_text,
+            "help": self._turn_help,
             "leave": self._leave,
         }
+
+    @property
+    def camera(self) -> Camera:
+        """From where the picture is seen."""
+        return self.viewpoint.camera
+
+    @property
+    def layout(self) -> Layout:
+        """Where everything lies."""
+        return self.viewpoint.layout
 
     def run(self) -> None:
         """Open the window and play until it is closed; then raise the error of a law that failed.
@@ -130,11 +169,21 @@ class Window:
                 self._handle(event)
             now = time.perf_counter()
             self.player.pass_time(now - last)
+            self.viewpoint.step(self.player.frame, now - last)
             last = now
+            start = time.perf_counter()
             screen = pygame.display.get_surface() or screen
             self.draw(screen)
             pygame.display.flip()
-            clock.tick(PICTURES_A_SECOND)
+            self.player.drawing = time.perf_counter() - start
+            self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - IDLE)
+            if self.player.speed < inf or not self.player.playing:
+                clock.tick(PICTURES_A_SECOND)
+
+    def _use_rest(self, seconds: float) -> None:
+        """Use the time that is left of a picture to prepare for going back."""
+        if self._timeline is not None and seconds > 0:
+            self._timeline.idle(seconds)
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -148,29 +197,62 @@ class Window:
 
     def _draw(self, surface: pygame.Surface) -> None:
         banner = self._banner()
-        self._arrange(surface.get_size(), banner)
         frame = self.player.frame
-        hurried = time.perf_counter() < self._hurry
+        self._painter.ui = self.layout.ui
+        layout = self._layout(surface.get_size(), banner)
+        self._painter.ui = layout.ui
+        self.viewpoint.arrange(layout, frame.scenario)
         marks = [] if self.selected is None else selection_mark(frame, self.selected).shapes
         self._stage.draw(
             surface,
             sensed_by(frame, self.selected),
             self.camera,
             self.layers,
-            self.layout.plot,
+            layout.plot,
             marks=marks,
-            hurried=hurried,
+            hurried=self.viewpoint.hurried,
         )
         place = self._panel_place(frame)
         if place is not None and self.selected is not None:
             self._panel.draw(surface, place, frame, self.selected)
-        text, waiting = self.player.status()
-        status = Status(text, waiting, error=self.player.error is not None)
-        draw_header(surface, self.layout, self._painter, frame, status)
-        hints = MANUAL_HINTS if self.player.manual else HINTS
-        draw_footer(surface, self.layout, self._painter, banner, summary(frame), hints)
-        if self.help:
-            draw_help(surface, self.layout, self._painter, (*keys.KEYS, *keys.MOUSE))
+        self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
+        if self._way_back is not None:
+            draw_progress(surface, layout.plot, self._painter, self._way_back)
+        self._draw_bars(surface, frame, banner)
+        if self.help is not None:
+            pages = draw_help(
+                surface, layout, self._painter, keys.GROUPS.items(), self.help
+            )
+            self.help = min(self.help, pages - 1)
+            self._pages = pages
+
+    def _draw_bars(self, surface: pygame.Surface, frame: Frame, banner: Banner | None) -> None:
+        """Draw what stands round the picture."""
+        layout, painter, player = self.layout, self._painter, self.player
+        pointer = pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
+        draw_header(surface, layout, painter, frame, self._status())
+        self._time_bar.draw(
+            surface, layout.timebar, painter, self._time_state(), pointer=pointer,
+            held=self._grasped == self._scrub,
+        )  # fmt: skip
+        self._slider.draw(
+            surface, layout.slider, painter, player.speed, player.factor, pointer=pointer,
+            held=self._grasped == self._choose_speed,
+        )  # fmt: skip
+        hints = MANUAL_HINTS if player.manual else HINTS
+        draw_footer(surface, layout, painter, banner, summary(frame), hints)
+
+    def _status(self) -> Status:
+        if self._number:
+            return Status(f"{self._number} ...", "waiting")
+        return Status(*self.player.status())
+
+    def _time_state(self) -> TimeState:
+        source = self.player.source
+        last = source.scenario.last_iteration
+        if self._timeline is None:  # a recording goes no further
+            last = source.newest
+        return TimeState(source.row, source.newest, last, source.scenario.sampling_time)
 
     def _panel_place(self, frame: Frame) -> pygame.Rect | None:
         """Return where the panel of the selected body lies, if there is one and room for it."""
@@ -181,34 +263,20 @@ class Window:
         return self._panel.place(self.layout.plot, (x, y))
 
     def _banner(self) -> Banner | None:
+        error = self.player.error
+        if self.player.failed and error is not None:
+            path = None if self._timeline is None else self._timeline.experiment.path
+            hint = "← looks back   R restarts   Esc leaves"
+            return Banner(str(error), hint, error=True, excerpt=excerpt_of(error, path))
         if not self.player.over:
             return None
-        error = self.player.error
-        hint = "R restarts   Esc leaves"
-        if error is not None:
-            return Banner(str(error), hint, error=True)
-        return Banner(self.player.frame.over_message or "The experiment is over.", hint)
+        text = self.player.frame.over_message or "The experiment is over."
+        return Banner(text, "← looks back   R restarts   Esc leaves")
 
-    def _arrange(self, size: tuple[int, int], banner: Banner | None) -> None:
-        """Lay out a surface of this size; keep what is seen in place, or fitted if it was."""
-        before = self.layout
-        self.layout = Layout.of(size, footer_height(banner, size, self._painter))
-        self._painter.ui = self.layout.ui
-        if self.layout == before:
-            return
-        if self._fits:
-            self._fit()
-        else:
-            old, new = before.plot.center, self.layout.plot.center
-            self.camera = self.camera.panned(new[0] - old[0], new[1] - old[1])
-
-    def _fit(self) -> None:
-        self._fits = True
-        self.camera = self._fitted()
-
-    def _fitted(self) -> Camera:
-        size = self.layout.header.width, self.layout.footer.bottom
-        return fitted(self.player.source.scenario, size, self.layout)
+    def _layout(self, size: tuple[int, int], banner: Banner | None) -> Layout:
+        """Return where everything lies on a surface of this size."""
+        height = footer_height(banner, size, self._painter, self.text)
+        return Layout.of(size, height, text=self.text, timebar=True)
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -222,64 +290,152 @@ class Window:
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
         elif event.type == pygame.MOUSEWHEEL:
-            self._zoom(WHEEL_FACTOR ** getattr(event, "precise_y", event.y))
-        elif event.type == pygame.MOUSEMOTION and any(event.buttons):
-            self._pan(*event.rel)
+            self.viewpoint.zoom(wheel_notches(event), pygame.mouse.get_pos())
+        elif event.type == pygame.MOUSEMOTION:
+            self._drag(event)
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            self._pressed = event.pos
+            self._grasp(event.pos)
         elif event.type == pygame.MOUSEBUTTONUP and event.button == pygame.BUTTON_LEFT:
-            if self._pressed is not None and math.dist(self._pressed, event.pos) < CLICK:
-                self._click(event.pos)
-            self._pressed = None
+            self._release(event.pos)
 
     def _press(self, code: int, character: str) -> None:
+        if character.isdigit() and character.isascii():
+            self._number = min(10 * self._number + int(character), MOST_STEPS)
+            return
         key = keys.action_of(pygame.key.name(code), character, manual=self.player.manual)
         held = code in self._held
         self._held.add(code)
         if key is not None and (key.repeats or not held):
             self._actions[key.action]()
+        if pygame.key.name(code) not in keys.MODIFIERS:
+            self._number = 0
 
-    def _zoom(self, factor: float) -> None:
-        fit = self._fitted().scale
-        wanted = min(max(self.camera.scale * factor, WIDEST * fit), DEEPEST * fit)
-        self._look(self.camera.zoomed(pygame.mouse.get_pos(), wanted / self.camera.scale))
+    def _typed(self, otherwise: int) -> int:
+        """Return the number that was typed before this key, if one was."""
+        number, self._number = self._number, 0
+        return number or otherwise
 
-    def _pan(self, dx: int, dy: int) -> None:
-        self._look(self.camera.panned(dx, dy))
+    def _grasp(self, pixel: tuple[int, int]) -> None:
+        """Take hold of what lies at a pixel."""
+        self._pressed = pixel
+        if self._time_bar.hit(pixel):
+            self._grasped = self._scrub
+        elif self._slider.hit(pixel):
+            self._grasped = self._choose_speed
+        if self._grasped is not None:
+            self._grasped(pixel)
 
-    def _look(self, camera: Camera) -> None:
-        """Look with another camera, of the person's choice."""
-        self._fits = False
-        self.camera = camera
-        self._hurry = time.perf_counter() + REST
+    def _drag(self, event: pygame.Event) -> None:
+        if self._grasped is not None:
+            self._grasped(event.pos)
+        elif any(event.buttons):
+            self.viewpoint.pan(*event.rel)
 
-    def _toggle(self, layer: str) -> None:
-        self.layers = replace(self.layers, **{layer: not getattr(self.layers, layer)})
+    def _release(self, pixel: tuple[int, int]) -> None:
+        """Let go; what was pressed and not dragged is clicked."""
+        near = self._pressed is not None and math.dist(self._pressed, pixel) < CLICK
+        if near and self._grasped is None:
+            self._click(pixel)
+        self._pressed = self._grasped = None
+
+    def _scrub(self, pixel: tuple[int, int]) -> None:
+        """Look at the time at a pixel of the time bar."""
+        row = self._time_bar.row_at(pixel[0])
+        if row is not None:
+            self.player.go(row)
+
+    def _choose_speed(self, pixel: tuple[int, int]) -> None:
+        """Play at the speed at a pixel of the slider."""
+        speed = self._slider.speed_at(pixel[0])
+        if speed is not None and speed != self.player.speed:
+            self.player.set_speed(speed)
 
     def _click(self, pixel: tuple[int, int]) -> None:
         """Select what lies at a pixel of the picture, or nothing."""
         frame = self.player.frame
         place = self._panel_place(frame)
         beside = not self.layout.plot.collidepoint(pixel)
-        if self.help or beside or (place is not None and place.collidepoint(pixel)):
+        if self.help is not None or beside or (place is not None and place.collidepoint(pixel)):
             return
         ((x, y),) = self.camera.to_world([pixel]).tolist()
         self.selected = body_at(frame, (x, y), CLICK * self.layout.ui / self.camera.scale)
 
+    # -- what keys do ---------------------------------------------------------------------------
+
+    def _toggle(self, layer: str) -> None:
+        self.layers = replace(self.layers, **{layer: not getattr(self.layers, layer)})
+
+    def _change_theme(self) -> None:
+        self._painter.theme = LIGHT if self._painter.theme.dark else DARK
+
+    def _change_text(self) -> None:
+        """Take the next size of text, or the smallest one again."""
+        larger = [size for size in TEXT_SIZES if size > self.text]
+        self.text = larger[0] if larger else TEXT_SIZES[0]
+        self.notes.say(f"text: {self.text:g} times as large as at first")
+
     def _select_next(self) -> None:
         self.selected = next_body(self.player.frame, self.selected)
 
-    def _toggle_help(self) -> None:
-        self.help = not self.help
+    def _turn_help(self) -> None:
+        """Open the help, turn its page, or close it after the last one."""
+        page = 0 if self.help is None else self.help + 1
+        self.help = page if page == 0 or page < self._pages else None
 
     def _leave(self) -> None:
         """Close the page of help if it is open, else select none, else close the window."""
-        if self.help:
-            self.help = False
+        if self.help is not None:
+            self.help = None
         elif self.selected is not None:
             self.selected = None
         else:
             self._open = False
+
+    # -- what changes the run -------------------------------------------------------------------
+
+    def _other_branch(self) -> None:
+        if self._timeline is None or not self._timeline.branches:
+            self.notes.say("there is no other branch: change something in the past to make one")
+            return
+        self._timeline.other_branch()
+        self.player.error = None
+        self.player.settle()
+
+    def change(self, act: Callable[[World], None]) -> bool:
+        """Do something to the world at the instant that is seen; return whether that was done.
+
+        Where that is in the past, the run goes on from there as a branch of its own.
+        """
+        if self._timeline is None:
+            self.notes.say("this is a recording: it can't be changed", "warning")
+            return False
+        try:
+            world = self._timeline.branch(self._show_way_back)
+            self.player.error = None
+            act(world)
+        except InputError as error:
+            self.notes.say(str(error), "error")
+            return False
+        finally:
+            self._way_back = None
+            self.player.settle()
+        return True
+
+    def _show_way_back(self, share: float) -> bool:
+        """Draw how far going back has got; return whether to go on: until Esc."""
+        self._way_back = Progress(f"Going back to {self.player.frame.time:.1f} s", share)
+        surface = pygame.display.get_surface()
+        if surface is None:
+            return True
+        self.draw(surface)
+        pygame.display.flip()
+        for event in pygame.event.get((pygame.QUIT, pygame.KEYDOWN)):
+            if event.type == pygame.QUIT:
+                self._open = False
+                return False
+            if event.key == pygame.K_ESCAPE:
+                return False
+        return True
 
 
 def _icon(painter: Painter) -> pygame.Surface:

@@ -1,0 +1,86 @@
+"""What was done to a running world from outside: bodies put elsewhere or pulled, parts changed.
+
+Each has its `row`: it was done at that row of the record, before its commands took effect. With
+the commands they make a run again, to the bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from mars2d import plain
+from mars2d.geometry import Point
+from mars2d.scenario import Scenario
+
+__all__ = ["Change", "Intervention", "Place", "Pull", "of_plain", "to_plain"]
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A body was put at a pose (x, y [m], theta [rad]); it stood still then.
+
+    body: its index in `Scenario.bodies`.
+    """
+
+    row: int
+    body: int
+    pose: Triple
+
+
+@dataclass(frozen=True, slots=True)
+class Pull:
+    """A body was pulled by a spring of limited force, until another word of it.
+
+    grip: the point of the body that is held, in its own frame [m]. target: where it is pulled to
+    [m]; None: it was let go. force: the most that the spring pulls with [N]. speed: the most at which it draws [m/s].
+    """
+
+    row: int
+    body: int
+    grip: Point
+    target: Point | None
+    force: float
+    speed: float
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """The scenario was changed: obstacles, workspace, add-ons that only draw, laws.
+
+    moved: bodies that were put elsewhere with it, by index in `Scenario.bodies`, and their poses.
+    control: the law of the team from then on, which a file does not keep.
+    """
+
+    row: int
+    scenario: Scenario
+    moved: tuple[tuple[int, Triple], ...] = ()
+    control: Callable[[Any], Any] | None = field(default=None, compare=False)
+
+
+Intervention = Place | Pull | Change
+
+
+def to_plain(intervention: Intervention) -> dict[str, Any]:
+    """Return an intervention as dicts, lists, text and numbers."""
+    kept = [each.name for each in fields(intervention) if each.name != "control"]
+    values = {name: plain.from_description(getattr(intervention, name)) for name in kept}
+    return {"type": type(intervention).__name__, **values}
+
+
+def of_plain(data: Any) -> Intervention:
+    """Return the intervention that `to_plain` made plain; raises what it may if that is none."""
+    values = {name: _read(value) for name, value in data.items() if name != "type"}
+    return _KINDS[data["type"]](**values)
+
+
+def _read(value: Any) -> Any:
+    if isinstance(value, dict):
+        return plain.to_scenario(value)[0]
+    return tuple(map(_read, value)) if isinstance(value, list) else value
+
+
+_KINDS: dict[str, type[Intervention]] = {kind.__name__: kind for kind in (Place, Pull, Change)}
