@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import HOOKS, Addon
-from mars2d.errors import InputError
+from mars2d.addons.communication import Communication
+from mars2d.errors import InputError, counted
 from mars2d.placement import obstruction
 from mars2d.scenario import Scenario
 
@@ -37,7 +38,7 @@ def check_same(before: Scenario, after: Scenario) -> None:
             raise _needs_new_start(f"Scenario.{field.name} is another one")
     _check_bodies("robots", FREE_OF_ROBOTS, before, after)
     _check_bodies("props", FREE_OF_BODIES, before, after)
-    busy = [{a.key: a for a in scenario.addons if hooks_of(a)} for scenario in (before, after)]
+    busy = [{a.key: a for a in scenario.addons if _acts(a)} for scenario in (before, after)]
     for key in sorted({*busy[0], *busy[1]}):
         if busy[0].get(key) != busy[1].get(key):
             raise _needs_new_start(
@@ -45,10 +46,15 @@ def check_same(before: Scenario, after: Scenario) -> None:
             )
 
 
+def _acts(addon: Addon) -> bool:
+    """Return whether an add-on does more than to draw and to stand in the way."""
+    return bool(hooks_of(addon)) or isinstance(addon, Communication)
+
+
 def _check_bodies(name: str, free: frozenset[str], before: Scenario, after: Scenario) -> None:
     first, second = getattr(before, name), getattr(after, name)
     if len(first) != len(second):
-        raise _needs_new_start(f"there are {len(second)} {name}, not {len(first)}")
+        raise _needs_new_start(f"{counted(len(second), name[:-1])} in place of {len(first)}")
     for one, other in zip(first, second, strict=True):
         if type(one) is not type(other):
             raise _needs_new_start(f"{one.name} is a {type(other).__name__} now")

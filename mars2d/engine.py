@@ -106,6 +106,8 @@ class Engine(Motion):
         self._grips = Grips(scenario, self.space, self.bounds)
         self._set_accuracy(scenario, thinnest, iterations)
         self._slipping = np.zeros(self.count, dtype=bool)
+        self._pulled = np.zeros(self.count, dtype=bool)
+        self._pull = np.zeros((self.count, 3))  # N, N and N m
         self._state = self.space.read().copy()
         self._twist = np.zeros((3, self.n))
         if start is not None:
@@ -128,7 +130,7 @@ class Engine(Motion):
         self._placed, self._reach = np.zeros(self.n, dtype=bool), np.zeros(self.n)
         arrays = {
             "state": self._state, "slipping": self._slipping, "placed": self._placed,
-            "reach": self._reach,
+            "reach": self._reach, "pulled": self._pulled, "pull": self._pull,
         }  # fmt: skip
         numbers = {
             "n": self.n, "max_overlap": self._max_overlap, "entry": self._entry,
@@ -149,7 +151,8 @@ class Engine(Motion):
         # The depth under a force F settles at about F h^2 / (m iterations).
         force = self._clutches.force
         push = float(max((force / self._mass[: self.n]).max(), force.max() / self._mass.min()))
-        self._contact_step = sqrt(0.15 * scenario.max_overlap * iterations / push)
+        self._depth_of_push = 0.15 * scenario.max_overlap * iterations
+        self._contact_step = sqrt(self._depth_of_push / push)
         if self._tethers is not None:
             self._contact_step = min(self._contact_step, self._tethers.longest_step)
 
@@ -177,13 +180,23 @@ class Engine(Motion):
         state[:, 3:] = self.velocity.T
         return Start(state, self._slipping.copy(), self._twist)
 
-    def push(self, body: int, change: Float) -> None:
-        """Change the velocity of a body at once by (3,): m/s, m/s and rad/s, as a blow does.
+    def let_go(self) -> None:
+        """Let nothing pull at any body from outside any more."""
+        self._pulled[:] = False
 
-        The drive of a robot then has to bring it back.
-        """
-        self._state[body, 3:] = self.velocity[:, body] + change
+    def pull(self, body: int, force: tuple[float, float], torque: float) -> None:
+        """Let a force (x, y) [N] and a torque [N m] act on a body from now on."""
+        self._pull[body] = (*force, torque)
+        self._pulled[body] = True
+        self._state[body, 3:] = self.velocity[:, body]
         self._slipping[body] = True
+
+    def step_under(self, acceleration: float) -> float:
+        """Return how long a pull that accelerates a body by so much may act unchanged, seconds.
+
+        Then it presses it no deeper into something than drives do. acceleration: m/s^2, > 0.
+        """
+        return sqrt(self._depth_of_push / acceleration)
 
     def bears(self, body: int, force: float, torque: float) -> bool:
         """Return whether what holds a body takes a force [N] and torque [N m] without yielding.
@@ -382,6 +395,7 @@ class Engine(Motion):
         if self._tethers is not None:
             self._tethers.measure(everything)
             touching |= self._tethers.held()[near.who]
+        touching |= self._pulled[near.who]
         h = left
         slipping |= touching
         if slipping.any():
@@ -414,6 +428,8 @@ class Engine(Motion):
             self._grips.aim(state[r:], slipping[r:], near.who[r:], h)
         if GROWTH * h < self.space.last_step and slipping.any():
             self.space.renew(near.who[slipping])
+        for i in near.who[self._pulled[near.who]].tolist():
+            self.space.pull(i, *self._pull[i].tolist())
         if self._tethers is not None:
             for rope, speed in self._tethers.drift(h):
                 self.space.draw_in(rope, speed)

@@ -65,6 +65,17 @@ class Experiment:
         """
         return self if self.opened is None else self.opened()
 
+    def redrawn(self, scenario: Scenario) -> Experiment:
+        """Return the experiment with another scenario, robots of the same names with their laws."""
+        laws = {robot.name: robot.controller for robot in self.scenario.robots}
+        robots = [r.replace(controller=laws.get(r.name, r.controller)) for r in scenario.robots]
+        opened = self.opened
+        return dataclasses.replace(
+            self,
+            scenario=scenario.replace(robots=robots),
+            opened=None if opened is None else lambda: opened().redrawn(scenario),
+        )
+
     def predictions(self, record: Record) -> tuple[Prediction, ...]:
         """Return what `checks` makes of a run; nothing without checks, or of a run cut short.
 

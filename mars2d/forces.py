@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, floor, log10, sqrt
+from math import floor, log10, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -168,20 +168,8 @@ def _touching_points(frame: Frame) -> Float:
     A row says where a pair first touched during the control step; that point has moved with a.
     """
     contacts = frame.contacts
-    points: Float = contacts["point"].copy()
-    dt = frame.scenario.sampling_time
-    row = ceil(frame.time / dt - 1e-6) - 1  # at which the control step began
-    spent = frame.time - row * dt
-    now = np.hstack([frame.pose[:2], frame.prop_pose[:2]])
-    if not 0 <= row < len(frame.path):
-        return points
-    before = now.copy()
-    n = frame.pose.shape[1]
-    before[:, :n] = frame.path[row, :2]
-    if row < len(frame.prop_path):
-        before[:, n:] = frame.prop_path[row, :2]
-    velocity = (now - before)[:, contacts["a"]].T / spent
-    return points + velocity * np.clip(frame.time - contacts["time"], 0.0, dt)[:, None]
+    since = np.clip(frame.time - contacts["time"], 0.0, frame.scenario.sampling_time)
+    return np.asarray(contacts["point"] + frame.velocity[:2, contacts["a"]].T * since[:, None])
 
 
 def in_newtons(force: float) -> str:

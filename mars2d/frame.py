@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -69,6 +70,14 @@ def _no_messages() -> NDArray[np.void]:
     return np.empty(0, dtype=MESSAGE)
 
 
+def _no_message_log() -> tuple[NDArray[np.void], Sequence[str]]:
+    return _no_messages(), ()
+
+
+def _no_readings(name: str, robot: int) -> None:  # noqa: ARG001
+    return None
+
+
 @dataclass(frozen=True, slots=True)
 class Frame:
     """What is seen at one instant.
@@ -78,8 +87,11 @@ class Frame:
     which they were read, where these are others than `pose`. draw_addons: adds the add-ons' shapes
     to a scene, where they are alive. prop_pose: (3, p). contacts: those of the control step that
     led here, and effort (n,) of the drives in it. contact_log: returns all contacts so far.
-    prop_path: (k, 3, p) and effort_path: (k, n), as path; both may be left empty. messages: those
-    that were under way in the control step that led here.
+    prop_path: (k, 3, p), effort_path: (k, n) and command_path: (k, 2, n), as path; they may be left
+    empty. messages: those that were under way in the control step that led here. message_log:
+    returns all so far, and the texts that their field `content` numbers. reading_path: returns what
+    a sensor, by its name, read on a robot at the times of `path`, (k, ...), or None where that is
+    not known.
     """
 
     scenario: Scenario
@@ -98,6 +110,25 @@ class Frame:
     prop_path: Float = field(default_factory=lambda: np.empty((0, 3, 0)))
     effort_path: Float = field(default_factory=lambda: np.empty((0, 0)))
     messages: NDArray[np.void] = field(default_factory=_no_messages)
+    command_path: Float = field(default_factory=lambda: np.empty((0, 2, 0)))
+    message_log: Callable[[], tuple[NDArray[np.void], Sequence[str]]] = _no_message_log
+    reading_path: Callable[[str, int], NDArray[Any] | None] = _no_readings
+
+    @property
+    def velocity(self) -> Float:
+        """The mean velocities (3, n + p) of robots and props: x', y' [m/s], theta' [rad/s].
+
+        Over the control step that led here, as far as it has got; 0 where that is not known.
+        """
+        velocity = np.zeros((3, self.pose.shape[1] + self.prop_pose.shape[1]))
+        dt = self.scenario.sampling_time
+        row = ceil(self.time / dt - 1e-6) - 1  # at which the control step began
+        spent, n = self.time - row * dt, self.pose.shape[1]
+        if 0 <= row < len(self.path):
+            velocity[:, :n] = (self.pose - self.path[row]) / spent
+        if 0 <= row < len(self.prop_path):
+            velocity[:, n:] = (self.prop_pose - self.prop_path[row]) / spent
+        return velocity
 
 
 def workspace(scenario: Scenario) -> Scene:

@@ -40,6 +40,14 @@ class Grips:
         """Return how far props slide in h seconds, and their velocities then, (m, 3) each."""
         return self._floor.glide(state[:, 3:], who - self._first, h)
 
+    def bears(self, velocity: Float, body: int, force: float, torque: float) -> bool:
+        """Return whether a prop, moving at (3,), stays at rest under a force and a torque."""
+        prop = body - self._first
+        most, spin = float(self._floor.force[prop]), float(self._floor.torque[prop])
+        if velocity.any() or not most:
+            return False
+        return (force / most) ** 2 + (torque / spin) ** 2 <= 1.0
+
     def motion(self, state: Float, slipping: Mask, who: Index) -> tuple[Float, Float]:
         """Return how props move now, (m, 3), and how quickly that may turn, (m,) m/s^2."""
         velocity = state[:, 3:]

@@ -27,7 +27,7 @@ __all__ = ["Hands", "fixed", "forceless"]
 
 Float = NDArray[np.float64]
 
-SLICE = 0.005
+SLICE = 0.01
 """How often a spring that pulls is looked at, seconds."""
 
 STIFFNESS = 24.0
@@ -197,21 +197,31 @@ class Hands:
         if not (self._pulls and isinstance(engine, Engine)):
             engine.drive(twist, duration, time)
             return
-        count = ceil(duration / SLICE)
+        count = ceil(duration / min(SLICE, self._longest_slice(engine)))
         h = duration / count
         for k in range(count):
             poses, velocities = engine.pose, engine.velocity
+            engine.let_go()
             for pull in self._pulls.values():
-                self._tug(engine, pull, poses[:, pull.body], velocities[:, pull.body], h)
+                self._tug(engine, pull, poses[:, pull.body], velocities[:, pull.body])
             engine.drive(twist, h, time + k * h)
+        engine.let_go()
 
-    def _tug(self, engine: Engine, pull: Pull, pose: Float, velocity: Float, h: float) -> None:
-        """Let a spring act on a body for h seconds."""
+    def _longest_slice(self, engine: Engine) -> float:
+        """Return how long springs may act unchanged at most, seconds."""
+        bodies = self._world.scenario.bodies
+        most = max(
+            min(pull.force / bodies[pull.body].inertia.mass, 4 * STIFFNESS * pull.speed)
+            for pull in self._pulls.values()
+        )
+        return engine.step_under(most)
+
+    def _tug(self, engine: Engine, pull: Pull, pose: Float, velocity: Float) -> None:
+        """Let a spring act on a body as it is pulled now."""
         fx, fy, torque = self._spring(pull, pose, velocity)
         self._force[pull.body] = hypot(fx, fy)
         if not engine.bears(pull.body, hypot(fx, fy), abs(torque)):
-            mass, moment = self._world.scenario.bodies[pull.body].inertia
-            engine.push(pull.body, h * np.array([fx / mass, fy / mass, torque / moment]))
+            engine.pull(pull.body, (fx, fy), torque)
 
     def _spring(self, pull: Pull, pose: Float, velocity: Float) -> tuple[float, float, float]:
         """Return the force [N] and the torque [N m] of a spring on a body at a pose (3,)."""

@@ -36,7 +36,8 @@ class Pull:
     """A body was pulled by a spring of limited force, until another word of it.
 
     grip: the point of the body that is held, in its own frame [m]. target: where it is pulled to
-    [m]; None: it was let go. force: the most that the spring pulls with [N]. speed: the most at which it draws [m/s].
+    [m]; None: it was let go. force: the most that the spring pulls with [N]. speed: the most at
+    which it draws [m/s].
     """
 
     row: int

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from mars2d.addons.base import Addon
+from mars2d.addons.communication import Communication
 from mars2d.addons.map import Map
 from mars2d.animation import Animation
 from mars2d.bodies.base import Drive
@@ -18,12 +19,96 @@ from mars2d.joints.base import Joint
 from mars2d.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.props.base import Prop
 from mars2d.props.solid import Solid
-from mars2d.registry import members, package_of, plugin
+from mars2d.registry import members, package_of, plugin, snake_case
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
+from mars2d.sensors.base import Sensor
 from mars2d.shapes import Compound, Disc, Polygon, Shape
 
-__all__ = ["MOVING", "from_description", "to_scenario", "to_value"]
+__all__ = [
+    "MOVING",
+    "PARTS",
+    "Place",
+    "changed",
+    "from_description",
+    "kinds_of",
+    "parts_of",
+    "to_scenario",
+    "to_value",
+    "without_code",
+]
+
+
+class Place(NamedTuple):
+    """What a field holds: parts that derive from `base`, one of them or a list.
+
+    default: which one is meant where nothing is said, None if that must be said.
+    """
+
+    base: type[Description]
+    many: bool = False
+    default: type[Description] | None = None
+
+
+PARTS: dict[type[Description], dict[str, Place]] = {
+    Scenario: {
+        "robots": Place(Robot, many=True, default=Robot),
+        "props": Place(Prop, many=True),
+        "joints": Place(Joint, many=True),
+        "addons": Place(Addon, many=True),
+        "neighbours": Place(Neighbourhood),
+        "animation": Place(Animation, default=Animation),
+    },
+    Robot: {
+        "drive": Place(Drive, default=Unicycle),
+        "shape": Place(Shape),
+        "sensors": Place(Sensor, many=True),
+    },
+    Solid: {"shape": Place(Shape)},
+    Compound: {"parts": Place(Shape, many=True)},
+    Communication: {"burst": Place(Burst, default=Burst)},
+}
+"""Which fields hold parts."""
+
+
+def parts_of(kind: type[Description]) -> dict[str, Place]:
+    """Return which fields of a class hold parts, those that it inherits included."""
+    return {name: at for base in kind.__mro__ for name, at in PARTS.get(base, {}).items()}
+
+
+def kinds_of(base: type[Description]) -> dict[str, type[Description]]:
+    """Return all classes by name that a file may hold where a `base` is expected."""
+    return {kind.__name__: kind for kind in _kinds().values() if issubclass(kind, base)}
+
+
+def changed(part: Description, index: int = 0) -> dict[str, Any]:
+    """Return the fields of a part that differ from their defaults, in order.
+
+    index: where it stands in its list. The name that a scenario gives a robot or prop there anyway
+    is left out.
+
+    >>> changed(Robot(mass=2.0, diameter=0.3, name="robot0"))
+    {'mass': 2.0}
+    """
+    found = {}
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        anyway = field.name == "name" and value == _name_anyway(part, index)
+        if not (anyway or _is_default(field, value)):
+            found[field.name] = value
+    return found
+
+
+def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
+    if field.default_factory is not dataclasses.MISSING:
+        return bool(field.default_factory() == value)
+    return bool(field.default == value)  # of a field without one, MISSING equals nothing
+
+
+def _name_anyway(part: Description, index: int) -> str | None:
+    if isinstance(part, Robot):
+        return f"robot{index}"
+    return f"{snake_case(type(part).__name__)}{index}" if isinstance(part, Prop) else None
 
 
 def from_description(value: Any) -> Any:
@@ -110,6 +195,17 @@ def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
     if not isinstance(result, Scenario):
         raise InputError(f"expected a scenario, found {type(result).__name__}")
     return result, tuple(dict.fromkeys(missing))
+
+
+def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
+    """Return a scenario without code of the user's own but for laws, and what is missing of it.
+
+    What is missing, and what stands in for it, is as after `to_scenario`.
+    """
+    kept, missing = to_scenario(from_description(scenario))
+    pairs = zip(kept.robots, scenario.robots, strict=True)
+    robots = [robot.replace(controller=original.controller) for robot, original in pairs]
+    return kept.replace(robots=robots), missing
 
 
 def to_value(data: Any) -> Any:

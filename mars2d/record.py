@@ -51,7 +51,8 @@ class Record:
     numbers. over_message: why the run ended. finished: False when an error or Ctrl-C ended it, or
     while it is not over. drawn: what the add-ons drew at its end, which a file does not keep.
     missing: parts of the user's own that a file did not hold. interventions: what was done to the
-    world from outside, in order; `scenario` is what it was at the start.
+    world from outside, in order; `scenario` is what it was at the start. branches: what was run in
+    a window and left for this, which is kept in files of its own.
     """
 
     scenario: Scenario
@@ -74,6 +75,7 @@ class Record:
     drawn: Scene = field(default_factory=Scene, repr=False)
     missing: tuple[str, ...] = ()
     interventions: tuple[Intervention, ...] = ()
+    branches: tuple[Record, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         for name in (*_COLUMNS, "contacts", "messages"):
@@ -139,6 +141,9 @@ class Record:
             effort_path=self.effort[:row],
             contact_log=lambda: self.contacts[: np.searchsorted(self._contact_rows, row, "right")],
             messages=self._messages_before(row),
+            command_path=self.command[:row],
+            message_log=lambda: (self.messages, self.contents),
+            reading_path=lambda name, robot: self._readings_before(row, name, robot),
             draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
         )
 
@@ -172,6 +177,11 @@ class Record:
         """Return the messages that were under way in the control step that led to a row."""
         time, dt = float(self.time[row]), self.scenario.sampling_time
         return in_flight(self.messages, time, dt, self._longest_flight)
+
+    def _readings_before(self, row: int, name: str, robot: int) -> NDArray[Any] | None:
+        """Return what a sensor read on a robot before a row, (row, ...), if it is recorded."""
+        robots = self.sensor_robots.get(name, ())
+        return self.sensors[name][:row, robots.index(robot)] if robot in robots else None
 
     @cached_property
     def _longest_flight(self) -> float:

@@ -190,6 +190,17 @@ class Recorder:
         messages = self._messages.upto(self._message_count)
         return in_flight(messages, time, self._scenario.sampling_time, self._longest_flight)
 
+    def messages(self) -> tuple[NDArray[np.void], Sequence[str]]:
+        """Return all messages so far, and the texts that their field `content` numbers."""
+        return self._messages.upto(self._message_count), self._contents
+
+    def readings(self, rows: int, name: str, robot: int) -> NDArray[Any] | None:
+        """Return what a sensor read on a robot at the first rows, (rows, ...), if it is recorded."""
+        column, robots = self._sensors.get(name), self.sensor_robots.get(name, ())
+        if column is None or robot not in robots:
+            return None
+        return column.upto(rows)[:, robots.index(robot)]
+
     def column(self, name: str) -> NDArray[Any]:
         """Return a column so far, as a view that can't be written."""
         return self._columns[name].upto(self.rows)

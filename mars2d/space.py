@@ -294,6 +294,11 @@ class Space:
         share = used.reshape(-1, 2) / (self._bounds[which] * self.last_step)
         return np.asarray(share.max(axis=1))
 
+    def pull(self, i: int, x: float, y: float, torque: float) -> None:
+        """Let a force (x, y) [N] and a torque [N m] act on a body in the next step."""
+        self._bodies[i].force = x, y
+        self._bodies[i].torque = torque
+
     def grip(self, i: int, force: float, torque: float) -> None:
         """Let the floor hold a body with a force [N] and a torque [N m] of friction."""
         if i not in self._grips:

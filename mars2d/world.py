@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cached_property
+from functools import cached_property, partial
 from types import SimpleNamespace
 from typing import Any, NoReturn
 
@@ -334,13 +334,14 @@ class World:
         with self._busy():
             self._control_step(command)
 
-    def follow(self, command: Any) -> None:
+    def follow(self, command: Any) -> Float:
         """Do one control step under a command (2, n) that is known from before.
 
-        The laws are asked all the same, so that they remember what they did then.
+        The laws are asked all the same, so that they remember what they did then. Returns the
+        commands (2, n) that would be given by what they ask for.
         """
         with self._busy():
-            self._control_step(command, ask=True)
+            return self._control_step(command, ask=True)
 
     def observe(self) -> None:
         """Call the add-ons and read the sensors for the present instant, as the next step would.
@@ -383,15 +384,17 @@ class World:
         with self._busy():
             self._control_step(None)
 
-    def _control_step(self, command: Any, *, ask: bool = False) -> None:
-        """Do what MARS's Algorithm 1 does in one pass of its loop."""
+    def _control_step(self, command: Any, *, ask: bool = False) -> Float:
+        """Do what MARS's Algorithm 1 does in one pass of its loop; return what laws ask for."""
         self._observe()
         if self.watch is not None:
             self.watch(self)
-        wanted = self._still if command is None else self._given(command)
+        wanted = asked = self._still if command is None else self._given(command)
         if ask or command is None:
             asked = self._ask_laws()
             wanted = asked if command is None else wanted
+        if ask:
+            asked = self._saturate(self.hands.command(asked))
         self._command = _frozen(self._saturate(self.hands.command(wanted)))
         self._write_row()
         self._check_workspace()
@@ -404,6 +407,7 @@ class World:
             self._drive()
         if self._channel is not None:
             self._channel.transmit()
+        return asked
 
     def _observe(self) -> None:
         if self._observed != self.iteration:
@@ -567,6 +571,9 @@ class World:
             prop_path=self.history.prop_pose[: self.iteration],
             effort_path=self.history.effort[: self.iteration],
             messages=self._recorder.in_flight(self.time),
+            command_path=self.history.command[: self.iteration],
+            message_log=self._recorder.messages,
+            reading_path=partial(self._recorder.readings, self.iteration),
         )
 
     def _draw_addons(self, scene: Scene) -> None:

@@ -339,7 +339,7 @@ def test_a_pipe_or_a_file_gets_no_progress_bar(tmp_path):
 def test_what_add_ons_and_sensors_do_is_the_same_with_frames_taken_as_a_window_does(tmp_path):
     """A window reads sensors before it draws: the order of add-ons and sensors must not change."""
     from mars2d.files import open_experiment
-    from mars2d.view.source import Live
+    from mars2d.timeline import Timeline
 
     (tmp_path / "counting.py").write_text(
         HEAD + "class Counter(Addon):\n"
@@ -351,7 +351,7 @@ def test_what_add_ons_and_sensors_do_is_the_same_with_frames_taken_as_a_window_d
         "        return world.addons.counter.steps + rng.random()\n"
         "scenario = Scenario(robots=[Robot(sensors=[Steps()])], addons=[Counter()])\n"
     )
-    live = Live(open_experiment(tmp_path / "counting.py"))
+    live = Timeline(open_experiment(tmp_path / "counting.py"))
     while not live.over:
         assert live.frame.readings["steps"][0][1] >= live.frame.iteration + 1
         live.advance()

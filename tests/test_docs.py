@@ -4,6 +4,7 @@ How a document is read, from top to bottom, in a folder of its own:
 
 - ``python``: executed, all blocks of a document in one namespace; or, where the sentence before
   says "Save as `NAME`", written to that file.
+- ``toml``: the same for a scenario's file; one that is not saved is read, with its first line.
 - ``console``: each line is a command, run by the real command line without a display.
 - ``text``: what the block before has printed; ``...`` stands for anything. Where it is an error,
   ``mars2d: ...`` or ``SomeError: ...``, the block before must fail with it.
@@ -55,7 +56,7 @@ PIP = {*SET_UP, 'pip install ".[video]"'}
 MEASURED = {"speed_growth.png", "paper_page.png"}
 """Pictures that no block makes: `benchmarks/growth.py` takes minutes, a page needs a browser."""
 
-LANGUAGES = {"python", "console", "text", "matlab", ""}
+LANGUAGES = {"python", "toml", "console", "text", "matlab", ""}
 
 
 @dataclass(frozen=True)
@@ -101,6 +102,8 @@ class Reader:
             expected = following[0].text if following and following[0].language == "text" else ""
             if block.language == "python":
                 self.python(block, expected)
+            elif block.language == "toml":
+                self.toml(block)
             elif block.language == "console":
                 self.output = "".join(self.command(c, expected) for c in block.text.splitlines())
             elif block.language == "text":
@@ -109,10 +112,20 @@ class Reader:
                 )
                 assert alike, f"{place}\nexpected:\n{block.text}\nfound:\n{self.output}"
 
+    def saved(self, block: Block) -> bool:
+        """Write a block to the file that the sentence before names, if it does."""
+        named = re.search(r"[Ss]ave as `([^`]+)`:$", block.before)
+        if named:
+            Path(named[1]).write_text(block.text + "\n", encoding="utf-8")
+        return named is not None
+
+    def toml(self, block: Block) -> None:
+        if not self.saved(block):
+            Path("shown.toml").write_text("format = 1\n" + block.text, encoding="utf-8")
+            mars2d.Scenario.from_file(Path("shown.toml").absolute())
+
     def python(self, block: Block, expected: str) -> None:
-        saved = re.search(r"[Ss]ave as `([^`]+)`:$", block.before)
-        if saved:
-            Path(saved[1]).write_text(block.text + "\n", encoding="utf-8")
+        if self.saved(block):
             return
         # Blank lines in front, so that a traceback shows the document's own line.
         code = compile("\n" * (block.line - 1) + block.text, str(self.document), "exec")

@@ -30,7 +30,7 @@ LAYERS = [
         "burst",
         "pixels",
         "quadrature",
-        "layout",
+        "brackets",
         "reference",
     },
     {
@@ -59,10 +59,10 @@ LAYERS = [
     {"props", "robot", "tie", "starts", "encounter", "sensing"},
     {"looks", "limits", "floor", "tethers"},
     {"scenario"},
-    {"options"},
+    {"options", "placement", "teleop"},
     {"map_option"},
     {"frame", "plain", "files", "pace", "space", "changes"},
-    {"interventions", "scenario_file", "listing"},
+    {"interventions"},
     {
         "clutches",
         "grips",
@@ -73,8 +73,10 @@ LAYERS = [
         "views",
         "links",
         "channel",
+        "scenario_file",
+        "listing",
     },
-    {"engine", "recorder"},
+    {"engine", "recorder", "names", "velocities"},
     {"kinematics"},
     {"hands"},
     {"world"},
@@ -94,9 +96,11 @@ LAZY_UPWARDS = {
     ("record", "output"),
     ("scenario", "scenario_file"),
     ("files", "scenario_file"),
+    ("view", "output"),
 }
 """Imported when they are called: output.figure by Record.plot; scenario_file by Scenario.from_file,
-Scenario.save and open_experiment, since what reads a scenario loads laws as experiments are.
+Scenario.save and open_experiment, since what reads a scenario loads laws as experiments are;
+output.filming by the window that is filmed.
 """
 
 HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "svgelements", "yaml"}

@@ -4,9 +4,9 @@ A module has the verb's `NAME`, an `add_arguments(parser)`, and an `execute(argu
 docstring is the verb's help.
 """
 
-from mars2d.commands import bench, check, compare, demo, doctor, paper, parts, replay, run
+from mars2d.commands import bench, check, compare, demo, doctor, edit, paper, parts, replay, run
 
 __all__ = ["VERBS"]
 
-VERBS = (demo, run, compare, replay, parts, check, paper, bench, doctor)
+VERBS = (demo, run, edit, compare, replay, parts, check, paper, bench, doctor)
 """In the order in which the help lists them."""

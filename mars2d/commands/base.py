@@ -18,6 +18,7 @@ from mars2d.output import film
 from mars2d.prediction import Prediction, table
 from mars2d.progress import Progress
 from mars2d.record import Record
+from mars2d.view.preferences import Preferences
 from mars2d.world import Watcher, World
 
 if TYPE_CHECKING:
@@ -40,6 +41,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="override a field"
     )
+
+
+def add_preferences(parser: argparse.ArgumentParser) -> None:
+    """Add how the window looks."""
+    parser.add_argument("--dark", action="store_true", help="a dark window")
+    parser.add_argument(
+        "--text", type=_text, default=1.0, metavar="X", help="the window's text and lines x as large"
+    )
+
+
+def _text(text: str) -> float:
+    try:
+        return Preferences(text=float(text)).text
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a number from 0.5 to 4") from error
+
+
+def preferences_of(arguments: argparse.Namespace) -> Preferences:
+    """Return what `add_preferences` has asked for."""
+    return Preferences(dark=arguments.dark, text=arguments.text)
 
 
 def add_theory(parser: argparse.ArgumentParser) -> None:
@@ -115,12 +136,14 @@ def has_display() -> bool:
     return display_available()
 
 
-def show(experiment: Experiment, speed: float | str | None, seed: int) -> Record:
+def show(
+    experiment: Experiment, speed: float | str | None, seed: int, preferences: Preferences
+) -> Record:
     """Run in a window, at the experiment's own speed unless one is given."""
     from mars2d.view.show import show_experiment
 
     pace = experiment.scenario.animation.playback_speed if speed is None else speed
-    return show_experiment(experiment, pace, seed)
+    return show_experiment(experiment, pace, seed, preferences=preferences)
 
 
 def run_headless(experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()) -> World:

@@ -46,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file",
         metavar="FILE",
         help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
-        "a record (.npz), or a map",
+        "a scenario (.toml), a record (.npz), or a map",
     )
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="how a map is read"
@@ -66,11 +66,11 @@ def execute(arguments: argparse.Namespace) -> None:
             raise InputError(f"--{option} is for maps: {', '.join(maps.SUFFIXES)}")
     if path.suffix == ".npz":
         _check_record(path)
-    elif path.suffix in ("", ".py"):
+    elif path.suffix in ("", ".py", ".toml"):
         _check_code(arguments.file)
     else:
         raise InputError(
-            f"{path}: expected a Python file (.py), a record (.npz) or a map "
+            f"{path}: expected a Python file (.py), a scenario (.toml), a record (.npz) or a map "
             f"({', '.join(maps.SUFFIXES)}){maps.advice(path)}"
         )
 
@@ -90,7 +90,7 @@ def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> No
 
 
 def _check_code(source: str) -> None:
-    """Check what a Python file holds: parts, laws, an experiment, or several of these."""
+    """Check what a file holds: parts, laws, an experiment, or several of these."""
     module, experiment = _opened(source)
     limit = Deadline(PATIENCE, _give_up(source))
     if experiment is not None:
@@ -112,6 +112,8 @@ def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
     limit = Deadline(LOADING, _give_up(source))
     try:
         with limit:
+            if Path(source).suffix == ".toml":
+                return ModuleType(source), open_experiment(source)
             module = open_module(source)
             if not hasattr(module, "scenario") and any(True for _ in trials(module, None)):
                 return module, None

@@ -44,7 +44,7 @@ OUTPUTS = {"figure": figure.SUFFIXES, "video": film.SUFFIXES}
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     add = parser.add_argument
-    add("experiment", metavar="EXPERIMENT", help="a .py file, or the name of an example")
+    add("experiment", metavar="EXPERIMENT", help="a .py or .toml file, or the name of an example")
     add("--seed", type=int, default=0, metavar="N", help="of all random streams")
     add_options(parser)
     add("--figure", type=Path, metavar="OUT", help="the picture: .png, .pdf, .svg")

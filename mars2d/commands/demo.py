@@ -9,9 +9,11 @@ from mars2d.commands.base import (
     FILM_FPS,
     SHORT_FILM,
     add_run_arguments,
+    add_preferences,
     add_theory,
     has_display,
     make_folder,
+    preferences_of,
     print_examples,
     print_predictions,
     run_headless,
@@ -36,6 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", nargs="?", metavar="NAME", help="an example; else all are listed")
     add_run_arguments(parser)
     add_theory(parser)
+    add_preferences(parser)
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -51,7 +54,7 @@ def execute(arguments: argparse.Namespace) -> None:
     experiment = open_experiment(known[name], theory_of(arguments))
     try:
         if not arguments.headless and has_display():
-            record = show(experiment, None, arguments.seed)
+            record = show(experiment, None, arguments.seed, preferences_of(arguments))
         else:
             record = _make_pictures(experiment, name, arguments.seed)
     except Interrupted:

@@ -6,7 +6,13 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from mars2d.commands.base import add_speed, add_theory, has_display
+from mars2d.commands.base import (
+    add_preferences,
+    add_speed,
+    add_theory,
+    has_display,
+    preferences_of,
+)
 from mars2d.errors import InputError
 from mars2d.record import load
 
@@ -18,6 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("record", type=Path, metavar="RECORD", help="a saved run, .npz")
     add_speed(parser)
     add_theory(parser)
+    add_preferences(parser)
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -33,4 +40,5 @@ def execute(arguments: argparse.Namespace) -> None:
         animation = record.scenario.animation.replace(theory=True)
         record = replace(record, scenario=record.scenario.replace(animation=animation))
     speed = arguments.speed
-    show_record(record, record.scenario.animation.playback_speed if speed is None else speed)
+    pace = record.scenario.animation.playback_speed if speed is None else speed
+    show_record(record, pace, preferences_of(arguments))

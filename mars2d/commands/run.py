@@ -14,12 +14,14 @@ from mars2d.commands.base import (
     add_options,
     add_run_arguments,
     add_speed,
+    add_preferences,
     add_theory,
     check_outputs,
     film_speed,
     has_display,
     options_of,
     predictions_of,
+    preferences_of,
     print_predictions,
     run_headless,
     save_footage,
@@ -42,7 +44,7 @@ OUTPUTS = {"record": (".npz",), "figure": figure.SUFFIXES, "video": film.SUFFIXE
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     add = parser.add_argument
-    add("experiment", metavar="EXPERIMENT", help="a .py file, or the name of an example")
+    add("experiment", metavar="EXPERIMENT", help="a .py or .toml file, or the name of an example")
     add_run_arguments(parser)
     add_speed(parser)
     add_options(parser)
@@ -51,6 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--at", type=_times, metavar="T1,T2,...", help="snapshots at these times in the figure")
     add("--video", type=Path, metavar="OUT", help="make a film: .gif, .mp4")
     add_theory(parser)
+    add_preferences(parser)
     add("--json", action="store_true", help="print the outcome as one line of JSON")
 
 
@@ -110,7 +113,7 @@ def _wants_window(arguments: argparse.Namespace) -> bool:
 
 
 def _run_in_window(arguments: argparse.Namespace, experiment: Experiment) -> Record:
-    record = show(experiment, arguments.speed, arguments.seed)
+    record = show(experiment, arguments.speed, arguments.seed, preferences_of(arguments))
     _save_all(arguments, record)
     return record
 

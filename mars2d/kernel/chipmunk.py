@@ -22,6 +22,8 @@ FUNCTIONS = {
     "get_velocity": "cpBodyGetVelocity",
     "set_spin": "cpBodySetAngularVelocity",
     "get_spin": "cpBodyGetAngularVelocity",
+    "set_force": "cpBodySetForce",
+    "set_torque": "cpBodySetTorque",
     "init_pivot": "cpPivotJointInit",
     "init_gear": "cpGearJointInit",
     "set_max_force": "cpConstraintSetMaxForce",

@@ -72,15 +72,15 @@ static double time_to_touch(const Kernel *k)
     return shortest;
 }
 
-/* Marks those that slip: what touches does, and what its drive can't bring back. Returns how long a
-   substep may be for them, at most h. */
+/* Marks those that slip: what touches or is pulled does, and what its drive can't bring back. Returns
+   how long a substep may be for them, at most h. */
 static double time_to_grip(Kernel *k, double h)
 {
     Team *t = &k->team;
     int any = 0;
     for (int w = 0; w < k->near_count; w++) {
         int i = k->who[w];
-        if (k->touching[w]) t->slipping[i] = 1;
+        if (k->touching[w] || t->pulled[i]) t->slipping[i] = 1;
         any |= t->slipping[i];
     }
     if (!any) return h;
@@ -92,7 +92,8 @@ static double time_to_grip(Kernel *k, double h)
     }
     for (int w = 0; w < k->near_count; w++) {
         int i = k->who[w];
-        if (t->slipping[i] && !k->touching[w]) t->slipping[i] = out_of_reach(k, i, h);
+        if (t->slipping[i] && !k->touching[w] && !t->pulled[i])
+            t->slipping[i] = out_of_reach(k, i, h);
     }
     return h;
 }
@@ -121,6 +122,13 @@ static double look_ahead(Kernel *k, double left)
 
 /* -- one substep ------------------------------------------------------------------------------ */
 
+/* Lets what pulls at robot i from outside act in the substep that follows. */
+static void pull(Kernel *k, int i)
+{
+    k->engine.set_force(k->team.body[i], k->team.pull[i].force);
+    k->engine.set_torque(k->team.body[i], k->team.pull[i].torque);
+}
+
 /* Prepares those that are near for a substep of h. */
 static void aim(Kernel *k, double h)
 {
@@ -130,6 +138,7 @@ static void aim(Kernel *k, double h)
         int i = k->who[w], slips = t->slipping[i];
         const State *s = t->state + i;
         any |= slips;
+        if (t->pulled[i]) pull(k, i);
         k->aimed[i] = slips ? s->velocity : chord(k, i, s->angle, h);
         k->aimed_spin[i] = slips ? s->spin : k->spin[i];
         t->since[i] = slips ? 0 : t->since[i] + 1;

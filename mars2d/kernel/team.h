@@ -11,6 +11,12 @@ typedef struct {
     double spin;
 } State;
 
+/* What pulls at a body from outside. */
+typedef struct {
+    Vector force;
+    double torque;
+} Pull;
+
 typedef struct {
     /* Robots, n of them, all discs. */
     int n;
@@ -28,6 +34,8 @@ typedef struct {
     /* State, (n) each. */
     State *state;
     uint8_t *slipping, *engaged, *placed;
+    uint8_t *pulled; /* whether each is, by what `pull` says */
+    Pull *pull;
     int64_t *since;
     double *effort, *wall_gap, *moved;
     double *reach; /* how far each may move in this control step */
@@ -66,6 +74,8 @@ typedef struct {
     Vector (*get_velocity)(void *body);
     void (*set_spin)(void *body, double spin);
     double (*get_spin)(void *body);
+    void (*set_force)(void *body, Vector force);
+    void (*set_torque)(void *body, double torque);
     void *(*init_pivot)(void *joint, void *a, void *b, Vector on_a, Vector on_b);
     void *(*init_gear)(void *joint, void *a, void *b, double phase, double ratio);
     void (*set_max_force)(void *joint, double force);

@@ -148,7 +148,7 @@ def _colors(surface: pygame.Surface) -> Entries:
     import pygame
     from PIL import Image
 
-    from mars2d.view import theme
+    from mars2d.view.theme import PRINTED
 
     values, counts = np.unique(_pixels(surface) & 0xFFFFFF, return_counts=True)
     order = np.argsort(counts, kind="stable")[::-1]
@@ -160,7 +160,7 @@ def _colors(surface: pygame.Surface) -> Entries:
     for ground in ((255, 255, 255), (184, 192, 200)):
         for share in (0.85, 0.2, 0.4, 0.6, 0.1):
             wanted += [_mixed(color, ground, share) for color in strong]
-    for banner in (theme.OVER, theme.ERROR):
+    for banner in (PRINTED.over, PRINTED.failed):
         ink = tuple(bytes.fromhex(banner[1:]))
         wanted += [_mixed(ink, (255, 255, 255), share) for share in (1.0, 0.8, 0.6, 0.4, 0.2)]
     wanted += [(r, g, b) for r in (0, 128, 255) for g in (0, 128, 255) for b in (0, 128, 255)]

@@ -13,10 +13,15 @@ from mars2d.errors import MissingExtraError
 if TYPE_CHECKING:
     import pygame
 
-__all__ = ["require_av", "write_mp4"]
+__all__ = ["require_av", "rewrapped", "write_mp4"]
 
 ENCODERS = ("libx264", "libopenh264", "mpeg4")
 """What may be in a build of FFmpeg, the best first."""
+
+IN_PIECES = "frag_keyframe+empty_moov+default_base_moof"
+
+PIECE = 1.0
+"""How long a piece is, seconds."""
 
 
 def require_av(target: Path) -> None:
@@ -29,15 +34,19 @@ def require_av(target: Path) -> None:
         ) from None
 
 
-def write_mp4(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) -> int:
+def write_mp4(
+    file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float, *, in_pieces: bool = False
+) -> int:
     """Write H.264 video, or the next best that this build of FFmpeg has; return its frames.
 
-    PyAV leaves the interpreter alone while it encodes, so a thread of its own does that.
+    in_pieces: so that what is written can be seen at any time, a second or two late; `rewrapped`
+    then makes the common kind of file of it. PyAV leaves the interpreter alone while it encodes, so
+    a thread of its own does that.
     """
     import av
 
     count = 0
-    options = {"movflags": "faststart"}
+    options = {"movflags": IN_PIECES if in_pieces else "faststart"}
     with av.open(file, "w", format="mp4", options=options) as container:
         stream: Any = None
 
@@ -49,6 +58,9 @@ def write_mp4(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) ->
             for picture in pictures:
                 if stream is None:
                     stream = _video_stream(container, picture.get_size(), fps)
+                    if in_pieces:
+                        stream.gop_size = round(fps * PIECE)
+                        stream.max_b_frames = 0  # they would make a film of pieces begin late
                 frame = _video_frame(picture)
                 if before is not None:
                     before.result()
@@ -58,6 +70,26 @@ def write_mp4(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) ->
                 before.result()
                 encode(None)
     return count
+
+
+def rewrapped(path: Path) -> None:
+    """Turn a film that was written in pieces into one that begins with its index, in its place."""
+    import av
+
+    part = path.with_name(f".{path.name}.part")
+    try:
+        with (
+            av.open(str(path)) as pieces,
+            av.open(str(part), "w", format="mp4", options={"movflags": "faststart"}) as whole,
+        ):
+            stream = whole.add_stream_from_template(pieces.streams.video[0])
+            for packet in pieces.demux(video=0):
+                if packet.dts is not None:  # the last one is empty
+                    packet.stream = stream
+                    whole.mux(packet)
+        part.replace(path)
+    except (OSError, ValueError):  # such as a full disk: what is there can be seen as well
+        part.unlink(missing_ok=True)
 
 
 def _video_frame(picture: pygame.Surface) -> Any:

@@ -18,12 +18,13 @@ from mars2d.output.film import save_pictures
 from mars2d.output.footage import Footage
 from mars2d.record import Record
 from mars2d.scene import Scene
-from mars2d.view import theme
-from mars2d.view.bars import Layout, Status, draw_header
+from mars2d.view.bars import Status, draw_header
 from mars2d.view.camera import Camera
 from mars2d.view.layers import Layers
+from mars2d.view.layout import Layout
 from mars2d.view.painter import Painter
 from mars2d.view.stage import Stage
+from mars2d.view.theme import PRINTED
 
 __all__ = ["Reel", "Triptych", "save_triptych"]
 
@@ -90,7 +91,7 @@ class Triptych:
         self.comparison = comparison
         self.size = size
         self._layout = Layout.of(size, 0.0)
-        self._painter = Painter()
+        self._painter = Painter(theme=PRINTED)
         self._painter.ui = self._layout.ui
         self._status = Status(status) if status else None
         ui, width = self._layout.ui, size[0]
@@ -118,7 +119,7 @@ class Triptych:
         """Return the picture of an instant, given the frame of each run then."""
         if surface is None:
             surface = pygame.Surface(self.size, 0, 32)
-        surface.fill(theme.PAGE)
+        surface.fill(self._painter.theme.page)
         for panel, frame in zip(self._panels, frames, strict=True):
             panel.paint(surface, frame)
         latest = max(frames, key=lambda frame: frame.time)
@@ -151,17 +152,17 @@ class _Panel:
         animation = frame.scenario.animation
         layers = Layers.of(animation)
         self._stage.draw(surface, frame, self._camera, layers, self.plot)
-        ui, fonts = self._painter.ui, self._painter.fonts
+        ui, fonts, theme = self._painter.ui, self._painter.fonts, self._painter.theme
         count = int(np.searchsorted(self._collisions, frame.time, side="right"))
         title = fonts.render(self.mode, 21 * ui, COLORS[self.mode], bold=True)
-        done = fonts.render(counted(count, "collision"), 17 * ui, theme.INK)
+        done = fonts.render(counted(count, "collision"), 17 * ui, theme.ink)
         left, right = self.plot.left + round(44 * ui), self.plot.right - round(20 * ui)
         level = self.plot.top - round(TITLE * ui)
         surface.blit(title, title.get_rect(midleft=(left, level + round(20 * ui))))
         surface.blit(done, done.get_rect(midright=(right, level + round(21 * ui))))
-        text, color = MEANINGS[self.mode], theme.MUTED
+        text, color = MEANINGS[self.mode], theme.muted
         if frame.over_message:
-            text, color = frame.over_message, theme.TEXT
+            text, color = frame.over_message, theme.text
         for k, part in enumerate(fonts.wrap(text, 13.5 * ui, right - left, 2)):
             line = fonts.render(part, 13.5 * ui, color)
             surface.blit(line, line.get_rect(midleft=(left, level + round((43 + 17 * k) * ui))))

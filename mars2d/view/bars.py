@@ -1,109 +1,92 @@
-"""What stands around the picture: the header, the footer, and the page of help."""
+"""What stands around the picture: the header with the time, the footer with what has to be said."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import pygame
 
+from mars2d.excerpt import Excerpt
 from mars2d.frame import Frame
 from mars2d.scenario import Scenario
-from mars2d.view import theme
-from mars2d.view.camera import Camera, Margins
-from mars2d.view.keys import Key
+from mars2d.view.layout import FOOTER, Layout, interface_scale
 from mars2d.view.painter import Painter
+from mars2d.view.theme import Tone
 
-__all__ = ["Banner", "Layout", "Status", "draw_footer", "draw_header", "draw_help", "fitted"]
+__all__ = ["Banner", "Status", "draw_footer", "draw_header", "footer_height"]
 
+Kind = Literal["running", "waiting", "past", "hand", "error"]
+
+LINE, CODE_LINE = 23.0, 20.0
+"""The heights of a banner's lines, points."""
 BANNER_LINES = 8
-UNREADABLE = 0.2
-"""Pixels a point below which a page of text is not worth drawing."""
-FOOTER = 44.0
-"""The height of the footer, and of a banner of one line in its place, points."""
+CODE_LINES = 5
+LARGEST_BANNER = 0.5
+"""Of the surface's height: longer text is cut, and code about the line it is about left out."""
+SHORTEST_TITLE = 110.0
+"""Points; where a title gets less, something else in the header goes first."""
 
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """The chip in the header: what the clock does. `waiting`: it stands still."""
+    """The chip in the header: what the clock does, in words and by its colour.
+
+    kind: running; waiting, as when paused; past, an instant before the newest is shown; hand, a
+    robot is driven by hand; error.
+    """
 
     text: str
-    waiting: bool = False
-    error: bool = False
+    kind: Kind = "running"
 
 
 @dataclass(frozen=True, slots=True)
 class Banner:
-    """What has to be said across the foot of the picture."""
+    """What has to be said across the foot of the picture; excerpt: the lines of code it is about.
+
+    hint: the keys that go on from here.
+    """
 
     text: str
     hint: str = ""
     error: bool = False
+    excerpt: Excerpt | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Layout:
-    """Where everything lies on a surface; ui: pixels a point."""
-
-    ui: float
-    header: pygame.Rect
-    plot: pygame.Rect
-    footer: pygame.Rect
-
-    @classmethod
-    def of(cls, size: tuple[int, int], footer_height: float = FOOTER) -> Layout:
-        """Divide a surface of `size` pixels; `footer_height` in points."""
-        width, height = size
-        ui = interface_scale(size)
-        top = round(52 * ui)
-        bottom = min(round(footer_height * ui), max(0, height - top - 40))
-        return cls(
-            ui,
-            pygame.Rect(0, 0, width, top),
-            pygame.Rect(0, top, width, max(1, height - top - bottom)),
-            pygame.Rect(0, height - bottom, width, bottom),
-        )
-
-
-def interface_scale(size: tuple[int, int]) -> float:
-    """Return the pixels a point on a surface of `size` pixels: 1 at 1280 x 720."""
-    share = min(size[0] / 1280, size[1] / 720)
-    return max(0.9, float(share**0.8))
-
-
-def fitted(scenario: Scenario, size: tuple[int, int], layout: Layout) -> Camera:
-    """Return the camera that shows the whole workspace between the bars, with room for labels."""
-    ui, plot = layout.ui, layout.plot
-    margins: Margins = (
-        plot.left + 48 * ui, plot.top + 22 * ui,
-        size[0] - plot.right + 48 * ui, size[1] - plot.bottom + 34 * ui,
-    )  # fmt: skip
-    return Camera.fit(scenario.bounds, size, margins)
+# -- the header -----------------------------------------------------------------------------------
 
 
 def draw_header(
     surface: pygame.Surface, layout: Layout, painter: Painter, frame: Frame, status: Status | None
 ) -> None:
-    """Draw the title on the left, the time, iteration and status on the right."""
-    ui, bar, fonts = layout.ui, layout.header, painter.fonts
-    surface.fill(theme.BAR, bar)
-    surface.fill(theme.EDGE, (bar.left, bar.bottom - 1, bar.width, 1))
-    pad = round(20 * ui)
+    """Draw the title on the left, the time, step and status on the right.
+
+    Where there is no room for all, the step goes first, then the title.
+    """
+    ui, bar, fonts, theme = layout.ui, layout.header, painter.fonts, painter.theme
+    surface.fill(theme.bar, bar)
+    surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
+    pad, gap = round(20 * ui), round(24 * ui)
     right = bar.right - pad
-    widest = "0" * len(str(frame.scenario.last_iteration))
     if status is not None:
-        right = _chip(surface, painter, status, right, bar.centery, ui) - round(24 * ui)
-    right = _figure(surface, painter, "step", str(frame.iteration), widest, right, bar, ui)
-    right -= round(24 * ui)
+        right = _chip(surface, painter, status, right, bar, ui) - gap
     digits = decimals(frame.scenario)
-    widest = f"{frame.scenario.stop_time:.{digits}f} s"
-    widest = widest if len(widest) < 12 else "00000.00 s"
-    value = f"{frame.time:.{digits}f} s"
-    right = _figure(surface, painter, "time", value, widest, right, bar, ui)
-    room = right - pad - round(24 * ui)
+    longest = f"{frame.scenario.stop_time:.{digits}f} s"
+    longest = longest if len(longest) < 12 else "00000.00 s"
+    time = _Figure("time", f"{frame.time:.{digits}f} s", longest)
+    longest = "0" * len(str(frame.scenario.last_iteration))
+    step = _Figure("step", str(frame.iteration), longest)
+    title_width = fonts.width(frame.scenario.title, 20 * ui, bold=True)
+    needed = time.width(painter, ui) + min(SHORTEST_TITLE * ui, title_width) + 2 * gap + pad
+    if right - step.width(painter, ui) >= needed:
+        right = step.draw(surface, painter, right, bar, ui) - gap
+    right = time.draw(surface, painter, right, bar, ui)
+    room = right - pad - gap
     title = fonts.shorten(frame.scenario.title, 20 * ui, room, bold=True)
-    image = fonts.render(title, 20 * ui, theme.INK, bold=True)
-    surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
+    if len(title) > 3 or title == frame.scenario.title:
+        image = fonts.render(title, 20 * ui, theme.ink, bold=True)
+        surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
 
 
 def decimals(scenario: Scenario) -> int:
@@ -112,56 +95,50 @@ def decimals(scenario: Scenario) -> int:
     return next((k for k in (1, 2) if abs(round(step, k) - step) < 1e-9), 3)
 
 
-def _figure(
-    surface: pygame.Surface,
-    painter: Painter,
-    name: str,
-    value: str,
-    widest: str,
-    right: int,
-    bar: pygame.Rect,
-    ui: float,
-) -> int:
-    """Draw a name and its value, the name at a place that does not tremble; return its left end."""
-    fonts = painter.fonts
-    image = fonts.render(value, 18 * ui, theme.INK)
-    width = max(image.get_width(), fonts.width(widest, 18 * ui))
-    surface.blit(image, image.get_rect(midright=(right, bar.centery)))
-    label = fonts.render(name, 14 * ui, theme.MUTED)
-    place = label.get_rect(midright=(right - width - round(8 * ui), bar.centery + round(ui)))
-    surface.blit(label, place)
-    return place.left
+@dataclass(frozen=True, slots=True)
+class _Figure:
+    """A name and its value; longest: keeps the place of the name from trembling."""
+
+    name: str
+    value: str
+    longest: str
+
+    def width(self, painter: Painter, ui: float) -> int:
+        fonts = painter.fonts
+        value = max(fonts.width(text, 18 * ui) for text in (self.value, self.longest))
+        return value + round(8 * ui) + fonts.width(self.name, 14 * ui)
+
+    def draw(
+        self, surface: pygame.Surface, painter: Painter, right: int, bar: pygame.Rect, ui: float
+    ) -> int:
+        """Draw it and return its left end."""
+        fonts, theme = painter.fonts, painter.theme
+        image = fonts.render(self.value, 18 * ui, theme.ink)
+        width = max(image.get_width(), fonts.width(self.longest, 18 * ui))
+        surface.blit(image, image.get_rect(midright=(right, bar.centery)))
+        label = fonts.render(self.name, 14 * ui, theme.muted)
+        place = label.get_rect(midright=(right - width - round(8 * ui), bar.centery + round(ui)))
+        surface.blit(label, place)
+        return place.left
 
 
 def _chip(
-    surface: pygame.Surface, painter: Painter, status: Status, right: int, middle: int, ui: float
-) -> int:
-    """Draw the status as a word on a coloured plate; return its left end."""
-    ink = theme.WAITING if status.waiting else theme.RUNNING
-    fill = theme.WAITING_PALE if status.waiting else theme.RUNNING_PALE
-    if status.error:
-        ink, fill = theme.ERROR, theme.ERROR_PALE
-    image = painter.fonts.render(status.text, 17 * ui, ink, bold=True)
+    surface: pygame.Surface, painter: Painter, status: Status, right: int, bar: pygame.Rect,
+    ui: float,
+) -> int:  # fmt: skip
+    """Draw the status as words on a coloured plate; return its left end."""
+    tone: Tone = getattr(painter.theme, status.kind)
+    text = painter.fonts.shorten(status.text, 17 * ui, 0.45 * bar.width, bold=True)
+    image = painter.fonts.render(text, 17 * ui, tone.ink, bold=True)
     width = max(image.get_width() + round(26 * ui), round(76 * ui))
     plate = pygame.Rect(right - width, 0, width, round(32 * ui))
-    plate.centery = middle
-    painter.panel(surface, plate, fill, plate.height / 2)
+    plate.centery = bar.centery
+    painter.panel(surface, plate, tone.pale, plate.height / 2)
     surface.blit(image, image.get_rect(center=plate.center))
     return plate.left
 
 
-def footer_height(banner: Banner | None, size: tuple[int, int], painter: Painter) -> float:
-    """Return how high the footer must be, points: more than one line for a long message."""
-    if banner is None:
-        return FOOTER
-    return FOOTER - 23.0 + 23.0 * len(_banner_lines(banner, size, painter))
-
-
-def _banner_lines(banner: Banner, size: tuple[int, int], painter: Painter) -> list[str]:
-    ui = interface_scale(size)
-    hint = painter.fonts.width(banner.hint, 15 * ui) + 40 * ui if banner.hint else 0
-    room = size[0] - 40 * ui - hint
-    return painter.fonts.wrap(banner.text, 18 * ui, room, BANNER_LINES, bold=True)
+# -- the footer -----------------------------------------------------------------------------------
 
 
 def draw_footer(
@@ -174,101 +151,133 @@ def draw_footer(
 ) -> None:
     """Draw the banner across the footer, or where there is none a quiet line of text.
 
-    hints: pairs of a key and what it does, for the right end.
+    hints: pairs of a key and what it does, for the right end; where there is no room for all, the
+    last ones stay.
     """
-    ui, bar, fonts = layout.ui, layout.footer, painter.fonts
+    ui, bar, fonts, theme = layout.ui, layout.footer, painter.fonts, painter.theme
     if bar.height <= 0:
         return
-    pad = round(20 * ui)
-    if banner is None:
-        surface.fill(theme.BAR, bar)
-        surface.fill(theme.EDGE, (bar.left, bar.top, bar.width, 1))
-        end = _hints(surface, painter, hints, bar.right - pad, bar.centery, ui)
-        text = fonts.shorten(left, 14 * ui, end - 2 * pad)
-        image = fonts.render(text, 14 * ui, theme.MUTED)
-        surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
+    if banner is not None:
+        _draw_banner(surface, bar, painter, banner, ui)
         return
-    surface.fill(theme.ERROR if banner.error else theme.OVER, bar)
-    lines = _banner_lines(banner, surface.get_size(), painter)
-    step = 23 * ui
-    y = bar.centery - step * (len(lines) - 1) / 2
-    for line in lines:
-        image = fonts.render(line, 18 * ui, "#ffffff", bold=True)
-        surface.blit(image, image.get_rect(midleft=(pad, round(y))))
-        y += step
-    hint = fonts.render(banner.hint, 15 * ui, "#e6ebf0")
-    surface.blit(hint, hint.get_rect(midright=(bar.right - pad, bar.centery)))
+    pad = round(20 * ui)
+    surface.fill(theme.bar, bar)
+    surface.fill(theme.edge, (bar.left, bar.top, bar.width, 1))
+    end = _hints(surface, painter, hints, bar, ui)
+    text = fonts.shorten(left, 14 * ui, end - 2 * pad)
+    if len(text) > 3:
+        image = fonts.render(text, 14 * ui, theme.muted)
+        surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
 
 
 def _hints(
     surface: pygame.Surface,
     painter: Painter,
     hints: Sequence[tuple[str, str]],
-    right: int,
-    middle: int,
+    bar: pygame.Rect,
     ui: float,
 ) -> int:
     """Write keys and what they do, from the right; return the left end."""
+    fonts, theme = painter.fonts, painter.theme
+    right = bar.right - round(20 * ui)
     for name, meaning in reversed(hints):
-        word = painter.fonts.render(meaning, 14 * ui, theme.MUTED)
-        key = painter.fonts.render(name, 14 * ui, theme.TEXT, bold=True)
-        place = word.get_rect(midright=(right, middle))
+        word = fonts.render(meaning, 14 * ui, theme.muted)
+        key = fonts.render(name, 14 * ui, theme.text, bold=True)
+        if right - word.get_width() - key.get_width() < bar.left + round(26 * ui):
+            break
+        place = word.get_rect(midright=(right, bar.centery))
         surface.blit(word, place)
-        place = key.get_rect(midright=(place.left - round(6 * ui), middle))
+        place = key.get_rect(midright=(place.left - round(6 * ui), bar.centery))
         surface.blit(key, place)
         right = place.left - round(20 * ui)
     return right
 
 
-def draw_help(
-    surface: pygame.Surface, layout: Layout, painter: Painter, keys: Iterable[Key]
+def footer_height(
+    banner: Banner | None,
+    size: tuple[int, int],
+    painter: Painter,
+    text: float = 1.0,
+    scale: float = 1.0,
+) -> float:
+    """Return how high the footer must be, points: more than one line for a long message."""
+    if banner is None:
+        return FOOTER
+    ui = interface_scale(size, text, scale)
+    lines, hint_below = _banner_lines(banner, size, painter, ui)
+    height = FOOTER + LINE * (len(lines) - 1) + (LINE if hint_below else 0.0)
+    if banner.excerpt is not None:
+        room = LARGEST_BANNER * size[1] / ui - height
+        wanted = min(CODE_LINES, len(banner.excerpt.lines))
+        height += _code_height(min(wanted, int((room - 20) / CODE_LINE)))
+    return height
+
+
+def _code_height(lines: int) -> float:
+    return CODE_LINE * lines + 20 if lines > 0 else 0.0
+
+
+def _banner_lines(
+    banner: Banner, size: tuple[int, int], painter: Painter, ui: float
+) -> tuple[list[str], bool]:
+    """Return a banner's text in lines, and whether its hint stands below them."""
+    hint = painter.fonts.width(banner.hint, 15 * ui) + 40 * ui if banner.hint else 0.0
+    below = hint > 0.4 * size[0]
+    room = size[0] - 40 * ui - (0 if below else hint)
+    code = 0.0 if banner.excerpt is None else _code_height(1)
+    fits = int((LARGEST_BANNER * size[1] / ui - (FOOTER - LINE) - code) / LINE) - below
+    most = min(max(fits, 1), BANNER_LINES)
+    return painter.fonts.wrap(banner.text, 18 * ui, room, most, bold=True), below
+
+
+def _draw_banner(
+    surface: pygame.Surface, bar: pygame.Rect, painter: Painter, banner: Banner, ui: float
 ) -> None:
-    """Draw the page of help over the picture: every key and what it does."""
-    fonts = painter.fonts
-    rows = [(key.labels, key.help) for key in keys]
-    # Smaller where the page would not fit.
-    room = layout.plot.height - 16
-    ui = min(layout.ui, room / (104 + 36 * len(rows)), surface.get_width() / 680)
-    if ui < UNREADABLE:
-        return
-    size, line = 16 * ui, round(36 * ui)
-    caps = max(sum(_cap_width(painter, text, ui) for text in labels) for labels, _ in rows)
-    words = max(fonts.width(text, size) for _, text in rows)
-    pad = round(32 * ui)
-    panel = pygame.Rect(0, 0, caps + words + pad * 3, line * len(rows) + round(92 * ui))
-    panel.center = layout.plot.center
-    veil = pygame.Surface(layout.plot.size, 0, 32)
-    veil.fill(theme.INK)
-    veil.set_alpha(70)
-    surface.blit(veil, layout.plot)
-    painter.panel(surface, panel, "#ffffff", 14 * ui, theme.EDGE)
-    title = fonts.render("Keys", 22 * ui, theme.INK, bold=True)
-    surface.blit(title, (panel.left + pad, panel.top + round(22 * ui)))
-    hint = fonts.render("F1 closes this", 14 * ui, theme.MUTED)
-    place = hint.get_rect(right=panel.right - pad, centery=panel.top + round(36 * ui))
-    surface.blit(hint, place)
-    y = panel.top + round(68 * ui) + line // 2
-    for labels, text in rows:
-        x = panel.left + pad
-        for name in labels:
-            x = _cap(surface, painter, name, x, y, ui)
-        image = fonts.render(text, size, theme.TEXT)
-        surface.blit(image, image.get_rect(midleft=(panel.left + pad * 2 + caps, y)))
-        y += line
+    fonts, theme, pad = painter.fonts, painter.theme, round(20 * ui)
+    surface.fill(theme.failed if banner.error else theme.over, bar)
+    lines, hint_below = _banner_lines(banner, surface.get_size(), painter, ui)
+    rows = len(lines) + hint_below
+    step = LINE * ui
+    room = bar.height - (FOOTER + LINE * (rows - 1)) * ui
+    code = 0 if banner.excerpt is None else max(0, int((room - 20 * ui) / (CODE_LINE * ui) + 0.01))
+    text = pygame.Rect(bar.left, bar.top, bar.width, bar.height - round(_code_height(code) * ui))
+    y = text.centery - step * (rows - 1) / 2
+    for line in lines:
+        image = fonts.render(line, 18 * ui, theme.on_banner, bold=True)
+        surface.blit(image, image.get_rect(midleft=(pad, round(y))))
+        y += step
+    hint = fonts.render(banner.hint, 15 * ui, theme.on_banner_muted)
+    if hint_below:
+        surface.blit(hint, hint.get_rect(midleft=(pad, round(y))))
+    else:
+        surface.blit(hint, hint.get_rect(midright=(bar.right - pad, text.centery)))
+    if banner.excerpt is not None and code > 0:
+        place = pygame.Rect(pad, text.bottom, bar.width - 2 * pad, bar.bottom - text.bottom)
+        place.height -= round(12 * ui)
+        _draw_code(surface, place, painter, banner.excerpt.nearest(code), ui)
 
 
-def _cap_width(painter: Painter, text: str, ui: float) -> int:
-    width = painter.fonts.width(text, 14 * ui, bold=True) + round(18 * ui)
-    return max(width, round(30 * ui)) + round(6 * ui)
-
-
-def _cap(surface: pygame.Surface, painter: Painter, text: str, x: int, y: int, ui: float) -> int:
-    """Draw one key as it looks on a keyboard; return where the next may begin."""
-    width = _cap_width(painter, text, ui)
-    plate = pygame.Rect(x, 0, width - round(6 * ui), round(27 * ui))
-    plate.centery = y
-    painter.panel(surface, plate.move(0, round(2 * ui)), "#cbd2d9", 6 * ui)
-    painter.panel(surface, plate, "#f9fafb", 6 * ui, "#cbd2d9")
-    image = painter.fonts.render(text, 14 * ui, theme.TEXT, bold=True)
-    surface.blit(image, image.get_rect(center=plate.center))
-    return x + width
+def _draw_code(
+    surface: pygame.Surface, place: pygame.Rect, painter: Painter, excerpt: Excerpt, ui: float
+) -> None:
+    """Draw lines of code with their numbers, the one it is about marked."""
+    fonts, theme = painter.fonts, painter.theme
+    painter.panel(surface, place, theme.banner_plate, 6 * ui)
+    size, pad = 14 * ui, round(10 * ui)
+    digits = fonts.width("0" * len(str(excerpt.first + len(excerpt.lines))), size, mono=True)
+    left = place.left + pad + fonts.width("▸ ", size, mono=True) + digits
+    for k, line in enumerate(excerpt.lines):
+        row = pygame.Rect(place.left, 0, place.width, round(CODE_LINE * ui))
+        row.top = round(place.top + 4 * ui + k * CODE_LINE * ui)
+        number, here = excerpt.first + k, excerpt.first + k == excerpt.line
+        if here:
+            painter.panel(surface, row.inflate(-round(6 * ui), 0), "#ffffff30", 4 * ui)
+            mark = fonts.render("▸", size, theme.on_banner, mono=True)
+            surface.blit(mark, mark.get_rect(midleft=(place.left + pad, row.centery)))
+        color = theme.on_banner if here else theme.on_banner_muted
+        image = fonts.render(str(number), size, color, mono=True)
+        surface.blit(image, image.get_rect(midright=(left, row.centery)))
+        start = left + round(14 * ui)
+        text = fonts.shorten(line, size, place.right - pad - start, mono=True)
+        image = fonts.render(text, size, color, mono=True)
+        surface.blit(image, image.get_rect(midleft=(start, row.centery)))

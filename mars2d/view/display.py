@@ -9,6 +9,7 @@ import time
 import pygame
 
 from mars2d.errors import InputError
+from mars2d.view.desktop import be_sharp
 
 __all__ = ["NO_DISPLAY", "display_available", "open_display"]
 
@@ -47,6 +48,7 @@ def open_display() -> None:
         if pygame.display.get_driver() in NOT_REAL:
             raise InputError(NO_DISPLAY)
         return
+    be_sharp()
     for attempt in range(ATTEMPTS):
         try:
             pygame.display.init()

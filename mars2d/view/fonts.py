@@ -10,13 +10,13 @@ import pygame
 __all__ = ["Fonts"]
 
 
-def _typeface(bold: bool) -> str | None:
+def _typeface(bold: bool, mono: bool) -> str | None:
     """Return the file of DejaVu Sans, which matplotlib ships, or None for pygame's own font."""
     found = find_spec("matplotlib")  # finds it without importing it, which would be slow
     if found is None or not found.submodule_search_locations:
         return None
     folder = Path(found.submodule_search_locations[0]) / "mpl-data" / "fonts" / "ttf"
-    file = folder / ("DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf")
+    file = folder / f"DejaVuSans{'Mono' if mono else ''}{'-Bold' if bold else ''}.ttf"
     return str(file) if file.exists() else None
 
 
@@ -28,23 +28,25 @@ class Fonts:
     def __init__(self) -> None:
         """Start with an empty store; needs no display."""
         pygame.font.init()
-        self._fonts: dict[tuple[int, bool], pygame.font.Font] = {}
-        self._texts: dict[tuple[str, int, str, bool], pygame.Surface] = {}
+        self._fonts: dict[tuple[int, bool, bool], pygame.font.Font] = {}
+        self._texts: dict[tuple[str, int, str, bool, bool], pygame.Surface] = {}
 
-    def font(self, size: float, bold: bool = False) -> pygame.font.Font:
-        """Return the font whose letters are `size` pixels high."""
-        key = (max(6, round(size)), bold)
+    def font(self, size: float, bold: bool = False, mono: bool = False) -> pygame.font.Font:
+        """Return the font whose letters are `size` pixels high; mono: all equally wide."""
+        key = (max(6, round(size)), bold, mono)
         if key not in self._fonts:
-            self._fonts[key] = pygame.font.Font(_typeface(bold), key[0])
+            self._fonts[key] = pygame.font.Font(_typeface(bold, mono), key[0])
         return self._fonts[key]
 
-    def render(self, text: str, size: float, color: str, bold: bool = False) -> pygame.Surface:
+    def render(
+        self, text: str, size: float, color: str, bold: bool = False, mono: bool = False
+    ) -> pygame.Surface:
         """Return one line of text on a transparent surface; control characters become blanks."""
-        key = (text, max(6, round(size)), color, bold)
+        key = (text, max(6, round(size)), color, bold, mono)
         found = self._texts.pop(key, None)
         if found is None:
             clean = "".join(c if c.isprintable() else " " for c in text)
-            found = self.font(size, bold).render(clean, True, color[:7])
+            found = self.font(size, bold, mono).render(clean, True, color[:7])
             if len(color) > 7:
                 found.set_alpha(int(color[7:9], 16))
             while len(self._texts) >= self.KEPT:
@@ -52,18 +54,20 @@ class Fonts:
         self._texts[key] = found
         return found
 
-    def width(self, text: str, size: float, bold: bool = False) -> int:
+    def width(self, text: str, size: float, bold: bool = False, mono: bool = False) -> int:
         """Return how wide a line of text is, pixels."""
-        return self.font(size, bold).size(text)[0]
+        return self.font(size, bold, mono).size(text)[0]
 
-    def shorten(self, text: str, size: float, room: float, bold: bool = False) -> str:
+    def shorten(
+        self, text: str, size: float, room: float, bold: bool = False, mono: bool = False
+    ) -> str:
         """Return `text`, cut with an ellipsis where it is wider than `room` pixels."""
-        if self.width(text, size, bold) <= room:
+        if self.width(text, size, bold, mono) <= room:
             return text
         low, high = 0, len(text)
         while low < high:
             middle = (low + high + 1) // 2
-            if self.width(text[:middle].rstrip() + "…", size, bold) <= room:
+            if self.width(text[:middle].rstrip() + "…", size, bold, mono) <= room:
                 low = middle
             else:
                 high = middle - 1

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mars2d.geometry import grid_step
 from mars2d.view.camera import Camera
 from mars2d.view.fonts import Fonts
-from mars2d.view.theme import GRID, GRID_AXIS, MUTED, PAGE
+from mars2d.view.theme import Theme
 
 __all__ = ["draw_grid", "label", "labels", "spacing", "ticks"]
 
@@ -47,7 +47,9 @@ def label(value: float, step: float) -> str:
     return text.replace("-", "\N{MINUS SIGN}") if float(text) != 0 else text.lstrip("-")
 
 
-def draw_grid(surface: pygame.Surface, camera: Camera, bounds: Bounds, ui: float) -> None:
+def draw_grid(
+    surface: pygame.Surface, camera: Camera, bounds: Bounds, ui: float, theme: Theme
+) -> None:
     """Draw lines one pixel wide within bounds (xmin, xmax, ymin, ymax), metres."""
     shown = _visible(surface.get_clip(), camera, bounds)
     if shown is None:
@@ -57,16 +59,16 @@ def draw_grid(surface: pygame.Surface, camera: Camera, bounds: Bounds, ui: float
     xmin, xmax, ymin, ymax = _metres(camera, *shown)
     for x in ticks(xmin, xmax, step).tolist():
         px = round(camera.x + camera.scale * x)
-        color = GRID_AXIS if abs(x) < step / 2 else GRID
+        color = theme.grid_axis if abs(x) < step / 2 else theme.grid
         pygame.draw.line(surface, color, (px, round(top)), (px, round(bottom) - 1))
     for y in ticks(ymin, ymax, step).tolist():
         py = round(camera.y - camera.scale * y)
-        color = GRID_AXIS if abs(y) < step / 2 else GRID
+        color = theme.grid_axis if abs(y) < step / 2 else theme.grid
         pygame.draw.line(surface, color, (round(left), py), (round(right) - 1, py))
 
 
 def labels(
-    clip: pygame.Rect, camera: Camera, bounds: Bounds, fonts: Fonts, ui: float
+    clip: pygame.Rect, camera: Camera, bounds: Bounds, fonts: Fonts, ui: float, theme: Theme
 ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
     """Return the metres, as images and where they go.
 
@@ -85,27 +87,27 @@ def labels(
     beside = max(round(left) - gap, clip.left + widest + gap)
     result = []
     for x in xs:
-        image = fonts.render(label(x, step), size, MUTED)
+        image = fonts.render(label(x, step), size, theme.muted)
         place = image.get_rect(midtop=(round(camera.x + camera.scale * x), below))
         if below >= bottom or beside + gap <= place.left:
-            result.append(_on_plate(image, place, plate=below < bottom))
+            result.append(_on_plate(image, place, theme if below < bottom else None))
     for y in ys:
-        image = fonts.render(label(y, step), size, MUTED)
+        image = fonts.render(label(y, step), size, theme.muted)
         place = image.get_rect(midright=(beside, round(camera.y - camera.scale * y)))
         if beside <= left or place.bottom <= below:
-            result.append(_on_plate(image, place, plate=beside > left))
+            result.append(_on_plate(image, place, theme if beside > left else None))
     return result
 
 
 def _on_plate(
-    image: pygame.Surface, place: pygame.Rect, *, plate: bool
+    image: pygame.Surface, place: pygame.Rect, theme: Theme | None
 ) -> tuple[pygame.Surface, tuple[int, int]]:
-    """Put a label on a pale plate, where it lies inside the picture."""
-    if not plate:
+    """Put a label on a plate of the theme's page, where it lies inside the picture."""
+    if theme is None:
         return image, place.topleft
     larger = place.inflate(8, 2)
     result = pygame.Surface(larger.size, 0, 32)
-    result.fill(PAGE)
+    result.fill(theme.page)
     result.blit(image, (4, 1))
     result.set_alpha(215)
     return result, larger.topleft

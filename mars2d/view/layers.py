@@ -20,6 +20,10 @@ class Layers:
     messages: bool = True
     forces: bool = False
     theory: bool = False
+    addons: bool = True
+    names: bool = False
+    velocities: bool = False
+    neighbours: bool = False
 
     @classmethod
     def of(cls, animation: Animation, *, sensors: bool = True) -> Self:

@@ -6,8 +6,7 @@ import pygame
 
 from mars2d.forces import FORCE, SLIP, SLIP_EDGE, force_scale, in_newtons, round_force
 from mars2d.scenario import Scenario
-from mars2d.scene import Scene
-from mars2d.view import theme
+from mars2d.scene import Scene, faded
 from mars2d.view.camera import Camera
 from mars2d.view.painter import Painter
 
@@ -28,7 +27,7 @@ def draw_legend(
     plot: pygame.Rect,
 ) -> None:
     """Draw an arrow of a round force as long as it is now, and the mark of a drive that slips."""
-    ui = painter.ui
+    ui, theme = painter.ui, painter.theme
     if plot.height < SMALLEST * ui or plot.width < 2 * SMALLEST * ui:
         return
     scale = force_scale(scenario)
@@ -41,7 +40,7 @@ def draw_legend(
     width = pad + column + 8 * ui + max(painter.fonts.width(w, size) for w in words) + pad
     plate = pygame.Rect(0, 0, round(width), round(2 * row + 8 * ui))
     plate.bottomleft = (plot.left + round(8 * ui), plot.bottom - round(8 * ui))
-    painter.panel(surface, plate, "#ffffffe6", 8 * ui, theme.EDGE)
+    painter.panel(surface, plate, faded(theme.plate, 0.9), 8 * ui, theme.edge)
     left, middle = plate.left + pad, plate.top + 4 * ui + row / 2
     scene = Scene()
     scene.arrow((left, -middle), (left + length, -middle), fill=FORCE, width=scale.width)
@@ -50,6 +49,6 @@ def draw_legend(
         scene.circle(ring, 0.0, stroke=color, width=line, pixels=6.0)
     painter.paint(surface, scene.shapes, Camera(1.0, 0.0, 0.0))
     for k, word in enumerate(words):
-        image = painter.fonts.render(word, size, theme.TEXT)
+        image = painter.fonts.render(word, size, theme.text)
         place = image.get_rect(midleft=(round(left + column + 8 * ui), round(middle + k * row)))
         surface.blit(image, place)

@@ -7,7 +7,7 @@ sprites, at quarters of a pixel so that slow movement stays smooth.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from math import ceil, floor
 
 import numpy as np
@@ -32,6 +32,7 @@ from mars2d.view.clip import clip_polygon, simplified
 from mars2d.view.fonts import Fonts
 from mars2d.view.sprites import Sprite, Sprites
 from mars2d.view.strokes import DASHES, MARK_SPACING, arc_length, dashes
+from mars2d.view.theme import LIGHT, Theme
 
 __all__ = ["Painter", "rgba"]
 
@@ -58,19 +59,34 @@ UNSEEN = 0.3
 class Painter:
     """Paints shapes; keeps the sprites and the texts it made from one picture to the next.
 
-    ui: pixels a point, the unit of line widths and text sizes. kept: pixels of sprites to keep,
-    0 for none.
+    theme: what scenes' colours become, and the colours of what is drawn round them. ui: pixels a
+    point, the unit of line widths and text sizes. kept: pixels of sprites to keep, 0 for none.
     """
 
-    def __init__(self, fonts: Fonts | None = None, kept: int = 6_000_000) -> None:
+    def __init__(
+        self, fonts: Fonts | None = None, kept: int = 6_000_000, theme: Theme = LIGHT
+    ) -> None:
         """Start without sprites; `fonts` may be shared."""
         self.fonts = fonts or Fonts()
         self.ui = 1.0
+        self.theme = theme
+        self._shade: Callable[[str], str] = theme.shade
         self._sprites = Sprites(kept)
         self._memory = memoryview(b"")
 
-    def paint(self, surface: pygame.Surface, shapes: Iterable[Shape], camera: Camera) -> None:
-        """Paint shapes in their order on a surface."""
+    def paint(
+        self,
+        surface: pygame.Surface,
+        shapes: Iterable[Shape],
+        camera: Camera,
+        *,
+        shaded: bool = True,
+    ) -> None:
+        """Paint shapes in their order on a surface.
+
+        shaded: their colours are those of scenes, which the theme turns; else the theme's own.
+        """
+        self._shade = self.theme.shade if shaded else str
         for shape in shapes:
             if isinstance(shape, Circle):
                 self._circle(surface, shape, camera)
@@ -81,7 +97,7 @@ class Painter:
             elif isinstance(shape, Arrow):
                 self._arrow(surface, shape, camera)
             elif isinstance(shape, Image):
-                _image(surface, shape, camera)
+                self._image(surface, shape, camera)
             else:
                 self._text(surface, shape, camera)
 
@@ -98,27 +114,32 @@ class Painter:
         if not (-reach < y < surface.get_height() + reach):
             return
         radius = round(8 * radius) / 8
+        fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
         if reach > LARGEST_SPRITE:
-            self._large_circle(surface, shape, x, y, radius)
+            self._large_circle(surface, brushes.ring(x, y, radius), fill, stroke, width)
             return
         px, fx = _phase(x)
         py, fy = _phase(y)
-        key = (shape.fill, shape.stroke, radius, width, fx, fy)
+        key = (fill, stroke, radius, width, fx, fy)
         sprite = self._sprites.get(key)
         if sprite is None:
-            layers = _disc_layers(shape, radius, width, fx, fy)
+            layers = _disc_layers(fill, stroke, radius, width, fx, fy)
             sprite = self._keep(key, brushes.box_round(fx, fy, reach), layers)
         surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
 
     def _large_circle(
-        self, surface: pygame.Surface, shape: Circle, x: float, y: float, radius: float
+        self,
+        surface: pygame.Surface,
+        ring: Float,
+        fill: Rgba | None,
+        stroke: Rgba | None,
+        width: float,
     ) -> None:
         """Draw a circle as the polygon of many corners that it nearly is."""
-        ring = brushes.ring(x, y, radius)
-        if shape.fill:
-            self._fill(surface, ring, rgba(shape.fill))
-        if shape.stroke:
-            brushes.stroke(surface, rgba(shape.stroke), [ring], shape.width * self.ui)
+        if fill:
+            self._fill(surface, ring, fill)
+        if stroke:
+            brushes.stroke(surface, stroke, [ring], width)
 
     # -- polygons -----------------------------------------------------------------------------
 
@@ -127,19 +148,19 @@ class Painter:
         if len(points) == 0:
             return
         width = shape.width * self.ui
-        if shape.fill and shape.stroke and self._small_polygon(surface, shape, points, width):
+        fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
+        if fill and stroke and self._small_polygon(surface, points, fill, stroke, width):
             return
-        if shape.fill:
-            self._fill(surface, points, rgba(shape.fill))
-        if shape.stroke:
+        if fill:
+            self._fill(surface, points, fill)
+        if stroke:
             ring = np.vstack([points, points[:1]])
-            brushes.stroke(surface, rgba(shape.stroke), [ring], width)
+            brushes.stroke(surface, stroke, [ring], width)
 
     def _small_polygon(
-        self, surface: pygame.Surface, shape: Polygon, points: Float, width: float
+        self, surface: pygame.Surface, points: Float, fill: Rgba, stroke: Rgba, width: float
     ) -> bool:
         """Draw fill and edge at once, which is quicker, if they are small and opaque."""
-        fill, stroke = rgba(shape.fill or ""), rgba(shape.stroke or "")
         box = brushes.extent_of(points, width / 2 + 1)
         if fill[3] < 255 or stroke[3] < 255 or box.width * box.height > SMALL:
             return False
@@ -178,7 +199,8 @@ class Painter:
             self._segment(surface, shape, camera)
             return
         points = camera.to_pixels(shape.points)
-        color = rgba(shape.stroke)
+        ink = self._shade(shape.stroke)
+        color = rgba(ink)
         width = shape.width * self.ui
         if line in DASHES:  # dashed before it is cut, or the dashes would crawl when panning
             pattern = tuple(self.ui * length for length in DASHES[line])
@@ -188,7 +210,7 @@ class Painter:
         if marker:
             buckets = np.floor(arc_length(points) / (MARK_SPACING * self.ui))
             kept = np.concatenate([[True], np.diff(buckets) > 0])
-            self.marks(surface, points[kept], marker, shape.stroke, shape.width)
+            self.marks(surface, points[kept], marker, ink, shape.width)
 
     def _segment(self, surface: pygame.Surface, shape: Line, camera: Camera) -> None:
         """Draw one straight line, from a sprite if it is short."""
@@ -198,7 +220,7 @@ class Painter:
         # A short line stays a line: a small robot's heading must not become a blob.
         width = min(shape.width * self.ui, max(1.0, (abs(dx) + abs(dy)) / 3.5))
         width = round(8 * width) / 8
-        color = rgba(shape.stroke)
+        color = rgba(self._shade(shape.stroke))
         if max(abs(dx), abs(dy)) > LARGEST_SPRITE / 2:
             brushes.stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
             return
@@ -224,27 +246,27 @@ class Painter:
         around = pygame.Rect(left - 20, top - 20, abs(dx) + 40, abs(dy) + 40)
         if not around.colliderect(surface.get_clip()):
             return
-        ink = rgba(shape.stroke or shape.fill)
+        fill, ink = (rgba(self._shade(color)) for color in (shape.fill, shape.stroke or shape.fill))
         if max(abs(dx), abs(dy)) > LARGEST_SPRITE:
             points = arrow_outline((x, y), (x + dx, y + dy), width)
-            draw = brushes.edged(points, rgba(shape.fill), edge)
+            draw = brushes.edged(points, fill, edge)
             brushes.cover(surface, ink, brushes.extent_of(points, edge + 1), draw)
             return
         px, fx = _phase(x)
         py, fy = _phase(y)
         dx, dy = round(dx * PHASES) / PHASES, round(dy * PHASES) / PHASES
-        key = ("arrow", shape.fill, shape.stroke, width, fx, fy, dx, dy)
+        key = ("arrow", fill, ink, edge, width, fx, fy, dx, dy)
         sprite = self._sprites.get(key)
         if sprite is None:
             points = arrow_outline((fx, fy), (fx + dx, fy + dy), width)
-            draw = brushes.edged(points, rgba(shape.fill), edge)
+            draw = brushes.edged(points, fill, edge)
             sprite = self._keep(key, brushes.extent_of(points, edge + 1), [(ink, draw, 4)])
         surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
 
     def marks(
         self, surface: pygame.Surface, points: Float, marker: str, color: str, width: float
     ) -> None:
-        """Draw the marks ``. o x + * s`` at pixels (k, 2)."""
+        """Draw the marks ``. o x + * s`` at pixels (k, 2), in a colour as it is given."""
         width *= self.ui
         quarters = np.rint(points.T * PHASES).astype(int)
         x, y = quarters % PHASES
@@ -271,7 +293,8 @@ class Painter:
         ((x, y),) = camera.to_pixels([shape.position]).tolist()
         gap = 4 * self.ui
         lines = shape.text.split("\n")
-        images = [self.fonts.render(text, shape.size * self.ui, shape.color) for text in lines]
+        color = self._shade(shape.color)
+        images = [self.fonts.render(text, shape.size * self.ui, color) for text in lines]
         height = sum(image.get_height() for image in images)
         top = {"above": y - gap - height, "below": y + gap}.get(shape.anchor, y - height / 2)
         for text, image in zip(lines, images, strict=True):
@@ -280,11 +303,32 @@ class Painter:
             left = {"left": x + gap, "right": x - gap - width}.get(shape.anchor, x - width / 2)
             place = (round(left), round(top))
             if shape.halo:
-                rim = self.fonts.render(text, shape.size * self.ui, shape.halo)
+                rim = self.fonts.render(text, shape.size * self.ui, self._shade(shape.halo))
                 reach = max(1, round(1.5 * self.ui))
                 surface.fblits((rim, (place[0] + a, place[1] + b)) for a, b in _around(reach))
             surface.blit(image, place)
             top += image.get_height()
+
+    # -- images -------------------------------------------------------------------------------
+
+    def _image(self, surface: pygame.Surface, shape: Image, camera: Camera) -> None:
+        """Draw the part of an image that is in sight: larger pixels sharp, smaller averaged."""
+        xmin, xmax, ymin, ymax = shape.bounds
+        rows, columns, _ = shape.pixels.shape
+        sight = surface.get_clip()
+        left, wide = camera.x + camera.scale * xmin, camera.scale * (xmax - xmin) / columns
+        top, high = camera.y - camera.scale * ymax, camera.scale * (ymax - ymin) / rows
+        across = _cells(left, wide, columns, sight.left, sight.right)
+        down = _cells(top, high, rows, sight.top, sight.bottom)
+        if across is None or down is None:
+            return
+        place = across[0][0], down[0][0]
+        seen = shape.pixels[down[1]][:, across[1]].swapaxes(0, 1)
+        part = _surface_of(self.theme.shade_pixels(seen))
+        size = across[0][1] - across[0][0], down[0][1] - down[0][0]
+        if part.get_size() != size:
+            part = pygame.transform.smoothscale(part, size)
+        surface.blit(part, place)
 
     # -- what the window's own parts are made of ----------------------------------------------
 
@@ -307,6 +351,10 @@ class Painter:
             sprite = self._keep(key, box, layers)
         surface.blit(sprite[0], rect.topleft)
 
+    def _ink(self, color: str | None) -> Rgba | None:
+        """Return what a shape's colour becomes, or None for none."""
+        return rgba(self._shade(color)) if color else None
+
     def _keep(self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]) -> Sprite:
         """Draw a sprite, its layers one over the other, and keep it."""
         finer = _sprite_factor(box)
@@ -321,27 +369,14 @@ class Painter:
         return sprite
 
 
-def _image(surface: pygame.Surface, shape: Image, camera: Camera) -> None:
-    """Draw the part of an image that is in sight: larger pixels sharp, smaller ones averaged."""
-    xmin, xmax, ymin, ymax = shape.bounds
-    rows, columns, _ = shape.pixels.shape
-    sight = surface.get_clip()
-    left, wide = camera.x + camera.scale * xmin, camera.scale * (xmax - xmin) / columns
-    top, high = camera.y - camera.scale * ymax, camera.scale * (ymax - ymin) / rows
-    across = _cells(left, wide, columns, sight.left, sight.right)
-    down = _cells(top, high, rows, sight.top, sight.bottom)
-    if across is None or down is None:
-        return
-    place = across[0][0], down[0][0]
-    seen = shape.pixels[down[1]][:, across[1]].swapaxes(0, 1)
-    part = pygame.Surface(seen.shape[:2], pygame.SRCALPHA if seen.shape[2] == 4 else 0, 32)
-    pygame.surfarray.pixels3d(part)[:] = seen[..., :3]
-    if seen.shape[2] == 4:
-        pygame.surfarray.pixels_alpha(part)[:] = seen[..., 3]
-    size = across[0][1] - across[0][0], down[0][1] - down[0][0]
-    if part.get_size() != size:
-        part = pygame.transform.smoothscale(part, size)
-    surface.blit(part, place)
+def _surface_of(pixels: NDArray[np.uint8]) -> pygame.Surface:
+    """Return a surface of pixels (columns, rows, 3 or 4)."""
+    opaque = pixels.shape[2] == 3
+    surface = pygame.Surface(pixels.shape[:2], 0 if opaque else pygame.SRCALPHA, 32)
+    pygame.surfarray.pixels3d(surface)[:] = pixels[..., :3]
+    if not opaque:
+        pygame.surfarray.pixels_alpha(surface)[:] = pixels[..., 3]
+    return surface
 
 
 def _cells(
@@ -380,17 +415,18 @@ def _phase(value: float) -> tuple[int, float]:
     return quarters // PHASES, (quarters % PHASES) / PHASES
 
 
-def _disc_layers(shape: Circle, radius: float, width: float, x: float, y: float) -> list[Layer]:
+def _disc_layers(
+    fill: Rgba | None, stroke: Rgba | None, radius: float, width: float, x: float, y: float
+) -> list[Layer]:
     layers: list[Layer] = []
-    broad = radius > BROAD and shape.stroke is not None
-    if shape.fill:
-        color = rgba(shape.fill)
+    broad = radius > BROAD and stroke is not None
+    if fill:
         # The ring will cover the edge.
-        factor = 0 if not broad else 1 if color[3] < FAINT else 2
-        layers.append((color, brushes.disc(x, y, radius), factor))
-    if shape.stroke:
+        factor = 0 if not broad else 1 if fill[3] < FAINT else 2
+        layers.append((fill, brushes.disc(x, y, radius), factor))
+    if stroke:
         draw = brushes.disc(x, y, radius + width / 2, width)
         if broad:
             draw = brushes.drawn_finely([brushes.ring(x, y, radius)], width)
-        layers.append((rgba(shape.stroke), draw, 1 if broad else 0))
+        layers.append((stroke, draw, 1 if broad else 0))
     return layers

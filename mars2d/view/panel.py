@@ -12,7 +12,6 @@ from mars2d.forces import FORCE, SLIP, SLIPPING, in_newtons, round_force
 from mars2d.frame import Float, Frame
 from mars2d.looks import prop_colors
 from mars2d.scene import Scene, faded
-from mars2d.view import theme
 from mars2d.view.camera import Camera
 from mars2d.view.meter import Bound, Meter, Reading, bound_of, span_of
 from mars2d.view.painter import Painter
@@ -27,7 +26,6 @@ LARGEST_SHARE = 0.46
 SMALLEST = 200.0, 130.0
 """Points below which it is not drawn."""
 
-EFFORT = "#8d5a00"
 OVERSHOOT = 3.0
 """The scale goes up to the highest force, but at most to so many times the bound."""
 
@@ -60,8 +58,8 @@ class Panel:
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame, body: int) -> None:
         """Draw the panel of a body."""
         reading, bound = self._meter.read(frame, body), bound_of(frame, body)
-        ui = self.painter.ui
-        self.painter.panel(surface, rect, "#fffffff2", 8 * ui, theme.EDGE)
+        ui, theme = self.painter.ui, self.painter.theme
+        self.painter.panel(surface, rect, faded(theme.plate, 0.95), 8 * ui, theme.edge)
         self._title(surface, rect, frame, body, reading)
         area = pygame.Rect(
             rect.left + round(50 * ui), rect.top + round(62 * ui),
@@ -77,52 +75,52 @@ class Panel:
         self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame, body: int, reading: Reading
     ) -> None:
         """Write whose force it is and how large it is now, and what the lines are."""
-        ui, fonts = self.painter.ui, self.painter.fonts
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
         left, right, y = rect.left + round(14 * ui), rect.right - round(14 * ui), rect.top
         now = float(reading.force[-1]) if len(reading.force) else 0.0
-        image = fonts.render(in_newtons(now), 17 * ui, FORCE, bold=True)
+        image = fonts.render(in_newtons(now), 17 * ui, theme.shade(FORCE), bold=True)
         surface.blit(image, image.get_rect(midright=(right, y + round(20 * ui))))
         colors = (*frame.scenario.colors, *prop_colors(frame.scenario.props))
         scene = Scene()
         dot = (left + 6 * ui, -(y + 20 * ui))
-        scene.circle(dot, 0.0, fill=colors[body], stroke=theme.MUTED, pixels=6.0)
+        scene.circle(dot, 0.0, fill=theme.shade(colors[body]), stroke=theme.muted, pixels=6.0)
         room = right - image.get_width() - left - 32 * ui
         text = fonts.shorten(
             f"net contact force on {body_name(frame, body)}", 14 * ui, room, bold=True
         )
-        image = fonts.render(text, 14 * ui, theme.INK, bold=True)
+        image = fonts.render(text, 14 * ui, theme.ink, bold=True)
         surface.blit(image, image.get_rect(midleft=(left + round(20 * ui), y + round(20 * ui))))
         x, y = float(left), y + round(44 * ui)
-        entries = [(FORCE, 2.5, "mean force of a step")]
+        entries = [(theme.shade(FORCE), 2.5, "mean force of a step")]
         if reading.effort is not None:
-            entries += [(EFFORT, 1.5, "drive's effort"), (SLIP, 10.0, "slips")]
+            entries += [(theme.effort, 1.5, "drive's effort"), (SLIP, 10.0, "slips")]
         for color, width, word in entries:
             scene.line([(x, -y), (x + 16 * ui, -y)], stroke=color, width=width)
-            image = fonts.render(word, 12 * ui, theme.TEXT)
+            image = fonts.render(word, 12 * ui, theme.text)
             surface.blit(image, image.get_rect(midleft=(round(x + 21 * ui), y)))
             x += image.get_width() + 36 * ui
             if x > right - 90 * ui:
                 break
-        self.painter.paint(surface, scene.shapes, PIXELS)
+        self.painter.paint(surface, scene.shapes, PIXELS, shaded=False)
 
     def _axes(
         self, surface: pygame.Surface, area: pygame.Rect, start: float, end: float, top: float
     ) -> None:
         """Draw the grid and the numbers of both axes."""
-        ui, fonts = self.painter.ui, self.painter.fonts
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
         step = round_force(top / 2 if area.height < 90 * ui else top / 3)
         for k in range(int(top / step + 1e-9) + 1):
             y = area.bottom - round(k * step / top * area.height)
-            surface.fill(theme.GRID_AXIS if k == 0 else theme.GRID, (area.left, y, area.width, 1))
-            image = fonts.render(f"{k * step:.4g} N", 12 * ui, theme.MUTED)
+            surface.fill(theme.grid_axis if k == 0 else theme.grid, (area.left, y, area.width, 1))
+            image = fonts.render(f"{k * step:.4g} N", 12 * ui, theme.muted)
             surface.blit(image, image.get_rect(midright=(area.left - round(6 * ui), y)))
         step = round_force((end - start) / (3 if area.width < 220 * ui else 5))
         for k in range(ceil(start / step - 1e-9), int(end / step + 1e-9) + 1):
             x = area.left + round((k * step - start) / (end - start) * area.width)
-            surface.fill(theme.GRID, (x, area.top, 1, area.height))
-            image = fonts.render(f"{k * step:.6g}", 12 * ui, theme.MUTED)
+            surface.fill(theme.grid, (x, area.top, 1, area.height))
+            image = fonts.render(f"{k * step:.6g}", 12 * ui, theme.muted)
             surface.blit(image, image.get_rect(midtop=(x, area.bottom + round(3 * ui))))
-        image = fonts.render("time [s]", 12 * ui, theme.MUTED)
+        image = fonts.render("time [s]", 12 * ui, theme.muted)
         y = area.bottom + round(17 * ui)
         surface.blit(image, image.get_rect(midtop=(area.centerx, y)))
 
@@ -137,7 +135,8 @@ class Panel:
     ) -> None:
         """Draw the force and the effort as steps, where the drive slips, and the bound."""
         start, end, top = limits
-        ui, dt = self.painter.ui, frame.scenario.sampling_time
+        ui, dt, theme = self.painter.ui, frame.scenario.sampling_time, self.painter.theme
+        ink = theme.shade(FORCE)
 
         def pixels(time: Float, force: Float) -> Float:
             x = area.left + (time - start) / (end - start) * area.width
@@ -158,27 +157,27 @@ class Panel:
                 surface.blit(band, (ends[0], area.top))
         if reading.effort is not None and len(reading.effort) and bound is not None:
             height = bound.force * reading.effort
-            scene.line(pixels(*_steps(edges, height, area.width)), stroke=EFFORT, width=1.5)
+            scene.line(pixels(*_steps(edges, height, area.width)), stroke=theme.effort, width=1.5)
         if len(reading.force):
             points = pixels(*_steps(edges, reading.force, area.width))
             foot = [(points[-1, 0], -area.bottom), (points[0, 0], -area.bottom)]
-            scene.polygon(np.vstack([points, foot]), fill=faded(FORCE, 0.18))
-            scene.line(points, stroke=FORCE, width=2.5)
+            scene.polygon(np.vstack([points, foot]), fill=faded(ink, 0.18))
+            scene.line(points, stroke=ink, width=2.5)
         if len(reading.force) and reading.force.max() > top:
             k = int(reading.force.argmax())
             word = f"peak {in_newtons(float(reading.force[k]))}"
             half = self.painter.fonts.width(word, 12 * ui) / 2 + 4 * ui
             x = float(pixels(edges[k : k + 1], np.zeros(1))[0, 0])
             x = min(max(x, area.left + half), area.right - half)
-            scene.text((x, -area.top), word, color=FORCE, anchor="below", halo="#ffffff")
+            scene.text((x, -area.top), word, color=ink, anchor="below", halo=theme.plate)
         if bound is not None:
             ends = pixels(np.array([start, end]), np.full(2, bound.force))
-            scene.line(ends, stroke=theme.INK, width=1.5, style="--")
+            scene.line(ends, stroke=theme.ink, width=1.5, style="--")
             word = f"{bound.name} {in_newtons(bound.force)}"
             middle = area.left + 4 * ui + self.painter.fonts.width(word, 12 * ui) / 2
             place = (middle, ends[0, 1] - 2 * ui)
-            scene.text(place, word, color=theme.INK, anchor="above", halo="#ffffff")
-        self.painter.paint(surface, scene.shapes, PIXELS)
+            scene.text(place, word, color=theme.ink, anchor="above", halo=theme.plate)
+        self.painter.paint(surface, scene.shapes, PIXELS, shaded=False)
         surface.set_clip(before)
 
 

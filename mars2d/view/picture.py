@@ -9,11 +9,13 @@ import pygame
 
 from mars2d.errors import InputError
 from mars2d.frame import Frame
-from mars2d.view.bars import FOOTER, Banner, Layout, Status, draw_footer, draw_header, fitted
+from mars2d.view.bars import Banner, Status, draw_footer, draw_header
 from mars2d.view.camera import Camera
 from mars2d.view.layers import Layers
+from mars2d.view.layout import FOOTER, Layout, fitted
 from mars2d.view.painter import Painter
 from mars2d.view.stage import Stage
+from mars2d.view.theme import PRINTED
 
 __all__ = ["Artist", "paint_frame", "save_png"]
 
@@ -44,7 +46,7 @@ class Artist:
             raise InputError(f"size = {size!r}: expected (width, height) in pixels, 16 to 16384")
         self.size = size
         self.layout = Layout.of(size, FOOTER if footer else 0.0)
-        self.painter = Painter()
+        self.painter = Painter(theme=PRINTED)
         self.painter.ui = self.layout.ui
         self._stage = Stage(self.painter)
         self._camera = camera

@@ -6,6 +6,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Literal
 
 from mars2d.animation import playback_speed
 from mars2d.errors import Mars2dError
@@ -14,7 +15,8 @@ from mars2d.view.source import Source
 
 __all__ = ["SPEEDS", "Player", "between"]
 
-Status = tuple[str, str]
+Kind = Literal["running", "waiting", "past", "error"]
+Status = tuple[str, Kind]
 """What the clock does, in words, and its kind: running, waiting, past or error."""
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)

@@ -10,7 +10,7 @@ from mars2d.forces import bounding_circle
 from mars2d.frame import Float, Frame
 from mars2d.scene import Scene
 from mars2d.shapes import Piece
-from mars2d.view import theme
+from mars2d.view.theme import LIGHT
 
 __all__ = ["body_at", "body_name", "next_body", "selection_mark", "sensed_by"]
 
@@ -70,6 +70,6 @@ def selection_mark(frame: Frame, body: int) -> Scene:
     scene = Scene()
     pose = np.hstack([frame.pose, frame.prop_pose])[:, body]
     center, radius = bounding_circle(frame.scenario.bodies[body].shape, pose)
-    for color, width in (("#ffffff", 4.5), (theme.SELECTED, 2.5)):
+    for color, width in (("#ffffff", 4.5), (LIGHT.selected, 2.5)):
         scene.circle(center, radius, stroke=color, width=width, pixels=10.0)
     return scene

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from dataclasses import replace
 from math import ceil, floor
 from time import perf_counter
 
@@ -13,20 +12,30 @@ from mars2d import frame as scenes
 from mars2d.forces import forces
 from mars2d.frame import Frame
 from mars2d.links import messages
+from mars2d.names import names
 from mars2d.scenario import Scenario
-from mars2d.scene import Polygon, Shape
+from mars2d.scene import Scene, Shape
+from mars2d.velocities import velocities
 from mars2d.view.camera import Camera
-from mars2d.view.grid import draw_grid, labels
+from mars2d.view.canvas import Canvas, grid_bounds
+from mars2d.view.grid import labels
 from mars2d.view.layers import Layers
 from mars2d.view.legend import draw_legend
+from mars2d.view.overlays import Links, draw_speed_legend
 from mars2d.view.painter import Painter
-from mars2d.view.theme import PAGE
-from mars2d.view.trails import Trails
 
 __all__ = ["Stage"]
 
 PATIENCE = 0.012
 """The seconds that drawing what stands still may take without the movement of a camera jerking."""
+
+AHEAD = 0.004
+"""The seconds of a picture in which what will be seen soon is drawn, when that takes longer."""
+
+ROUND = 0.25
+"""While the camera moves, so much more is drawn on all sides, in shares of the picture..."""
+NEAR = 0.1
+"""... and anew when so little of that is left."""
 
 
 class Stage:
@@ -35,21 +44,23 @@ class Stage:
     The workspace, the grid, the obstacles and the initial poses are drawn once a camera. On a copy
     of that the paths grow. On a copy of that is what the sensors have read, until they read again.
     What moves is drawn anew each time.
+
+    memory: bytes that may be used to go back in time without drawing all paths from their start.
     """
 
-    def __init__(self, painter: Painter) -> None:
+    def __init__(self, painter: Painter, memory: int = 0) -> None:
         """Start with nothing drawn."""
         self.painter = painter
-        self._still: pygame.Surface | None = None
-        self._still_key: Hashable = None
+        self.memory = memory
+        self._canvas: Canvas | None = None
+        self._next: Canvas | None = None  # what will be seen soon
+        self._key: tuple[Hashable, ...] = ()
         self._scenario: Scenario | None = None
-        self._trailed: pygame.Surface | None = None
-        self._trails: tuple[Trails, ...] = ()  # of the props, of the robots
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
         self._labels: list[tuple[pygame.Surface, tuple[int, int]]] = []
-        self._camera: Camera | None = None
-        self._seconds = 0.0
+        self._labeled: tuple[Hashable, ...] = ()
+        self._links = Links()
 
     def draw(
         self,
@@ -71,22 +82,28 @@ class Stage:
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
         surface.set_clip(plot)
-        slow = self._seconds > PATIENCE and frame.scenario is self._scenario
-        if not (hurried and slow and self._moved(surface, camera, layers, plot)):
-            start = perf_counter()
-            still = self._background(surface, frame.scenario, camera, layers, plot)
-            picture = self._with_trails(still, frame, camera) if layers.trails else still
-            if self._camera != camera:
-                self._camera, self._seconds = camera, perf_counter() - start
+        canvas = self._canvas_for(surface, frame, camera, layers, plot, hurried)
+        if canvas.shows(camera, plot):
+            self._spread(surface, canvas, frame, camera, layers, plot)
+        else:
+            self._enlarge(surface, canvas, camera, layers, plot)
             if layers.sensors:
-                picture = self._with_sensors(picture, frame, camera, plot)
-            surface.blit(picture, plot, plot)
-            if layers.trails:
-                for trails, poses in zip(self._trails, (frame.prop_pose, frame.pose), strict=False):
-                    trails.loose_ends(surface, poses[:2])
-        elif layers.sensors:
-            self.painter.paint(surface, scenes.sensors(frame).shapes, camera)
-        moving = scenes.addons(frame)
+                self.painter.paint(surface, scenes.sensors(frame).shapes, camera)
+        if layers.messages and layers.neighbours:
+            self._links.draw(surface, self.painter, frame, camera)
+        self.painter.paint(surface, self._moving(frame, layers, marks).shapes, camera)
+        surface.fblits(self._labels_of(frame.scenario, camera, layers, surface.get_size(), plot))
+        if layers.forces:
+            draw_legend(surface, self.painter, frame.scenario, camera, plot)
+        if layers.velocities:
+            draw_speed_legend(
+                surface, self.painter, frame.scenario, camera, plot, beside=layers.forces
+            )
+        surface.set_clip(before)
+
+    def _moving(self, frame: Frame, layers: Layers, marks: Sequence[Shape]) -> Scene:
+        """Return what is drawn anew each time."""
+        moving = scenes.addons(frame) if layers.addons else Scene()
         if layers.theory:
             moving.extend(scenes.theory(frame).shapes)
         if layers.messages:
@@ -94,92 +111,130 @@ class Stage:
         for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):
             moving.extend(scene.shapes)
         moving.extend(marks)
+        if layers.velocities:
+            moving.extend(velocities(frame).shapes)
         if layers.forces:
             moving.extend(forces(frame).shapes)
-        self.painter.paint(surface, moving.shapes, camera)
-        if camera == self._camera:
-            surface.fblits(self._labels)
-        if layers.forces:
-            draw_legend(surface, self.painter, frame.scenario, camera, plot)
-        surface.set_clip(before)
+        if layers.names:
+            moving.extend(names(frame).shapes)
+        return moving
 
-    def _moved(
-        self, surface: pygame.Surface, camera: Camera, layers: Layers, plot: pygame.Rect
-    ) -> bool:
-        """Draw the last picture as another camera sees it, roughly; return whether there is one."""
-        last = self._trailed if layers.trails and self._trails else self._still
-        if last is None or self._camera is None or last.get_size() != surface.get_size():
-            return False
-        factor = camera.scale / self._camera.scale
-        corner = camera.x - factor * self._camera.x, camera.y - factor * self._camera.y
+    # -- what stands still --------------------------------------------------------------------
+
+    def _canvas_for(
+        self,
+        surface: pygame.Surface,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        plot: pygame.Rect,
+        hurried: bool,
+    ) -> Canvas:
+        """Return what there is for a camera, or draw it; in a hurry, return what there is."""
+        size = surface.get_size()
+        key = layers.grid, size, tuple(plot), self.painter.ui, self.painter.theme
+        canvas = self._canvas
+        if key != self._key or frame.scenario is not self._scenario:
+            canvas = self._next = None
+        self._key, self._scenario = key, frame.scenario
+        slow = canvas is not None and canvas.seconds > PATIENCE
+        if canvas is not None and hurried and slow:
+            canvas = self._look_ahead(canvas, frame, camera, layers, plot)
+        elif canvas is None or not canvas.is_exact(camera) or not canvas.shows(camera, plot):
+            canvas = Canvas(
+                self.painter, frame.scenario, camera, size, plot, grid=layers.grid,
+                memory=self.memory,
+            )  # fmt: skip
+        self._canvas = canvas
+        return canvas
+
+    def _look_ahead(
+        self, canvas: Canvas, frame: Frame, camera: Camera, layers: Layers, plot: pygame.Rect
+    ) -> Canvas:
+        """Return the canvas to use while the camera moves; draw a larger one bit by bit."""
+        near = plot.inflate(2 * NEAR * plot.width, 2 * NEAR * plot.height)
+        if camera.scale != canvas.camera.scale or canvas.shows(camera, near):
+            return canvas
+        if self._next is None or not self._next.shows(camera, near):
+            wide = plot.inflate(2 * ROUND * plot.width, 2 * ROUND * plot.height)
+            own = camera.panned(-wide.left, -wide.top)
+            self._next = Canvas(
+                self.painter, frame.scenario, own, wide.size, pygame.Rect(0, 0, *wide.size),
+                grid=layers.grid, memory=self.memory,
+            )  # fmt: skip
+            return canvas
+        if layers.trails and self._next.with_paths(frame, perf_counter() + AHEAD) is None:
+            return canvas
+        following, self._next = self._next, None
+        return following
+
+    def _spread(
+        self,
+        surface: pygame.Surface,
+        canvas: Canvas,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        plot: pygame.Rect,
+    ) -> None:
+        """Draw what stands still, the paths, and what the sensors have read."""
+        picture: pygame.Surface | None = canvas.still
+        if layers.trails:
+            picture = canvas.with_paths(frame)
+        assert picture is not None
+        if layers.sensors:
+            picture = self._with_sensors(picture, frame, canvas)
+        dx, dy = canvas.shift(camera)
+        surface.blit(picture, plot, plot.move(-dx, -dy))
+        if layers.trails and canvas.wakes is not None:
+            poses = frame.prop_pose, frame.pose
+            for trails, pose in zip(canvas.wakes.trails, poses, strict=True):
+                trails.loose_ends(surface, pose[:2], (dx, dy))
+
+    def _enlarge(
+        self,
+        surface: pygame.Surface,
+        canvas: Canvas,
+        camera: Camera,
+        layers: Layers,
+        plot: pygame.Rect,
+    ) -> None:
+        """Draw what a canvas has as another camera sees it, roughly."""
+        last = canvas.wakes.surface if layers.trails and canvas.wakes is not None else canvas.still
+        factor = camera.scale / canvas.camera.scale
+        corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
         # Whole pixels of the last picture, as many as are seen now.
         seen = pygame.Rect(0, 0, ceil(plot.width / factor) + 2, ceil(plot.height / factor) + 2)
         seen.left = floor((plot.left - corner[0]) / factor)
         seen.top = floor((plot.top - corner[1]) / factor)
-        seen = seen.clip(plot)
-        surface.fill(PAGE, plot)
+        seen = seen.clip(canvas.area)
+        surface.fill(self.painter.theme.page, plot)
         if seen.width > 0 and seen.height > 0:
             size = round(seen.width * factor), round(seen.height * factor)
             place = corner[0] + factor * seen.left, corner[1] + factor * seen.top
             surface.blit(pygame.transform.scale(last.subsurface(seen), size), place)
-        return True
 
-    def _background(
+    def _labels_of(
         self,
-        surface: pygame.Surface,
         scenario: Scenario,
         camera: Camera,
         layers: Layers,
+        size: tuple[int, int],
         plot: pygame.Rect,
-    ) -> pygame.Surface:
-        key = (camera, layers.grid, surface.get_size(), tuple(plot), self.painter.ui)
-        if self._still is None or key != self._still_key or scenario is not self._scenario:
-            still = pygame.Surface(surface.get_size(), 0, 32)
-            still.set_clip(plot)
-            still.fill(PAGE)
-            self.painter.paint(still, scenes.workspace(scenario).shapes, camera)
-            floor = scenes.floor(scenario).shapes
-            if floor:
-                self.painter.paint(still, floor, camera)
-                self._edge(still, scenario, camera)
-            self._labels = []
+    ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
+        """Return the numbers of the grid, and where they go."""
+        labeled = camera, *self._key
+        if self._labeled != labeled:
+            self._labeled, self._labels = labeled, []
             if layers.grid:
-                self._grid(still, scenario, camera)
-            self.painter.paint(still, scenes.obstacles(scenario).shapes, camera)
-            if scenario.animation.show_initial_pose:
-                self.painter.paint(still, scenes.initial_poses(scenario).shapes, camera)
-            self._still, self._still_key, self._scenario = still, key, scenario
-            self._trails = ()
-        return self._still
-
-    def _grid(self, still: pygame.Surface, scenario: Scenario, camera: Camera) -> None:
-        bounds = scenario.bounds
-        if scenario.workspace is None or scenario.on_exit == "ignore":
-            bounds = camera.view(still.get_size())
-        draw_grid(still, camera, bounds, self.painter.ui)
-        self._edge(still, scenario, camera)
-        self._labels = labels(still.get_clip(), camera, bounds, self.painter.fonts, self.painter.ui)
-
-    def _edge(self, still: pygame.Surface, scenario: Scenario, camera: Camera) -> None:
-        """Draw the workspace's edge again, over the floor or the grid."""
-        shapes = scenes.workspace(scenario).shapes
-        edge = [replace(s, fill=None) for s in shapes if isinstance(s, Polygon)]
-        self.painter.paint(still, edge, camera)
-
-    def _with_trails(self, still: pygame.Surface, frame: Frame, camera: Camera) -> pygame.Surface:
-        paths = (frame.prop_path, frame.path)
-        kept = self._trails and all(
-            trails.continues(path) for trails, path in zip(self._trails, paths, strict=True)
-        )
-        if self._trailed is None or not kept:
-            self._trailed = still.copy()
-            self._trails = self._new_trails(frame.scenario, camera)
-        for trails, path in zip(self._trails, paths, strict=True):
-            trails.prolong(self._trailed, path)
-        return self._trailed
+                bounds, painter = grid_bounds(scenario, camera, size), self.painter
+                self._labels = labels(
+                    plot, camera, bounds, painter.fonts, painter.ui, painter.theme
+                )
+        return self._labels
 
     def _with_sensors(
-        self, picture: pygame.Surface, frame: Frame, camera: Camera, plot: pygame.Rect
+        self, picture: pygame.Surface, frame: Frame, canvas: Canvas
     ) -> pygame.Surface:
         """Return a copy of a picture with what the sensors have read on it, drawn if it is new."""
         sensors = (sensor for robot in frame.scenario.robots for sensor in robot.sensors)
@@ -193,17 +248,8 @@ class Stage:
                 return picture
             if self._sensed is None or self._sensed.get_size() != picture.get_size():
                 self._sensed = picture.copy()
-            self._sensed.set_clip(plot)
-            self._sensed.blit(picture, plot, plot)
-            self.painter.paint(self._sensed, shapes, camera)
+            self._sensed.set_clip(canvas.area)
+            self._sensed.blit(picture, canvas.area, canvas.area)
+            self.painter.paint(self._sensed, shapes, canvas.camera)
             self._sensed_of = made_of
         return self._sensed
-
-    def _new_trails(self, scenario: Scenario, camera: Camera) -> tuple[Trails, Trails]:
-        thin = scenes.prop_trail_colors(scenario), scenes.PROP_TRAIL_WIDTH
-        style = scenario.animation.wake_style
-        colors = scenes.trail_colors(scenario)
-        return (
-            Trails(self.painter, camera, "-", *thin),
-            Trails(self.painter, camera, style, colors, scenes.TRAIL_WIDTH),
-        )

@@ -80,7 +80,9 @@ def hairlines(surface: pygame.Surface, ink: tuple[int, ...], points: Float, widt
     bends /= np.maximum((bends**2).sum(axis=1), 0.25)[:, None]
     normals = np.column_stack([-bends[:, 1], bends[:, 0]])
     for shift in hair_shifts(width, normals):
-        pygame.draw.aalines(surface, ink, False, (points + shift).tolist())
+        x, y = (points + shift).T.tolist()
+        # Tuples of numbers, which the garbage collector soon lets be: thousands of lists slow it.
+        pygame.draw.aalines(surface, ink, False, list(zip(x, y, strict=True)))
 
 
 def hair_shifts(width: float, normals: Float) -> list[Float]:

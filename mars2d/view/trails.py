@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 import pygame
 from numpy.typing import NDArray
@@ -11,6 +13,7 @@ from mars2d.view.brushes import rgba
 from mars2d.view.camera import Camera
 from mars2d.view.painter import Painter
 from mars2d.view.strokes import DASHES, MARK_SPACING, dashes, hair_shifts, hairlines
+from mars2d.view.theme import Theme, mixed
 
 __all__ = ["Trails"]
 
@@ -24,7 +27,7 @@ class Trails:
     """Draws growing paths on a surface that keeps them, and their loose ends on another.
 
     style: the wake style. colors: one a robot, with opacity. width: points. The opacity is worked
-    into the colour, as over white, since strokes that are drawn piece by piece would overlap.
+    into the colour, as over paper, since strokes that are drawn piece by piece would overlap.
     """
 
     def __init__(
@@ -33,7 +36,7 @@ class Trails:
         """Start with no path drawn."""
         self.painter, self.camera, self.width = painter, camera, width
         self.marker, self.line = split_wake_style(style)
-        self.colors = [_over_white(color) for color in colors]
+        self.colors = [_on_paper(color, painter.theme) for color in colors]
         self.inks = [rgba(color)[:3] for color in self.colors]
         self.drawn = 0
         self.first: Float | None = None
@@ -48,6 +51,13 @@ class Trails:
             and np.array_equal(path[0, :2], self.first)
             and np.array_equal(path[self.drawn - 1, :2], self.last)
         )
+
+    def copy(self) -> Trails:
+        """Return one that has drawn the same, and goes on by itself."""
+        other = copy(self)
+        if self.first is not None:
+            other.pen, other.pen_along = self.pen.copy(), self.pen_along.copy()
+        return other
 
     def prolong(self, surface: pygame.Surface, path: Float) -> None:
         """Draw what a path (k, 3, n) has more than before."""
@@ -83,16 +93,21 @@ class Trails:
                 self._mark(surface, new[marked[:, i], i], i)
         self.tip, self.tip_along = new[-1].copy(), along[-1].copy()
 
-    def loose_ends(self, surface: pygame.Surface, position: Float) -> None:
-        """Draw from where each path was last drawn to where its robot is, (2, n) metres."""
+    def loose_ends(
+        self, surface: pygame.Surface, position: Float, shift: tuple[int, int] = (0, 0)
+    ) -> None:
+        """Draw from where each path was last drawn to where its robot is, (2, n) metres.
+
+        shift: how far the surface that keeps the paths lies off this one, pixels.
+        """
         if self.first is None or not self.line:
             return
-        here = self._pixels(position[None])[0]
+        here, pen = self._pixels(position[None])[0] + shift, self.pen + shift
         if self.line == "-":
-            self._segments(surface, np.arange(len(here)), self.pen, here)
+            self._segments(surface, np.arange(len(here)), pen, here)
             return
         for i in range(len(here)):
-            points = np.array([self.pen[i], here[i]])
+            points = np.array([pen[i], here[i]])
             self._stroke(surface, points, float(self.pen_along[i]), i)
 
     def _pixels(self, positions: Float) -> Float:
@@ -136,7 +151,6 @@ class Trails:
                 pygame.draw.aaline(surface, ink, start, end)
 
 
-def _over_white(color: str) -> str:
-    red, green, blue, alpha = rgba(color)
-    mixed = [round(255 - (255 - c) * alpha / 255) for c in (red, green, blue)]
-    return "#" + "".join(f"{c:02x}" for c in mixed)
+def _on_paper(color: str, theme: Theme) -> str:
+    """Return how a colour with opacity looks on the theme's paper."""
+    return mixed(theme.shade(color), theme.paper, rgba(color)[3] / 255)

@@ -1,15 +1,15 @@
-"""From where the picture is seen: fitted to the workspace, moved and zoomed by a person, following."""
+"""From where the picture is seen: fitted to the workspace, moved by a person, or following."""
 
 from __future__ import annotations
 
 import time
-from typing import Any
 
 import pygame
 
 from mars2d.frame import Frame
 from mars2d.scenario import Scenario
 from mars2d.view.camera import Camera
+from mars2d.view.follow import Follow
 from mars2d.view.layout import Layout, fitted
 
 __all__ = ["Viewpoint", "wheel_notches"]
@@ -30,7 +30,7 @@ class Viewpoint:
     def __init__(self, scenario: Scenario, layout: Layout) -> None:
         """Start with the whole workspace in view."""
         self.layout = layout
-        self.following: Any = None
+        self.following: Follow | None = None
         self._scenario = scenario
         self._fits = True
         self._hurry = 0.0
@@ -71,8 +71,6 @@ class Viewpoint:
 
     def follow(self, body: int | None) -> None:
         """Follow a body, or all robots; if something is followed, nothing any more."""
-        from mars2d.view.follow import Follow
-
         self.following = Follow(body) if self.following is None else None
 
     def step(self, frame: Frame, seconds: float) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 from math import inf
 
 import numpy as np
@@ -19,8 +20,13 @@ from mars2d.timeline import Timeline
 from mars2d.view import keys
 from mars2d.view.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.view.camera import Camera
+from mars2d.view.desktop import desktop_scale, opening_size
+from mars2d.view.director import Director
 from mars2d.view.display import NO_DISPLAY, open_display
+from mars2d.view.editor import Editor
+from mars2d.view.hand import Hand
 from mars2d.view.help import draw_help
+from mars2d.view.keeper import Keeper
 from mars2d.view.layers import Layers
 from mars2d.view.layout import TEXT_SIZES, Layout
 from mars2d.view.notes import Notes, Progress, draw_progress
@@ -28,6 +34,7 @@ from mars2d.view.painter import Painter
 from mars2d.view.panel import Panel
 from mars2d.view.picture import summary
 from mars2d.view.player import SPEEDS, Player
+from mars2d.view.preferences import Preferences
 from mars2d.view.selection import body_at, next_body, selection_mark, sensed_by
 from mars2d.view.slider import SpeedSlider
 from mars2d.view.source import Source
@@ -35,9 +42,8 @@ from mars2d.view.stage import Stage
 from mars2d.view.theme import DARK, LIGHT
 from mars2d.view.timebar import TimeBar, TimeState
 from mars2d.view.viewpoint import Viewpoint, wheel_notches
-from mars2d.world import World
 
-__all__ = ["Preferences", "Window"]
+__all__ = ["Window"]
 
 PICTURES_A_SECOND = 60
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
@@ -53,14 +59,11 @@ MOST_STEPS = 1_000_000
 """A number that is typed is no larger."""
 IDLE = 0.004
 """The time of a picture that is left for other things, seconds."""
-
-
-@dataclass(frozen=True, slots=True)
-class Preferences:
-    """How a person likes the window: dark: for a dark room; text: a factor on text and lines."""
-
-    dark: bool = False
-    text: float = 1.0
+LAYERS = (
+    "grid", "trails", "sensors", "messages", "forces", "theory", "addons", "names", "velocities",
+)  # fmt: skip
+"""The layers that have a key each of the same name."""
+BUTTONS = (pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT)
 
 
 class Window:
@@ -85,9 +88,12 @@ class Window:
         self.layers = Layers.of(source.scenario.animation)
         self.help: int | None = None  # the page of help that is open
         self.selected: int | None = None  # an index of Scenario.bodies
-        self.text = preferences.text
+        self.text, self.scale = preferences.text, 1.0
         self.notes = Notes()
-        self._timeline = source if isinstance(source, Timeline) else None
+        self.director = Director(self.player, self.notes, self._show_way_back)
+        self.hand = Hand(self.director.change, partial(self.notes.say, kind="warning"))
+        self.keeper = Keeper(self.notes, _stem(source))
+        self.editor: Editor | None = None
         self._way_back: Progress | None = None
         self._number = 0  # typed before a key
         self._open = False
@@ -110,16 +116,18 @@ class Window:
             "faster": self.player.faster,
             "slower": self.player.slower,
             "restart": self.player.restart,
-            "branch": self._other_branch,
-            **{
-                layer: lambda layer=layer: self._toggle(layer)  # type: ignore[misc]
-                for layer in ("grid", "trails", "sensors", "messages", "forces", "theory")
-            },
+            "branch": self.director.other_branch,
+            **{layer: partial(self._toggle, layer) for layer in LAYERS},
             "select": self._select_next,
             "follow": lambda: self.viewpoint.follow(self.selected),
             "fit": self.viewpoint.fit,
             "dark": self._change_theme,
             "text": self._change_text,
+            "drive": self._drive_or_not,
+            "edit": self._open_editor,
+            "picture": self._keep_picture,
+            "film": self.keeper.film_or_not,
+            "python": self._keep_python,
             "help": self._turn_help,
             "leave": self._leave,
         }
@@ -142,9 +150,11 @@ class Window:
         ours = not pygame.display.get_init()
         open_display()
         try:
+            self.scale = desktop_scale()
             screen = self._show()
             self._loop(screen)
         finally:
+            self.keeper.close()
             if ours:
                 pygame.display.quit()
         if self.player.error is not None:
@@ -154,7 +164,8 @@ class Window:
         pygame.display.set_caption(self.title)
         pygame.display.set_icon(_icon(self._painter))
         try:
-            screen = pygame.display.set_mode(self.size, pygame.RESIZABLE)
+            size = opening_size(self.size, self.scale)
+            screen = pygame.display.set_mode(size, pygame.RESIZABLE)
         except pygame.error as error:
             raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
         pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
@@ -168,41 +179,55 @@ class Window:
             for event in pygame.event.get():
                 self._handle(event)
             now = time.perf_counter()
-            self.player.pass_time(now - last)
-            self.viewpoint.step(self.player.frame, now - last)
+            self._pass_time(now - last)
             last = now
             start = time.perf_counter()
             screen = pygame.display.get_surface() or screen
             self.draw(screen)
+            self.keeper.film(screen, self.layout.plot, self._painter)
             pygame.display.flip()
             self.player.drawing = time.perf_counter() - start
             self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - IDLE)
             if self.player.speed < inf or not self.player.playing:
                 clock.tick(PICTURES_A_SECOND)
 
+    def _pass_time(self, seconds: float) -> None:
+        """Let time go on by seconds of the wall clock."""
+        if self.editor is not None:
+            return
+        self.director.steer(seconds)
+        self.hand.tick(self.player.frame, self.camera, self.player.playing)
+        self.player.pass_time(seconds)
+        self.viewpoint.step(self.player.frame, seconds)
+
     def _use_rest(self, seconds: float) -> None:
         """Use the time that is left of a picture to prepare for going back."""
-        if self._timeline is not None and seconds > 0:
-            self._timeline.idle(seconds)
+        if self.director.timeline is not None and seconds > 0:
+            self.director.timeline.idle(seconds)
 
     # -- drawing --------------------------------------------------------------------------------
 
     def draw(self, surface: pygame.Surface) -> None:
         """Draw everything on a surface; the layout follows its size."""
+        if self.editor is not None:
+            self.editor.draw(surface)
+            return
         try:
             self._draw(surface)
         except Mars2dError as error:  # of what a user's add-on or sensor draws
             self.player.fail(error)
             self._draw(surface)
 
-    def _draw(self, surface: pygame.Surface) -> None:
+    def _draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
         banner = self._banner()
-        frame = self.player.frame
+        frame = self.hand.shown(self.player.frame)
         self._painter.ui = self.layout.ui
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui = layout.ui
         self.viewpoint.arrange(layout, frame.scenario)
-        marks = [] if self.selected is None else selection_mark(frame, self.selected).shapes
+        marks = self.hand.marks(frame, self.camera)
+        if self.selected is not None:
+            marks = [*selection_mark(frame, self.selected).shapes, *marks]
         self._stage.draw(
             surface,
             sensed_by(frame, self.selected),
@@ -215,14 +240,13 @@ class Window:
         place = self._panel_place(frame)
         if place is not None and self.selected is not None:
             self._panel.draw(surface, place, frame, self.selected)
-        self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
+        if notes:
+            self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
         if self.help is not None:
-            pages = draw_help(
-                surface, layout, self._painter, keys.GROUPS.items(), self.help
-            )
+            pages = draw_help(surface, layout, self._painter, keys.GROUPS.items(), self.help)
             self.help = min(self.help, pages - 1)
             self._pages = pages
 
@@ -245,12 +269,15 @@ class Window:
     def _status(self) -> Status:
         if self._number:
             return Status(f"{self._number} ...", "waiting")
-        return Status(*self.player.status())
+        text, kind = self.player.status()
+        if self.director.driver.robot is not None and kind in ("running", "waiting"):
+            return Status(f"{text}  {self.director.driver.status}", "hand")
+        return Status(text, kind)
 
     def _time_state(self) -> TimeState:
         source = self.player.source
         last = source.scenario.last_iteration
-        if self._timeline is None:  # a recording goes no further
+        if self.director.timeline is None:  # a recording goes no further
             last = source.newest
         return TimeState(source.row, source.newest, last, source.scenario.sampling_time)
 
@@ -265,7 +292,8 @@ class Window:
     def _banner(self) -> Banner | None:
         error = self.player.error
         if self.player.failed and error is not None:
-            path = None if self._timeline is None else self._timeline.experiment.path
+            timeline = self.director.timeline
+            path = None if timeline is None else timeline.experiment.path
             hint = "← looks back   R restarts   Esc leaves"
             return Banner(str(error), hint, error=True, excerpt=excerpt_of(error, path))
         if not self.player.over:
@@ -275,28 +303,37 @@ class Window:
 
     def _layout(self, size: tuple[int, int], banner: Banner | None) -> Layout:
         """Return where everything lies on a surface of this size."""
-        height = footer_height(banner, size, self._painter, self.text)
-        return Layout.of(size, height, text=self.text, timebar=True)
+        text, scale = self.text, self.scale
+        height = footer_height(banner, size, self._painter, text, scale)
+        return Layout.of(size, height, text=text, scale=scale, timebar=True)
 
     # -- events ---------------------------------------------------------------------------------
 
     def _handle(self, event: pygame.Event) -> None:
         if event.type == pygame.QUIT:
             self._open = False
+        elif self.editor is not None:
+            self.editor.handle(event)
+            if self.editor.done:
+                self._close_editor(self.editor)
+        elif self.director.driver.handle(event):
+            pass
         elif event.type == pygame.KEYDOWN:
             self._press(event.key, event.unicode)
         elif event.type == pygame.KEYUP:
             self._held.discard(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
+        elif event.type == pygame.WINDOWLEAVE:
+            self.hand.leave()
         elif event.type == pygame.MOUSEWHEEL:
             self.viewpoint.zoom(wheel_notches(event), pygame.mouse.get_pos())
         elif event.type == pygame.MOUSEMOTION:
             self._drag(event)
-        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            self._grasp(event.pos)
-        elif event.type == pygame.MOUSEBUTTONUP and event.button == pygame.BUTTON_LEFT:
-            self._release(event.pos)
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button in BUTTONS:
+            self._grasp(event.pos, event.button)
+        elif event.type == pygame.MOUSEBUTTONUP and event.button in BUTTONS:
+            self._release(event.pos, event.button)
 
     def _press(self, code: int, character: str) -> None:
         if character.isdigit() and character.isascii():
@@ -315,28 +352,45 @@ class Window:
         number, self._number = self._number, 0
         return number or otherwise
 
-    def _grasp(self, pixel: tuple[int, int]) -> None:
+    def _grasp(self, pixel: tuple[int, int], button: int) -> None:
         """Take hold of what lies at a pixel."""
-        self._pressed = pixel
-        if self._time_bar.hit(pixel):
-            self._grasped = self._scrub
-        elif self._slider.hit(pixel):
-            self._grasped = self._choose_speed
+        frame, running = self.player.frame, self.player.playing
+        if button == pygame.BUTTON_LEFT:
+            self._pressed = pixel
+            if self._time_bar.hit(pixel):
+                self._grasped = self._scrub
+            elif self._slider.hit(pixel):
+                self._grasped = self._choose_speed
         if self._grasped is not None:
             self._grasped(pixel)
+        elif self._is_picture(pixel):
+            self.hand.press(frame, self.camera, pixel, button, pygame.key.get_mods(), running)
 
     def _drag(self, event: pygame.Event) -> None:
         if self._grasped is not None:
             self._grasped(event.pos)
-        elif any(event.buttons):
+        elif any(event.buttons) and not self.hand.busy:
             self.viewpoint.pan(*event.rel)
+        elif self.hand.busy or self._is_picture(event.pos):
+            self.hand.move(self.player.frame, self.camera, event.pos, self.player.playing)
+        else:
+            self.hand.leave()
 
-    def _release(self, pixel: tuple[int, int]) -> None:
+    def _release(self, pixel: tuple[int, int], button: int) -> None:
         """Let go; what was pressed and not dragged is clicked."""
+        done = self.hand.busy and self.hand.release(
+            self.player.frame, self.camera, pixel, self.player.playing
+        )
         near = self._pressed is not None and math.dist(self._pressed, pixel) < CLICK
-        if near and self._grasped is None:
+        if near and not done and self._grasped is None and button == pygame.BUTTON_LEFT:
             self._click(pixel)
         self._pressed = self._grasped = None
+
+    def _is_picture(self, pixel: tuple[int, int]) -> bool:
+        """Return whether at a pixel there is the picture, and nothing over it."""
+        place = self._panel_place(self.player.frame)
+        over = place is not None and place.collidepoint(pixel)
+        return self.help is None and not over and self.layout.plot.collidepoint(pixel)
 
     def _scrub(self, pixel: tuple[int, int]) -> None:
         """Look at the time at a pixel of the time bar."""
@@ -352,11 +406,9 @@ class Window:
 
     def _click(self, pixel: tuple[int, int]) -> None:
         """Select what lies at a pixel of the picture, or nothing."""
-        frame = self.player.frame
-        place = self._panel_place(frame)
-        beside = not self.layout.plot.collidepoint(pixel)
-        if self.help is not None or beside or (place is not None and place.collidepoint(pixel)):
+        if not self._is_picture(pixel):
             return
+        frame = self.player.frame
         ((x, y),) = self.camera.to_world([pixel]).tolist()
         self.selected = body_at(frame, (x, y), CLICK * self.layout.ui / self.camera.scale)
 
@@ -383,59 +435,83 @@ class Window:
         self.help = page if page == 0 or page < self._pages else None
 
     def _leave(self) -> None:
-        """Close the page of help if it is open, else select none, else close the window."""
+        """Close the help, let go of what is held, select none, or close the window."""
         if self.help is not None:
             self.help = None
+        elif self.hand.busy:
+            self.hand.cancel()
+        elif self.director.driver.robot is not None:
+            self.director.let_go()
         elif self.selected is not None:
             self.selected = None
         else:
             self._open = False
 
-    # -- what changes the run -------------------------------------------------------------------
+    # -- what is kept, and what changes the run ---------------------------------------------------
 
-    def _other_branch(self) -> None:
-        if self._timeline is None or not self._timeline.branches:
-            self.notes.say("there is no other branch: change something in the past to make one")
-            return
-        self._timeline.other_branch()
-        self.player.error = None
-        self.player.settle()
+    def _keep_picture(self) -> None:
+        """Save what is seen, without the notes over it."""
+        surface = pygame.Surface((self.layout.header.width, self.layout.footer.bottom), 0, 32)
+        self._draw(surface, notes=False)
+        self.keeper.picture(surface)
 
-    def change(self, act: Callable[[World], None]) -> bool:
-        """Do something to the world at the instant that is seen; return whether that was done.
+    def _keep_python(self) -> None:
+        """Save the scenario as it is seen as a Python file."""
+        timeline = self.director.timeline
+        self.keeper.python(
+            self.director.scenario, None if timeline is None else timeline.world.control
+        )
 
-        Where that is in the past, the run goes on from there as a branch of its own.
-        """
-        if self._timeline is None:
-            self.notes.say("this is a recording: it can't be changed", "warning")
-            return False
-        try:
-            world = self._timeline.branch(self._show_way_back)
-            self.player.error = None
-            act(world)
-        except InputError as error:
-            self.notes.say(str(error), "error")
-            return False
-        finally:
-            self._way_back = None
-            self.player.settle()
-        return True
+    def _drive_or_not(self) -> None:
+        """Drive the selected robot by hand, the first one if none is selected; or let it go."""
+        scenario = self.player.source.scenario
+        if self.director.driver.robot is not None:
+            self.director.let_go()
+        elif self.selected is not None and self.selected >= len(scenario.robots):
+            self.notes.say(f"{scenario.bodies[self.selected].name} has no drive", "warning")
+        else:
+            self.selected = self.selected or 0
+            self.director.drive(self.selected)
+
+    def wait_for(self, robot: int) -> None:
+        """Let a robot be driven by hand, and wait for the person to start."""
+        self.player.pause()
+        self.director.drive(robot)
+        name = self.player.source.scenario.robots[robot].name
+        self.notes.clear()
+        self.notes.say(f"Space starts; arrow keys or WASD drive {name}")
+
+    def _open_editor(self) -> None:
+        """Draw on what is seen."""
+        self.editor = self.director.editor(self._painter)
+        if self.editor is not None:
+            self.editor.text, self.editor.scale = self.text, self.scale
+
+    def _close_editor(self, editor: Editor) -> None:
+        """Go on with what was drawn, if it is to be."""
+        self.editor = None
+        self._held.clear()
+        if editor.outcome is not None:
+            self.director.apply(editor.outcome)
 
     def _show_way_back(self, share: float) -> bool:
         """Draw how far going back has got; return whether to go on: until Esc."""
         self._way_back = Progress(f"Going back to {self.player.frame.time:.1f} s", share)
         surface = pygame.display.get_surface()
-        if surface is None:
-            return True
-        self.draw(surface)
-        pygame.display.flip()
-        for event in pygame.event.get((pygame.QUIT, pygame.KEYDOWN)):
-            if event.type == pygame.QUIT:
-                self._open = False
-                return False
-            if event.key == pygame.K_ESCAPE:
-                return False
-        return True
+        if surface is not None:
+            self.draw(surface)
+            pygame.display.flip()
+        self._way_back = None
+        leaving = pygame.event.get(pygame.QUIT)
+        self._open = self._open and not leaving
+        keys_down = pygame.event.get(pygame.KEYDOWN)
+        return not leaving and all(event.key != pygame.K_ESCAPE for event in keys_down)
+
+
+def _stem(source: Source) -> str:
+    """Return what files are called that are kept of a source, without a number."""
+    path = source.experiment.path if isinstance(source, Timeline) else None
+    return source.scenario.title if path is None else path.stem
 
 
 def _icon(painter: Painter) -> pygame.Surface:

@@ -53,7 +53,7 @@ class Circling:
         self.scenario = scenario or circling_scenario(rows=rows)
         self.rows, self.message, self.fails_at = rows, message, fails_at
         self.pressed, self.talking = pressed, talking
-        self.row = self.restarts = 0
+        self.row = self.restarts = self.reached = 0
         angle = 0.5 * self.scenario.sampling_time * np.arange(rows + 1)[:, None]
         radius = np.array([robot.pose[0] for robot in self.scenario.robots])
         heading = angle + np.pi / 2 + 0 * radius
@@ -103,7 +103,16 @@ class Circling:
         if self.row == self.fails_at:
             raise LawError("the law of robot0 returned nan")
         self.row = min(self.row + 1, self.rows)
+        self.reached = max(self.reached, self.row)
+
+    @property
+    def newest(self):
+        return self.reached
+
+    def go(self, row):
+        self.row = min(max(row, 0), self.reached)
 
     def restart(self):
+        self.reached = 0
         self.row = 0
         self.restarts += 1

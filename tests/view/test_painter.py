@@ -203,7 +203,7 @@ def test_a_picture_shows_the_robots_where_they_are():
     now = frame()
     artist = Artist()
     surface = artist.paint(now)
-    from mars2d.view.bars import fitted
+    from mars2d.view.layout import fitted
 
     camera = fitted(now.scenario, (1280, 720), artist.layout)
     behind = now.pose[:2] - 0.15 * np.array([np.cos(now.pose[2]), np.sin(now.pose[2])])

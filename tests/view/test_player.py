@@ -58,7 +58,7 @@ def test_a_pause_shows_the_present_frame_and_lasts():
     p = player(1.0, scenario=circling_scenario(sampling_time=1.0))
     play(p, 1.5)
     p.pause_or_resume()
-    assert p.status() == ("paused", True)
+    assert p.status() == ("paused", "waiting")
     assert p.frame.time == 2.0
     play(p, 1.0)
     assert p.frame.time == 2.0
@@ -72,7 +72,7 @@ def test_a_step_is_one_sampling_time_and_pauses():
     p.step()
     p.step()
     assert p.source.row == 2
-    assert p.status() == ("paused", True)
+    assert p.status() == ("paused", "waiting")
     play(p, 1.0)
     assert p.source.row == 2
 
@@ -81,11 +81,11 @@ def test_manual_mode_goes_by_steps_only():
     p = player(0)
     play(p, 1.0)
     assert p.source.row == 0
-    assert p.status() == ("manual", True)
+    assert p.status() == ("manual", "waiting")
     p.step()
     p.pause_or_resume()
     assert p.source.row == 2
-    assert p.status() == ("manual", True)
+    assert p.status() == ("manual", "waiting")
     p.faster()
     assert p.speed == SPEEDS[0]
     assert p.playing
@@ -125,8 +125,8 @@ def test_a_simulation_that_is_too_slow_does_not_pile_up_a_debt():
         clock.now += 1 / 60
     assert p.source.row == 60
     assert p.frame.time == pytest.approx(6.0)
-    text, waiting = p.status()
-    assert not waiting
+    text, kind = p.status()
+    assert kind == "running"
     assert text.startswith("100x  reaches ")
     assert 1 < float(text.split()[-1].removesuffix("x")) < 20
 
@@ -146,7 +146,7 @@ def test_over_is_told_once_the_last_frame_is_shown():
     play(p, 0.1)
     assert p.over
     assert p.frame.over_message == "the circle is closed"
-    assert p.status() == ("over", True)
+    assert p.status() == ("over", "waiting")
     p.step()
     assert p.source.row == 3
 
@@ -167,7 +167,7 @@ def test_a_law_that_fails_stops_time_and_is_kept(speed):
         p.step() if speed == 0 else play(p, 0.5)
     assert isinstance(p.error, LawError)
     assert p.over
-    assert p.status() == ("stopped", True)
+    assert p.status() == ("stopped", "error")
     assert p.frame.iteration == 2
     p.restart()
     assert p.error is None
@@ -252,11 +252,78 @@ def test_what_keys_do(name, character, action):
     assert (key and key.action) == action
 
 
+def test_so_many_steps_are_done_as_pictures_allow_and_then_it_is_paused():
+    p = player(1.0, clock=Clock(tick=0.004), rows=100)
+    p.step(40)
+    assert 0 < p.source.row < 40  # a picture waits for no more than its budget
+    assert p.status()[0].endswith("steps")
+    play(p, 1.0)
+    assert p.source.row == 40
+    assert p.status() == ("paused", "waiting")
+    assert p.frame.time == pytest.approx(4.0)
+
+
+def test_steps_end_where_the_experiment_does_and_a_pause_forgets_them():
+    p = player(1.0, rows=5)
+    p.step(40)
+    assert p.status() == ("over", "waiting")
+    p = player(1.0, clock=Clock(tick=0.02), rows=50)
+    p.step(40)
+    p.pause()
+    row = p.source.row
+    play(p, 1.0)
+    assert p.source.row == row
+
+
+def test_one_can_go_back_and_on_again_through_what_was_run():
+    p = player(1.0, rows=50)
+    p.step(20)
+    p.back()
+    assert (p.source.row, p.past, p.frame.iteration) == (19, True, 19)
+    assert p.status() == ("past  0.1 s ago", "past")
+    p.back(100)
+    assert p.source.row == 0
+    p.step(15)
+    assert (p.source.row, p.source.newest) == (15, 20)
+    p.pause_or_resume()
+    play(p, 1.0)
+    assert p.source.newest > 20  # it has gone on beyond what was run before
+    assert not p.past
+
+
+def test_the_past_of_a_law_that_failed_can_be_looked_at():
+    p = player(1.0, fails_at=5)
+    p.step(10)
+    assert p.failed
+    assert p.over
+    p.go(2)
+    assert not p.failed
+    assert not p.over
+    assert p.error is not None
+    p.step(10)
+    assert p.failed
+
+
+def test_at_speed_max_the_simulation_gets_nine_times_as_long_as_the_drawing():
+    p = player("max", clock=Clock(tick=0.001), rows=1000)
+    p.pass_time(0.016)
+    quick = p.source.row
+    p.drawing = 0.01
+    p.pass_time(0.016)
+    assert p.source.row - quick > 4 * quick
+
+
+def test_another_speed_can_be_set():
+    p = player(1.0)
+    p.set_speed(float("inf"))
+    assert p.status()[0] == "max"
+
+
 @pytest.mark.parametrize(
     ("name", "action"),
     [
         ("space", "step"), ("return", "step"), ("right", "step"), ("a", "step"), ("up", "step"),
-        ("g", "grid"), ("m", "messages"), ("c", "forces"), ("y", "theory"), ("tab", "select"),
+        ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"), ("tab", "select"),
         ("escape", "leave"),
         ("left shift", None), ("left ctrl", None),
     ],

@@ -1,0 +1,74 @@
+"""Text in brackets that is wrapped to a width: what a listing in Python and a TOML file share."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import NamedTuple
+
+__all__ = ["INDENT", "WIDTH", "Brackets", "Node", "laid_out", "quoted"]
+
+WIDTH = 100
+"""Columns of a line."""
+
+INDENT = 4
+
+
+class Brackets(NamedTuple):
+    """A bracketed list: ``[1, 2]``, ``{a = 1}``, ``Robot(pose=(0.0, 0.0, 0.0))``.
+
+    opening: the bracket and what stands before it. filled: where it is broken, lines take as many
+    items as fit, else one.
+    """
+
+    opening: str
+    items: Sequence[Node]
+    closing: str
+    filled: bool = False
+
+
+Node = str | Brackets
+
+
+def laid_out(node: Node, indent: int = 0, width: int = WIDTH) -> str:
+    """Return a node as text: on one line if it fits, else broken after its opening bracket.
+
+    indent: columns in front of its first line, and of its last. A line may be longer where a single
+    item is.
+
+    >>> print(laid_out(Brackets("[", ["1.0", "2.0", "3.0"], "]", filled=True), width=14))
+    [
+        1.0, 2.0,
+        3.0,
+    ]
+    """
+    flat = _flat(node)
+    if isinstance(node, str) or indent + len(flat) < width:  # a comma may follow
+        return flat
+    lines: list[str] = []
+    inside = indent + INDENT
+    room = 0  # in the last line
+    for item in node.items:
+        text = laid_out(item, inside, width) + ","
+        if node.filled and "\n" not in text and len(text) < room:
+            lines[-1] += " " + text
+            room -= len(text) + 1
+        else:
+            lines.append(" " * inside + text)
+            room = 0 if "\n" in text else width - inside - len(text)
+    return "\n".join([node.opening, *lines, " " * indent + node.closing])
+
+
+def _flat(node: Node) -> str:
+    if isinstance(node, str):
+        return node
+    return node.opening + ", ".join(map(_flat, node.items)) + node.closing
+
+
+def quoted(text: str) -> str:
+    r"""Return text in double quotes, as both Python and TOML read it.
+
+    >>> print(quoted('a "wall"\n'))
+    "a \"wall\"\n"
+    """
+    return json.dumps(str(text), ensure_ascii=False).replace("\x7f", r"\u007f")

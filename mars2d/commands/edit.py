@@ -1,0 +1,62 @@
+"""The verb ``edit``."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from mars2d.commands.base import add_preferences, has_display, preferences_of
+from mars2d.errors import InputError
+from mars2d.files import Experiment, examples, open_experiment
+from mars2d.options import parse_setting
+from mars2d.scenario import Scenario
+
+NAME = "edit"
+
+NO_DISPLAY = (
+    "there is no display to draw on; a scenario file is text, and any text editor will do: "
+    "see docs/scenario_files.md"
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    add = parser.add_argument
+    add("scenario", metavar="SCENARIO", nargs="?", help="a .toml or .py file, or an example")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", help="override a field")
+    add_preferences(parser)
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Draw a scenario with the mouse, a new one or that of a file, and save it as a file."""
+    options = dict(parse_setting(setting) for setting in arguments.set)
+    path = None if arguments.scenario is None else Path(arguments.scenario)
+    new = path is None or (path.suffix.lower() == ".toml" and not path.exists())
+    if new and path is not None and not path.parent.is_dir():
+        raise InputError(f"{path}: there is no folder {path.parent}")
+    experiment = open_experiment(Scenario() if new else arguments.scenario, options)
+    if not has_display():
+        raise InputError(NO_DISPLAY)
+    from mars2d.view.editor import Editor, EditorWindow
+    from mars2d.view.painter import Painter
+
+    robots_wanted = any(name.partition(".")[0] == "robots" for name in options)
+    editor = Editor(
+        experiment.scenario,
+        Painter(),
+        path=path if new else _kept_in(arguments.scenario, experiment),
+        control=experiment.control,
+        empty=new and not robots_wanted,
+        changed=bool(options),
+    )
+    EditorWindow(editor, preferences=preferences_of(arguments)).run()
+
+
+def _kept_in(source: str, experiment: Experiment) -> Path:
+    """Return where a drawing is kept: a scenario file itself, else beside an experiment.
+
+    What a shipped example becomes is kept in the current folder.
+    """
+    if not Path(source).is_file() and source in examples():
+        return Path(f"{source}.toml")
+    return Path(source) if experiment.path is None else experiment.path

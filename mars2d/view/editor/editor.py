@@ -1,0 +1,625 @@
+"""The editor: draw a scenario with the mouse, on any surface."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from math import degrees, hypot, radians
+from pathlib import Path
+from typing import Any, Literal
+
+import pygame
+
+from mars2d.changes import check_same
+from mars2d.errors import InputError, Mars2dError, counted
+from mars2d.geometry import Point, edges_of
+from mars2d.names import names
+from mars2d.scenario import Scenario
+from mars2d.scene import Scene
+from mars2d.view.camera import Camera
+from mars2d.view.editor.boundary import Boundary
+from mars2d.view.editor.chrome import Button, Header, draw_footer, draw_plate, draw_prompt
+from mars2d.view.editor.desk import Desk
+from mars2d.view.editor.document import Document
+from mars2d.view.editor.draft import Draft, Motion
+from mars2d.view.editor.keys import action_of, chord, groups
+from mars2d.view.editor.marks import draw_culprits, draw_selected
+from mars2d.view.editor.outlining import DrawPolygon, DrawRectangle, DrawWall
+from mars2d.view.editor.placing import (
+    PlaceBall,
+    PlaceBeacon,
+    PlaceBox,
+    PlaceRobot,
+    PlaceWaypoint,
+)
+from mars2d.view.editor.prompt import Prompt
+from mars2d.view.editor.select import Select
+from mars2d.view.editor.sketch import Sketch
+from mars2d.view.editor.tool import Tool, minus
+from mars2d.view.editor.toolbar import WIDTH, Toolbar
+from mars2d.view.editor.verdict import Verdict, judge
+from mars2d.view.help import draw_help
+from mars2d.view.layers import Layers
+from mars2d.view.layout import TEXT_SIZES, Layout, fitted
+from mars2d.view.painter import Painter
+from mars2d.view.stage import Stage
+from mars2d.view.theme import DARK, LIGHT
+
+__all__ = ["Editor", "Outcome"]
+
+TOOLS: dict[str, type[Tool]] = {
+    "select": Select,
+    "robot": PlaceRobot,
+    "box": PlaceBox,
+    "ball": PlaceBall,
+    "wall": DrawWall,
+    "polygon": DrawPolygon,
+    "rectangle": DrawRectangle,
+    "waypoint": PlaceWaypoint,
+    "beacon": PlaceBeacon,
+    "workspace": Boundary,
+}
+NUDGES = {"left": (-1, 0), "right": (1, 0), "up": (0, 1), "down": (0, -1)}
+WHEEL_FACTOR = 1.15
+DEEPEST, WIDEST = 400.0, 0.02
+"""How far one can zoom in and out, times the scale at which the workspace fits."""
+PATIENCE = 0.1
+"""During a drag a draft is checked no sooner than this after the last time, seconds."""
+SHARE = 8.0
+"""Nor sooner than after so many times as long as that took."""
+LAYERS = Layers(trails=False, sensors=False, messages=False)
+FEW = 40
+"""The names of so many robots and props are shown, unless a person wants others, too."""
+REST = 0.12
+"""The camera moves until it has rested for so many seconds."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What was drawn in a paused run, and whether it goes on from now or from the start."""
+
+    scenario: Scenario
+    when: Literal["now", "start"]
+
+
+class Editor:
+    """Draws a scenario: takes events, draws itself, and at the end has saved or has an outcome.
+
+    path: the file that it is kept in; one that is no .toml only lends its name. live: opened from a
+    paused run, which can go on with the outcome. control: the team's law, for the file. empty:
+    start without robots. changed: the scenario is not as it is in the file. text, scale: as for
+    `Layout.of`.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        painter: Painter,
+        *,
+        path: Path | None = None,
+        live: bool = False,
+        control: Callable[[Any], Any] | None = None,
+        empty: bool = False,
+        changed: bool = False,
+    ) -> None:
+        """Open a scenario; nothing is drawn yet."""
+        self.painter, self.live = painter, live
+        self.text = self.scale = 1.0
+        self.done = False
+        self.outcome: Outcome | None = None
+        self.to_run: Path | None = None
+        self.help = False
+        self.prompt: Prompt | None = None
+        self.document = Document(path, control)
+        self._page = 0
+        self._before = scenario
+        self.layout = self._laid_out((1280, 720))
+        draft = Draft.empty(scenario) if empty else Draft.of(scenario)
+        self.desk = Desk(draft, Camera(1.0, 0.0, 0.0))
+        if changed:
+            self.desk.history.lose()
+        self.verdict = judge(draft)
+        self._judged, self._judged_at, self._cost = draft, 0.0, 0.0
+        self._fits = True
+        self._stage, self._sketch = Stage(painter), Sketch()
+        self._header, self._toolbar = Header(painter), Toolbar(painter)
+        self._pointer = (-1, -1)
+        self._dragging = self._panning = self._space = False
+        self._held: set[int] = set()
+        self._names = len(draft.robots) + len(draft.props) <= FEW
+        self._hurry = 0.0
+        self._plain = False  # other add-ons than those drawn here are not shown
+        self.tool_name, self.tool = "select", TOOLS["select"](self.desk)
+        self._fit()
+        self._actions: dict[str, Callable[[], None]] = {
+            **{name: lambda name=name: self._choose(name) for name in TOOLS},  # type: ignore[misc]
+            "pose": self._ask_pose,
+            "delete": self._delete,
+            "duplicate": self._duplicate,
+            "all": self._select_all,
+            "undo": self._undo,
+            "redo": self.desk.redo,
+            "snap": self._toggle_snap,
+            "names": self._toggle_names,
+            "fit": self._fit,
+            "dark": self._toggle_dark,
+            "text": self._next_text_size,
+            "help": self._toggle_help,
+            "leave": self._leave,
+            "save": self._save,
+            "run": self._run,
+            "now": lambda: self._apply("now"),
+            "start": lambda: self._apply("start"),
+        }
+
+    @property
+    def title(self) -> str:
+        """What stands in the header."""
+        return self.desk.draft.base.title if self.live else self.document.name
+
+    # -- events ---------------------------------------------------------------------------------
+
+    def handle(self, event: pygame.Event) -> None:
+        """Take one event of pygame."""
+        if event.type == pygame.KEYDOWN:
+            self._press_key(event)
+        elif event.type == pygame.KEYUP:
+            self._held.discard(event.key)
+            if event.key == pygame.K_SPACE:
+                self._space = False
+        elif event.type == pygame.WINDOWFOCUSLOST:
+            self._held.clear()
+            self._let_go()
+        elif event.type == pygame.MOUSEWHEEL:
+            self._zoom(WHEEL_FACTOR ** getattr(event, "precise_y", event.y))
+        elif event.type == pygame.MOUSEMOTION:
+            self._move(event)
+        elif event.type == pygame.MOUSEBUTTONDOWN:
+            self._press(event)
+        elif event.type == pygame.MOUSEBUTTONUP:
+            self._release(event)
+
+    def _press_key(self, event: pygame.Event) -> None:
+        name = chord(event.key, event.mod)
+        if self.prompt is not None:
+            prompt = self.prompt
+            prompt.press(name, event.unicode)
+            if not prompt.open and self.prompt is prompt:
+                self.prompt = None
+            return
+        if event.key == pygame.K_SPACE:
+            self._space = True
+            return
+        if self._dragging and event.key == pygame.K_ESCAPE:
+            self._let_go()
+            return
+        again = event.key in self._held
+        self._held.add(event.key)
+        key = action_of(name, event.unicode, live=self.live)
+        if self._dragging or (again and not (key is not None and key.repeats)):
+            return
+        if self.help and (key is None or key.action not in ("help", "leave")):
+            self.help = False
+        if event.key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.tool.confirm():
+            return
+        if event.key == pygame.K_BACKSPACE and self.tool.back():
+            return
+        if key is None:
+            return
+        self.desk.say("")
+        if key.action == "nudge":
+            dx, dy = NUDGES[pygame.key.name(event.key)]
+            self._nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
+        else:
+            self._actions[key.action]()
+
+    def _press(self, event: pygame.Event) -> None:
+        if self.prompt is not None:
+            return
+        if self.help:
+            self.help = False
+            return
+        self._pointer = event.pos
+        if event.button == pygame.BUTTON_LEFT:
+            self._press_left(event.pos)
+        elif event.button == pygame.BUTTON_MIDDLE:
+            self._panning = True
+        elif event.button == pygame.BUTTON_RIGHT and not self.tool.confirm():
+            self.tool.cancel()
+
+    def _press_left(self, pixel: tuple[int, int]) -> None:
+        key, button = self._toolbar.at(pixel), self._header.at(pixel)
+        if key is not None or button is not None:
+            self.desk.say("")
+            self._actions[key.action if key is not None else str(button)]()
+        elif self.layout.plot.collidepoint(pixel):
+            if self._space:
+                self._panning = True
+                return
+            self.desk.say("")
+            self._dragging = True
+            self.tool.press(self._world(pixel), shift=self._shift)
+
+    def _move(self, event: pygame.Event) -> None:
+        self._pointer = event.pos
+        if self._panning:
+            self._look(self.desk.camera.panned(*event.rel))
+        elif self._dragging or self.layout.plot.collidepoint(event.pos):
+            self.tool.move(self._world(event.pos), shift=self._shift)
+        else:
+            self.tool.pointer = None
+
+    def _release(self, event: pygame.Event) -> None:
+        if self._panning and event.button in (pygame.BUTTON_LEFT, pygame.BUTTON_MIDDLE):
+            self._panning = False
+        elif self._dragging and event.button == pygame.BUTTON_LEFT:
+            self._dragging = False
+            self.tool.release(self._world(event.pos), shift=self._shift)
+
+    def _let_go(self) -> None:
+        """Put back what is being dragged."""
+        if self._dragging:
+            self.tool.cancel()
+        self._dragging = self._panning = self._space = False
+
+    def _world(self, pixel: tuple[int, int]) -> Point:
+        ((x, y),) = self.desk.camera.to_world([pixel]).tolist()
+        return x, y
+
+    @property
+    def _shift(self) -> bool:
+        return not self._held.isdisjoint((pygame.K_LSHIFT, pygame.K_RSHIFT))
+
+    # -- tools and changes ----------------------------------------------------------------------
+
+    def _choose(self, name: str) -> None:
+        self.tool.cancel()
+        self.tool_name, self.tool = name, TOOLS[name](self.desk)
+        if self.layout.plot.collidepoint(self._pointer):
+            self.tool.pointer = self._world(self._pointer)
+
+    def _delete(self) -> None:
+        desk, item = self.desk, self.desk.only
+        corners = None if item is None else desk.draft.corners(item)
+        if item is not None and corners is not None and desk.corner is not None:
+            least = 2 if item.kind == "wall" or len(corners) == 2 else 3
+            if len(corners) > least:
+                left = (*corners[: desk.corner], *corners[desk.corner + 1 :])
+                desk.corner = None
+                desk.put(desk.draft.with_corners(item, left))
+            else:
+                desk.say(f"{desk.draft.name(item)} needs {least} corners", warns=True)
+        elif desk.selection:
+            desk.put(desk.draft.without(desk.selection))
+            desk.select()
+
+    def _duplicate(self) -> None:
+        desk = self.desk
+        items = [item for item in desk.selection if item.kind != "workspace"]
+        if items:
+            step = 2 * desk.step
+            draft, copies = desk.draft.copied(items, Motion(by=(step, -step)))
+            desk.put(draft)
+            desk.select(copies)
+
+    def _select_all(self) -> None:
+        self._choose("select")
+        self.desk.select(self.desk.draft.items())
+
+    def _nudge(self, dx: int, dy: int, *, fine: bool) -> None:
+        desk = self.desk
+        step = desk.step * (0.1 if fine else 1.0)
+        moved = Motion(by=(dx * step, dy * step))
+        if desk.corner is not None and desk.only is not None:
+            corners = list(desk.draft.corners(desk.only) or ())
+            corners[desk.corner] = moved.point(corners[desk.corner])
+            desk.put(desk.draft.with_corners(desk.only, corners), tag="nudge")
+        elif desk.selection:
+            desk.put(desk.draft.moved(desk.selection, moved), tag="nudge")
+
+    def _ask_pose(self) -> None:
+        if not (self.desk.selection or self.tool.puts):
+            self.desk.say("select something first, or choose a tool that puts things", warns=True)
+            return
+        label, hint = "x y [degrees] =", "as 1.5 2 90   Enter takes it   Esc stays"
+        self.prompt = Prompt(label, hint, {"return": self._put}, field=True)
+
+    def _put(self, text: str) -> None:
+        """Put what is selected, or the next thing, at typed numbers."""
+        try:
+            x, y, *rest = map(float, text.replace(",", " ").split())
+            (angle,) = rest or (None,)
+        except ValueError:
+            raise InputError(f"{text!r}: expected x y in metres, or x y degrees") from None
+        self.tool.put(x, y, None if angle is None else radians(angle))
+
+    def _undo(self) -> None:
+        """Undo the last change, or take the last corner back of what is being drawn."""
+        if not self.tool.back():
+            self.desk.undo()
+
+    def _toggle_snap(self) -> None:
+        self.desk.snaps = not self.desk.snaps
+
+    def _toggle_names(self) -> None:
+        self._names = not self._names
+
+    def _toggle_dark(self) -> None:
+        self.painter.theme = LIGHT if self.painter.theme.dark else DARK
+
+    def _next_text_size(self) -> None:
+        larger = (size for size in TEXT_SIZES if size > self.text)
+        self.text = next(larger, TEXT_SIZES[0])
+
+    def _toggle_help(self) -> None:
+        if self.help and self._page + 1 < self._pages:
+            self._page += 1
+        else:
+            self.help, self._page = not self.help, 0
+
+    _pages = 1
+
+    # -- looking --------------------------------------------------------------------------------
+
+    def _zoom(self, factor: float) -> None:
+        fit, camera = self._fitted().scale, self.desk.camera
+        wanted = min(max(camera.scale * factor, WIDEST * fit), DEEPEST * fit)
+        pixel = self._pointer if self._pointer[0] >= 0 else self.layout.plot.center
+        self._look(camera.zoomed(pixel, wanted / camera.scale))
+
+    def _look(self, camera: Camera) -> None:
+        self._fits = False
+        self._hurry = time.perf_counter() + REST
+        self.desk.camera = camera
+
+    def _fit(self) -> None:
+        self._fits = True
+        self.desk.camera = self._fitted()
+
+    def _fitted(self) -> Camera:
+        size = self.layout.header.width, self.layout.footer.bottom
+        return fitted(self.desk.draft.sketch, size, self.layout)
+
+    def _laid_out(self, size: tuple[int, int]) -> Layout:
+        layout = Layout.of(size, text=self.text, scale=self.scale)
+        left = round(WIDTH * layout.ui)
+        plot = layout.plot
+        room = pygame.Rect(left, plot.top, max(1, plot.width - left), plot.height)
+        return replace(layout, plot=room)
+
+    def _arrange(self, size: tuple[int, int]) -> None:
+        before, self.layout = self.layout, self._laid_out(size)
+        self.painter.ui = self.desk.ui = self.layout.ui
+        if self.layout != before:
+            if self._fits:
+                self._fit()
+            else:
+                old, new = before.plot.center, self.layout.plot.center
+                self.desk.camera = self.desk.camera.panned(new[0] - old[0], new[1] - old[1])
+
+    # -- keeping --------------------------------------------------------------------------------
+
+    def judge(self, *, at_once: bool = True) -> Verdict:
+        """Check the draft of now, unless that is known; during a drag only now and then."""
+        now, draft = time.perf_counter(), self.desk.draft
+        wait = 0.0 if at_once else max(PATIENCE, SHARE * self._cost)
+        if draft is not self._judged and now - self._judged_at >= wait:
+            self.verdict = judge(draft)
+            self._judged, self._judged_at = draft, time.perf_counter()
+            self._cost = self._judged_at - now
+        return self.verdict
+
+    def _sound(self, doing: str) -> Scenario | None:
+        """Return the scenario if it is one, else say why it can't be."""
+        self.tool.confirm()
+        verdict = self.judge()
+        if verdict.scenario is None:
+            self.desk.say(f"{doing}: {verdict.text}", warns=True)
+        return verdict.scenario
+
+    def _save(self, then: Callable[[], None] | None = None) -> None:
+        if self._sound("Not saved") is None:
+            return
+        if self.document.path is None:
+            self.prompt = Prompt(
+                "Save as", "Enter saves   Esc stays",
+                {"return": lambda text: self._save_as(text, then)},
+                text=self.document.proposal, field=True,
+            )  # fmt: skip
+        else:
+            self._write(self.document.path, then)
+
+    def _save_as(self, text: str, then: Callable[[], None] | None) -> None:
+        path = self.document.named(text)
+        if not self.document.is_another(path):
+            self._write(path, then)
+            return
+        self.prompt = Prompt(
+            f"{path} is there already.", "Enter overwrites it   Esc stays",
+            {"return": lambda _: self._write(path, then)},
+        )  # fmt: skip
+
+    def _write(self, path: Path, then: Callable[[], None] | None = None) -> None:
+        scenario = self._sound("Not saved")
+        if scenario is None:
+            return
+        try:
+            said = self.document.save(scenario, path)
+        except InputError as error:
+            self.desk.say(str(error), warns=True)
+            return
+        if not self.live:
+            self.desk.history.keep()
+        self.desk.say(said)
+        if then is not None:
+            then()
+
+    def _run(self) -> None:
+        """Ask for a run of the file, saved first if need be."""
+        if self.desk.history.changed or self.document.path is None:
+            self._save(then=self._run)
+        else:
+            self.to_run = self.document.path
+
+    def _apply(self, when: Literal["now", "start"]) -> None:
+        scenario = self._sound("Not yet")
+        if scenario is None:
+            return
+        if when == "now":
+            try:
+                check_same(self._before, scenario)
+            except InputError as error:
+                self.desk.say(f"{error} (Shift+Enter)", warns=True)
+                return
+        self.outcome, self.done = Outcome(scenario, when), True
+
+    def _leave(self) -> None:
+        """Close the help, leave the tool, select none, or leave."""
+        if self.help:
+            self.help = False
+        elif self.tool.cancel():
+            pass
+        elif self.tool_name != "select":
+            self._choose("select")
+            self.desk.select()
+        elif self.desk.selection:
+            self.desk.select()
+        else:
+            self.close()
+
+    def close(self) -> None:
+        """Leave; ask first if something would be lost."""
+        if not self.desk.history.changed:
+            self.done = True
+            return
+        discard: dict[str, Callable[[str], None]] = {"backspace": lambda _: self._discard()}
+        if self.live:
+            hint = "Enter goes on from now   Shift+Enter from the start   Backspace discards"
+            answers = {"return": lambda _: self._apply("now")}
+            answers["shift+return"] = lambda _: self._apply("start")
+            self.prompt = Prompt("Use what was drawn?", f"{hint}   Esc stays", answers | discard)
+        else:
+            hint = "Enter saves   Backspace discards   Esc stays"
+            answers = {"return": lambda _: self._save(then=self._discard)}
+            self.prompt = Prompt("Not saved yet.", hint, answers | discard)
+
+    def _discard(self) -> None:
+        self.done = True
+
+    # -- drawing --------------------------------------------------------------------------------
+
+    def draw(self, surface: pygame.Surface) -> None:
+        """Draw everything; the layout follows the surface's size."""
+        self._arrange(surface.get_size())
+        self.judge(at_once=not self._dragging)
+        self._draw_plot(surface)
+        plot, bar = self.layout.plot, self.layout.header
+        side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
+        self._toolbar.arrange(side, self.layout.ui)
+        self._toolbar.draw(
+            surface, side, self.tool_name, self._pointer,
+            snaps=self.desk.snaps, step=f"{self.desk.step:g} m",
+        )  # fmt: skip
+        self._header.draw(surface, bar, self.title, self._note(), self._buttons(), self._pointer)
+        if self.prompt is None:
+            self._draw_foot(surface)
+        else:
+            blink = time.monotonic() % 1.0 < 0.6
+            draw_prompt(surface, self.layout, self.painter, self.prompt, blink=blink)
+        if not (self._dragging or self.help):
+            self._toolbar.draw_tip(surface, self._pointer, surface.get_rect())
+        if self.help:
+            keys = groups(live=self.live)
+            self._pages = draw_help(surface, self.layout, self.painter, keys, self._page)
+
+    def _draw_plot(self, surface: pygame.Surface) -> None:
+        scene = Scene()
+        draft = self.desk.draft
+        draw_selected(draft, self.desk.selection, scene)
+        draw_culprits(draft, self.verdict.culprits, scene)
+        self.tool.draw(scene)
+        plot, camera = self.layout.plot, self.desk.camera
+        frame = self._sketch.frame(draft, bare=self._plain)
+        named = names(frame).shapes if self._names else []
+        marks, hurried = [*named, *scene.shapes], time.perf_counter() < self._hurry
+        draw = partial(self._stage.draw, marks=marks, hurried=hurried)
+        try:
+            draw(surface, frame, camera, LAYERS, plot)
+        except Mars2dError as error:  # of what other add-ons draw
+            if self._plain:
+                raise
+            self._plain = True
+            self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
+            frame = self._sketch.frame(draft, bare=True)
+            draw(surface, frame, camera, LAYERS, plot)
+        remark = self.tool.remark
+        if remark:
+            x, y = self._pointer
+            gap = round(16 * self.layout.ui)
+            draw_plate(surface, self.painter, [remark], plot, topleft=(x + gap, y + gap))
+        lines = self._described()
+        if lines:
+            gap = round(12 * self.layout.ui)
+            corner = plot.right - gap, plot.top + gap
+            draw_plate(surface, self.painter, lines, plot, off=self._pointer, topright=corner)
+
+    def _draw_foot(self, surface: pygame.Surface) -> None:
+        desk, bar = self.desk, self.layout.footer
+        text, kind = self.tool.hint, "hint"
+        if desk.notice:
+            text, kind = desk.notice, "error" if desk.warns else "note"
+        elif self.verdict.faults:
+            text = self.verdict.text
+            kind = "error" if desk.draft.robots else "hint"
+        right = ""
+        if self.layout.plot.collidepoint(self._pointer):
+            x, y = desk.snapped(self._world(self._pointer))
+            right = minus(f"x {x:g} m   y {y:g} m")
+        draw_footer(surface, bar, self.painter, text, kind, right)
+
+    def _note(self) -> str:
+        if self.live:
+            return "the run is paused"
+        if self.desk.history.changed:
+            return "not saved yet"
+        return "new" if self.document.path is None else ""
+
+    def _buttons(self) -> list[Button]:
+        history = self.desk.history
+        common = [
+            Button("undo", "Undo", works=history.can_undo),
+            Button("redo", "Redo", works=history.can_redo),
+        ]
+        if self.live:
+            return [*common, Button("start", "From the start"), Button("now", "Go on", first=True)]
+        changed = history.changed
+        save = Button("save", "Save", first=changed)
+        return [*common, save, Button("run", "Run", first=not changed)]
+
+    def _described(self) -> list[str]:
+        """Return what is selected and where it is, in lines."""
+        draft, items = self.desk.draft, self.desk.selection
+        if not items:
+            return []
+        if len(items) > 1:
+            return [counted(len(items), "thing")]
+        item = items[0]
+        corners, pose = draft.corners(item), draft.pose(item)
+        if pose is not None:
+            x, y, theta = pose
+            where = f"x {x:.4g} m   y {y:.4g} m   θ {degrees(theta) + 0.0:.4g}°"
+        elif corners is None:
+            x, y = draft.place(item)
+            where = f"x {x:.4g} m   y {y:.4g} m"
+        elif self.desk.corner is not None:
+            x, y = corners[self.desk.corner]
+            where = f"corner {self.desk.corner}   x {x:.4g} m   y {y:.4g} m"
+        else:
+            sides = edges_of(corners)[: len(corners) - (item.kind == "wall")]
+            length = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in sides)
+            where = f"{counted(len(corners), 'corner')}, {length:.4g} m long"
+            if item.kind != "wall":
+                where = f"{counted(len(corners), 'corner')}, {length:.4g} m round"
+        return [draft.name(item), minus(where)]

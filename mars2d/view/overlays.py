@@ -1,0 +1,122 @@
+"""What may be switched on over the picture: links to neighbours, and the scale of velocities."""
+
+from __future__ import annotations
+
+import numpy as np
+import pygame
+
+from mars2d.forces import round_force
+from mars2d.frame import Frame
+from mars2d.neighbours import Everyone
+from mars2d.scenario import Scenario
+from mars2d.scene import Scene, faded
+from mars2d.usercode import called
+from mars2d.velocities import VELOCITY, in_metres_a_second, speed_scale
+from mars2d.view.camera import Camera
+from mars2d.view.painter import Painter
+from mars2d.view.theme import mixed
+
+__all__ = ["Links", "draw_speed_legend"]
+
+MOST = 600
+"""Of the links between neighbours, so many are drawn: the first ones."""
+
+FAINT = 0.55
+"""The opacity of links."""
+
+LONGEST = 72.0
+"""Of the legend's arrow, points."""
+
+SMALLEST = 300.0
+"""The height of a picture with a legend, points, at least."""
+
+FORCES = 132.0
+"""The room that the legend of forces takes, points."""
+
+
+class Links:
+    """Draws a line between neighbours, unless all robots are neighbours of each other.
+
+    Who is whose neighbour is asked once a control step.
+    """
+
+    def __init__(self) -> None:
+        """Start with nothing asked."""
+        self._asked: tuple[object, ...] = ()
+        self._pairs = np.empty((0, 2), dtype=int)
+
+    def draw(self, surface: pygame.Surface, painter: Painter, frame: Frame, camera: Camera) -> None:
+        """Draw the links of a frame."""
+        pairs = self._pairs_of(frame)
+        if not len(pairs):
+            return
+        theme = painter.theme
+        ink = mixed(theme.muted, theme.paper, FAINT)
+        places = camera.to_pixels(frame.pose[:2].T)
+        for start, end in zip(
+            places[pairs[:, 0]].tolist(), places[pairs[:, 1]].tolist(), strict=True
+        ):
+            pygame.draw.aaline(surface, ink, start, end)
+
+    def _pairs_of(self, frame: Frame) -> np.ndarray[tuple[int, ...], np.dtype[np.int_]]:
+        """Return the pairs (k, 2) that are linked."""
+        rule = frame.scenario.neighbours
+        asked = frame.scenario, len(frame.path), rule.fixed
+        if self._asked[:1] == asked[:1] and (rule.fixed or self._asked == asked):
+            return self._pairs
+        self._asked = asked
+        pairs: set[tuple[int, int]] = set()
+        if not isinstance(rule, Everyone):
+            position = frame.pose[:2] if frame.sensed is None else frame.sensed[:2]
+            with called("Scenario.neighbours", rule.of):
+                found = rule.of(position)
+            pairs = {(min(i, j), max(i, j)) for i, row in enumerate(found) for j in row}
+        self._pairs = np.array(sorted(pairs)[:MOST], dtype=int).reshape(-1, 2)
+        return self._pairs
+
+
+def draw_speed_legend(
+    surface: pygame.Surface,
+    painter: Painter,
+    scenario: Scenario,
+    camera: Camera,
+    plot: pygame.Rect,
+    *,
+    beside: bool,
+) -> None:
+    """Draw an arrow of a round speed as long as it is now, and say what the arcs are.
+
+    beside: leave room for the legend of the forces.
+    """
+    ui, theme = painter.ui, painter.theme
+    if plot.height < SMALLEST * ui or plot.width < 2 * SMALLEST * ui:
+        return
+    scale = speed_scale(scenario)
+    pixels = scale.meter_a_second * camera.scale
+    speed = round_force(LONGEST * ui / pixels)
+    length = speed * pixels
+    size, pad, row = 13 * ui, 10 * ui, 24 * ui
+    words = in_metres_a_second(speed), "turn in 1 s"
+    column = max(length, 24 * ui)
+    width = pad + column + 8 * ui + max(painter.fonts.width(w, size) for w in words) + pad
+    plate = pygame.Rect(0, 0, round(width), round(2 * row + 8 * ui))
+    left = plot.left + (8 + (FORCES if beside else 0)) * ui
+    plate.bottomleft = (round(left), plot.bottom - round(8 * ui))
+    painter.panel(surface, plate, faded(theme.plate, 0.9), 8 * ui, theme.edge)
+    left, middle = plate.left + pad, plate.top + 4 * ui + row / 2
+    scene = Scene()
+    scene.arrow((left, -middle), (left + length, -middle), fill=VELOCITY, width=scale.width)
+    _turn(scene, left + column / 2, -middle - row, 9 * ui)
+    painter.paint(surface, scene.shapes, Camera(1.0, 0.0, 0.0))
+    for k, word in enumerate(words):
+        image = painter.fonts.render(word, size, theme.text)
+        place = image.get_rect(midleft=(round(left + column + 8 * ui), round(middle + k * row)))
+        surface.blit(image, place)
+
+
+def _turn(scene: Scene, x: float, y: float, radius: float) -> None:
+    """Draw the mark of turning about a point."""
+    angles = np.linspace(-0.6, 2.6, 16)
+    rim = np.array([x, y - radius / 3]) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    scene.line(rim[:-2], stroke=VELOCITY, width=2.0)
+    scene.arrow(rim[-6], rim[-1], fill=VELOCITY, width=2.0)
