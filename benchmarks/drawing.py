@@ -5,11 +5,17 @@
 100 robots (scene S2 of the suite) have driven for 500 control steps of 0.05 s, and all their paths
 are seen. `paths` is that picture, `scans` the same where 20 of them see with 180 beams of 5 m.
 
-`window`: `Window.draw`, with header and footer, as in real time at 60 pictures a second: three for
-each control step. `each step`: one picture a control step, so that nothing seen stays. Both on a
-screen of SDL's dummy driver and, where Xvfb is installed, on a real window, for which `flip` is how
-long it takes to get to the X server. `mp4`, `gif`: `save_film` of all frames at 25 a second, all
-in: between the control steps, drawn, converted, encoded and written.
+`window`: `Window.draw`, with its bars, as in real time at 60 pictures a second: three for each
+control step. `each step`: one picture a control step, so that nothing seen stays. Both on a screen
+of SDL's dummy driver and, where Xvfb is installed, on a real window, for which `flip` is how long
+it takes to get to the X server. `mp4`, `gif`: `save_film` of all frames at 25 a second, all in:
+between the control steps, drawn, converted, encoded and written.
+
+The window of `scans` is also seen with more on it: `overlays` are names, velocities and forces,
+`inspector` a selected robot that scans, `all, dark` both in the dark theme. Of these, and of
+`scans`, there are two rows: the pictures with a new control step, and those in between.
+`following`: the camera follows a robot. `scrubbing`: 20 robots have gone 10 000 steps; pictures of
+rows at random, and of rows that are dragged through backwards; `first` is the picture before any.
 
 The yardstick `bare` is what plain pygame takes for as many robots without paths: fill the picture,
 a circle and a line for each. For films it is a film as long of one picture that is the same all the
@@ -32,9 +38,11 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pygame
 
 from mars2d import Robot, Scenario, World
@@ -44,7 +52,13 @@ from mars2d.frame import Frame
 from mars2d.output.film import save_film
 from mars2d.output.mp4 import require_av
 from mars2d.sensors import RangeFinder
+from mars2d.view.display import be_quick
+from mars2d.view.layers import Layers
+from mars2d.view.layout import Layout, fitted
+from mars2d.view.painter import Painter
 from mars2d.view.player import between
+from mars2d.view.preferences import Preferences
+from mars2d.view.stage import MEMORY, Stage
 from mars2d.view.window import Window
 
 SIZE = (1280, 720)
@@ -95,7 +109,7 @@ class Reel:
 
     def __init__(self, listed: list[Frame]) -> None:
         """Start with the first one."""
-        self._frames, self._row = listed, 0
+        self._frames, self.row = listed, 0
 
     @property
     def scenario(self) -> Scenario:
@@ -105,54 +119,122 @@ class Reel:
     @property
     def frame(self) -> Frame:
         """The present one."""
-        return self._frames[self._row]
+        return self._frames[self.row]
+
+    @property
+    def newest(self) -> int:
+        """The last row."""
+        return len(self._frames) - 1
 
     @property
     def over(self) -> bool:
         """Whether it is the last one."""
-        return self._row == len(self._frames) - 1
+        return self.row == self.newest
 
     def advance(self) -> None:
         """Go on by one."""
-        self._row += 1
+        self.row += 1
+
+    def go(self, row: int) -> None:
+        """Go to a row."""
+        self.row = row
 
     def restart(self) -> None:
         """Go back to the first one."""
-        self._row = 0
+        self.row = 0
 
 
 class Watched:
     """A window on a screen of pygame's, and how long its pictures take.
 
-    each_step: one picture for each control step, else as in real time.
+    each_step: one picture for each control step, else as in real time. overlays, inspector, dark,
+    following: what is seen of the window's choices.
     """
 
-    def __init__(self, listed: list[Frame], *, each_step: bool) -> None:
+    def __init__(
+        self,
+        listed: list[Frame],
+        *,
+        each_step: bool = False,
+        overlays: bool = False,
+        inspector: bool = False,
+        dark: bool = False,
+        following: bool = False,
+    ) -> None:
         """Prepare the window."""
-        self._window = Window(Reel(listed), 0 if each_step else 1.0, SIZE)
+        look = Preferences(dark=dark)
+        window = self._window = Window(Reel(listed), 0 if each_step else 1.0, SIZE, look)
+        window.layers = replace(window.layers, names=overlays, velocities=overlays, forces=overlays)
+        if inspector:
+            window.selected = 3
+        if following:
+            window.viewpoint.follow(3)
         self._each_step = each_step
 
-    def watch(self, screen: pygame.Surface) -> tuple[list[float], list[float]]:
+    def watch(self, screen: pygame.Surface) -> tuple[list[float], list[float], list[bool]]:
         """Play all; return the milliseconds to draw each picture, and to get it to the screen.
 
-        The first picture, with all that was driven before, is left out.
+        And whether it is the first one of a control step. The first picture of all, with all that
+        was driven before, is left out.
         """
         player = self._window.player
         player.restart()
         self._window.draw(screen)
-        drawing, flipping = [], []
+        drawing, flipping, fresh = [], [], []
         while not player.over:
+            row = player.source.row
             if self._each_step:
                 player.step()
             else:
                 player.pass_time(1 / PICTURES_A_SECOND)
+            fresh.append(player.source.row != row)
             start = time.thread_time()
+            self._window.viewpoint.step(player.frame, 1 / PICTURES_A_SECOND)
             self._window.draw(screen)
             drawing.append(1e3 * (time.thread_time() - start))
             start = time.perf_counter()
             pygame.display.flip()
             flipping.append(1e3 * (time.perf_counter() - start))
-        return drawing, flipping
+        return drawing, flipping, fresh
+
+
+class Scrubbed:
+    """A long run of 20 robots, of which one looks at this row and that."""
+
+    def __init__(self, rows: int = 10_000, robots: int = 20) -> None:
+        """Let robots wander about, without a simulation."""
+        rng = np.random.default_rng(1)
+        heading = np.cumsum(rng.normal(0.0, 0.08, (rows, robots)), axis=0)
+        heading += rng.uniform(-np.pi, np.pi, robots)
+        way = np.cumsum(0.03 * np.stack([np.cos(heading), np.sin(heading)], axis=1), axis=0)
+        place = np.abs((way + rng.uniform(0.0, 18.0, (2, robots))) % 18.0 - 9.0) - 4.5  # folded
+        self._pose = np.concatenate([place, heading[:, None]], axis=1)
+        self._scenario = Scenario(
+            robots=[Robot(pose=pose) for pose in self._pose[0].T.tolist()],
+            workspace=[(-5, -5), (5, -5), (5, 5), (-5, 5)],
+            sampling_time=0.1,
+            stop_time=0.1 * rows,
+            physics="ideal",
+        )
+        self._random = rng.integers(1, rows, 100).tolist()
+
+    def scrub(self, screen: pygame.Surface) -> dict[str, list[float]]:
+        """Return the milliseconds to draw pictures, of a new stage."""
+        painter, layout = Painter(), Layout.of(SIZE, timebar=True)
+        stage, camera = Stage(painter, MEMORY), fitted(self._scenario, SIZE, layout)
+
+        def drawn(row: int) -> float:
+            frame = Frame(self._scenario, 0.1 * row, row, self._pose[row], self._pose[:row])
+            start = time.thread_time()
+            stage.draw(screen, frame, camera, Layers(), layout.plot)
+            return 1e3 * (time.thread_time() - start)
+
+        last = len(self._pose) - 1
+        return {
+            "first": [drawn(last)],
+            "random": [drawn(row) for row in self._random],
+            "backwards": [drawn(row) for row in range(last, 0, -37)],
+        }
 
 
 def bare(screen: pygame.Surface, frame: Frame, pictures: int = 100) -> list[float]:
@@ -205,6 +287,7 @@ def _screen(**environment: str) -> Iterator[pygame.Surface]:
     os.environ.update(environment)
     try:
         pygame.display.init()
+        be_quick()
         yield pygame.display.set_mode(SIZE)
     finally:
         pygame.display.quit()
@@ -223,6 +306,15 @@ def measure(rounds: int, steps: int) -> dict[str, list[list[float]]]:
         for name, listed in scenes.items()
         for pace in ("real time", "each step")
     }
+    more: dict[str, dict[str, bool]] = {
+        "scans": {},
+        "overlays": {"overlays": True},
+        "inspector": {"inspector": True},
+        "all, dark": {"overlays": True, "inspector": True, "dark": True},
+        "following": {"following": True},
+    }
+    dressed = {name: Watched(scenes["scans"], **options) for name, options in more.items()}
+    scrubbed = Scrubbed()
     films = {name: filmed(listed) for name, listed in scenes.items()}
     films["still"] = [films["paths"][0]] * len(films["paths"])
     taken: dict[str, list[list[float]]] = {}
@@ -236,10 +328,20 @@ def measure(rounds: int, steps: int) -> dict[str, list[list[float]]]:
                 with opened() as screen:
                     note(f"{screen_name}: bare", bare(screen, scenes["paths"][0]))
                     for (name, pace), window in watched.items():
-                        drawing, flipping = window.watch(screen)
+                        drawing, flipping, _ = window.watch(screen)
                         note(f"{screen_name}: {name}, {pace}", drawing)
                         if screen_name == "window":
                             note(f"{screen_name}: flip, {name}, {pace}", flipping)
+                    for name, window in dressed.items():
+                        drawing, _, fresh = window.watch(screen)
+                        new = [each for each, is_new in zip(drawing, fresh, strict=True) if is_new]
+                        rest = [
+                            each for each, is_new in zip(drawing, fresh, strict=True) if not is_new
+                        ]
+                        note(f"{screen_name}: {name}, new step", new)
+                        note(f"{screen_name}: {name}, between", rest)
+                    for name, drawing in scrubbed.scrub(screen).items():
+                        note(f"{screen_name}: scrubbing, {name}", drawing)
             for suffix in ("mp4", "gif"):
                 for name, listed in films.items():
                     note(f"{suffix}: {name}", film(listed, Path(folder, f"film.{suffix}")))

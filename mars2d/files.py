@@ -24,7 +24,7 @@ from mars2d.map_option import MapOption, reading_options
 from mars2d.options import override
 from mars2d.prediction import Prediction
 from mars2d.scenario import Scenario
-from mars2d.usercode import called, file_beside
+from mars2d.usercode import called, file_beside, files_read, note_file
 
 if TYPE_CHECKING:
     from mars2d.record import Record
@@ -47,7 +47,7 @@ class Experiment:
     filename: the file's name, or empty. checks: the function of the record that compares a run with
     theory, or None. summary: the first line of the file's docstring, or empty. path: where the file
     lies, or None. opened: opens the experiment anew, with laws that share nothing with these; None
-    where it does not come from a file.
+    where it does not come from a file alone. files: all that was read for it.
     """
 
     scenario: Scenario
@@ -57,6 +57,7 @@ class Experiment:
     summary: str = ""
     path: Path | None = None
     opened: Callable[[], Experiment] | None = None
+    files: frozenset[Path] = frozenset()
 
     def reopened(self) -> Experiment:
         """Return the experiment opened anew, or itself where it does not come from a file.
@@ -126,6 +127,19 @@ def open_experiment(
     if options is not None and not isinstance(options, Mapping):
         raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
     given = options or {}
+    with files_read() as files:
+        experiment = _opened(source, given, control)
+    if control is None and isinstance(source, (str, Path)):
+        opened = partial(open_experiment, source, dict(given))
+        return dataclasses.replace(experiment, opened=opened, files=frozenset(files))
+    return experiment
+
+
+def _opened(
+    source: str | Path | ModuleType | Scenario,
+    given: Mapping[str, Any],
+    control: Callable[[Any], Any] | None,
+) -> Experiment:
     options = dict(given)
     if isinstance(source, Scenario):
         chart = MapOption.popped(options, Path())
@@ -135,7 +149,7 @@ def open_experiment(
     elif isinstance(source, (str, Path)):
         path = _find(source)
         if path.suffix.lower() == ".toml":
-            return _of_scenario_file(source, path, given, control)
+            return _of_scenario_file(path, given, control)
         module, name = _load(path), str(path)
     else:
         raise InputError(
@@ -154,20 +168,16 @@ def open_experiment(
         raise
     law = own if control is None else control
     summary = (module.__doc__ or "").strip().partition("\n")[0]
-    path, opened = None, None
-    if isinstance(source, (str, Path)):
-        path, opened = Path(name).absolute(), partial(open_experiment, source, dict(given), control)
-    return Experiment(scenario, law, Path(name).name, check, summary, path, opened)
+    lies = Path(name).absolute() if isinstance(source, (str, Path)) else None
+    return Experiment(scenario, law, Path(name).name, check, summary, lies)
 
 
 def _of_scenario_file(
-    source: str | Path,
-    path: Path,
-    options: Mapping[str, Any],
-    control: Callable[[Any], Any] | None,
+    path: Path, options: Mapping[str, Any], control: Callable[[Any], Any] | None
 ) -> Experiment:
     from mars2d import scenario_file
 
+    note_file(path)
     scenario, own = scenario_file.read(path)
     rest = dict(options)
     try:
@@ -176,8 +186,7 @@ def _of_scenario_file(
         error.where = error.where or path.name
         raise
     law = own if control is None else control
-    opened = partial(open_experiment, source, dict(options), control)
-    return Experiment(scenario, law, path.name, path=path.absolute(), opened=opened)
+    return Experiment(scenario, law, path.name, path=path.absolute())
 
 
 def open_module(source: str | Path) -> ModuleType:
@@ -246,6 +255,7 @@ def _load(path: Path, what: str = "an experiment") -> ModuleType:
     if path.suffix != ".py":
         or_toml = " or .toml" if what == "an experiment" else ""
         raise InputError(f"{path}: expected {what}, a file that ends in .py{or_toml}")
+    note_file(path)
     name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
     assert spec is not None
@@ -255,10 +265,13 @@ def _load(path: Path, what: str = "an experiment") -> ModuleType:
     sys.modules[name] = module  # dataclasses look a class's module up by its name
     folder = str(path.parent.absolute())
     sys.path.insert(0, folder)  # an experiment may import what lies beside it
+    # Compiled code that is kept is taken for new if a file is saved twice within a second.
+    keeps, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
         spec.loader.exec_module(module)
     except SyntaxError as error:
         problem = InputError(": ".join(filter(None, [error.msg, (error.text or "").strip()])))
+        note_file(Path(error.filename or path))
         place = Path(error.filename or path).name
         problem.where = f"{place}, line {error.lineno}" if error.lineno else place
         raise problem from error
@@ -268,6 +281,7 @@ def _load(path: Path, what: str = "an experiment") -> ModuleType:
         raise problem from error
     finally:
         sys.path.remove(folder)
+        sys.dont_write_bytecode = keeps
         _forget_modules(before, folder)
     return module
 
@@ -277,6 +291,7 @@ def _forget_modules(before: set[str], folder: str) -> None:
     for name in set(sys.modules) - before:
         file = getattr(sys.modules[name], "__file__", None)
         if file is not None and str(Path(file).parent) == folder:
+            note_file(Path(file))
             del sys.modules[name]
 
 

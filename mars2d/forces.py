@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import floor, log10, sqrt
+from statistics import median
 from typing import NamedTuple
 
 import numpy as np
@@ -74,7 +75,7 @@ def force_scale(scenario: Scenario) -> ForceScale:
     """
     xmin, xmax, ymin, ymax = scenario.bounds
     sizes = [2 * robot.radius for robot in scenario.robots]
-    length = max(1.5 * float(np.median(sizes)), 0.06 * max(xmax - xmin, ymax - ymin))
+    length = max(1.5 * median(sizes), 0.06 * max(xmax - xmin, ymax - ymin))
     strongest = max(robot.drive.max_force for robot in scenario.robots)
     crowd = max(1.0, sqrt(len(scenario.robots) / FEW))
     return ForceScale(

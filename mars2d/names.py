@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from math import cos, sin
+
 import numpy as np
 
-from mars2d.forces import bounding_circle
 from mars2d.frame import Frame
 from mars2d.looks import INK
-from mars2d.scene import Scene
+from mars2d.scene import Scene, Text
 
 __all__ = ["names"]
 
@@ -21,12 +22,16 @@ FEW = 20
 def names(frame: Frame) -> Scene:
     """Return a label above each body."""
     scene, bodies = Scene(), frame.scenario.bodies
-    poses = np.hstack([frame.pose, frame.prop_pose])
+    poses = np.hstack([frame.pose, frame.prop_pose]).T.tolist()
     crowd = len(bodies) > FEW
-    for i, body in enumerate(bodies):
-        center, radius = bounding_circle(body.shape, poses[:, i])
+    for i, (body, (x, y, theta)) in enumerate(zip(bodies, poses, strict=True)):
+        (ahead, left), radius = body.shape.bound
+        place = (
+            x + ahead * cos(theta) - left * sin(theta),
+            y + ahead * sin(theta) + left * cos(theta) + radius,
+        )
         text = str(i) if crowd and body.name == f"robot{i}" else str(body.name)
         size = SMALL if crowd else SIZE
-        place = center[0], center[1] + radius
-        scene.text(place, text, color=INK, size=size, anchor="above", halo=HALO)
+
+        scene.shapes.append(Text(place, text, INK, size, "above", HALO))
     return scene

@@ -13,6 +13,7 @@ from mars2d.loop import simulate
 from mars2d.record import Record
 from mars2d.scenario import Scenario
 from mars2d.streams import check_seed
+from mars2d.teleop import robot_of
 from mars2d.world import Watcher, World
 
 __all__ = ["run"]
@@ -27,6 +28,7 @@ def run(
     control: Callable[[World], Any] | None = None,
     seed: int = 0,
     show: bool | None = None,
+    human: str | int | None = None,
     watchers: Sequence[Watcher] = (),
 ) -> Record:
     """Run an experiment to its end and return the record.
@@ -36,7 +38,8 @@ def run(
     one step a key press. options: fields by their dotted names, as ``{"robots.*.diameter": 0.2}``,
     and parameters of a scenario function. control: the law of the team, in place of the
     experiment's. seed: of all random streams. show: whether in a window; by default, if a speed is
-    given and there is a display. watchers: functions called with the world at each control step,
+    given and there is a display. human: a robot that is driven by hand, in a window, by its name or
+    index or a game's role. watchers: functions called with the world at each control step,
     once its sensors have been read.
 
     Raises InputError for what can't be run. When a law fails, the error carries what was recorded
@@ -46,10 +49,11 @@ def run(
         options = {**(options or {}), "stop_time": stop_time}
     speed, seed = playback_speed("speed", speed), check_seed(seed)
     opened = open_experiment(experiment, options, control)
-    if _wants_window(speed, show):
+    driven = None if human is None else robot_of(opened.scenario, human)
+    if driven is not None or _wants_window(speed, show):
         from mars2d.view.show import show_experiment
 
-        return show_experiment(opened, speed, seed, watchers)
+        return show_experiment(opened, speed, seed, watchers, human=driven)
     return simulate(opened, seed, speed, watchers).record
 
 

@@ -66,11 +66,11 @@ def _towards(value: float, wanted: float, duration: float) -> float:
     return min(max(wanted, value - step), value + step)
 
 
-def robot_of(scenario: Scenario, who: str | int) -> int:
+def robot_of(scenario: Scenario, who: str | int, field: str = "human =") -> int:
     """Return the index of the robot that `who` names: by its name, its index, or a game's role.
 
-    Of several robots in a role it is the first. Raises InputError, with the nearest name, if there
-    is none.
+    Of several robots in a role it is the first. Raises InputError, which begins with `field` and
+    ends with the nearest name, if there is none.
     """
     names = [str(robot.name) for robot in scenario.robots]
     roles: dict[str, int] = {}
@@ -85,5 +85,5 @@ def robot_of(scenario: Scenario, who: str | int) -> int:
     if str(who).isdecimal() and int(who) < len(names):
         return int(who)
     raise InputError(
-        f"human = {who!r}: there is no such robot or role{nearest(who, {*names, *roles})}"
+        f"{field} {who}: there is no such robot or role{nearest(who, {*names, *roles})}"
     )

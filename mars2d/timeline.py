@@ -231,6 +231,10 @@ class Timeline:
                     self._waiting.append(world)
             raise
 
+    def check(self, experiment: Experiment) -> None:
+        """Refuse an experiment that `take` can't go on with; the InputError says why not."""
+        check_alike(self._experiment.scenario, experiment.scenario)
+
     def take(self, experiment: Experiment, progress: Progress = lambda _: True) -> str:
         """Go on from the present row with an experiment read again; return what happens, in words.
 
@@ -240,7 +244,7 @@ class Timeline:
         and where a law fails on the way.
         """
         before, waiting = self._experiment, self._waiting
-        check_alike(before.scenario, experiment.scenario)
+        self.check(experiment)
         self._experiment, self._waiting = experiment, []
         ended = self.over and self._world.finished
         try:
@@ -349,7 +353,7 @@ class Timeline:
         start = perf_counter()
         with _quiet():
             fresh = self._experiment.reopened()
-            check_alike(self._experiment.scenario, fresh.scenario)
+            self.check(fresh)
             world = self._built(fresh)
         self._opening = perf_counter() - start
         waiting = sorted((w for w in self._waiting if not w.over), key=lambda w: w.iteration)
@@ -389,10 +393,10 @@ class Timeline:
     def _follow(self, world: World, row: int, deadline: float, since: int) -> bool:
         """Let a world do what was done before, up to a row; return whether it got there in time."""
         commands = self._world.history.command
+        now = perf_counter()
         with _quiet():
             while world.iteration < row:
-                start = perf_counter()
-                if start > deadline:
+                if now > deadline:
                     return False
                 if world.over:
                     raise InputError(f"run again, it ended before: {world.over_message}")
@@ -401,7 +405,8 @@ class Timeline:
                 asked = world.follow(commands[k])
                 if k >= since and not self._doubt:
                     self._compare(asked, commands[k], k)
-                self._cost = max(perf_counter() - start, 0.9 * self._cost)
+                start, now = now, perf_counter()
+                self._cost = max(now - start, 0.9 * self._cost)
         return True
 
     def _redo(self, world: World) -> None:

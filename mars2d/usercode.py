@@ -6,14 +6,24 @@ import functools
 import inspect
 import sysconfig
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from mars2d.errors import InputError, LawError, described, nearest
 
-__all__ = ["called", "definition", "file_beside", "name_of", "users_line"]
+__all__ = [
+    "called",
+    "definition",
+    "file_beside",
+    "files_read",
+    "name_of",
+    "note_file",
+    "users_line",
+]
 
 _PACKAGE = Path(__file__).parent
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
@@ -93,6 +103,26 @@ def _place(filename: str, line: int) -> str:
     return f"{Path(filename).name}, line {line}"
 
 
+_files: ContextVar[tuple[set[Path], ...]] = ContextVar("files", default=())
+
+
+@contextmanager
+def files_read() -> Iterator[set[Path]]:
+    """Collect the user's files, experiments, laws, maps and modules, that are read meanwhile."""
+    files: set[Path] = set()
+    token = _files.set((*_files.get(), files))
+    try:
+        yield files
+    finally:
+        _files.reset(token)
+
+
+def note_file(path: Path) -> None:
+    """Note that a file of the user's is read, for whoever collects these."""
+    for files in _files.get():
+        files.add(path.absolute())
+
+
 def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[str]) -> Path:
     """Return the file that lies beside the caller's file, or else in the current folder.
 
@@ -103,6 +133,7 @@ def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[s
     folders = [*beside, Path()]
     for folder in folders:
         if (folder / path).is_file():
+            note_file(folder / path)
             return folder / path
         if (folder / path).is_dir():
             ends = " or ".join(suffixes)

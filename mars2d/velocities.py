@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import sqrt
+from statistics import median
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from mars2d.forces import bounding_circle
 from mars2d.frame import Frame
 from mars2d.scenario import Scenario
-from mars2d.scene import Scene
+from mars2d.scene import Arrow, Scene
 
 __all__ = ["VELOCITY", "SpeedScale", "in_metres_a_second", "speed_scale", "velocities"]
 
@@ -26,14 +27,14 @@ SLOWEST = 0.01
 LEAST_TURN, MOST_TURN = 0.15, 5.0
 """Arcs are drawn from so many radians a second on, and up to so many radians."""
 
-ARCS = 24
+ARCS = 16
 """Of the bodies that turn, so many have an arc: those that turn the most."""
 
 HEAD = 0.5
 """The length of the arrow at an arc's end, radians at most."""
 
-FEW = 6
-"""From more robots than this on, arrows are shorter and thinner."""
+FEW, CROWD = 6, 30
+"""From more robots on, arrows are shorter and thinner, and from more bodies on without an edge."""
 
 
 class SpeedScale(NamedTuple):
@@ -53,7 +54,7 @@ def speed_scale(scenario: Scenario) -> SpeedScale:
     """Return the scale of an experiment: the fastest drive's bound is two robots long."""
     xmin, xmax, ymin, ymax = scenario.bounds
     sizes = [2 * robot.radius for robot in scenario.robots]
-    length = max(2.0 * float(np.median(sizes)), 0.08 * max(xmax - xmin, ymax - ymin))
+    length = max(2.0 * median(sizes), 0.08 * max(xmax - xmin, ymax - ymin))
     fastest = max(robot.drive.max_linear_speed for robot in scenario.robots)
     crowd = max(1.0, sqrt(len(scenario.robots) / FEW))
     return SpeedScale(
@@ -74,12 +75,15 @@ def velocities(frame: Frame) -> Scene:
     for i in turning.tolist():
         if abs(velocity[2, i]) >= LEAST_TURN:
             center, radius = bounding_circle(frame.scenario.bodies[i].shape, poses[:, i])
-            _arc(scene, center, 1.15 * radius, float(poses[2, i]), float(velocity[2, i]))
+            _arc(scene, center, 1.3 * radius, float(poses[2, i]), float(velocity[2, i]))
     speed = np.hypot(velocity[0], velocity[1])
     length = np.minimum(scale.meter_a_second * speed, scale.longest)
-    for i in np.flatnonzero(speed >= SLOWEST * scale.fastest).tolist():
-        tip = poses[:2, i] + velocity[:2, i] * (length[i] / speed[i])
-        scene.arrow(poses[:2, i], tip, fill=VELOCITY, stroke=EDGE, width=scale.width)
+    moving = np.flatnonzero(speed >= SLOWEST * scale.fastest)
+    tails = poses[:2, moving]
+    tips = tails + velocity[:2, moving] * (length[moving] / speed[moving])
+    edge = EDGE if len(speed) <= CROWD else None
+    for (ax, ay), (bx, by) in zip(tails.T.tolist(), tips.T.tolist(), strict=True):
+        scene.shapes.append(Arrow((ax, ay), (bx, by), VELOCITY, edge, scale.width))
     return scene
 
 

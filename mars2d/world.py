@@ -520,6 +520,8 @@ class World:
         """
         moved = dict(moved or {})
         check_same(self.scenario, scenario)
+        if control is not None:
+            checks.law("control", control, "the world")
         self.observe()
         start = self.motion.moved(moved)
         changed = with_poses(scenario, start.state[:, :3].T)

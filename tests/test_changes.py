@@ -224,6 +224,14 @@ def test_the_law_of_the_team_goes_on_or_is_replaced():
     assert world.command[0].tolist() == [0.0, 0.0]
 
 
+def test_what_is_no_law_is_refused_and_nothing_happens():
+    world = World(BEFORE)
+    with pytest.raises(InputError, match="control = 3"):
+        world.change(BEFORE.replace(addons=[BLOCK]), 3)
+    assert world.obstacles == ()
+    assert world.hands.log == []
+
+
 def test_add_ons_that_stay_keep_what_they_know():
     trails = Trails()
     before = BEFORE.replace(addons=[trails])

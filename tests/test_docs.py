@@ -150,6 +150,7 @@ class Reader:
         assert words[0] == "mars2d", f"{self.document.name}: what is {line!r}?"
         arguments = cli.parser().parse_args(words[1:])
         needs_window = words[1] == "replay" or getattr(arguments, "speed", None) == 0
+        needs_window |= bool(getattr(arguments, "human", None)) and not arguments.headless
         if words[1] in ("run", "demo") and not (needs_window or arguments.headless):
             words.append("--headless")  # where it would open a window
         if words[1] == "replay":

@@ -51,7 +51,7 @@ def simulated(path, seed=3):
     return simulate(open_experiment(path), seed).record
 
 
-# -- every example ----------------------------------------------------------------------------------
+# -- every example ---------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", examples())
@@ -77,7 +77,7 @@ def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     assert all(branch.digest == expected.digest for branch in record.branches)
 
 
-# -- what laws remember -----------------------------------------------------------------------------
+# -- what laws remember ----------------------------------------------------------------------------
 
 HELPER = "class Count:\n    n = 0\n"
 
@@ -193,7 +193,7 @@ def test_nothing_waits_before_somebody_goes_back(memory):
     assert not timeline._waiting
 
 
-# -- hands ------------------------------------------------------------------------------------------
+# -- hands -----------------------------------------------------------------------------------------
 
 
 def poke(timeline, upto=150):
@@ -203,7 +203,9 @@ def poke(timeline, upto=150):
         if k == 20:
             world.hands.place(1, (3.0, 3.0, 1.0))
         if k == 30:
-            world.change(world.scenario.replace(addons=[*world.scenario.addons, WALL]), world.control)
+            world.change(
+                world.scenario.replace(addons=[*world.scenario.addons, WALL]), world.control
+            )
         if 40 <= k < 50:
             world.hands.pull(0, (0.1, 0.0), (2.0 + 0.1 * k, 1.0), 30.0)
         if k == 50:
@@ -262,7 +264,7 @@ def test_a_change_that_is_refused_leaves_no_branch(memory):
     assert len(timeline.world.hands.log) == 1
 
 
-# -- branches ---------------------------------------------------------------------------------------
+# -- branches --------------------------------------------------------------------------------------
 
 
 def test_a_branch_of_a_branch_and_back(memory):
@@ -360,7 +362,7 @@ scenario = Scenario(robots=[Robot(controller=lambda robot: (0.1, 0))], addons=[R
     assert timeline.frame.over_message == "enough"
 
 
-# -- errors -----------------------------------------------------------------------------------------
+# -- errors ----------------------------------------------------------------------------------------
 
 FAILING = """
 from mars2d import Robot, Scenario
@@ -426,7 +428,7 @@ def test_a_file_with_other_robots_is_refused(written):
     path.write_text(FAILING.replace("[Robot(", "[Robot().at(3, 3), Robot("))
     timeline.go(4)
     idle(timeline, 5)
-    with pytest.raises(InputError, match="there are 2 robots, not 1"):
+    with pytest.raises(InputError, match="2 robots"):
         timeline.branch()
     timeline.restart()
     assert len(timeline.scenario.robots) == 2
@@ -528,7 +530,7 @@ scenario = Scenario(
     assert timeline.scenario.obstacles == timeline.branches[0].scenario.obstacles
 
 
-# -- what laws do outside ---------------------------------------------------------------------------
+# -- what laws do outside --------------------------------------------------------------------------
 
 
 def test_prints_are_not_repeated(written, capsys):
@@ -547,7 +549,7 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=1)
     timeline.go(3)
     timeline.branch()
     out, err = capsys.readouterr()
-    assert out.split() == "read at 0.0 at 1.0 at 2.0 at 3.0 at 4.0".split()
+    assert out.splitlines() == ["read", *(f"at {k}.0" for k in range(5))]
     assert err.split() == 5 * ["warned"]
     timeline.advance()
     assert capsys.readouterr().out == "at 3.0\n"
@@ -588,8 +590,8 @@ def test_a_way_back_can_be_broken_off(memory, monkeypatch):
         told.append(share)
         return len(told) < 2
 
-    monkeypatch.setattr("mars2d.timeline.SLICE", 0.0)
-    with pytest.raises(InputError, match="nothing was changed"):
+    with monkeypatch.context() as patch, pytest.raises(InputError, match="nothing was changed"):
+        patch.setattr("mars2d.timeline.SLICE", 0.001)
         timeline.branch(progress)
     assert len(told) == 2
     assert 0 <= told[0] <= told[1] < 1
@@ -622,7 +624,7 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=0.1)
     assert timeline.branch().iteration == 10
 
 
-# -- time -------------------------------------------------------------------------------------------
+# -- time ------------------------------------------------------------------------------------------
 
 
 def test_idle_is_late_by_no_more_than_a_control_step(written):
@@ -653,7 +655,7 @@ scenario = Scenario(robots=[Robot(controller=law)])
     assert timeline._waiting[0].iteration <= reached + 1
 
 
-# -- the experiment read again ----------------------------------------------------------------------
+# -- the experiment read again ---------------------------------------------------------------------
 
 STRAIGHT = """
 from mars2d import Robot, Scenario
@@ -753,7 +755,7 @@ def test_walls_that_were_read_again_stand_from_now_on_and_drawn_ones_stay(writte
     [
         ("Proximity(range=1)", "Proximity(range=2)", "sensors of robot0"),
         ("sampling_time=0.1", "sampling_time=0.2", "sampling_time"),
-        ("[Robot(", "[Robot().at(3, 3), Robot(", "2 robots, not 1"),
+        ("[Robot(", "[Robot().at(3, 3), Robot(", "2 robots"),
         ("Robot(sensors", "Robot(diameter=0.7, sensors", "robot0"),
     ],
 )

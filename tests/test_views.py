@@ -52,10 +52,11 @@ OF_POSITIONS = {
 """What of `world` a law may touch that sees positions only."""
 
 MORE = {
-    "break_off", "channel", "contacts", "driven", "filename", "frame", "geometric_center",
-    "history", "hold", "neighbour_indices", "observe", "over", "over_message", "pose", "prop_pose",
-    "prop_velocity", "props", "record", "scenario", "seed", "step", "stream", "surroundings",
-    "velocity",
+    "break_off", "change", "channel", "contacts", "control", "driven", "filename", "finished",
+    "follow", "frame", "geometric_center", "hands", "history", "hold", "motion",
+    "neighbour_indices", "observe", "over", "over_message", "pose", "prop_pose", "prop_velocity",
+    "props", "rebuild", "record", "scenario", "seed", "step", "stream", "surroundings", "velocity",
+    "watch",
 }  # fmt: skip
 """What else there is, which tells more than positions."""
 

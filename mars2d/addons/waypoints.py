@@ -36,7 +36,7 @@ def _routes(name: str, value: object) -> tuple[Outline, ...]:
     for i, route in enumerate(value):
         if not isinstance(route, (list, tuple, np.ndarray)):
             raise wrong(f"{name}[{i}]", route, "a list of points, as [(x, y), ...] in metres")
-        if len(route) and np.ndim(route[0]) == 0:
+        if len(route) and isinstance(route[0], (int, float, np.number)):
             raise InputError(
                 f"{name} = {shown(value)}: expected {EXPECTED}; put one more pair of brackets "
                 "round it"

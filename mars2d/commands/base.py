@@ -18,6 +18,7 @@ from mars2d.output import film
 from mars2d.prediction import Prediction, table
 from mars2d.progress import Progress
 from mars2d.record import Record
+from mars2d.teleop import robot_of
 from mars2d.view.preferences import Preferences
 from mars2d.world import Watcher, World
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from mars2d.output.footage import Footage
 
 FILM_FPS = 25
+SPEED_BY_HAND = 4.0
+"""How fast an experiment goes at most in which somebody drives, unless a speed is given."""
 SHORT_FILM = 12.0
 """How long a film is whose speed nobody gave, seconds."""
 
@@ -61,6 +64,24 @@ def _text(text: str) -> float:
 def preferences_of(arguments: argparse.Namespace) -> Preferences:
     """Return what `add_preferences` has asked for."""
     return Preferences(dark=arguments.dark, text=arguments.text)
+
+
+def add_human(parser: argparse.ArgumentParser) -> None:
+    """Add who is driven by hand."""
+    parser.add_argument(
+        "--human", metavar="WHO", help="a robot to drive by hand: its name or index, or a role"
+    )
+
+
+def human_of(arguments: argparse.Namespace, experiment: Experiment) -> int | None:
+    """Return the robot that `add_human` has asked for, by its index."""
+    if arguments.human is None:
+        return None
+    robot = robot_of(experiment.scenario, arguments.human, "--human")
+    if arguments.headless or not has_display():
+        why = "not --headless" if arguments.headless else "and there is no display"
+        raise InputError(f"--human {arguments.human}: driving by hand needs a window, {why}")
+    return robot
 
 
 def add_theory(parser: argparse.ArgumentParser) -> None:
@@ -137,13 +158,23 @@ def has_display() -> bool:
 
 
 def show(
-    experiment: Experiment, speed: float | str | None, seed: int, preferences: Preferences
+    experiment: Experiment,
+    speed: float | str | None,
+    seed: int,
+    preferences: Preferences,
+    human: int | None = None,
 ) -> Record:
-    """Run in a window, at the experiment's own speed unless one is given."""
+    """Run in a window, at the experiment's own speed unless one is given.
+
+    human: a robot that is driven by hand, for which the experiment's own speed may be too fast.
+    """
     from mars2d.view.show import show_experiment
 
-    pace = experiment.scenario.animation.playback_speed if speed is None else speed
-    return show_experiment(experiment, pace, seed, preferences=preferences)
+    own = experiment.scenario.animation.playback_speed
+    if human is not None and not (isinstance(own, float) and 0 < own < SPEED_BY_HAND):
+        own = SPEED_BY_HAND
+    pace = own if speed is None else speed
+    return show_experiment(experiment, pace, seed, preferences=preferences, human=human)
 
 
 def run_headless(experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()) -> World:

@@ -8,10 +8,12 @@ from pathlib import Path
 from mars2d.commands.base import (
     FILM_FPS,
     SHORT_FILM,
-    add_run_arguments,
+    add_human,
     add_preferences,
+    add_run_arguments,
     add_theory,
     has_display,
+    human_of,
     make_folder,
     preferences_of,
     print_examples,
@@ -38,6 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", nargs="?", metavar="NAME", help="an example; else all are listed")
     add_run_arguments(parser)
     add_theory(parser)
+    add_human(parser)
     add_preferences(parser)
 
 
@@ -52,9 +55,10 @@ def execute(arguments: argparse.Namespace) -> None:
     if name not in known:
         raise InputError(f"{name}: there is no such example{nearest(name, known)}")
     experiment = open_experiment(known[name], theory_of(arguments))
+    human, look = human_of(arguments, experiment), preferences_of(arguments)
     try:
         if not arguments.headless and has_display():
-            record = show(experiment, None, arguments.seed, preferences_of(arguments))
+            record = show(experiment, None, arguments.seed, look, human)
         else:
             record = _make_pictures(experiment, name, arguments.seed)
     except Interrupted:

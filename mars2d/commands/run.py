@@ -11,14 +11,16 @@ from pathlib import Path
 
 from mars2d.commands.base import (
     FILM_FPS,
+    add_human,
     add_options,
+    add_preferences,
     add_run_arguments,
     add_speed,
-    add_preferences,
     add_theory,
     check_outputs,
     film_speed,
     has_display,
+    human_of,
     options_of,
     predictions_of,
     preferences_of,
@@ -53,6 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--at", type=_times, metavar="T1,T2,...", help="snapshots at these times in the figure")
     add("--video", type=Path, metavar="OUT", help="make a film: .gif, .mp4")
     add_theory(parser)
+    add_human(parser)
     add_preferences(parser)
     add("--json", action="store_true", help="print the outcome as one line of JSON")
 
@@ -71,6 +74,7 @@ def execute(arguments: argparse.Namespace) -> None:
         raise InputError("--at needs --figure OUT")
     experiment = open_experiment(arguments.experiment, options_of(arguments) | theory_of(arguments))
     _check_times(arguments, experiment)
+    human_of(arguments, experiment)
     start = time.perf_counter()
     try:
         run = _run_in_window if _wants_window(arguments) else _run_headless
@@ -113,7 +117,8 @@ def _wants_window(arguments: argparse.Namespace) -> bool:
 
 
 def _run_in_window(arguments: argparse.Namespace, experiment: Experiment) -> Record:
-    record = show(experiment, arguments.speed, arguments.seed, preferences_of(arguments))
+    human, look = human_of(arguments, experiment), preferences_of(arguments)
+    record = show(experiment, arguments.speed, arguments.seed, look, human)
     _save_all(arguments, record)
     return record
 
@@ -143,11 +148,23 @@ def _keep(arguments: argparse.Namespace, record: Record) -> None:
 
 
 def _save_data(arguments: argparse.Namespace, record: Record) -> None:
-    """Save the record and the figure, where they are asked for."""
+    """Save the record, those of branches beside it, and the figure, where they are asked for."""
     if arguments.record is not None:
         record.save(arguments.record)
+        for branch in record.branches:
+            saved = branch.save(_free_beside(arguments.record))
+            end = f"left at {branch.time[-1]:g} s" if len(branch) else "empty"
+            print(f"mars2d: another branch, {end}, is in {saved}", file=sys.stderr)
     if arguments.figure is not None:
         figure.save_figure(record, arguments.figure, _times_within(arguments.at, record))
+
+
+def _free_beside(path: Path) -> Path:
+    """Return where a branch of a run is kept: no file is overwritten."""
+    number = 1
+    while (beside := path.with_stem(f"{path.stem}_branch{number}")).exists():
+        number += 1
+    return beside
 
 
 def _times_within(times: list[float] | None, record: Record) -> list[float] | None:

@@ -11,7 +11,7 @@ import pygame
 from mars2d.errors import InputError
 from mars2d.view.desktop import be_sharp
 
-__all__ = ["NO_DISPLAY", "display_available", "open_display"]
+__all__ = ["NO_DISPLAY", "be_quick", "display_available", "open_display"]
 
 NO_DISPLAY = (
     "there is no display for a window; run it with --headless, draw a picture with "
@@ -49,6 +49,7 @@ def open_display() -> None:
             raise InputError(NO_DISPLAY)
         return
     be_sharp()
+    be_quick()
     for attempt in range(ATTEMPTS):
         try:
             pygame.display.init()
@@ -62,3 +63,11 @@ def open_display() -> None:
         pygame.display.quit()
         break
     raise InputError(NO_DISPLAY)
+
+
+def be_quick() -> None:
+    """Ask for pictures to go to the screen as they are; to be called before the display starts.
+
+    SDL would hand them to OpenGL, which takes ten times as long where that is done in software.
+    """
+    os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")

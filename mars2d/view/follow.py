@@ -73,7 +73,11 @@ class Follow:
         if _small(moved, camera.scale) and _small(self._speed / PULL, camera.scale):
             self._speed, self._aim = np.zeros(3), None
             return camera
-        return _camera(aim + moved, plot)
+        scale = camera.scale  # of a body to the last bit: what is drawn can be used again
+        if self.target is None:
+            scale = min(exp(float(aim[2] + moved[2])), NEAREST)
+        x, y = (aim + moved)[:2].tolist()
+        return Camera(scale, plot.centerx - scale * x, plot.centery + scale * y)
 
     def _look_after_team(self, camera: Camera, frame: Frame, plot: pygame.Rect) -> None:
         """Aim at the team as it is now, unless it is well seen."""
@@ -122,9 +126,3 @@ def _middle(camera: Camera, plot: pygame.Rect) -> Float:
     """Return what a camera has in the middle of the picture [m], and its scale's logarithm."""
     ((x, y),) = camera.to_world([plot.center]).tolist()
     return np.array([x, y, log(camera.scale)])
-
-
-def _camera(middle: Float, plot: pygame.Rect) -> Camera:
-    """Return the camera of which that is true."""
-    x, y, scale = float(middle[0]), float(middle[1]), min(exp(float(middle[2])), NEAREST)
-    return Camera(scale, plot.centerx - scale * x, plot.centery + scale * y)

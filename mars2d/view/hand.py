@@ -284,7 +284,7 @@ class _Pull:
         scene.line([start, self.target], stroke=HALO, width=5.0)
         scene.line([start, self.target], stroke=FORCE, width=2.5)
         for point in (start, self.target):
-            scene.circle(point, 0.0, fill=FORCE, stroke=HALO, width=1.5, pixels=4.5)
+            scene.circle(point, 0.0, fill=FORCE, stroke=HALO, width=1.5, pixels=3.5)
         if self.newtons > 0.005:
             place = self.target[0], self.target[1] + 9 / camera.scale
             text = in_newtons(self.newtons)
@@ -388,7 +388,7 @@ class _Turn(_Move):
             way = hypot(self.pointer[0] - x, self.pointer[1] - y)
             end = x + way * cos(theta), y + way * sin(theta)
             scene.line([(x, y), end], stroke=faded(color, 0.7), width=1.5)
-            scene.circle(end, 0.0, fill=color, stroke=HALO, width=1.5, pixels=4.5)
+            scene.circle(end, 0.0, fill=color, stroke=HALO, width=1.5, pixels=3.5)
 
 
 # -- where things are, and marks ------------------------------------------------------------------

@@ -31,7 +31,7 @@ SHORTEST = 130.0
 
 PAD, GAP = 14.0, 9.0
 """Round all, and between two sections, points."""
-HEAD, ROW, FORCE, LINE = 40.0, 20.0, 128.0, 17.0
+HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
 """The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
 LABEL = 72.0
 """The room for what a row of numbers is, points."""
@@ -159,7 +159,7 @@ class Inspector:
                     ),
                 ),
             )
-            yield "contacts", self._list("contacts", contacts_of(frame, body), "none")
+            yield "contacts", self._line("contacts", " · ".join(contacts_of(frame, body)) or "none")
         for plot in sensor_plots(frame, body):
             yield plot.sensor.key, self._sensor(plot)
         if body < n and any(isinstance(addon, Communication) for addon in frame.scenario.addons):
@@ -167,7 +167,7 @@ class Inspector:
                 f"{sender}, {frame.time - sent:.1f} s ago: {text}"
                 for sender, sent, text in inbox(frame, body)
             ]
-            yield "its inbox", self._list("messages", heard, "none yet")
+            yield "its inbox", self._list("inbox", heard)
 
     # -- sections -----------------------------------------------------------------------------
 
@@ -255,13 +255,22 @@ class Inspector:
 
         return Section(TITLE + plot.height, draw)
 
-    def _list(self, title: str, lines: list[str], none: str) -> Section:
+    def _line(self, title: str, text: str) -> Section:
+        """Return a section of one line."""
+        ui, fonts = self.painter.ui, self.painter.fonts
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            room = rect.width - fonts.width(title, 12.5 * ui, bold=True) - 12 * ui
+            self._heading(surface, rect, title, fonts.shorten(text, 12 * ui, room))
+
+        return Section(TITLE, draw)
+
+    def _list(self, title: str, lines: list[str]) -> Section:
         """Return a section of some lines of text; it is as high as if there were the most."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
 
         def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            more = f"{len(lines)} in all" if len(lines) > LINES else "" if lines else none
-            self._heading(surface, rect, title, more)
+            self._heading(surface, rect, title, "" if lines else "nothing yet")
             for k, line in enumerate(lines[:LINES]):
                 text = fonts.shorten(line, 12.5 * ui, rect.width)
                 image = fonts.render(text, 12.5 * ui, theme.text)

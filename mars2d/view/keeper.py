@@ -52,7 +52,7 @@ class Keeper:
     def close(self) -> None:
         """End the film, if there is one."""
         if self._film is not None:
-            self._end_film()
+            self._try(self._end_film)
 
     def _begin_film(self) -> str:
         self._film = start_film(Path.cwd(), self._stem)

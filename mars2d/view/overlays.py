@@ -1,6 +1,8 @@
-"""What may be switched on over the picture: links to neighbours, and the scale of velocities."""
+"""What may be switched on over the picture: names, links to neighbours, the scale of velocities."""
 
 from __future__ import annotations
+
+from collections.abc import Hashable
 
 import numpy as np
 import pygame
@@ -9,14 +11,15 @@ from mars2d.forces import round_force
 from mars2d.frame import Frame
 from mars2d.neighbours import Everyone
 from mars2d.scenario import Scenario
-from mars2d.scene import Scene, faded
+from mars2d.scene import Scene, Text, faded
 from mars2d.usercode import called
 from mars2d.velocities import VELOCITY, in_metres_a_second, speed_scale
+from mars2d.view.brushes import rgba
 from mars2d.view.camera import Camera
 from mars2d.view.painter import Painter
 from mars2d.view.theme import mixed
 
-__all__ = ["Links", "draw_speed_legend"]
+__all__ = ["Labels", "Links", "draw_speed_legend"]
 
 MOST = 600
 """Of the links between neighbours, so many are drawn: the first ones."""
@@ -32,6 +35,57 @@ SMALLEST = 300.0
 
 FORCES = 132.0
 """The room that the legend of forces takes, points."""
+
+
+KEPT = 2000
+"""So many labels are kept."""
+
+
+class Labels:
+    """Draws many texts with halos quickly: each is put together once."""
+
+    def __init__(self) -> None:
+        """Start with none kept."""
+        self._images: dict[Hashable, pygame.Surface] = {}
+
+    def draw(self, surface: pygame.Surface, painter: Painter, scene: Scene, camera: Camera) -> None:
+        """Draw the texts of a scene, of one line each and anchored above their points."""
+        gap, images = 4 * painter.ui - _reach(painter), []
+        for shape in scene.shapes:
+            if isinstance(shape, Text):
+                image = self._image(painter, shape)
+                x = camera.x + camera.scale * shape.position[0] - image.get_width() / 2
+                y = camera.y - camera.scale * shape.position[1] - gap - image.get_height()
+                images.append((image, (round(x), round(y))))
+        surface.fblits(images)
+
+    def _image(self, painter: Painter, shape: Text) -> pygame.Surface:
+        """Return a text with its halo."""
+        theme, size = painter.theme, shape.size * painter.ui
+        key = shape.text, shape.color, shape.halo, size, theme
+        image = self._images.get(key)
+        if image is None:
+            if len(self._images) >= KEPT:
+                self._images.clear()
+            text = painter.fonts.render(shape.text, size, theme.shade(shape.color))
+            reach = _reach(painter)
+            image = pygame.Surface(
+                text.get_rect().inflate(2 * reach, 2 * reach).size, pygame.SRCALPHA
+            )
+            if shape.halo:
+                halo = theme.shade(shape.halo)
+                image.fill((*rgba(halo)[:3], 0))
+                rim = painter.fonts.render(shape.text, size, halo)
+                steps = range(2 * reach + 1)
+                image.fblits((rim, (dx, dy)) for dx in steps for dy in steps)
+            image.blit(text, (reach, reach))
+            self._images[key] = image
+        return image
+
+
+def _reach(painter: Painter) -> int:
+    """Return how wide a halo is, pixels."""
+    return max(1, round(1.5 * painter.ui))
 
 
 class Links:

@@ -290,7 +290,8 @@ class Painter:
     # -- text ---------------------------------------------------------------------------------
 
     def _text(self, surface: pygame.Surface, shape: Text, camera: Camera) -> None:
-        ((x, y),) = camera.to_pixels([shape.position]).tolist()
+        x = camera.x + camera.scale * shape.position[0]
+        y = camera.y - camera.scale * shape.position[1]
         gap = 4 * self.ui
         lines = shape.text.split("\n")
         color = self._shade(shape.color)

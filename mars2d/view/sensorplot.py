@@ -69,9 +69,11 @@ def plot_of(frame: Frame, robot: int, sensor: Sensor, reading: Any) -> SensorPlo
     if now.dtype.kind == "b":
         flags = past.values.reshape(len(past.values), -1)
         if flags.shape[1] <= FEW:
-            return SensorPlot(
-                sensor, FLAG_ROW * flags.shape[1], _Flags(past._replace(values=flags))
-            )
+            names = tuple(_degrees(angle) for angle in angles.tolist())
+            if len(names) != flags.shape[1]:
+                names = tuple(map(str, range(FEW)))
+            bands = _Flags(past._replace(values=flags), names)
+            return SensorPlot(sensor, FLAG_ROW * flags.shape[1], bands)
         return SensorPlot(sensor, CELLS, _Cells(_lit(now.ravel()[None, ::-1])))
     if kinds == ("color",) and now.shape[-1:] == (3,):
         strip = now[None, ::-1] if now.ndim == 2 else past.values[None]
@@ -194,12 +196,13 @@ class _Flags:
     """A band over time for each flag, filled while it is set."""
 
     history: History
+    names: tuple[str, ...]
 
     def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
         ui, theme = painter.ui, painter.theme
         values, height = self.history.values, round(FLAG_ROW * ui)
         several = values.shape[1] > 1
-        room = round(NAME / 2 * ui) if several else 0
+        room = round(NAME * ui) if several else 0
         lit = theme.shade(LIT)
         for k in range(values.shape[1]):
             top = rect.top + k * height
@@ -216,7 +219,7 @@ class _Flags:
                 left, right = float(x[a]), float(x[min(b, len(x) - 1)])
                 surface.fill(lit, (left, area.top, max(2, right - left), area.height))
             if several:
-                image = painter.fonts.render(str(k), 12 * ui, theme.text)
+                image = painter.fonts.render(self.names[k], 12 * ui, theme.text)
                 surface.blit(image, image.get_rect(midleft=(rect.left, area.centery)))
             now = bool(values[-1, k])
             image = painter.fonts.render(
@@ -283,17 +286,18 @@ def _bearings(
     for share in (0.0, 0.5, 1.0):
         y = area.bottom - round(share * area.height)
         surface.fill(theme.grid if share else theme.grid_axis, (area.left, y, area.width, 1))
-        if share != 0.5:
+        if share:
             image = fonts.render(f"{share * reach:.3g} m", 11 * ui, theme.muted)
             surface.blit(image, image.get_rect(midright=(area.left - round(6 * ui), y)))
     low, high = angles
-    for angle in (high, (low + high) / 2, low):
+    ahead = 0.0 if low < 0 < high else (low + high) / 2
+    for angle in (high, ahead, low):
         x = area.right - round((angle - low) / max(high - low, 1e-9) * area.width)
         surface.fill(theme.grid, (x, area.top, 1, area.height))
-        word = f"{round(np.degrees(angle)) + 0:d}°".replace("-", "\N{MINUS SIGN}")
-        image = fonts.render(word, 11 * ui, theme.muted)
+        image = fonts.render(_degrees(angle), 11 * ui, theme.muted)
         place = image.get_rect(midtop=(x, area.bottom + round(2 * ui)))
-        surface.blit(image, place.clamp(rect.inflate(0, round(40 * ui))))
+        place.left = min(max(place.left, area.left), area.right - place.width)
+        surface.blit(image, place)
     return area
 
 
@@ -339,8 +343,13 @@ class _Bars:
 def _in_words(value: float, quantity: Quantity) -> str:
     """Return a number as it is read, with its unit; angles in degrees."""
     if quantity.kind == "angle" and np.isfinite(value):
-        return f"{np.degrees(value):.0f}°".replace("-", "\N{MINUS SIGN}")
+        return _degrees(value)
     if not np.isfinite(value):
         return "nothing" if np.isnan(value) or value > 0 else str(value)
     text = f"{value:.3f}" if abs(value) < 10 else f"{value:.4g}"
-    return f"{text} {quantity.unit}".replace("-", "\N{MINUS SIGN}").strip()
+    unit = quantity.unit.replace("^2", "²")
+    return f"{text} {unit}".replace("-", "\N{MINUS SIGN}").strip()
+
+
+def _degrees(angle: float) -> str:
+    return f"{round(float(np.degrees(angle))):d}°".replace("-", "\N{MINUS SIGN}")

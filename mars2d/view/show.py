@@ -38,7 +38,7 @@ def show_experiment(
     try:
         window.run()
     except Mars2dError as error:
-        error.record = error.record or source.record
+        error.record = source.record
         raise
     except KeyboardInterrupt:
         raise Interrupted(source.record) from None

@@ -21,10 +21,13 @@ from mars2d.view.canvas import Canvas, grid_bounds
 from mars2d.view.grid import labels
 from mars2d.view.layers import Layers
 from mars2d.view.legend import draw_legend
-from mars2d.view.overlays import Links, draw_speed_legend
+from mars2d.view.overlays import Labels, Links, draw_speed_legend
 from mars2d.view.painter import Painter
 
-__all__ = ["Stage"]
+__all__ = ["MEMORY", "Stage"]
+
+MEMORY = 100_000_000
+"""The bytes that a window uses to go back in time quickly: some twenty pictures."""
 
 PATIENCE = 0.012
 """The seconds that drawing what stands still may take without the movement of a camera jerking."""
@@ -58,9 +61,9 @@ class Stage:
         self._scenario: Scenario | None = None
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
-        self._labels: list[tuple[pygame.Surface, tuple[int, int]]] = []
-        self._labeled: tuple[Hashable, ...] = ()
-        self._links = Links()
+        self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
+        self._numbers_of: tuple[Hashable, ...] = ()
+        self._names, self._links = Labels(), Links()
 
     def draw(
         self,
@@ -92,7 +95,9 @@ class Stage:
         if layers.messages and layers.neighbours:
             self._links.draw(surface, self.painter, frame, camera)
         self.painter.paint(surface, self._moving(frame, layers, marks).shapes, camera)
-        surface.fblits(self._labels_of(frame.scenario, camera, layers, surface.get_size(), plot))
+        if layers.names:
+            self._names.draw(surface, self.painter, names(frame), camera)
+        surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
         if layers.forces:
             draw_legend(surface, self.painter, frame.scenario, camera, plot)
         if layers.velocities:
@@ -115,8 +120,6 @@ class Stage:
             moving.extend(velocities(frame).shapes)
         if layers.forces:
             moving.extend(forces(frame).shapes)
-        if layers.names:
-            moving.extend(names(frame).shapes)
         return moving
 
     # -- what stands still --------------------------------------------------------------------
@@ -214,7 +217,7 @@ class Stage:
             place = corner[0] + factor * seen.left, corner[1] + factor * seen.top
             surface.blit(pygame.transform.scale(last.subsurface(seen), size), place)
 
-    def _labels_of(
+    def _numbers_at(
         self,
         scenario: Scenario,
         camera: Camera,
@@ -223,15 +226,15 @@ class Stage:
         plot: pygame.Rect,
     ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
         """Return the numbers of the grid, and where they go."""
-        labeled = camera, *self._key
-        if self._labeled != labeled:
-            self._labeled, self._labels = labeled, []
+        key = camera, *self._key
+        if self._numbers_of != key:
+            self._numbers_of, self._numbers = key, []
             if layers.grid:
                 bounds, painter = grid_bounds(scenario, camera, size), self.painter
-                self._labels = labels(
+                self._numbers = labels(
                     plot, camera, bounds, painter.fonts, painter.ui, painter.theme
                 )
-        return self._labels
+        return self._numbers
 
     def _with_sensors(
         self, picture: pygame.Surface, frame: Frame, canvas: Canvas

@@ -15,7 +15,6 @@ import pygame
 from mars2d.errors import InputError, Mars2dError
 from mars2d.excerpt import excerpt_of
 from mars2d.frame import Frame
-from mars2d.scene import PALETTE, Scene
 from mars2d.timeline import Timeline
 from mars2d.view import keys
 from mars2d.view.bars import Banner, Status, draw_footer, draw_header, footer_height
@@ -26,6 +25,7 @@ from mars2d.view.display import NO_DISPLAY, open_display
 from mars2d.view.editor import Editor
 from mars2d.view.hand import Hand
 from mars2d.view.help import draw_help
+from mars2d.view.icon import icon
 from mars2d.view.keeper import Keeper
 from mars2d.view.layers import Layers
 from mars2d.view.layout import TEXT_SIZES, Layout
@@ -162,7 +162,7 @@ class Window:
 
     def _show(self) -> pygame.Surface:
         pygame.display.set_caption(self.title)
-        pygame.display.set_icon(_icon(self._painter))
+        pygame.display.set_icon(icon(self._painter))
         try:
             size = opening_size(self.size, self.scale)
             screen = pygame.display.set_mode(size, pygame.RESIZABLE)
@@ -513,12 +513,3 @@ def _stem(source: Source) -> str:
     path = source.experiment.path if isinstance(source, Timeline) else None
     return source.scenario.title if path is None else path.stem
 
-
-def _icon(painter: Painter) -> pygame.Surface:
-    """Return the window's icon: a robot, seen from above."""
-    scene = Scene()
-    scene.circle((0, 0), 1.0, fill=PALETTE[0], stroke="#ffffff", width=2.0)
-    scene.line([(0, 0), (1, 0)], stroke="#ffffff", width=7.0)
-    icon = pygame.Surface((64, 64), pygame.SRCALPHA, 32)
-    painter.paint(icon, scene.shapes, Camera(29.0, 32.0, 32.0))
-    return icon

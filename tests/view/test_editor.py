@@ -701,9 +701,11 @@ def edit(folder, *arguments, **environment):
 def test_the_command_draws_a_new_file(screen, tmp_path):  # noqa: F811
     process = edit(tmp_path, "room.toml", DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0")
     do = partial(subprocess.run, env=bare_environment(DISPLAY=screen), check=True)
+    shot = ["import", "-window", "root", "-crop", "50x40+5+5", "rgb:-"]
+    end = time.monotonic() + 20
     try:
-        do(["xdotool", "search", "--sync", "--onlyvisible", "--name", "room.toml"], timeout=30)
-        time.sleep(0.5)
+        while not any(do(shot, capture_output=True).stdout) and time.monotonic() < end:
+            time.sleep(0.2)  # until there is more than a black screen
         do(["xdotool", "key", "r", "mousemove", "600", "350", "click", "1", "sleep", "0.2"])
         do(["xdotool", "key", "--delay", "150", "ctrl+s", "Return"])
         end = time.monotonic() + 10

@@ -1,5 +1,6 @@
 """What is drawn in the editor, without a window."""
 
+import random
 from math import pi
 from pathlib import Path
 
@@ -329,7 +330,7 @@ def test_every_example_can_be_opened_and_emptied(name):
     assert editor.desk.notice == ""
     editor.desk.put(editor.desk.draft.without(editor.desk.draft.items()))
     editor.draw(surface)
-    assert "no robot" in editor.verdict.text
+    assert "no robot" in editor.judge.verdict.text
 
 
 def test_an_add_on_that_can_not_be_drawn_is_left_out_and_said():
@@ -359,3 +360,53 @@ def test_the_page_of_help_lists_all_keys_that_work():
             for key in group:
                 for name in key.names:
                     assert keys.action_of(name, "", live=live) is key
+
+
+@pytest.fixture
+def keyboard(monkeypatch):
+    """Let pygame know the names of keys, without a display."""
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    pygame.display.init()
+    yield
+    pygame.display.quit()
+
+
+@pytest.mark.usefixtures("keyboard")
+@pytest.mark.parametrize("seed", range(4))
+def test_no_sequence_of_events_breaks_it(seed, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    chance = random.Random(seed)
+    editor = Editor(furnished(), Painter(), live=seed % 2 == 0, empty=seed % 3 == 0)
+    surface = pygame.Surface((640, 480), 0, 32)
+    codes = [ord(character) for character in "vrbowpkynm=gfidzsa1-."]
+    codes += [pygame.K_RETURN, pygame.K_ESCAPE, pygame.K_DELETE, pygame.K_BACKSPACE, pygame.K_LEFT]
+    codes += [pygame.K_UP, pygame.K_SPACE, pygame.K_F1, pygame.K_LSHIFT]
+    pixel, corners = (300, 200), [(x, y) for x in range(60, 640, 40) for y in range(50, 440, 40)]
+    for step in range(1000):
+        what = chance.randrange(5)
+        button = chance.choice([1, 1, 1, 2, 3])
+        if what == 0:
+            code, mod = (
+                chance.choice(codes),
+                chance.choice([0, 0, pygame.KMOD_SHIFT, pygame.KMOD_CTRL]),
+            )
+            text = chr(code) if 32 < code < 127 else ""
+            kinds = [{"type": pygame.KEYDOWN, "unicode": text}, {"type": pygame.KEYUP}]
+            for kind in kinds[: chance.choice([1, 2, 2])]:
+                editor.handle(pygame.event.Event(kind.pop("type"), key=code, mod=mod, **kind))
+        elif what == 1:
+            editor.handle(pygame.event.Event(pygame.MOUSEBUTTONDOWN, pos=pixel, button=button))
+        elif what == 2:
+            editor.handle(pygame.event.Event(pygame.MOUSEBUTTONUP, pos=pixel, button=button))
+        else:
+            pixel = chance.choice(corners)
+            rel, buttons = (chance.randint(-9, 9), 3), (1, 0, 0)
+            editor.handle(
+                pygame.event.Event(pygame.MOUSEMOTION, pos=pixel, rel=rel, buttons=buttons)
+            )
+        if step % 15 == 0:
+            editor.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=chance.choice([-1, 1])))
+            editor.draw(surface)
+        editor.done, editor.outcome = False, None
+    judged = editor.judge.of(editor.desk.draft)
+    assert (judged.scenario is None) == bool(judged.faults)

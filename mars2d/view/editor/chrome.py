@@ -91,12 +91,15 @@ def draw_footer(
     place = fonts.render(right, 14 * ui, theme.text)
     surface.blit(place, place.get_rect(midright=(bar.right - pad, bar.centery)))
     room = bar.width - 3 * pad - place.get_width()
-    if tone is None:
-        words = fonts.render(fonts.shorten(text, 14 * ui, room), 14 * ui, theme.muted)
-    else:
-        short = fonts.shorten(text, 16 * ui, room, bold=True)
-        words = fonts.render(short, 16 * ui, tone.ink, bold=True)
-    surface.blit(words, words.get_rect(midleft=(bar.left + pad, bar.centery)))
+    size, ink, bold = (14 * ui, theme.muted, False) if tone is None else (16 * ui, tone.ink, True)
+    if tone is not None and fonts.width(text, size, bold=True) > room:
+        size = 13 * ui  # two lines of it
+    lines = fonts.wrap(text, size, room, 1 if tone is None else 2, bold=bold)
+    y = bar.centery - 0.65 * size * (len(lines) - 1)
+    for line in lines:
+        words = fonts.render(line, size, ink, bold=bold)
+        surface.blit(words, words.get_rect(midleft=(bar.left + pad, round(y))))
+        y += 1.3 * size
 
 
 def draw_prompt(

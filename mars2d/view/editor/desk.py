@@ -8,7 +8,7 @@ from math import floor, hypot, log10
 from mars2d.errors import InputError
 from mars2d.geometry import Point, grid_step
 from mars2d.view.camera import Camera
-from mars2d.view.editor.draft import Draft, Item, tidy
+from mars2d.view.editor.draft import Draft, Item, Motion, tidy
 from mars2d.view.editor.history import History
 
 __all__ = ["Desk", "Gesture"]
@@ -114,6 +114,48 @@ class Desk:
     def say(self, text: str, *, warns: bool = False) -> None:
         """Say something at the foot of the window, until the next thing is done."""
         self.notice, self.warns = text, warns
+
+    # -- what is done to it -----------------------------------------------------------------------
+
+    def remove(self) -> None:
+        """Remove the corner that was touched last, or else what is selected."""
+        item = self.only
+        corners = None if item is None else self.draft.corners(item)
+        if item is None or corners is None or self.corner is None:
+            if self.selection:
+                self.put(self.draft.without(self.selection))
+                self.select()
+            return
+        least = 2 if item.kind == "wall" or len(corners) == 2 else 3
+        if len(corners) == least:
+            self.say(f"{self.draft.name(item)} needs {least} corners", warns=True)
+            return
+        left = (*corners[: self.corner], *corners[self.corner + 1 :])
+        self.corner = None
+        self.put(self.draft.with_corners(item, left))
+
+    def duplicate(self) -> None:
+        """Put a copy of what is selected beside it, and select that."""
+        items = [item for item in self.selection if item.kind != "workspace"]
+        if items:
+            aside = Motion(by=(2 * self.step, -2 * self.step))
+            draft, copies = self.draft.copied(items, aside)
+            self.put(draft)
+            self.select(copies)
+
+    def nudge(self, dx: int, dy: int, *, fine: bool) -> None:
+        """Move the corner that was touched last, or what is selected, by steps of the grid.
+
+        fine: by tenths of a step.
+        """
+        step = self.step * (0.1 if fine else 1.0)
+        moved = Motion(by=(dx * step, dy * step))
+        if self.corner is not None and self.only is not None:
+            corners = list(self.draft.corners(self.only) or ())
+            corners[self.corner] = moved.point(corners[self.corner])
+            self.put(self.draft.with_corners(self.only, corners), tag="nudge")
+        elif self.selection:
+            self.put(self.draft.moved(self.selection, moved), tag="nudge")
 
     # -- how it is looked at ----------------------------------------------------------------------
 

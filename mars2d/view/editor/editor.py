@@ -6,15 +6,15 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from math import degrees, hypot, radians
+from math import radians
 from pathlib import Path
 from typing import Any, Literal
 
 import pygame
 
 from mars2d.changes import check_same
-from mars2d.errors import InputError, Mars2dError, counted
-from mars2d.geometry import Point, edges_of
+from mars2d.errors import InputError, Mars2dError
+from mars2d.geometry import Point
 from mars2d.names import names
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
@@ -23,7 +23,7 @@ from mars2d.view.editor.boundary import Boundary
 from mars2d.view.editor.chrome import Button, Header, draw_footer, draw_plate, draw_prompt
 from mars2d.view.editor.desk import Desk
 from mars2d.view.editor.document import Document
-from mars2d.view.editor.draft import Draft, Motion
+from mars2d.view.editor.draft import Draft
 from mars2d.view.editor.keys import action_of, chord, groups
 from mars2d.view.editor.marks import draw_culprits, draw_selected
 from mars2d.view.editor.outlining import DrawPolygon, DrawRectangle, DrawWall
@@ -35,17 +35,19 @@ from mars2d.view.editor.placing import (
     PlaceWaypoint,
 )
 from mars2d.view.editor.prompt import Prompt
+from mars2d.view.editor.readout import described
 from mars2d.view.editor.select import Select
 from mars2d.view.editor.sketch import Sketch
 from mars2d.view.editor.tool import Tool, minus
 from mars2d.view.editor.toolbar import WIDTH, Toolbar
-from mars2d.view.editor.verdict import Verdict, judge
+from mars2d.view.editor.verdict import Judge
 from mars2d.view.help import draw_help
 from mars2d.view.layers import Layers
 from mars2d.view.layout import TEXT_SIZES, Layout, fitted
 from mars2d.view.painter import Painter
 from mars2d.view.stage import Stage
 from mars2d.view.theme import DARK, LIGHT
+from mars2d.view.viewpoint import DEEPEST, WHEEL_FACTOR, WIDEST, wheel_notches
 
 __all__ = ["Editor", "Outcome"]
 
@@ -62,13 +64,6 @@ TOOLS: dict[str, type[Tool]] = {
     "workspace": Boundary,
 }
 NUDGES = {"left": (-1, 0), "right": (1, 0), "up": (0, 1), "down": (0, -1)}
-WHEEL_FACTOR = 1.15
-DEEPEST, WIDEST = 400.0, 0.02
-"""How far one can zoom in and out, times the scale at which the workspace fits."""
-PATIENCE = 0.1
-"""During a drag a draft is checked no sooner than this after the last time, seconds."""
-SHARE = 8.0
-"""Nor sooner than after so many times as long as that took."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
 FEW = 40
 """The names of so many robots and props are shown, unless a person wants others, too."""
@@ -120,8 +115,7 @@ class Editor:
         self.desk = Desk(draft, Camera(1.0, 0.0, 0.0))
         if changed:
             self.desk.history.lose()
-        self.verdict = judge(draft)
-        self._judged, self._judged_at, self._cost = draft, 0.0, 0.0
+        self.judge = Judge(draft)
         self._fits = True
         self._stage, self._sketch = Stage(painter), Sketch()
         self._header, self._toolbar = Header(painter), Toolbar(painter)
@@ -136,8 +130,8 @@ class Editor:
         self._actions: dict[str, Callable[[], None]] = {
             **{name: lambda name=name: self._choose(name) for name in TOOLS},  # type: ignore[misc]
             "pose": self._ask_pose,
-            "delete": self._delete,
-            "duplicate": self._duplicate,
+            "delete": self.desk.remove,
+            "duplicate": self.desk.duplicate,
             "all": self._select_all,
             "undo": self._undo,
             "redo": self.desk.redo,
@@ -173,7 +167,7 @@ class Editor:
             self._held.clear()
             self._let_go()
         elif event.type == pygame.MOUSEWHEEL:
-            self._zoom(WHEEL_FACTOR ** getattr(event, "precise_y", event.y))
+            self._zoom(WHEEL_FACTOR ** wheel_notches(event))
         elif event.type == pygame.MOUSEMOTION:
             self._move(event)
         elif event.type == pygame.MOUSEBUTTONDOWN:
@@ -211,7 +205,7 @@ class Editor:
         self.desk.say("")
         if key.action == "nudge":
             dx, dy = NUDGES[pygame.key.name(event.key)]
-            self._nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
+            self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
         else:
             self._actions[key.action]()
 
@@ -280,44 +274,9 @@ class Editor:
         if self.layout.plot.collidepoint(self._pointer):
             self.tool.pointer = self._world(self._pointer)
 
-    def _delete(self) -> None:
-        desk, item = self.desk, self.desk.only
-        corners = None if item is None else desk.draft.corners(item)
-        if item is not None and corners is not None and desk.corner is not None:
-            least = 2 if item.kind == "wall" or len(corners) == 2 else 3
-            if len(corners) > least:
-                left = (*corners[: desk.corner], *corners[desk.corner + 1 :])
-                desk.corner = None
-                desk.put(desk.draft.with_corners(item, left))
-            else:
-                desk.say(f"{desk.draft.name(item)} needs {least} corners", warns=True)
-        elif desk.selection:
-            desk.put(desk.draft.without(desk.selection))
-            desk.select()
-
-    def _duplicate(self) -> None:
-        desk = self.desk
-        items = [item for item in desk.selection if item.kind != "workspace"]
-        if items:
-            step = 2 * desk.step
-            draft, copies = desk.draft.copied(items, Motion(by=(step, -step)))
-            desk.put(draft)
-            desk.select(copies)
-
     def _select_all(self) -> None:
         self._choose("select")
         self.desk.select(self.desk.draft.items())
-
-    def _nudge(self, dx: int, dy: int, *, fine: bool) -> None:
-        desk = self.desk
-        step = desk.step * (0.1 if fine else 1.0)
-        moved = Motion(by=(dx * step, dy * step))
-        if desk.corner is not None and desk.only is not None:
-            corners = list(desk.draft.corners(desk.only) or ())
-            corners[desk.corner] = moved.point(corners[desk.corner])
-            desk.put(desk.draft.with_corners(desk.only, corners), tag="nudge")
-        elif desk.selection:
-            desk.put(desk.draft.moved(desk.selection, moved), tag="nudge")
 
     def _ask_pose(self) -> None:
         if not (self.desk.selection or self.tool.puts):
@@ -401,20 +360,10 @@ class Editor:
 
     # -- keeping --------------------------------------------------------------------------------
 
-    def judge(self, *, at_once: bool = True) -> Verdict:
-        """Check the draft of now, unless that is known; during a drag only now and then."""
-        now, draft = time.perf_counter(), self.desk.draft
-        wait = 0.0 if at_once else max(PATIENCE, SHARE * self._cost)
-        if draft is not self._judged and now - self._judged_at >= wait:
-            self.verdict = judge(draft)
-            self._judged, self._judged_at = draft, time.perf_counter()
-            self._cost = self._judged_at - now
-        return self.verdict
-
     def _sound(self, doing: str) -> Scenario | None:
         """Return the scenario if it is one, else say why it can't be."""
         self.tool.confirm()
-        verdict = self.judge()
+        verdict = self.judge.of(self.desk.draft)
         if verdict.scenario is None:
             self.desk.say(f"{doing}: {verdict.text}", warns=True)
         return verdict.scenario
@@ -513,7 +462,7 @@ class Editor:
     def draw(self, surface: pygame.Surface) -> None:
         """Draw everything; the layout follows the surface's size."""
         self._arrange(surface.get_size())
-        self.judge(at_once=not self._dragging)
+        self.judge.of(self.desk.draft, at_once=not self._dragging)
         self._draw_plot(surface)
         plot, bar = self.layout.plot, self.layout.header
         side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
@@ -538,7 +487,7 @@ class Editor:
         scene = Scene()
         draft = self.desk.draft
         draw_selected(draft, self.desk.selection, scene)
-        draw_culprits(draft, self.verdict.culprits, scene)
+        draw_culprits(draft, self.judge.verdict.culprits, scene)
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.desk.camera
         frame = self._sketch.frame(draft, bare=self._plain)
@@ -559,7 +508,7 @@ class Editor:
             x, y = self._pointer
             gap = round(16 * self.layout.ui)
             draw_plate(surface, self.painter, [remark], plot, topleft=(x + gap, y + gap))
-        lines = self._described()
+        lines = described(self.desk)
         if lines:
             gap = round(12 * self.layout.ui)
             corner = plot.right - gap, plot.top + gap
@@ -570,8 +519,8 @@ class Editor:
         text, kind = self.tool.hint, "hint"
         if desk.notice:
             text, kind = desk.notice, "error" if desk.warns else "note"
-        elif self.verdict.faults:
-            text = self.verdict.text
+        elif self.judge.verdict.faults:
+            text = self.judge.verdict.text
             kind = "error" if desk.draft.robots else "hint"
         right = ""
         if self.layout.plot.collidepoint(self._pointer):
@@ -597,29 +546,3 @@ class Editor:
         changed = history.changed
         save = Button("save", "Save", first=changed)
         return [*common, save, Button("run", "Run", first=not changed)]
-
-    def _described(self) -> list[str]:
-        """Return what is selected and where it is, in lines."""
-        draft, items = self.desk.draft, self.desk.selection
-        if not items:
-            return []
-        if len(items) > 1:
-            return [counted(len(items), "thing")]
-        item = items[0]
-        corners, pose = draft.corners(item), draft.pose(item)
-        if pose is not None:
-            x, y, theta = pose
-            where = f"x {x:.4g} m   y {y:.4g} m   θ {degrees(theta) + 0.0:.4g}°"
-        elif corners is None:
-            x, y = draft.place(item)
-            where = f"x {x:.4g} m   y {y:.4g} m"
-        elif self.desk.corner is not None:
-            x, y = corners[self.desk.corner]
-            where = f"corner {self.desk.corner}   x {x:.4g} m   y {y:.4g} m"
-        else:
-            sides = edges_of(corners)[: len(corners) - (item.kind == "wall")]
-            length = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in sides)
-            where = f"{counted(len(corners), 'corner')}, {length:.4g} m long"
-            if item.kind != "wall":
-                where = f"{counted(len(corners), 'corner')}, {length:.4g} m round"
-        return [draft.name(item), minus(where)]

@@ -82,7 +82,7 @@ class Toolbar:
         painter, theme, ui = self._painter, self._painter.theme, self._painter.ui
         for key, place in self._places:
             if place.collidepoint(pointer):
-                text = painter.fonts.render(key.help.capitalize(), 15 * ui, theme.ink)
+                text = painter.fonts.render(key.help[0].upper() + key.help[1:], 15 * ui, theme.ink)
                 plate = text.get_rect().inflate(round(22 * ui), round(14 * ui))
                 plate.midleft = (place.right + round(10 * ui), place.centery)
                 plate.clamp_ip(bounds)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
@@ -15,10 +16,14 @@ from mars2d.rigid import Rigid
 from mars2d.scenario import Scenario
 from mars2d.view.editor.draft import Draft, Item, flaw
 
-__all__ = ["Fault", "Verdict", "judge"]
+__all__ = ["Fault", "Judge", "Verdict", "judge"]
 
 MOST = 50
 """So many faults are looked for."""
+PATIENCE = 0.1
+"""During a drag a draft is judged no sooner than this after the last time, seconds."""
+SHARE = 8.0
+"""Nor sooner than after so many times as long as that took."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +70,28 @@ def judge(draft: Draft) -> Verdict:
         return Verdict(None, found or (Fault(str(error)),))
     stray = tuple(_stray(draft))
     return Verdict(None if stray else scenario, stray)
+
+
+class Judge:
+    """Judges drafts that change all the time, and each only once.
+
+    verdict: the last one.
+    """
+
+    def __init__(self, draft: Draft) -> None:
+        """Judge a first draft."""
+        self.verdict = judge(draft)
+        self._draft, self._when, self._cost = draft, 0.0, 0.0
+
+    def of(self, draft: Draft, *, at_once: bool = True) -> Verdict:
+        """Return the verdict on a draft; if that has time, perhaps the one before."""
+        now = time.perf_counter()
+        wait = 0.0 if at_once else max(PATIENCE, SHARE * self._cost)
+        if draft is not self._draft and now - self._when >= wait:
+            self.verdict, self._draft = judge(draft), draft
+            self._when = time.perf_counter()
+            self._cost = self._when - now
+        return self.verdict
 
 
 def _flaws(draft: Draft) -> Iterator[Fault]:

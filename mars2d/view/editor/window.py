@@ -9,6 +9,7 @@ from mars2d.files import open_experiment
 from mars2d.view.desktop import desktop_scale, opening_size
 from mars2d.view.display import NO_DISPLAY, open_display
 from mars2d.view.editor.editor import Editor
+from mars2d.view.icon import icon
 from mars2d.view.preferences import Preferences
 from mars2d.view.theme import DARK, LIGHT
 
@@ -52,6 +53,7 @@ class EditorWindow:
                 pygame.display.quit()
 
     def _show(self) -> None:
+        pygame.display.set_icon(icon(self.editor.painter))
         try:
             pygame.display.set_mode(self.size, pygame.RESIZABLE)
         except pygame.error as error:
