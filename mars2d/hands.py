@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import ceil, cos, hypot, sin, sqrt
+from math import ceil, cos, dist, hypot, sin, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,6 +32,12 @@ SLICE = 0.01
 
 STIFFNESS = 24.0
 """How quickly a spring draws in what it pulls: the natural frequency of critical damping, rad/s."""
+
+STRONGEST, FASTEST = 1e6, 100.0
+"""Bounds of what may pull, N and m/s; quicker ones need ever more substeps."""
+
+ROUNDING = 1e-9
+"""How far off a body a point of it may be, in parts of the body's reach."""
 
 TINY = 1e-12
 """No length or force is divided by less."""
@@ -147,8 +153,13 @@ class Hands:
             real("Hands.pull(force)", force),
             real("Hands.pull(speed)", speed),
         )
-        if pull.force <= 0 or pull.speed <= 0:
-            raise InputError(f"Hands.pull(force={force}, speed={speed}): expected numbers > 0")
+        center, radius = world.scenario.bodies[index].shape.bound
+        if dist(pull.grip, center) > radius * (1 + ROUNDING):
+            raise wrong("Hands.pull(grip)", grip, f"a point of the body, within {radius:g} m")
+        if not 0 < pull.force <= STRONGEST:
+            raise wrong("Hands.pull(force)", force, f"a number > 0 and <= {STRONGEST:g} [N]")
+        if not 0 < pull.speed <= FASTEST:
+            raise wrong("Hands.pull(speed)", speed, f"a number > 0 and <= {FASTEST:g} [m/s]")
         self._pull(pull)
 
     def _pull(self, pull: Pull) -> None:

@@ -58,7 +58,10 @@ def speed_scale(scenario: Scenario) -> SpeedScale:
     fastest = max(robot.drive.max_linear_speed for robot in scenario.robots)
     crowd = max(1.0, sqrt(len(scenario.robots) / FEW))
     return SpeedScale(
-        fastest, length / fastest / crowd, 2.5 * length / crowd, ARROW_WIDTH / crowd**0.25
+        fastest=fastest,
+        meter_a_second=length / fastest / sqrt(crowd),
+        longest=2.5 * length / sqrt(crowd),
+        width=ARROW_WIDTH / crowd**0.25,
     )
 
 

@@ -52,3 +52,10 @@ def test_cells_are_timed(tmp_path):
     assert [row["region"] for row in result["cells"]] == ["square", "circle", "hook"]
     assert all(row[way]["ms"] > 0 for row in result["cells"] for way in ("cells", "density"))
     assert result["drawing"][0]["painting"]["ms"] > 0
+
+
+def test_scrubbing_and_branching_are_timed(tmp_path):
+    result = run("scrubbing.py", "--rows", "60", "--robots", "3", cwd=tmp_path)
+    for law in ("plain", "sensing"):
+        assert 0 < result[law]["look"] < result[law]["branch from the start"][0]
+        assert len(result[law]["branch from those waiting"]) == 7

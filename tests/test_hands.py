@@ -102,6 +102,23 @@ def test_a_long_control_step_takes_no_more_than_a_moment():
     assert abs(path[-1, 0] - 2.0) < 0.01
 
 
+def test_the_strongest_and_quickest_pull_neither_hangs_nor_goes_through_walls():
+    scenario = Scenario(robots=[ROBOT.replace(mass=0.1)], addons=[WALL], on_exit="ignore")
+    start = time.perf_counter()
+    _, path = pulled(scenario, 0, (900.0, 0.0), steps=20, force=1e6, speed=100.0)
+    assert time.perf_counter() - start < 5.0
+    assert path[:, 0].max() <= 0.85 + scenario.max_overlap
+
+
+def test_a_body_far_away_can_be_put_there_and_pulled_there():
+    world = World(Scenario(robots=[ROBOT], workspace=None, on_exit="ignore"))
+    world.hands.place(0, (9e5, -9e5, 0.0))
+    world.hands.pull(0, (0.0, 0.0), (9e5 + 1, -9e5))
+    for _ in range(20):
+        world.step()
+    assert world.pose[0, 0] == pytest.approx(9e5 + 1, rel=1e-12, abs=0.02)
+
+
 # -- against drives and floors -----------------------------------------------------------------
 
 
@@ -399,8 +416,11 @@ def test_all_is_let_go_at_once():
         (lambda h: h.pull(7, (0, 0), (1, 1)), "Hands.pull: there is no body 7; they are 0 to 1"),
         (lambda h: h.pull("red", (0,), (1, 1)), r"Hands.pull\(grip\)"),
         (lambda h: h.pull("red", (0, 0), (1, float("nan"))), r"Hands.pull\(target\)"),
-        (lambda h: h.pull("red", (0, 0), (1, 1), force=0), "expected numbers > 0"),
-        (lambda h: h.pull("red", (0, 0), (1, 1), speed=-1), "expected numbers > 0"),
+        (lambda h: h.pull("red", (0, 0), (1, 1), force=0), "expected a number > 0 and <= 1e"),
+        (lambda h: h.pull("red", (0, 0), (1, 1), force=1e9), "expected a number > 0 and <= 1e"),
+        (lambda h: h.pull("red", (0, 0), (1, 1), speed=-1), "expected a number > 0 and <= 100"),
+        (lambda h: h.pull("red", (0.2, 0), (1, 1)), "a point of the body, within 0.15 m"),
+        (lambda h: h.pull("red", (1e300, 0), (1, 1)), r"Hands.pull\(grip\)"),
         (lambda h: h.hold("blu"), "World.hold: there is no robot 'blu'"),
     ],
 )

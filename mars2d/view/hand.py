@@ -20,7 +20,7 @@ from mars2d.geometry import Point
 from mars2d.hands import fixed, forceless
 from mars2d.looks import draw_prop, draw_robot
 from mars2d.placement import obstruction
-from mars2d.rigid import Triple
+from mars2d.rigid import Rigid, Triple
 from mars2d.scenario import Scenario
 from mars2d.scene import Anchor, Scene, Shape, faded
 from mars2d.view.camera import Camera
@@ -106,7 +106,9 @@ class Hand:
         self._pressed: tuple[Pixel, int, int, float] | None = None  # pixel, body, button, since
         self._deed: Deed | None = None
         self._running = False  # when the deed began
+        self._grip: Point = (0.0, 0.0)  # where it was pressed, in the frame of the body
         self._pixel: Pixel = (0, 0)
+        self._inside = False  # the picture
         self._cursor = pygame.SYSTEM_CURSOR_ARROW
 
     # -- events ---------------------------------------------------------------------------------
@@ -123,7 +125,7 @@ class Hand:
 
     def move(self, frame: Frame, camera: Camera, pixel: Pixel, running: bool) -> None:
         """Take where the pointer is."""
-        self._pixel = pixel
+        self._pixel, self._inside = pixel, True
         if self._pressed is not None and hypot(*np.subtract(pixel, self._pressed[0])) >= CLICK:
             self._begin(frame, camera, running)
         if self._deed is not None:
@@ -134,6 +136,7 @@ class Hand:
 
     def leave(self) -> None:
         """Take that the pointer has left the picture; what it pulls or carries, it keeps."""
+        self._inside = False
         if not self.busy:
             self._hover = None
         self._show_cursor()
@@ -151,6 +154,7 @@ class Hand:
             return False
         kind = pygame.BUTTON_RIGHT if turns else pygame.BUTTON_LEFT
         self._pressed = pixel, self.over, kind, self._clock()
+        self._grip = _local(_pose(frame, self.over), _world(camera, pixel))
         return True
 
     def release(self, frame: Frame, camera: Camera, pixel: Pixel, running: bool) -> bool:
@@ -173,7 +177,7 @@ class Hand:
             self._begin(frame, camera, running)
         if self._deed is not None:
             self._deed.move(frame, _world(camera, self._pixel), _mods())
-        elif self._hover is not None or running:
+        elif self._inside:
             self.move(frame, camera, self._pixel, running)
 
     def cancel(self) -> None:
@@ -197,7 +201,8 @@ class Hand:
         if fault:
             self._say(fault)
         elif running:
-            self._deed = _Pull(self._do, frame, body, start)
+            grip = _within(scenario.bodies[body], self._grip)
+            self._deed = _Pull(self._do, scenario, body, grip, start)
         elif button == pygame.BUTTON_LEFT:
             self._deed = _Carry(self._do, self._clock, frame, body, start)
         else:
@@ -251,13 +256,14 @@ class _Pull:
     def __init__(
         self,
         do: Callable[[Callable[[World], None]], bool],
-        frame: Frame,
+        scenario: Scenario,
         body: int,
-        point: Point,
+        grip: Point,
+        target: Point,
     ) -> None:
         self.body, self._do = body, do
-        self.grip, self.target = _local(_pose(frame, body), point), point
-        self.force, self.speed = pull_of(frame.scenario, body)
+        self.grip, self.target = grip, target
+        self.force, self.speed = pull_of(scenario, body)
         self.newtons = 0.0
 
     def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
@@ -428,6 +434,14 @@ def _local(pose: Triple, point: Point) -> Point:
     """Return a point in a body's own frame."""
     dx, dy, c, s = point[0] - pose[0], point[1] - pose[1], cos(pose[2]), sin(pose[2])
     return c * dx + s * dy, c * dy - s * dx
+
+
+def _within(rigid: Rigid, point: Point) -> Point:
+    """Return a point in a body's frame, brought into the circle round it where it lies beside."""
+    (x, y), radius = rigid.shape.bound
+    dx, dy = point[0] - x, point[1] - y
+    share = min(1.0, radius / max(hypot(dx, dy), 1e-300))
+    return x + share * dx, y + share * dy
 
 
 def _at(pose: Triple, local: Point) -> Point:

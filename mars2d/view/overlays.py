@@ -36,7 +36,6 @@ SMALLEST = 300.0
 FORCES = 132.0
 """The room that the legend of forces takes, points."""
 
-
 KEPT = 2000
 """So many labels are kept."""
 
@@ -76,7 +75,7 @@ class Labels:
                 halo = theme.shade(shape.halo)
                 image.fill((*rgba(halo)[:3], 0))
                 rim = painter.fonts.render(shape.text, size, halo)
-                steps = range(2 * reach + 1)
+                steps = 0, reach, 2 * reach
                 image.fblits((rim, (dx, dy)) for dx in steps for dy in steps)
             image.blit(text, (reach, reach))
             self._images[key] = image

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from math import ceil, floor
+from operator import is_
 from time import perf_counter
 
 import pygame
@@ -243,8 +244,9 @@ class Stage:
         sensors = (sensor for robot in frame.scenario.robots for sensor in robot.sensors)
         stays = all(sensor.stays for sensor in sensors)
         sensed = frame.pose if frame.sensed is None else frame.sensed
-        made_of = picture, frame.path, frame.readings, sensed, None if stays else frame.pose
-        same = all(a is b for a, b in zip(made_of, self._sensed_of, strict=False))
+        read = [reading for readings in frame.readings.values() for _, reading in readings]
+        made_of = picture, frame.path, sensed, None if stays else frame.pose, *read
+        same = len(made_of) == len(self._sensed_of) and all(map(is_, made_of, self._sensed_of))
         if self._sensed is None or not same:
             shapes = scenes.sensors(frame).shapes
             if not shapes:

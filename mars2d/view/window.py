@@ -23,18 +23,20 @@ from mars2d.view.desktop import desktop_scale, opening_size
 from mars2d.view.director import Director
 from mars2d.view.display import NO_DISPLAY, open_display
 from mars2d.view.editor import Editor
+from mars2d.view.ghosts import Marks, ghosts
 from mars2d.view.hand import Hand
 from mars2d.view.help import draw_help
 from mars2d.view.icon import icon
+from mars2d.view.inspector import Inspector
 from mars2d.view.keeper import Keeper
 from mars2d.view.layers import Layers
 from mars2d.view.layout import TEXT_SIZES, Layout
 from mars2d.view.notes import Notes, Progress, draw_progress
 from mars2d.view.painter import Painter
-from mars2d.view.panel import Panel
 from mars2d.view.picture import summary
 from mars2d.view.player import SPEEDS, Player
 from mars2d.view.preferences import Preferences
+from mars2d.view.reload import Reload
 from mars2d.view.selection import body_at, next_body, selection_mark, sensed_by
 from mars2d.view.slider import SpeedSlider
 from mars2d.view.source import Source
@@ -94,6 +96,9 @@ class Window:
         self.hand = Hand(self.director.change, partial(self.notes.say, kind="warning"))
         self.keeper = Keeper(self.notes, _stem(source))
         self.editor: Editor | None = None
+        timeline = self.director.timeline
+        self._marks = None if timeline is None else Marks(timeline)
+        self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
         self._number = 0  # typed before a key
         self._open = False
@@ -102,7 +107,8 @@ class Window:
         self._grasped: Callable[[tuple[int, int]], None] | None = None  # what the mouse drags
         self._painter = Painter(theme=DARK if preferences.dark else LIGHT)
         self._stage = Stage(self._painter)
-        self._panel = Panel(self._painter)
+        self._inspector = Inspector(self._painter)
+        self._inspected = pygame.Rect(0, 0, 0, 0)  # where the inspector was drawn
         self._time_bar, self._slider = TimeBar(), SpeedSlider(SPEEDS)
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
         self._actions: dict[str, Callable[[], None]] = {
@@ -195,10 +201,22 @@ class Window:
         """Let time go on by seconds of the wall clock."""
         if self.editor is not None:
             return
+        self._read_again()
         self.director.steer(seconds)
         self.hand.tick(self.player.frame, self.camera, self.player.playing)
         self.player.pass_time(seconds)
         self.viewpoint.step(self.player.frame, seconds)
+
+    def _read_again(self) -> None:
+        """Go on with the experiment's files as they are now, if they were saved."""
+        reloaded = None if self._reload is None else self._reload.poll(time.monotonic())
+        if reloaded is None:
+            return
+        failed = reloaded.error is not None
+        self.notes.say(reloaded.message, "error" if failed else "info")
+        if not failed:
+            self.player.error = None
+        self.player.settle()
 
     def _use_rest(self, seconds: float) -> None:
         """Use the time that is left of a picture to prepare for going back."""
@@ -228,6 +246,9 @@ class Window:
         marks = self.hand.marks(frame, self.camera)
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
+        timeline = self.director.timeline
+        if timeline is not None and timeline.branches:
+            marks = [*ghosts(timeline, frame).shapes, *marks]
         self._stage.draw(
             surface,
             sensed_by(frame, self.selected),
@@ -237,9 +258,7 @@ class Window:
             marks=marks,
             hurried=self.viewpoint.hurried,
         )
-        place = self._panel_place(frame)
-        if place is not None and self.selected is not None:
-            self._panel.draw(surface, place, frame, self.selected)
+        self._inspect(surface, frame)
         if notes:
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
         if self._way_back is not None:
@@ -277,17 +296,21 @@ class Window:
     def _time_state(self) -> TimeState:
         source = self.player.source
         last = source.scenario.last_iteration
-        if self.director.timeline is None:  # a recording goes no further
+        if self._marks is None:  # a recording goes no further
             last = source.newest
-        return TimeState(source.row, source.newest, last, source.scenario.sampling_time)
+        marks = {} if self._marks is None else self._marks.rows()
+        return TimeState(source.row, source.newest, last, source.scenario.sampling_time, marks)
 
-    def _panel_place(self, frame: Frame) -> pygame.Rect | None:
-        """Return where the panel of the selected body lies, if there is one and room for it."""
+    def _inspect(self, surface: pygame.Surface, frame: Frame) -> None:
+        """Draw what is known of the selected body, if there is one and room for it."""
+        self._inspected = pygame.Rect(0, 0, 0, 0)
         if self.selected is None:
-            return None
+            return
         position = np.hstack([frame.pose, frame.prop_pose])[:2, self.selected]
         ((x, y),) = self.camera.to_pixels([position]).tolist()
-        return self._panel.place(self.layout.plot, (x, y))
+        place = self._inspector.place(self.layout.plot, (x, y))
+        if place is not None:
+            self._inspected = self._inspector.draw(surface, place, frame, self.selected)
 
     def _banner(self) -> Banner | None:
         error = self.player.error
@@ -388,9 +411,8 @@ class Window:
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether at a pixel there is the picture, and nothing over it."""
-        place = self._panel_place(self.player.frame)
-        over = place is not None and place.collidepoint(pixel)
-        return self.help is None and not over and self.layout.plot.collidepoint(pixel)
+        over = self.help is not None or self._inspected.collidepoint(pixel)
+        return not over and self.layout.plot.collidepoint(pixel)
 
     def _scrub(self, pixel: tuple[int, int]) -> None:
         """Look at the time at a pixel of the time bar."""
@@ -512,4 +534,3 @@ def _stem(source: Source) -> str:
     """Return what files are called that are kept of a source, without a number."""
     path = source.experiment.path if isinstance(source, Timeline) else None
     return source.scenario.title if path is None else path.stem
-

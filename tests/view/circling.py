@@ -21,6 +21,10 @@ def predicted(scene, frame):
     scene.circle((0, 0), 1.0, fill=VIOLET)
 
 
+def draw_mark(scene):
+    scene.circle((-2, -2), 1.0, fill="#123456")
+
+
 def circling_scenario(sampling_time=0.1, rows=100, robots=2, animation=None, **changes):
     robot = Robot(diameter=0.6, sensors=[Proximity(range=1.0)])
     return Scenario(
@@ -38,7 +42,7 @@ class Circling:
     """Robots go round the origin at 0.5 rad/s; frame k is at k sampling times.
 
     pressed: something pushes robot 0 back all the time, and all drives slip. talking: robot 0 says
-    something to robot 1 at each step, which is lost.
+    something to robot 1 at each step, which is lost. marked: an add-on draws a disc.
     """
 
     def __init__(
@@ -49,10 +53,11 @@ class Circling:
         fails_at=None,
         pressed=False,
         talking=False,
+        marked=False,
     ):
         self.scenario = scenario or circling_scenario(rows=rows)
         self.rows, self.message, self.fails_at = rows, message, fails_at
-        self.pressed, self.talking = pressed, talking
+        self.pressed, self.talking, self.marked = pressed, talking, marked
         self.row = self.restarts = self.reached = 0
         angle = 0.5 * self.scenario.sampling_time * np.arange(rows + 1)[:, None]
         radius = np.array([robot.pose[0] for robot in self.scenario.robots])
@@ -75,6 +80,7 @@ class Circling:
             effort=np.full(len(self.scenario.robots), 1.0 if self.pressed and k else 0.0),
             contact_log=lambda: self.contacts(1, k),
             messages=self.messages(k),
+            draw_addons=draw_mark if self.marked else None,
             effort_path=np.full((k, len(self.scenario.robots)), 1.0 if self.pressed else 0.0),
         )
 

@@ -3,10 +3,14 @@
 import pygame
 import pytest
 
+import mars2d
 from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scenario, Unicycle
 from mars2d.addons import Game
+from mars2d.cli import BAD_INPUT, main
+from mars2d.commands import base, demo, run
 from mars2d.teleop import Stick, command_of, ramped, robot_of
 from mars2d.view import driver as driver_module
+from mars2d.view import show
 from mars2d.view.driver import Driver
 
 UP, DOWN, LEFT, RIGHT = (
@@ -33,7 +37,7 @@ def settled(driver, drive, seconds=1.0):
     return driver.command(drive, seconds)
 
 
-# -- from a stick to a command ---------------------------------------------------------------
+# -- from a stick to a command ------------------------------------------------------------
 
 
 def test_a_drive_in_the_worlds_frame_goes_where_the_arrow_points():
@@ -98,7 +102,7 @@ def test_a_tap_is_a_nudge_and_a_stick_comes_back_sooner_than_it_goes_out():
     assert ramped(Stick(0, 1), Stick(0, -1), 0.1) == pytest.approx((0.0, 0.2))
 
 
-# -- keys --------------------------------------------------------------------------------------
+# -- keys -----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -161,7 +165,7 @@ def test_it_gathers_speed_within_a_quarter_of_a_second(driver):
     assert speeds[15] == 0.5
 
 
-# -- controllers -------------------------------------------------------------------------------
+# -- controllers ----------------------------------------------------------------------------
 
 
 class Controller:
@@ -241,7 +245,7 @@ def test_nobody_is_driven_by_a_controller_alone(driver, controller):
     )
 
 
-# -- who -----------------------------------------------------------------------------------------
+# -- who --------------------------------------------------------------------------------------
 
 ROBOTS = [Robot(name=name, pose=(k, 0, 0)) for k, name in enumerate(["red", "blue", "green"])]
 GAME = Game({"pursuer": ["red"], "evader": ["green", "blue"]})
@@ -272,3 +276,67 @@ def test_nobody_of_that_name_is_an_error_with_the_nearest(who, words):
     with pytest.raises(InputError) as raised:
         robot_of(Scenario(robots=ROBOTS, addons=[GAME]), who)
     assert str(raised.value).startswith(words)
+
+
+# -- on the command line --------------------------------------------------------------------------
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """What the window was opened with, in place of the window."""
+    found = []
+
+    def show_experiment(experiment, speed, seed, *_, human=None, **__):
+        found.append((speed, human))
+        raise InputError("that is all")
+
+    monkeypatch.setattr(show, "show_experiment", show_experiment)
+    for module in (base, run):
+        monkeypatch.setattr(module, "has_display", lambda: True)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("arguments", "speed", "human"),
+    [
+        ([], 20.0, None),
+        (["--human", "evader"], 4.0, 1),
+        (["--human", "0", "--speed", "7"], 7.0, 0),
+        (["--human", "red", "--set", "animation.playback_speed=2.0"], 2.0, 0),
+        (["--human", "red", "--set", "animation.playback_speed=max"], 4.0, 0),
+        (["--human", "red", "--set", "animation.playback_speed=0"], 4.0, 0),
+    ],
+)
+def test_somebody_who_drives_is_not_in_a_hurry(shown, arguments, speed, human, capsys):
+    assert main(["run", "pursuit_corners", *arguments]) == BAD_INPUT
+    assert "that is all" in capsys.readouterr().err
+    assert shown == [(speed, human)]
+
+
+def test_a_demo_can_be_driven_too(shown, monkeypatch):
+    monkeypatch.setattr(demo, "has_display", lambda: True)
+    assert main(["demo", "pursuit_corners", "--human", "blue"]) == BAD_INPUT
+    assert shown == [(4.0, 1)]
+
+
+@pytest.mark.parametrize("verb", ["run", "demo"])
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--human", "evadr"], "--human evadr: there is no such robot or role; did you mean"),
+        (["--human", "evader"], "--human evader: driving by hand needs a window, and there is no"),
+        (["--human", "1", "--headless"], "--human 1: driving by hand needs a window, not --head"),
+    ],
+)
+def test_where_nobody_can_drive_this_is_said_at_once(monkeypatch, capsys, verb, arguments, words):
+    monkeypatch.setattr(base, "has_display", lambda: False)
+    assert main([verb, "pursuit_corners", *arguments]) == BAD_INPUT
+    assert words in capsys.readouterr().err
+
+
+def test_from_python_a_robot_is_driven_in_a_window(shown):
+    with pytest.raises(InputError, match="that is all"):
+        mars2d.run("pursuit_corners", speed=3, human="pursuer")
+    assert shown == [(3.0, 0)]
+    with pytest.raises(InputError, match="human = nobody: there is no such robot or role"):
+        mars2d.run("pursuit_corners", human="nobody")

@@ -21,21 +21,13 @@ from mars2d.props import Box
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.view.editor import keys
-from tests.view.test_window import (  # noqa: F401
-    Driver,
-    bare_environment,
-    differing,
-    needs_screen,
-    screen,
-)
-
-REFERENCES = Path(__file__).parent / "references"
+from tests.view.person import Driver, bare_environment, compare, differing, needs_screen
 
 
 class Hands(Driver):
     """The editor in a process of its own, and the hands and eyes of the person before it."""
 
-    def __init__(self, screen, folder, source="-", **options):  # noqa: F811
+    def __init__(self, screen, folder, source="-", **options):
         self.environment = bare_environment(
             DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=os.pathsep.join(sys.path)
         )
@@ -81,7 +73,7 @@ class Hands(Driver):
 
 
 @pytest.fixture
-def open_editor(screen, tmp_path):  # noqa: F811
+def open_editor(screen, tmp_path):
     """Return a function that opens an editor; all are closed at the end."""
     opened = []
 
@@ -698,7 +690,7 @@ def edit(folder, *arguments, **environment):
 
 
 @needs_screen
-def test_the_command_draws_a_new_file(screen, tmp_path):  # noqa: F811
+def test_the_command_draws_a_new_file(screen, tmp_path):
     process = edit(tmp_path, "room.toml", DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0")
     do = partial(subprocess.run, env=bare_environment(DISPLAY=screen), check=True)
     shot = ["import", "-window", "root", "-crop", "50x40+5+5", "rgb:-"]
@@ -738,18 +730,6 @@ def test_what_can_not_be_edited_is_said_in_one_line(tmp_path, arguments, words):
 
 
 # -- references -----------------------------------------------------------------------------------
-
-
-def compare(name, seen):
-    """Compare a picture with the one that was looked at; MARS2D_REFERENCES=new keeps a new one."""
-    path = REFERENCES / f"{name}.png"
-    picture = Image.fromarray(seen.astype(np.uint8))
-    if os.environ.get("MARS2D_REFERENCES") == "new":
-        path.parent.mkdir(exist_ok=True)
-        picture.save(path, optimize=True)
-    wanted = np.asarray(Image.open(path).convert("RGB")).astype(int)
-    off = np.abs(wanted - seen).max(axis=2)
-    assert (off > 60).mean() < 0.004, f"{(off > 60).mean():.2%} of the picture differs from {path}"
 
 
 @needs_screen

@@ -121,7 +121,9 @@ def test_nothing_is_shown_once_the_pointer_has_left_the_picture():
     person = Person()
     person.move(0, 0)
     person.hand.leave()
-    assert person.hand.over is None
+    for running in (False, True):
+        person.hand.tick(person.world.frame, CAMERA, running)
+        assert person.hand.over is None
 
 
 # -- clicks ----------------------------------------------------------------------------------
@@ -176,6 +178,14 @@ def test_it_pulls_to_where_the_pointer_is_though_the_camera_moves():
     assert pull.target == pytest.approx((0.0, -0.5))
 
 
+def test_a_small_robot_that_is_gripped_beside_its_edge_is_held_at_the_edge():
+    person = Person(Scenario(robots=[Robot(diameter=0.02)]), running=True)
+    person.press(0.04, 0.0)
+    person.move(0.5, 0.0)
+    (pull,) = person.world.hands.pulls
+    assert pull.grip == pytest.approx((0.01, 0.0))
+
+
 def test_a_button_that_is_held_long_holds_what_moves():
     red = Robot(name="red", controller=lambda robot: (0.2, 0.0))
     person = Person(Scenario(robots=[red]), running=True)
@@ -187,6 +197,16 @@ def test_a_button_that_is_held_long_holds_what_moves():
     person.wait(5)
     assert person.world.pose[0, 0] == pytest.approx(there, abs=1e-3)
     assert person.release(0, 0)
+
+
+def test_what_is_pulled_is_held_where_it_was_pressed_though_it_has_moved_since():
+    red = Robot(name="red", controller=lambda robot: (0.5, 0.0))
+    person = Person(Scenario(robots=[red]), running=True)
+    person.press(0.1, 0.0)
+    person.wait(2)
+    person.move(0.1, 0.5)
+    (pull,) = person.world.hands.pulls
+    assert pull.grip == pytest.approx((0.1, 0.0))
 
 
 def test_once_time_stands_still_it_lets_go():

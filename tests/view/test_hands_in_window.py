@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from itertools import pairwise
 from math import atan2, hypot
 
 import pytest
@@ -92,7 +93,7 @@ class Person:
         """Drag along points of the world, and hold on at the last."""
         self.to(*points[0])
         self.do("mousedown", button)
-        for a, b in zip(points, points[1:], strict=False):
+        for a, b in pairwise(points):
             self.to((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
             self.to(*b)
 

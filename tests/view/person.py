@@ -1,0 +1,227 @@
+"""Who sits before a window in a process of its own: hands, eyes, and a screen to look at."""
+
+import contextlib
+import io
+import json
+import os
+import queue
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+TOOLS = ("Xvfb", "xdotool", "import")
+missing = [tool for tool in TOOLS if shutil.which(tool) is None]
+needs_screen = pytest.mark.skipif(bool(missing), reason=f"{', '.join(missing)} not installed")
+
+HIDDEN = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER")
+ROOT = Path(__file__).parents[2]
+REFERENCES = Path(__file__).parent / "references"
+
+PLOT = np.s_[60:500]  # the rows of the screen between the bars
+HEADER = np.s_[0:44]
+
+
+def bare_environment(**extra):
+    return {key: value for key, value in os.environ.items() if key not in HIDDEN} | extra
+
+
+@pytest.fixture(scope="session")
+def screen():
+    """Start an X server on a free display and return its name."""
+    read, write = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-noreset"],
+        pass_fds=[write],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        number = pipe.readline().strip()
+    assert number, "Xvfb did not start"
+    yield f":{number}"
+    server.terminate()
+    server.wait(10)
+
+
+class Driver:
+    """A window in a process of its own, and the hands and eyes of the person before it.
+
+    speed, options: see observed_window.py. folder: where the window saves files.
+    """
+
+    def __init__(self, screen, speed, folder=None, **options):
+        self.environment = bare_environment(
+            DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=str(ROOT)
+        )
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "tests.view.observed_window", str(speed), json.dumps(options)],
+            env=self.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=folder,
+        )
+        self.lines = queue.Queue()
+        self.state = {}
+        threading.Thread(target=self._read, daemon=True).start()
+        self.until(lambda s: "time" in s, 30)
+        time.sleep(0.1)  # until the server has mapped it and given it the keyboard
+
+    def _read(self):
+        with contextlib.suppress(ValueError):  # it was closed meanwhile
+            for line in self.process.stdout:
+                if line.startswith("{"):
+                    self.lines.put(json.loads(line))
+
+    # -- what it tells ----------------------------------------------------------------------------
+
+    def until(self, holds, seconds=8.0):
+        """Wait until what the window tells of itself satisfies `holds`."""
+        end = time.monotonic() + seconds
+        while not (self.state and holds(self.state)):
+            left = end - time.monotonic()
+            try:
+                self.state = self.lines.get(timeout=max(left, 0.001))
+            except queue.Empty:
+                errors = "" if self.process.poll() is None else self.process.stderr.read()
+                pytest.fail(f"not within {seconds} s; the last state: {self.state} {errors}")
+        return self.state
+
+    def settle(self):
+        """Read all that has been told up to now."""
+        time.sleep(0.15)
+        while not self.lines.empty():
+            self.state = self.lines.get()
+        return self.state
+
+    def says(self, words):
+        """Wait until a note says something."""
+        return self.until(lambda s: any(words in note for note in s["notes"]))
+
+    # -- hands ------------------------------------------------------------------------------------
+
+    def do(self, *arguments):
+        subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True)
+
+    def press(self, *keys):
+        self.do("key", "--delay", "30", *keys)
+
+    def pixel(self, x, y):
+        """Return the pixel of a point in metres."""
+        (left, top), scale = self.state["origin"], self.state["scale"]
+        return round(left + scale * x), round(top - scale * y)
+
+    def point(self, x, y):
+        self.do("mousemove", *self.pixel(x, y))
+
+    def click(self, x, y, button=1):
+        self.do("mousemove", *self.pixel(x, y), "click", button)
+
+    def drag(self, *places, button=1, drop=True):
+        """Drag through points in metres."""
+        self.slide(*(self.pixel(*place) for place in places), button=button, drop=drop)
+
+    def slide(self, first, *others, button=1, drop=True):
+        """Drag through pixels."""
+        moves = [word for place in others for word in ("mousemove", *place, "sleep", 0.04)]
+        self.do("mousemove", *first, "sleep", 0.04, "mousedown", button, "sleep", 0.04, *moves)
+        if drop:
+            self.do("mouseup", button)
+
+    def window(self):
+        """Return the number of the window under the pointer."""
+        self.do("mousemove", 300, 300)
+        command = ["xdotool", "getmouselocation", "--shell"]
+        told = subprocess.check_output(command, env=self.environment, text=True)
+        return next(line for line in told.split() if line.startswith("WINDOW=")).split("=")[1]
+
+    # -- eyes -------------------------------------------------------------------------------------
+
+    def look(self):
+        """Return the screen, (height, width, 3)."""
+        command = ["import", "-window", "root", "-crop", "800x600+0+0", "ppm:-"]
+        shot = subprocess.run(command, env=self.environment, check=True, capture_output=True)
+        return np.asarray(Image.open(io.BytesIO(shot.stdout)).convert("RGB")).astype(int)
+
+    def still(self):
+        """Return the screen once it has stopped changing, or after 5 s."""
+        seen, end = self.look(), time.monotonic() + 5
+        while time.monotonic() < end:
+            time.sleep(0.1)
+            before, seen = seen, self.look()
+            if np.array_equal(before, seen):
+                break
+        return seen
+
+    def shows(self, condition):
+        """Return whether the screen meets a condition within 5 s."""
+        end = time.monotonic() + 5
+        while not (met := condition(self.look())) and time.monotonic() < end:
+            time.sleep(0.05)
+        return bool(met)
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait(5)
+        self.process.stdout.close()
+        self.process.stderr.close()
+
+
+@pytest.fixture
+def open_window(screen):
+    """Return a function that opens a window; all are closed at the end."""
+    opened = []
+
+    def start(speed, **options):
+        opened.append(Driver(screen, speed, **options))
+        return opened[-1]
+
+    yield start
+    for window in opened:
+        if window.process.poll() is None:
+            window.do("mouseup", 1, "mouseup", 3, "keyup", "shift")
+        window.close()
+
+
+# -- pictures -------------------------------------------------------------------------------------
+
+
+def differing(before, after, rows=PLOT, by=0):
+    """Return how many pixels differ by more than `by` of 255."""
+    return int((np.abs(before[rows] - after[rows]) > by).any(axis=2).sum())
+
+
+def share(pixels, color):
+    """Return which part of the pixels (k, 3) has a colour."""
+    return (pixels == color).all(axis=1).mean()
+
+
+def has(seen, color):
+    """Return whether the picture shows a colour, in more than a few pixels."""
+    return int((seen[PLOT] == color).all(axis=2).sum()) > 20
+
+
+def compare(name, seen):
+    """Compare a picture with the one that was looked at; MARS2D_REFERENCES=new keeps a new one.
+
+    Edges of letters and lines may differ by a shade, as other versions of pygame draw them.
+    """
+    path = REFERENCES / f"{name}.png"
+    if os.environ.get("MARS2D_REFERENCES") == "new":
+        path.parent.mkdir(exist_ok=True)
+        palette = Image.fromarray(seen.astype(np.uint8)).quantize(128, dither=Image.Dither.NONE)
+        palette.save(path, optimize=True)
+    wanted = np.asarray(Image.open(path).convert("RGB")).astype(int)
+    assert wanted.shape == seen.shape
+    off = np.abs(wanted - seen).max(axis=2)
+    assert off.mean() < 2, f"{path}: by {off.mean():.1f} of 255 in the mean"
+    assert (off > 60).mean() < 0.005, f"{(off > 60).mean():.2%} of the picture differs from {path}"
