@@ -16,14 +16,17 @@ import os
 import statistics
 import tempfile
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from outcome import write
 
+from mars2d.errors import InputError
 from mars2d.files import open_experiment
 from mars2d.timeline import PARKED, Timeline
+from mars2d.world import World
 
 FILE = """
 from mars2d import Robot, Scenario
@@ -103,12 +106,16 @@ def let_wait(timeline: Timeline) -> None:
 
 
 def branching(timeline: Timeline, row: int) -> float:
-    """Return the seconds that a branch at a row takes; then go back to the run itself."""
+    """Return the seconds that it takes to have a world at a row, with which nothing is done."""
+
+    def refuse(_: World) -> None:
+        raise InputError("it is there")
+
     timeline.go(row)
-    seconds = timed(timeline.branch)
-    timeline.other_branch()
-    timeline.branches.clear()
-    return seconds
+    start = time.perf_counter()
+    with suppress(InputError):
+        timeline.change(refuse)
+    return time.perf_counter() - start
 
 
 def timed(do: Any) -> float:

@@ -195,7 +195,7 @@ class Recorder:
         return self._messages.upto(self._message_count), self._contents
 
     def readings(self, rows: int, name: str, robot: int) -> NDArray[Any] | None:
-        """Return what a sensor read on a robot at the first rows, (rows, ...), if it is recorded."""
+        """Return what a sensor has read on a robot, (rows, ...), if that is recorded."""
         column, robots = self._sensors.get(name), self.sensor_robots.get(name, ())
         if column is None or robot not in robots:
             return None

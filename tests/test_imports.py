@@ -62,7 +62,7 @@ LAYERS = [
     {"options", "placement", "teleop"},
     {"map_option"},
     {"frame", "plain", "files", "pace", "space", "changes"},
-    {"interventions"},
+    {"interventions", "reopening"},
     {
         "clutches",
         "grips",

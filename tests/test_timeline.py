@@ -1,5 +1,6 @@
 """The timeline: going back and on is the same to the bit, whatever laws remember."""
 
+import argparse
 import io
 import time
 
@@ -9,6 +10,7 @@ import pytest
 import mars2d
 from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
+from mars2d.commands import run
 from mars2d.errors import InputError
 from mars2d.files import Experiment, examples, open_experiment
 from mars2d.loop import simulate
@@ -848,6 +850,25 @@ def test_the_record_of_a_window_run_is_run_again_to_the_bit(memory, tmp_path):
     loaded = mars2d.load(record.save(tmp_path / "run.npz"))
     assert rerun(loaded) is None
     assert loaded.branches == ()
+
+
+def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path, capsys):
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 30)
+    for row, y in ((20, -4.0), (10, -3.0)):
+        timeline.go(row)
+        timeline.change(lambda w, y=y: w.hands.place(0, (-4.0, y, 0.0)))
+        run_to(timeline, 25)
+    record = timeline.record
+    given = argparse.Namespace(record=tmp_path / "out.npz", figure=None)
+    (tmp_path / "out_branch2.npz").write_text("mine")
+    run._save_data(given, record)
+    names = ["out.npz", "out_branch1.npz", "out_branch3.npz"]
+    saved = [mars2d.load(tmp_path / name).digest for name in names]
+    assert saved == [record.digest, *(branch.digest for branch in record.branches)]
+    assert len(set(saved)) == 3
+    assert (tmp_path / "out_branch2.npz").read_text() == "mine"
+    assert "another branch, left at 1.45 s, is in" in capsys.readouterr().err
 
 
 def test_boxes_are_where_they_were(written):

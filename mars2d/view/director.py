@@ -40,13 +40,15 @@ class Director:
         timeline = self._live()
         if timeline is None:
             return False
+        back = timeline.needs_way_back
         try:
             timeline.change(act, self._show_way_back)
         except InputError as error:
             self._notes.say(str(error), "error")
             return False
         finally:
-            self._player.settle()
+            if back or not self._player.playing:  # else time goes on from where it is
+                self._player.settle()
         self._player.error = None
         if timeline.remark:
             self._notes.say(timeline.remark, "warning")
@@ -95,7 +97,7 @@ class Director:
         seconds: since the last time.
         """
         robot, timeline = self.driver.robot, self.timeline
-        if robot is None or timeline is None or self._player.over:
+        if robot is None or timeline is None or timeline.over:
             return
         command = self.driver.command(timeline.scenario.robots[robot].drive, seconds)
         if not timeline.needs_way_back:

@@ -65,7 +65,7 @@ LAYERS = (
     "grid", "trails", "sensors", "messages", "forces", "theory", "addons", "names", "velocities",
 )  # fmt: skip
 """The layers that have a key each of the same name."""
-BUTTONS = (pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT)
+BUTTONS = (pygame.BUTTON_LEFT, pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT)
 
 
 class Window:
@@ -105,6 +105,7 @@ class Window:
         self._held: set[int] = set()
         self._pressed: tuple[int, int] | None = None
         self._grasped: Callable[[tuple[int, int]], None] | None = None  # what the mouse drags
+        self._pans = False  # it drags the picture
         self._painter = Painter(theme=DARK if preferences.dark else LIGHT)
         self._stage = Stage(self._painter)
         self._inspector = Inspector(self._painter)
@@ -387,12 +388,13 @@ class Window:
         if self._grasped is not None:
             self._grasped(pixel)
         elif self._is_picture(pixel):
-            self.hand.press(frame, self.camera, pixel, button, pygame.key.get_mods(), running)
+            mods = pygame.key.get_mods()
+            self._pans = not self.hand.press(frame, self.camera, pixel, button, mods, running)
 
     def _drag(self, event: pygame.Event) -> None:
         if self._grasped is not None:
             self._grasped(event.pos)
-        elif any(event.buttons) and not self.hand.busy:
+        elif self._pans:
             self.viewpoint.pan(*event.rel)
         elif self.hand.busy or self._is_picture(event.pos):
             self.hand.move(self.player.frame, self.camera, event.pos, self.player.playing)
@@ -408,6 +410,7 @@ class Window:
         if near and not done and self._grasped is None and button == pygame.BUTTON_LEFT:
             self._click(pixel)
         self._pressed = self._grasped = None
+        self._pans = False
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether at a pixel there is the picture, and nothing over it."""
@@ -498,6 +501,7 @@ class Window:
     def wait_for(self, robot: int) -> None:
         """Let a robot be driven by hand, and wait for the person to start."""
         self.player.pause()
+        self.selected = robot
         self.director.drive(robot)
         name = self.player.source.scenario.robots[robot].name
         self.notes.clear()

@@ -1,5 +1,5 @@
-"""What the tests of the window share: a screen, and windows on it."""
+"""What the tests of the window share: a screen, windows on it, an experiment."""
 
-from tests.view.person import open_window, screen
+from tests.view.person import open_window, room, screen
 
-__all__ = ["open_window", "screen"]
+__all__ = ["open_window", "room", "screen"]

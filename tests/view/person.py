@@ -1,7 +1,8 @@
 """Who sits before a window in a process of its own: hands, eyes, and a screen to look at."""
 
 import contextlib
-import io
+import ctypes
+import ctypes.util
 import json
 import os
 import queue
@@ -14,10 +15,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, ImageGrab, features
 
-TOOLS = ("Xvfb", "xdotool", "import")
-missing = [tool for tool in TOOLS if shutil.which(tool) is None]
+missing = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
+missing += [] if features.check("xcb") else ["Pillow with xcb"]
 needs_screen = pytest.mark.skipif(bool(missing), reason=f"{', '.join(missing)} not installed")
 
 HIDDEN = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER")
@@ -26,6 +27,31 @@ REFERENCES = Path(__file__).parent / "references"
 
 PLOT = np.s_[60:500]  # the rows of the screen between the bars
 HEADER = np.s_[0:44]
+
+
+ROOM = """
+from mars2d import Robot, Scenario
+from mars2d.addons import Map
+from mars2d.props import Box
+
+
+def ahead(robot):
+    return 0.2, 0.0
+
+
+def scenario():
+    red = Robot(name="red", pose=(-2, 0.5, 0), controller=ahead)
+    blue = red.replace(name="blue", pose=(-2, -1, 0), controller=None)
+    crate = Box(name="crate", pose=(1, -1, 0), length=0.4, width=0.4, mass=2.0)
+    return Scenario(
+        title="A room",
+        robots=[red, blue],
+        props=[crate],
+        workspace=[(-3, -2), (3, -2), (3, 2), (-3, 2)],
+        addons=[Map([[(2.5, -1), (2.5, 1)]])],
+        stop_time=60.0,
+    )
+"""
 
 
 def bare_environment(**extra):
@@ -49,6 +75,16 @@ def screen():
     yield f":{number}"
     server.terminate()
     server.wait(10)
+
+
+class ClientMessage(ctypes.Structure):
+    """An event that one program on a screen sends another."""
+
+    _fields_ = (
+        ("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+        ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message", ctypes.c_ulong),
+        ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("rest", ctypes.c_byte * 96),
+    )  # fmt: skip
 
 
 class Driver:
@@ -143,13 +179,29 @@ class Driver:
         told = subprocess.check_output(command, env=self.environment, text=True)
         return next(line for line in told.split() if line.startswith("WINDOW=")).split("=")[1]
 
+    def ask_to_close(self):
+        """Do what a window manager does when its close button is pressed."""
+        x = ctypes.CDLL(ctypes.util.find_library("X11"))
+        x.XOpenDisplay.restype = x.XInternAtom.restype = ctypes.c_void_p
+        x.XInternAtom.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int]
+        display = x.XOpenDisplay(self.environment["DISPLAY"].encode())
+        window = int(self.window())
+        names = (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW")
+        protocols, delete = (x.XInternAtom(display, name, 0) for name in names)
+        event = ClientMessage(33, 0, 1, display, window, protocols, 32, (delete, 0, 0, 0, 0))
+        x.XSendEvent.argtypes = [
+            ctypes.c_void_p, ctypes.c_ulong, ctypes.c_int, ctypes.c_long, ctypes.c_void_p,
+        ]  # fmt: skip
+        x.XSendEvent(display, window, 0, 0, ctypes.byref(event))
+        x.XCloseDisplay.argtypes = [ctypes.c_void_p]
+        x.XCloseDisplay(display)
+
     # -- eyes -------------------------------------------------------------------------------------
 
     def look(self):
         """Return the screen, (height, width, 3)."""
-        command = ["import", "-window", "root", "-crop", "800x600+0+0", "ppm:-"]
-        shot = subprocess.run(command, env=self.environment, check=True, capture_output=True)
-        return np.asarray(Image.open(io.BytesIO(shot.stdout)).convert("RGB")).astype(int)
+        shot = ImageGrab.grab((0, 0, 800, 600), xdisplay=self.environment["DISPLAY"])
+        return np.asarray(shot.convert("RGB")).astype(np.int16)
 
     def still(self):
         """Return the screen once it has stopped changing, or after 5 s."""
@@ -190,6 +242,14 @@ def open_window(screen):
         if window.process.poll() is None:
             window.do("mouseup", 1, "mouseup", 3, "keyup", "shift")
         window.close()
+
+
+@pytest.fixture
+def room(tmp_path):
+    """Return the file of an experiment: red goes ahead, blue stands, a crate lies in a room."""
+    path = tmp_path / "room.py"
+    path.write_text(ROOM)
+    return path
 
 
 # -- pictures -------------------------------------------------------------------------------------

@@ -9,11 +9,9 @@ import threading
 import time
 from functools import partial
 from math import degrees, pi
-from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
 
 from mars2d.addons import Map
 from mars2d.files import open_experiment

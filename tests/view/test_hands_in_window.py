@@ -53,7 +53,8 @@ class Person:
             text=True,
         )
         self.lines, self.state = queue.Queue(), {}
-        threading.Thread(target=self._read, daemon=True).start()
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
         self.until(lambda s: "time" in s, 20)
         time.sleep(0.3)  # until the server has mapped it and given it the keyboard
 
@@ -72,6 +73,15 @@ class Person:
                 errors = "" if self.process.poll() is None else self.process.stderr.read()
                 pytest.fail(f"not within {seconds} s; the last state: {self.state} {errors}")
         return self.state
+
+    def leave(self):
+        """Let go of the mouse, and close the window."""
+        self.do("mouseup", 1, "mouseup", 3)
+        self.process.kill()
+        self.process.wait(10)
+        self.reader.join(10)
+        self.process.stdout.close()
+        self.process.stderr.close()
 
     def settle(self):
         """Read all that has been told up to now."""
@@ -109,9 +119,7 @@ def sit(screen):
 
     yield down
     for person in people:
-        person.do("mouseup", 1, "mouseup", 3)
-        person.process.kill()
-        person.process.wait(10)
+        person.leave()
 
 
 def test_while_time_passes_a_drag_pulls_and_time_goes_on_as_before(sit):

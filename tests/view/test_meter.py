@@ -1,21 +1,17 @@
-"""The force on the selected body over time: its numbers, its panel, and how a body is selected."""
+"""The force on the selected body over time: its numbers; and how a body is selected."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 import numpy as np
-import pygame
 import pytest
 
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.floor import GRAVITY
-from mars2d.frame import Frame
 from mars2d.props import Ball, Box, Solid
 from mars2d.shapes import Polygon
 from mars2d.view.meter import Meter, bound_of
-from mars2d.view.painter import Painter
-from mars2d.view.panel import Panel
 from mars2d.view.player import between
 from mars2d.view.selection import body_at, body_name, next_body, selection_mark
 from tests.view.circling import Circling
@@ -121,69 +117,6 @@ def test_the_bound_is_that_of_the_drive_or_of_the_floor():
     assert bound_of(frame, 1).force == pytest.approx(0.6 * GRAVITY)
     ball = Scenario(robots=[Robot()], props=[Ball(pose=(1, 0, 0))])
     assert bound_of(World(ball).frame, 1) is None, "nothing holds a ball that rolls"
-
-
-# -- the panel ------------------------------------------------------------------------------------
-
-
-def panel_of(frame: Frame, body: int):
-    surface = pygame.Surface((400, 220), 0, 32)
-    surface.fill("white")
-    Panel(Painter()).draw(surface, surface.get_rect(), frame, body)
-    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
-
-
-def rows_of(seen, color):
-    return np.flatnonzero((np.abs(seen - color).max(axis=2) < 12).any(axis=1))
-
-
-def test_the_curve_lies_at_the_force_on_the_scale():
-    source = Circling(pressed=True)
-    source.row = 90
-    frame = source.frame
-    strong = source.scenario.robots[0].replace(drive=Unicycle(max_force=10))
-    scenario = source.scenario.replace(robots=[strong, source.scenario.robots[1]])
-    seen = panel_of(replace(frame, scenario=scenario), 0)[66:, 60:380]
-    ink = (0xA3, 0x00, 0x3C)
-    line = [
-        row for row in rows_of(seen, ink) if (np.abs(seen[row] - ink).max(axis=1) < 12).sum() > 200
-    ]
-    # The area is 122 points high, from 0 to 1.35 times the bound.
-    height = 220 - 62 - 36
-    wanted = 62 + height * (1 - 5.0 / 13.5) - 66
-    assert np.mean(line) == pytest.approx(wanted, abs=1.5)
-
-
-def test_the_panel_lies_in_the_corner_that_the_body_leaves_free():
-    panel, plot = Panel(Painter()), pygame.Rect(0, 52, 1280, 624)
-    right = panel.place(plot, (200, 600))
-    left = panel.place(plot, (1100, 120))
-    assert right.right > 1200
-    assert left.left < 100
-    assert plot.contains(right)
-    assert plot.contains(left)
-    assert panel.place(pygame.Rect(0, 52, 300, 150), (0, 0)) is None
-
-
-def test_a_panel_can_be_drawn_of_every_body_at_every_time():
-    world = push(time=0.0)
-    for _ in range(30):
-        for body in (0, 1):
-            assert len(rows_of(panel_of(world.frame, body), (0xA3, 0x00, 0x3C))) > 0
-        world.step()
-
-
-def test_an_impact_does_not_flatten_the_curve():
-    source = Circling(pressed=True)
-    source.row = 99
-    frame = source.frame
-    rows = frame.contact_log().copy()
-    rows["normal_impulse"][20] *= 1000
-    seen = panel_of(replace(frame, contact_log=lambda: rows), 0)
-    usual = panel_of(frame, 0)
-    assert (seen != usual).any()
-    band = np.abs(seen[66:184, 60:380] - (0xA3, 0x00, 0x3C)).max(axis=2) < 12
-    assert np.flatnonzero(band.sum(axis=1) > 60).min() < 90, "5 N is still a third of the height"
 
 
 # -- selecting ------------------------------------------------------------------------------------

@@ -26,6 +26,11 @@ SLIP = (0xFF, 0xC2, 0x0A)
 VIOLET = (0x7B, 0x32, 0x94)
 
 
+def banner(seen, color):
+    """Return whether there is a banner of a colour across the foot."""
+    return (seen[440:] == color).all(axis=2).sum() > 10_000
+
+
 # -- layers ---------------------------------------------------------------------------------------
 
 
@@ -167,7 +172,7 @@ def test_the_mouse_does_nothing_to_what_the_help_lies_on(open_window):
     window.slide((300, 300), (340, 280))
     assert window.settle()["selected"] is None
     assert window.state["origin"] == start["origin"]
-    window.press("F1")
+    window.press("Escape")
     window.until(lambda s: s["help"] is None)
 
 
@@ -294,8 +299,7 @@ def test_manual_mode_is_one_step_a_key(open_window):
 def test_the_end_is_told_in_a_banner_until_one_looks_back(open_window):
     window = open_window("max", rows=30, message="robot0 has caught robot1")
     window.until(lambda s: s["over"] and s["banner"] == "robot0 has caught robot1")
-    blue = (0x24, 0x3B, 0x53)
-    assert window.shows(lambda seen: (seen[588] == blue).all(axis=1).mean() > 0.5)
+    assert window.shows(lambda seen: banner(seen, (0x24, 0x3B, 0x53)))
     window.press("Left")
     window.until(lambda s: s["row"] == 29 and s["banner"] is None)
     window.press("r")
@@ -309,8 +313,7 @@ def test_a_law_that_fails_leaves_the_window_open_and_is_raised_at_the_end(open_w
     window = open_window(5, fails_at=7)
     window.until(lambda s: s["status"] == "stopped")
     assert window.state["banner"] == "the law of robot0 returned nan"
-    red = (0xA6, 0x1B, 0x1B)
-    assert window.shows(lambda seen: (seen[588] == red).all(axis=1).mean() > 0.5)
+    assert window.shows(lambda seen: banner(seen, (0xA6, 0x1B, 0x1B)))
     assert window.settle()["row"] == 7
     window.press("Escape")
     window.until(lambda s: "raised" in s)
@@ -330,7 +333,7 @@ def test_the_layout_follows_the_size_of_the_window(open_window):
 @needs_screen
 def test_the_close_button_closes_it(open_window):
     window = open_window(1)
-    window.do("windowquit", window.window())
+    window.ask_to_close()
     window.until(lambda s: s.get("left"))
     assert window.process.wait(5) == 0
 
