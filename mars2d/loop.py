@@ -48,7 +48,6 @@ def simulate(
 
 def open_world(experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()) -> World:
     """Return the world of an experiment, which calls the watchers at each control step."""
-
     return World(
         experiment.scenario,
         experiment.control,

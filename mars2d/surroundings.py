@@ -37,7 +37,7 @@ class Around:
         self.renew(space)
 
     def renew(self, space: Space) -> None:
-        """Take another space, after the world has been changed; what was worked out is forgotten."""
+        """Take another space, after the world was changed; what was worked out is forgotten."""
         self._space = space
         self._placed: Float | None = None  # the poses at which the fans' bodies are
         for name in ("_fans", "_colors", "_addons"):

@@ -141,7 +141,7 @@ class World:
 
     def _build_laws(self, control: Callable[[World], Any] | None) -> None:
         """Take the laws of the scenario and of the team; those that are there already go on."""
-        own = {i: law for i, law in self._own}
+        own = dict(self._own)
         self._own = []
         for i, robot in enumerate(self.scenario.robots):
             if robot.controller is not None:

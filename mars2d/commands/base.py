@@ -50,7 +50,7 @@ def add_preferences(parser: argparse.ArgumentParser) -> None:
     """Add how the window looks."""
     parser.add_argument("--dark", action="store_true", help="a dark window")
     parser.add_argument(
-        "--text", type=_text, default=1.0, metavar="X", help="the window's text and lines x as large"
+        "--text", type=_text, default=1.0, metavar="X", help="the window's text X times as large"
     )
 
 

@@ -34,13 +34,13 @@ class Keeper:
 
     def picture(self, surface: pygame.Surface) -> None:
         """Save a picture."""
-        self._try(lambda: f"picture: {keep_picture(surface, Path.cwd(), self._stem)}")
+        self._try(lambda: f"picture: {keep_picture(surface, _here(), self._stem)}")
 
     def python(self, scenario: Scenario, control: Callable[[Any], Any] | None) -> None:
         """Save a scenario as a Python file; control: the law of its team."""
 
         def keep() -> str:
-            path, copied = keep_python(scenario, Path.cwd(), self._stem, control)
+            path, copied = keep_python(scenario, _here(), self._stem, control)
             return f"scenario: {path}{', and on the clipboard' if copied else ''}"
 
         self._try(keep)
@@ -55,7 +55,7 @@ class Keeper:
             self._try(self._end_film)
 
     def _begin_film(self) -> str:
-        self._film = start_film(Path.cwd(), self._stem)
+        self._film = start_film(_here(), self._stem)
         return "filming; V ends the film"
 
     def _end_film(self) -> str:
@@ -84,3 +84,10 @@ class Keeper:
             self._notes.say(keep())
         except InputError as error:
             self._notes.say(str(error), "error")
+
+
+def _here() -> Path:
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        raise InputError("the current folder is gone: no file can be made there") from None

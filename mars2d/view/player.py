@@ -148,10 +148,11 @@ class Player:
         self._settle()
 
     def pause(self) -> None:
-        """Stop time, if it passes."""
+        """Stop time, if it passes, and show the present frame."""
         self._todo = 0
         if not self.manual:
             self.paused = True
+        self._settle()
 
     def pause_or_resume(self) -> None:
         """Stop time or let it pass; in manual mode, one step."""
@@ -190,6 +191,7 @@ class Player:
             self.source.restart()
         except Mars2dError as error:
             self.error = error
+            self.source.go(self.source.newest)  # where it is told
         self._settle()
 
     def status(self) -> Status:
@@ -279,6 +281,7 @@ def between(first: Frame, second: Frame, time: float) -> Frame:
         effort=second.effort,
         contact_log=second.contact_log,
         effort_path=second.effort_path,
+        command_path=second.command_path,
         messages=second.messages,
     )
 

@@ -74,14 +74,15 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect | None = None,
         *,
+        beneath: Sequence[Shape] = (),
         marks: Sequence[Shape] = (),
         hurried: bool = False,
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
-        marks: shapes to draw over the bodies, beneath the forces. hurried: while the camera moves.
-        If drawing what stands still took long, the picture drawn last is enlarged or moved instead,
-        until there is time to draw it anew.
+        beneath, marks: shapes to draw beneath the bodies, and over them. hurried: while the camera
+        moves. If drawing what stands still took long, the picture drawn last is enlarged or moved
+        instead, until there is time to draw it anew.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -95,7 +96,7 @@ class Stage:
                 self.painter.paint(surface, scenes.sensors(frame).shapes, camera)
         if layers.messages and layers.neighbours:
             self._links.draw(surface, self.painter, frame, camera)
-        self.painter.paint(surface, self._moving(frame, layers, marks).shapes, camera)
+        self.painter.paint(surface, self._moving(frame, layers, beneath, marks).shapes, camera)
         if layers.names:
             self._names.draw(surface, self.painter, names(frame), camera)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
@@ -107,13 +108,16 @@ class Stage:
             )
         surface.set_clip(before)
 
-    def _moving(self, frame: Frame, layers: Layers, marks: Sequence[Shape]) -> Scene:
+    def _moving(
+        self, frame: Frame, layers: Layers, beneath: Sequence[Shape], marks: Sequence[Shape]
+    ) -> Scene:
         """Return what is drawn anew each time."""
         moving = scenes.addons(frame) if layers.addons else Scene()
         if layers.theory:
             moving.extend(scenes.theory(frame).shapes)
         if layers.messages:
             moving.extend(messages(frame).shapes)
+        moving.extend(beneath)
         for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):
             moving.extend(scene.shapes)
         moving.extend(marks)

@@ -40,7 +40,7 @@ from mars2d.view.reload import Reload
 from mars2d.view.selection import body_at, next_body, selection_mark, sensed_by
 from mars2d.view.slider import SpeedSlider
 from mars2d.view.source import Source
-from mars2d.view.stage import Stage
+from mars2d.view.stage import MEMORY, Stage
 from mars2d.view.theme import DARK, LIGHT
 from mars2d.view.timebar import TimeBar, TimeState
 from mars2d.view.viewpoint import Viewpoint, wheel_notches
@@ -87,7 +87,7 @@ class Window:
         self.player = Player(source, speed)
         self.size = size
         self.title = f"{source.scenario.title} - MARS2D"
-        self.layers = Layers.of(source.scenario.animation)
+        self.layers = replace(Layers.of(source.scenario.animation), neighbours=True)
         self.help: int | None = None  # the page of help that is open
         self.selected: int | None = None  # an index of Scenario.bodies
         self.text, self.scale = preferences.text, 1.0
@@ -100,6 +100,7 @@ class Window:
         self._marks = None if timeline is None else Marks(timeline)
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
+        self._cast = _cast(source)
         self._number = 0  # typed before a key
         self._open = False
         self._held: set[int] = set()
@@ -107,7 +108,7 @@ class Window:
         self._grasped: Callable[[tuple[int, int]], None] | None = None  # what the mouse drags
         self._pans = False  # it drags the picture
         self._painter = Painter(theme=DARK if preferences.dark else LIGHT)
-        self._stage = Stage(self._painter)
+        self._stage = Stage(self._painter, MEMORY)
         self._inspector = Inspector(self._painter)
         self._inspected = pygame.Rect(0, 0, 0, 0)  # where the inspector was drawn
         self._time_bar, self._slider = TimeBar(), SpeedSlider(SPEEDS)
@@ -122,7 +123,7 @@ class Window:
             "newest": lambda: self.player.go(source.newest),
             "faster": self.player.faster,
             "slower": self.player.slower,
-            "restart": self.player.restart,
+            "restart": self._restart,
             "branch": self.director.other_branch,
             **{layer: partial(self._toggle, layer) for layer in LAYERS},
             "select": self._select_next,
@@ -218,6 +219,17 @@ class Window:
         if not failed:
             self.player.error = None
         self.player.settle()
+        self._meet()
+
+    def _meet(self) -> None:
+        """Let go of all bodies, where the experiment has others than before."""
+        cast = _cast(self.player.source)
+        if cast == self._cast:
+            return
+        self._cast, self.selected, self.viewpoint.following = cast, None, None
+        self.director.driver.release()
+        self.hand.cancel()
+        self.hand.leave()
 
     def _use_rest(self, seconds: float) -> None:
         """Use the time that is left of a picture to prepare for going back."""
@@ -248,14 +260,14 @@ class Window:
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
-        if timeline is not None and timeline.branches:
-            marks = [*ghosts(timeline, frame).shapes, *marks]
+        others = [] if timeline is None else ghosts(timeline, frame).shapes
         self._stage.draw(
             surface,
             sensed_by(frame, self.selected),
             self.camera,
             self.layers,
             layout.plot,
+            beneath=others,
             marks=marks,
             hurried=self.viewpoint.hurried,
         )
@@ -439,6 +451,12 @@ class Window:
 
     # -- what keys do ---------------------------------------------------------------------------
 
+    def _restart(self) -> None:
+        """Start anew, with the file as it is now."""
+        self.hand.cancel()
+        self.player.restart()
+        self._meet()
+
     def _toggle(self, layer: str) -> None:
         self.layers = replace(self.layers, **{layer: not getattr(self.layers, layer)})
 
@@ -509,6 +527,9 @@ class Window:
 
     def _open_editor(self) -> None:
         """Draw on what is seen."""
+        self.hand.cancel()
+        self._pressed = self._grasped = None
+        self._pans = False
         self.editor = self.director.editor(self._painter)
         if self.editor is not None:
             self.editor.text, self.editor.scale = self.text, self.scale
@@ -519,6 +540,7 @@ class Window:
         self._held.clear()
         if editor.outcome is not None:
             self.director.apply(editor.outcome)
+            self._meet()
 
     def _show_way_back(self, share: float) -> bool:
         """Draw how far going back has got; return whether to go on: until Esc."""
@@ -532,6 +554,12 @@ class Window:
         self._open = self._open and not leaving
         keys_down = pygame.event.get(pygame.KEYDOWN)
         return not leaving and all(event.key != pygame.K_ESCAPE for event in keys_down)
+
+
+def _cast(source: Source) -> tuple[list[str | None], list[str | None]]:
+    """Return who takes part: the names of robots and of props."""
+    scenario = source.scenario
+    return [robot.name for robot in scenario.robots], [prop.name for prop in scenario.props]
 
 
 def _stem(source: Source) -> str:

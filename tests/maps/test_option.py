@@ -223,7 +223,10 @@ def test_check_names_the_nearest_file_and_how_to_bring_a_dwg(folder):
         (["room.wkt", "--set", "units=cm"], "--set units: no option; did you mean 'unit'?"),
         (["room.wkt", "--figure", "a.gif"], "--figure a.gif: expected a name that ends in"),
         (["lab.py", "--figure", "a.png"], "--figure is for maps: .dxf"),
-        (["plan.dwg"], "plan.dwg: expected a Python file (.py), a scenario (.toml), a record (.npz) or a map (.dxf"),
+        (
+            ["plan.dwg"],
+            "plan.dwg: expected a Python file (.py), a scenario (.toml), a record (.npz) or a map",
+        ),
         (["gone.dxf"], "gone.dxf: there is no such file"),
     ],
 )

@@ -71,12 +71,13 @@ class Viewer:
         self.window = Window(Playback(record), 1.0, (1280, 720))
         if plain:
             self.window._painter = Painter(kept=0)
-            self.window._stage.painter = self.window._panel.painter = self.window._painter
+            self.window._stage.painter = self.window._inspector.painter = self.window._painter
         self.plain = plain
         self.size = (1280, 720)
 
     def draw(self):
-        self.window._hurry = 0.0  # as after a rest: a moving camera may show rough pictures
+        self.window.viewpoint._hurry = 0.0  # as after a rest: in motion pictures may be rough
+        self.window._inspector._drawn_at = -1e9
         if self.plain:
             self.window._stage._sensed = None
         surface = pygame.Surface(self.size, 0, 32)
@@ -91,11 +92,11 @@ class Viewer:
 
 
 def zoom(viewer):
-    viewer.window._look(viewer.window.camera.zoomed((500, 300), 3.0))
+    viewer.window.viewpoint._look(viewer.window.camera.zoomed((500, 300), 3.0))
 
 
 def pan(viewer):
-    viewer.window._look(viewer.window.camera.panned(130.3, -61.7))
+    viewer.window.viewpoint._look(viewer.window.camera.panned(130.3, -61.7))
 
 
 def select(viewer):

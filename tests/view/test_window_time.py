@@ -174,7 +174,7 @@ def test_the_past_is_exact(open_window, room):
     there = window.until(lambda s: s["row"] == 25)["robots"]
     window.press("2", "5", "Right")
     later = window.until(lambda s: s["row"] == 50)["robots"]
-    window.press("Next", "Prior", "3", "5", "Left")
+    window.press("Next", "Prior", "2", "5", "Left")
     assert window.until(lambda s: s["row"] == 25)["robots"] == there
     window.press("2", "5", "Right")
     assert window.until(lambda s: s["row"] == 50)["robots"] == later
@@ -205,8 +205,8 @@ def test_where_a_law_fails_its_line_is_shown_and_the_past_can_be_looked_at(open_
     assert window.state["robots"][0][0] < -1.6
     window.press("End")
     window.until(lambda s: s["banner"] is not None)
-    window.press("r", "minus")
-    window.until(lambda s: s["row"] < 10)
+    window.press("r", "space")
+    window.until(lambda s: s["newest"] < 10)
     window.until(lambda s: s["status"] == "stopped", 15)
     window.press("Escape")
     window.until(lambda s: "raised" in s)
