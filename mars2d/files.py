@@ -80,12 +80,12 @@ class Experiment:
     def predictions(self, record: Record) -> tuple[Prediction, ...]:
         """Return what `checks` makes of a run; nothing without checks, or of a run cut short.
 
-        Nor is there anything to compare in a run without a single step.
+        Nor is there anything to compare in a run without a single step, or changed by hand.
 
         Raises LawError, which points at file and line, where `checks` raises or returns anything
         but predictions.
         """
-        if self.checks is None or not record.finished or len(record) < 2:
+        if self.checks is None or not record.finished or record.interventions or len(record) < 2:
             return ()
         expected = "expected a list of Prediction(name, predicted, measured, tolerance)"
         with called("checks", self.checks):

@@ -15,7 +15,7 @@ from mars2d.description import real, wrong
 from mars2d.engine import Engine
 from mars2d.errors import InputError
 from mars2d.geometry import Point
-from mars2d.interventions import Change, Intervention, Place, Pull
+from mars2d.interventions import Change, Intervention, Place, Pull, Steer
 from mars2d.kinematics import Kinematics
 from mars2d.placement import obstruction
 from mars2d.scenario import Scenario
@@ -73,17 +73,31 @@ class Hands:
         """
         index = self._world.scenario.index_of("Hands.steer", robot)
         if command is None:
-            self._driven.pop(index, None)
+            self._drive_no_more(index)
             return
         pair = command.tolist() if isinstance(command, np.ndarray) else command
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise wrong("Hands.steer(command)", command, "two numbers, or None")
         first, second = (real("Hands.steer(command)", number, "a number") for number in pair)
+        if not self._is_driven(index):
+            self.log.append(Steer(self._world.iteration, index, driven=True))
         self._driven[index] = first, second
+
+    def _drive_no_more(self, robot: int) -> None:
+        self._driven.pop(robot, None)
+        if self._is_driven(robot):
+            self.log.append(Steer(self._world.iteration, robot, driven=False))
+
+    def _is_driven(self, robot: int) -> bool:
+        """Return whether the log says that a robot is driven now."""
+        said = (i for i in reversed(self.log) if isinstance(i, Steer) and i.robot == robot)
+        last = next(said, None)
+        return last is not None and last.driven
 
     def let_go(self) -> None:
         """Let go of all that is driven or pulled."""
-        self._driven.clear()
+        for robot in {each.robot for each in self.log if isinstance(each, Steer)}:
+            self._drive_no_more(robot)
         for pull in self.pulls:
             self._pull(replace(pull, row=self._world.iteration, target=None))
 
@@ -195,6 +209,8 @@ class Hands:
             self._world.change(
                 intervention.scenario, intervention.control, dict(intervention.moved)
             )
+        elif isinstance(intervention, Steer):
+            self.log.append(intervention)
         else:
             self._pull(intervention)
 

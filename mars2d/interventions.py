@@ -14,7 +14,7 @@ from mars2d import plain
 from mars2d.geometry import Point
 from mars2d.scenario import Scenario
 
-__all__ = ["Change", "Intervention", "Place", "Pull", "of_plain", "to_plain"]
+__all__ = ["Change", "Intervention", "Place", "Pull", "Steer", "of_plain", "to_plain"]
 
 Triple = tuple[float, float, float]
 
@@ -49,6 +49,18 @@ class Pull:
 
 
 @dataclass(frozen=True, slots=True)
+class Steer:
+    """A robot was driven by hand from here on, or no more; the commands tell how.
+
+    robot: its index.
+    """
+
+    row: int
+    robot: int
+    driven: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Change:
     """The scenario was changed: obstacles, workspace, add-ons that only draw, laws.
 
@@ -62,7 +74,7 @@ class Change:
     control: Callable[[Any], Any] | None = field(default=None, compare=False)
 
 
-Intervention = Place | Pull | Change
+Intervention = Place | Pull | Steer | Change
 
 
 def to_plain(intervention: Intervention) -> dict[str, Any]:
@@ -84,4 +96,4 @@ def _read(value: Any) -> Any:
     return tuple(map(_read, value)) if isinstance(value, list) else value
 
 
-_KINDS: dict[str, type[Intervention]] = {kind.__name__: kind for kind in (Place, Pull, Change)}
+_KINDS: dict[str, type[Intervention]] = {kind.__name__: kind for kind in (Place, Pull, Steer, Change)}

@@ -251,8 +251,8 @@ class Timeline:
             if not ended:
                 world = self._way_back(progress, NEVER, self._built(experiment))
                 wanted = merged(before.scenario, experiment.scenario, world.scenario)
-                if wanted != world.scenario:
-                    world.change(wanted, world.control)
+                if self.row or wanted != world.scenario:
+                    world.change(wanted, world.control)  # so the record tells of it
         except Mars2dError:
             self._experiment, self._waiting = before, waiting
             raise
@@ -278,8 +278,7 @@ class Timeline:
         self._lines[world] = line.off(self._count, row)
         self._world = world
         self._waiting = [each for each in self._waiting if each.iteration < row]
-        for pull in world.hands.pulls:
-            world.hands.pull(pull.body, pull.grip, None)
+        world.hands.let_go()
         world.watch = watch_by(self._watchers)
 
     def other_branch(self) -> None:

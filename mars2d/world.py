@@ -524,14 +524,18 @@ class World:
             checks.law("control", control, "the world")
         self.observe()
         start = self.motion.moved(moved)
-        changed = with_poses(scenario, start.state[:, :3].T)
+        moves_on = not moved and scenario.surfaces == self.scenario.surfaces
+        changed = scenario if moves_on else with_poses(scenario, start.state[:, :3].T)
         self.hands.log.append(Change(self.iteration, scenario, tuple(moved.items()), control))
         same = {a.key for a in self.scenario.addons if a in changed.addons}
         self.scenario = changed
         self._workspace = None if changed.workspace is None else np.array(changed.workspace)
         self._take_addons({key: a for key, a in vars(self.addons).items() if key in same})
         self._build_laws(control)
-        self.rebuild(start)
+        if moves_on:
+            self.surroundings.renew(self._engine.space)
+        else:
+            self.rebuild(start)
 
     def rebuild(self, start: Start) -> None:
         """Go on with everything moving like this."""

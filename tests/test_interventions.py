@@ -8,7 +8,8 @@ import pytest
 import mars2d
 from mars2d import Robot, Scenario, World, interventions
 from mars2d.addons import Map
-from mars2d.interventions import Change, Place, Pull
+from mars2d.files import open_experiment
+from mars2d.interventions import Change, Place, Pull, Steer
 from mars2d.rerun import rerun
 
 SCENARIO = Scenario(robots=[Robot(), Robot(pose=(2, 0, 0))])
@@ -91,3 +92,35 @@ def test_done_again_on_another_world_they_give_the_same():
         second.follow(command)
     assert np.array_equal(first.history.pose, second.history.pose)
     assert second.hands.log == first.hands.log
+
+
+def test_driving_by_hand_is_told_of_by_the_record_and_its_checks_are_not_made(tmp_path):
+    experiment = open_experiment("pursuit_corners", {"stop_time": 5})
+    world = World(experiment.scenario, seed=1)
+    for k in range(3):
+        world.hands.steer("blue", (0.0, 0.01 * k))
+        world.step()
+    world.hands.steer("blue", None)
+    while not world.over:
+        world.step()
+    record = world.record
+    assert record.interventions == (Steer(0, 1, driven=True), Steer(3, 1, driven=False))
+    assert experiment.predictions(record) == ()
+    read = mars2d.load(record.save(tmp_path / "driven.npz"))
+    assert read.interventions == record.interventions
+    assert rerun(read) is None
+
+
+def test_another_law_is_told_of_and_changes_nothing_else():
+    def stand(world):
+        return np.zeros((2, 1))
+
+    scenario = Scenario(robots=[Robot()], stop_time=2.0)
+    first, second = World(scenario), World(scenario)
+    for world in (first, second):
+        world.step([[0.3], [0.2]])
+    second.change(scenario, stand)
+    second.step()
+    first.step([[0.0], [0.0]])
+    assert np.array_equal(first.pose, second.pose)
+    assert [type(each) for each in second.hands.log] == [Change]

@@ -187,9 +187,11 @@ def run_headless(experiment: Experiment, seed: int, watchers: Sequence[Watcher] 
 
 
 def predictions_of(experiment: Experiment, record: Record) -> tuple[Prediction, ...]:
-    """Return what an experiment's checks make of a run; of one that was cut short, say so."""
+    """Return what an experiment's checks make of a run; say why if there is nothing to be made."""
     if not record.finished:
-        warn_unchecked(experiment)
+        warn_unchecked(experiment, "cut short")
+    elif record.interventions:
+        warn_unchecked(experiment, "changed by hand")
     return experiment.predictions(record)
 
 
@@ -201,10 +203,10 @@ def print_predictions(experiment: Experiment, record: Record) -> None:
         print("", *title, table(predictions), sep="\n")
 
 
-def warn_unchecked(experiment: Experiment) -> None:
-    """Say that a run was cut short, if the experiment has checks that were to follow it."""
+def warn_unchecked(experiment: Experiment, what: str) -> None:
+    """Say what was done to a run, if the experiment has checks that were to follow it."""
     if experiment.checks is not None:
-        print("mars2d: the run was cut short, so its checks were not made", file=sys.stderr)
+        print(f"mars2d: the run was {what}, so its checks were not made", file=sys.stderr)
 
 
 def film_speed(experiment: Experiment, speed: float | str | None) -> float:

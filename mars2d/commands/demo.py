@@ -62,7 +62,7 @@ def execute(arguments: argparse.Namespace) -> None:
         else:
             record = _make_pictures(experiment, name, arguments.seed)
     except Interrupted:
-        warn_unchecked(experiment)
+        warn_unchecked(experiment, "cut short")
         raise
     print_predictions(experiment, record)
 

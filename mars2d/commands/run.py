@@ -83,7 +83,7 @@ def execute(arguments: argparse.Namespace) -> None:
         if error.record is not None and len(error.record):
             _keep(arguments, error.record)
         if isinstance(error, Interrupted):
-            warn_unchecked(experiment)
+            warn_unchecked(experiment, "cut short")
         raise
     lawless = experiment.control is None and not any(
         robot.controller for robot in experiment.scenario.robots

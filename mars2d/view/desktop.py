@@ -43,12 +43,12 @@ def desktop_scale() -> float:
 def opening_size(size: tuple[int, int], scale: float) -> tuple[int, int]:
     """Return the pixels of a window of `size` points; less where the desktop has not as many.
 
-    But never less than it has at a scale of 1. The display must have been started.
+    A desktop too small even at a scale of 1 bounds each side by itself. The display must have been
+    started.
     """
-    desktop = pygame.display.get_desktop_sizes()[0]
-    fits = min(ROOM * room / side for side, room in zip(size, desktop, strict=True))
-    share = max(min(scale, fits), min(scale, 1.0))
-    return round(share * size[0]), round(share * size[1])
+    width, height = (ROOM * room for room in pygame.display.get_desktop_sizes()[0])
+    share = min(scale, max(1.0, min(width / size[0], height / size[1])))
+    return round(min(share * size[0], width)), round(min(share * size[1], height))
 
 
 def _chosen(text: str) -> float:

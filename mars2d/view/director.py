@@ -9,6 +9,7 @@ import numpy as np
 from mars2d.changes import with_poses
 from mars2d.errors import InputError
 from mars2d.files import Experiment
+from mars2d.reopening import carried, check_alike
 from mars2d.scenario import Scenario
 from mars2d.timeline import Progress, Timeline
 from mars2d.view.driver import Driver
@@ -92,7 +93,9 @@ class Director:
             self.timeline.world.hands.steer(robot, None)
 
     def steer(self, seconds: float) -> None:
-        """Give the robot that is driven the command of the keys; in the past, once there is one.
+        """Give the robot that is driven the command of the keys.
+
+        In the past there must be one, and time must pass: who looks back changes nothing.
 
         seconds: since the last time.
         """
@@ -100,9 +103,11 @@ class Director:
         if robot is None or timeline is None or timeline.over:
             return
         command = self.driver.command(timeline.scenario.robots[robot].drive, seconds)
+        passes = self._player.playing or self._player.manual
+        wanted = passes and any(command)
         if not timeline.needs_way_back:
             timeline.world.hands.steer(robot, command)
-        elif any(command) and not self.change(lambda world: world.hands.steer(robot, command)):
+        elif wanted and not self.change(lambda world: world.hands.steer(robot, command)):
             self.let_go()
 
     # -- drawing on it ------------------------------------------------------------------------
@@ -135,7 +140,13 @@ class Director:
         before = self.scenario.bodies
         bodies = enumerate(outcome.scenario.bodies)
         moved = {i: body.pose for i, body in bodies if body.pose != before[i].pose}
-        if self.change(lambda world: world.change(outcome.scenario, world.control, moved)):
+
+        def draw(world: World) -> None:
+            check_alike(world.scenario, outcome.scenario)
+            # In the past it is a world with laws of its own, which go on.
+            world.change(carried(world.scenario, outcome.scenario), world.control, moved)
+
+        if self.change(draw):
             self._notes.say("it goes on from now with what was drawn")
 
     def _restart(self, experiment: Experiment) -> None:

@@ -5,13 +5,23 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pygame
 
 from mars2d.errors import InputError
 from mars2d.view.desktop import be_sharp
 
-__all__ = ["NO_DISPLAY", "be_quick", "display_available", "open_display"]
+__all__ = [
+    "NO_DISPLAY",
+    "PICTURES_A_SECOND",
+    "be_quick",
+    "display_available",
+    "open_display",
+    "open_window",
+    "started_display",
+]
 
 NO_DISPLAY = (
     "there is no display for a window; run it with --headless, draw a picture with "
@@ -20,6 +30,11 @@ NO_DISPLAY = (
 
 NOT_REAL = ("dummy", "offscreen", "evdev", "disk")
 ATTEMPTS = 3
+
+PICTURES_A_SECOND = 60
+"""How often a window is drawn."""
+REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
+"""A key that is held repeats after so many milliseconds, and then each so many."""
 
 
 def display_available() -> bool:
@@ -63,6 +78,35 @@ def open_display() -> None:
         pygame.display.quit()
         break
     raise InputError(NO_DISPLAY)
+
+
+@contextmanager
+def started_display() -> Iterator[None]:
+    """Have pygame's display started meanwhile; end it then, unless it was there before.
+
+    Raises InputError where there is none that a person sees.
+    """
+    ours = not pygame.display.get_init()
+    open_display()
+    try:
+        yield
+    finally:
+        if ours:
+            pygame.display.quit()
+
+
+def open_window(size: tuple[int, int], icon: pygame.Surface) -> pygame.Surface:
+    """Return the surface of a new window of `size` pixels, where keys that are held repeat.
+
+    Raises InputError where it can't be opened.
+    """
+    pygame.display.set_icon(icon)
+    try:
+        surface = pygame.display.set_mode(size, pygame.RESIZABLE)
+    except pygame.error as error:
+        raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
+    pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
+    return surface
 
 
 def be_quick() -> None:

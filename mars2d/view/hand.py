@@ -265,20 +265,23 @@ class _Pull:
         self.grip, self.target = grip, target
         self.force, self.speed = pull_of(scenario, body)
         self.newtons = 0.0
+        self._world: World | None = None  # where it is pulled
 
     def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
         """Pull there."""
         self.target = point
 
         def pull(world: World) -> None:
+            self._world = world
             world.hands.pull(self.body, self.grip, point, self.force, self.speed)
             self.newtons = world.hands.force(self.body)
 
         self._do(pull)
 
     def end(self) -> None:
-        """Let go."""
-        self._do(lambda world: world.hands.pull(self.body, self.grip, None))
+        """Let go where it is pulled, whatever row is looked at: that takes no branch."""
+        if self._world is not None and not self._world.over:
+            self._world.hands.pull(self.body, self.grip, None)
 
     def pose(self, frame: Frame) -> Triple | None:
         """Return None: it is where it is."""

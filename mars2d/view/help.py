@@ -13,9 +13,10 @@ from mars2d.view.keys import Key
 from mars2d.view.layout import Layout
 from mars2d.view.painter import Painter
 
-__all__ = ["draw_help"]
+__all__ = ["Help", "draw_help"]
 
-Groups = tuple[tuple[str, tuple[Key, ...]], ...]
+Groups = Iterable[tuple[str, Sequence[Key]]]
+Named = tuple[tuple[str, tuple[Key, ...]], ...]
 
 UNREADABLE = 0.2
 """Pixels a point below which a page of text is not worth drawing."""
@@ -63,11 +64,42 @@ class _Plan:
     pages: tuple[tuple[tuple[_Row, ...], ...], ...]
 
 
+class Help:
+    """The help of a window: closed, or open on one of its pages, which are counted from 0."""
+
+    def __init__(self) -> None:
+        """Start closed."""
+        self.page: int | None = None
+        self._pages = 1  # as there were when it was drawn last
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it lies over the picture."""
+        return self.page is not None
+
+    def turn(self) -> None:
+        """Open it, turn the page, or close it after the last one."""
+        page = 0 if self.page is None else self.page + 1
+        self.page = page if page < self._pages else None
+
+    def close(self) -> None:
+        """Close it."""
+        self.page = None
+
+    def draw(
+        self, surface: pygame.Surface, layout: Layout, painter: Painter, groups: Groups
+    ) -> None:
+        """Draw the page that is open, if one is; groups: pairs of a heading and its keys."""
+        if self.page is not None:
+            self._pages = draw_help(surface, layout, painter, groups, self.page)
+            self.page = min(self.page, self._pages - 1)
+
+
 def draw_help(
     surface: pygame.Surface,
     layout: Layout,
     painter: Painter,
-    groups: Iterable[tuple[str, Sequence[Key]]],
+    groups: Groups,
     page: int = 0,
 ) -> int:
     """Draw a page of help over the picture and return how many pages there are.
@@ -141,7 +173,7 @@ def _draw_column(
 
 
 @lru_cache(maxsize=4)
-def _plan(fonts: Fonts, groups: Groups, room: tuple[int, int], ui: float) -> _Plan | None:
+def _plan(fonts: Fonts, groups: Named, room: tuple[int, int], ui: float) -> _Plan | None:
     """Return the largest layout on one page; if that is too small to read, one of several pages.
 
     room: width and height, pixels.
@@ -158,7 +190,7 @@ def _plan(fonts: Fonts, groups: Groups, room: tuple[int, int], ui: float) -> _Pl
 
 
 def _one_page(
-    fonts: Fonts, groups: Groups, room: tuple[int, int], count: int, ui: float, least: float
+    fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float, least: float
 ) -> _Plan | None:
     """Return the largest page of so many columns, of `ui` to `least` pixels a point, or None."""
     while ui >= least:
@@ -173,7 +205,7 @@ def _one_page(
 
 
 def _several_pages(
-    fonts: Fonts, groups: Groups, room: tuple[int, int], count: int, ui: float
+    fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float
 ) -> _Plan | None:
     """Return pages of so many columns, which are filled one after the other, or None."""
     made = _columns(fonts, groups, room, count, ui)
@@ -189,7 +221,7 @@ def _several_pages(
 
 
 def _columns(
-    fonts: Fonts, groups: Groups, room: tuple[int, int], count: int, ui: float
+    fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float
 ) -> tuple[int, list[_Row]] | None:
     """Return how wide columns are, pixels, and all rows; None where columns are too thin."""
     column = (room[0] - 2 * PAD * ui - (count - 1) * BETWEEN * ui) / count

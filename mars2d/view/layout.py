@@ -9,7 +9,7 @@ import pygame
 from mars2d.scenario import Scenario
 from mars2d.view.camera import Camera, Margins
 
-__all__ = ["FOOTER", "TEXT_SIZES", "Layout", "fitted", "interface_scale"]
+__all__ = ["FOOTER", "TEXT_SIZES", "Layout", "fitted", "interface_scale", "next_text_size"]
 
 TEXT_SIZES = (1.0, 1.3, 1.7, 2.2)
 """Factors on the size of all text and lines."""
@@ -35,6 +35,11 @@ class Layout:
     footer: pygame.Rect
     timebar: pygame.Rect
     slider: pygame.Rect
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """The surface's width and height, pixels."""
+        return self.header.width, self.footer.bottom
 
     @classmethod
     def of(
@@ -65,6 +70,11 @@ class Layout:
             pygame.Rect(0, foot - strip, width - right, strip),
             pygame.Rect(width - right, foot - strip, right, strip),
         )
+
+
+def next_text_size(text: float) -> float:
+    """Return the next of the sizes of text, after the largest the smallest one."""
+    return next((size for size in TEXT_SIZES if size > text), TEXT_SIZES[0])
 
 
 def interface_scale(size: tuple[int, int], text: float = 1.0, scale: float = 1.0) -> float:

@@ -217,7 +217,8 @@ class Player:
         return text
 
     def settle(self) -> None:
-        """Show what was done to the world."""
+        """Show what was done to the world, at whatever time that leads to."""
+        self._pace.clear()
         self._settle()
 
     def fail(self, error: Mars2dError) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.view import shades
 
-__all__ = ["DARK", "LIGHT", "PRINTED", "Theme", "Tone", "contrast", "mixed"]
+__all__ = ["DARK", "LIGHT", "PRINTED", "Theme", "Tone", "contrast", "mixed", "theme_of"]
 
 
 class Tone(NamedTuple):
@@ -155,3 +155,8 @@ DARK = Theme(
     selected="#63b8f5",
     effort="#f2c063",
 )
+
+
+def theme_of(*, dark: bool) -> Theme:
+    """Return the theme of a window."""
+    return DARK if dark else LIGHT

@@ -52,8 +52,9 @@ class Viewpoint:
             old, new = before.plot.center, layout.plot.center
             self.camera = self.camera.panned(new[0] - old[0], new[1] - old[1])
 
-    def fit(self) -> None:
-        """Show the whole workspace."""
+    def fit(self, scenario: Scenario | None = None) -> None:
+        """Show the whole workspace; of another scenario from now on, if one is given."""
+        self._scenario = scenario or self._scenario
         self._fits, self.following = True, None
         self.camera = self._fitted()
 
@@ -87,8 +88,7 @@ class Viewpoint:
         self._hurry = time.perf_counter() + REST
 
     def _fitted(self) -> Camera:
-        size = self.layout.header.width, self.layout.footer.bottom
-        return fitted(self._scenario, size, self.layout)
+        return fitted(self._scenario, self.layout.size, self.layout)
 
 
 def wheel_notches(event: pygame.Event) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -12,26 +11,28 @@ from math import inf
 import numpy as np
 import pygame
 
-from mars2d.errors import InputError, Mars2dError
-from mars2d.excerpt import excerpt_of
+from mars2d.errors import Mars2dError
 from mars2d.frame import Frame
+from mars2d.geometry import Point
 from mars2d.timeline import Timeline
 from mars2d.view import keys
 from mars2d.view.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.view.camera import Camera
 from mars2d.view.desktop import desktop_scale, opening_size
 from mars2d.view.director import Director
-from mars2d.view.display import NO_DISPLAY, open_display
+from mars2d.view.display import PICTURES_A_SECOND, open_window, started_display
 from mars2d.view.editor import Editor
 from mars2d.view.ghosts import Marks, ghosts
 from mars2d.view.hand import Hand
-from mars2d.view.help import draw_help
+from mars2d.view.help import Help
 from mars2d.view.icon import icon
 from mars2d.view.inspector import Inspector
 from mars2d.view.keeper import Keeper
 from mars2d.view.layers import Layers
-from mars2d.view.layout import TEXT_SIZES, Layout
+from mars2d.view.layout import Layout, next_text_size
+from mars2d.view.mouse import CLICK, Mouse
 from mars2d.view.notes import Notes, Progress, draw_progress
+from mars2d.view.outcome import Outcome
 from mars2d.view.painter import Painter
 from mars2d.view.picture import summary
 from mars2d.view.player import SPEEDS, Player
@@ -41,20 +42,16 @@ from mars2d.view.selection import body_at, next_body, selection_mark, sensed_by
 from mars2d.view.slider import SpeedSlider
 from mars2d.view.source import Source
 from mars2d.view.stage import MEMORY, Stage
-from mars2d.view.theme import DARK, LIGHT
+from mars2d.view.theme import theme_of
 from mars2d.view.timebar import TimeBar, TimeState
-from mars2d.view.viewpoint import Viewpoint, wheel_notches
+from mars2d.view.viewpoint import Viewpoint
 
 __all__ = ["Window"]
 
-PICTURES_A_SECOND = 60
-REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
 HINTS = (
     ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
 )  # fmt: skip
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
-CLICK = 5
-"""A press of the mouse that moves by less, in pixels, is a click."""
 LEAP = 10
 """How many steps PgDn and PgUp do, unless a number is typed before."""
 MOST_STEPS = 1_000_000
@@ -65,7 +62,6 @@ LAYERS = (
     "grid", "trails", "sensors", "messages", "forces", "theory", "addons", "names", "velocities",
 )  # fmt: skip
 """The layers that have a key each of the same name."""
-BUTTONS = (pygame.BUTTON_LEFT, pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT)
 
 
 class Window:
@@ -88,7 +84,7 @@ class Window:
         self.size = size
         self.title = f"{source.scenario.title} - MARS2D"
         self.layers = replace(Layers.of(source.scenario.animation), neighbours=True)
-        self.help: int | None = None  # the page of help that is open
+        self.help = Help()
         self.selected: int | None = None  # an index of Scenario.bodies
         self.text, self.scale = preferences.text, 1.0
         self.notes = Notes()
@@ -100,19 +96,21 @@ class Window:
         self._marks = None if timeline is None else Marks(timeline)
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
+        self._outcome = Outcome(self.player)
         self._cast = _cast(source)
         self._number = 0  # typed before a key
         self._open = False
         self._held: set[int] = set()
-        self._pressed: tuple[int, int] | None = None
-        self._grasped: Callable[[tuple[int, int]], None] | None = None  # what the mouse drags
-        self._pans = False  # it drags the picture
-        self._painter = Painter(theme=DARK if preferences.dark else LIGHT)
+        self._painter = Painter(theme=theme_of(dark=preferences.dark))
         self._stage = Stage(self._painter, MEMORY)
         self._inspector = Inspector(self._painter)
         self._inspected = pygame.Rect(0, 0, 0, 0)  # where the inspector was drawn
         self._time_bar, self._slider = TimeBar(), SpeedSlider(SPEEDS)
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
+        grips = [(self._time_bar.hit, self._scrub), (self._slider.hit, self._choose_speed)]
+        self._mouse = Mouse(
+            self.player, self.viewpoint, self.hand, grips, self._is_picture, self._select_at
+        )
         self._actions: dict[str, Callable[[], None]] = {
             "pause": self.player.pause_or_resume,
             "step": lambda: self.player.step(self._typed(1)),
@@ -124,7 +122,7 @@ class Window:
             "faster": self.player.faster,
             "slower": self.player.slower,
             "restart": self._restart,
-            "branch": self.director.other_branch,
+            "branch": self._other_branch,
             **{layer: partial(self._toggle, layer) for layer in LAYERS},
             "select": self._select_next,
             "follow": lambda: self.viewpoint.follow(self.selected),
@@ -136,7 +134,7 @@ class Window:
             "picture": self._keep_picture,
             "film": self.keeper.film_or_not,
             "python": self._keep_python,
-            "help": self._turn_help,
+            "help": self.help.turn,
             "leave": self._leave,
         }
 
@@ -155,28 +153,18 @@ class Window:
 
         Ctrl+C in the terminal closes it, and KeyboardInterrupt is raised.
         """
-        ours = not pygame.display.get_init()
-        open_display()
-        try:
-            self.scale = desktop_scale()
-            screen = self._show()
-            self._loop(screen)
-        finally:
-            self.keeper.close()
-            if ours:
-                pygame.display.quit()
+        with started_display():
+            try:
+                self.scale = desktop_scale()
+                self._loop(self._show())
+            finally:
+                self.keeper.close()
         if self.player.error is not None:
             raise self.player.error
 
     def _show(self) -> pygame.Surface:
         pygame.display.set_caption(self.title)
-        pygame.display.set_icon(icon(self._painter))
-        try:
-            size = opening_size(self.size, self.scale)
-            screen = pygame.display.set_mode(size, pygame.RESIZABLE)
-        except pygame.error as error:
-            raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
-        pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
+        screen = open_window(opening_size(self.size, self.scale), icon(self._painter))
         self._open = True
         return screen
 
@@ -250,9 +238,8 @@ class Window:
             self._draw(surface)
 
     def _draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
-        banner = self._banner()
+        banner = self._outcome.banner()
         frame = self.hand.shown(self.player.frame)
-        self._painter.ui = self.layout.ui
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui = layout.ui
         self.viewpoint.arrange(layout, frame.scenario)
@@ -277,10 +264,7 @@ class Window:
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
-        if self.help is not None:
-            pages = draw_help(surface, layout, self._painter, keys.GROUPS.items(), self.help)
-            self.help = min(self.help, pages - 1)
-            self._pages = pages
+        self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
 
     def _draw_bars(self, surface: pygame.Surface, frame: Frame, banner: Banner | None) -> None:
         """Draw what stands round the picture."""
@@ -289,11 +273,11 @@ class Window:
         draw_header(surface, layout, painter, frame, self._status())
         self._time_bar.draw(
             surface, layout.timebar, painter, self._time_state(), pointer=pointer,
-            held=self._grasped == self._scrub,
+            held=self._mouse.drags(self._scrub),
         )  # fmt: skip
         self._slider.draw(
             surface, layout.slider, painter, player.speed, player.factor, pointer=pointer,
-            held=self._grasped == self._choose_speed,
+            held=self._mouse.drags(self._choose_speed),
         )  # fmt: skip
         hints = MANUAL_HINTS if player.manual else HINTS
         draw_footer(surface, layout, painter, banner, summary(frame), hints)
@@ -325,18 +309,6 @@ class Window:
         if place is not None:
             self._inspected = self._inspector.draw(surface, place, frame, self.selected)
 
-    def _banner(self) -> Banner | None:
-        error = self.player.error
-        if self.player.failed and error is not None:
-            timeline = self.director.timeline
-            path = None if timeline is None else timeline.experiment.path
-            hint = "← looks back   R restarts   Esc leaves"
-            return Banner(str(error), hint, error=True, excerpt=excerpt_of(error, path))
-        if not self.player.over:
-            return None
-        text = self.player.frame.over_message or "The experiment is over."
-        return Banner(text, "← looks back   R restarts   Esc leaves")
-
     def _layout(self, size: tuple[int, int], banner: Banner | None) -> Layout:
         """Return where everything lies on a surface of this size."""
         text, scale = self.text, self.scale
@@ -348,28 +320,20 @@ class Window:
     def _handle(self, event: pygame.Event) -> None:
         if event.type == pygame.QUIT:
             self._open = False
+        elif self.director.driver.handle(event):
+            pass
         elif self.editor is not None:
             self.editor.handle(event)
             if self.editor.done:
                 self._close_editor(self.editor)
-        elif self.director.driver.handle(event):
-            pass
         elif event.type == pygame.KEYDOWN:
             self._press(event.key, event.unicode)
         elif event.type == pygame.KEYUP:
             self._held.discard(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
-        elif event.type == pygame.WINDOWLEAVE:
-            self.hand.leave()
-        elif event.type == pygame.MOUSEWHEEL:
-            self.viewpoint.zoom(wheel_notches(event), pygame.mouse.get_pos())
-        elif event.type == pygame.MOUSEMOTION:
-            self._drag(event)
-        elif event.type == pygame.MOUSEBUTTONDOWN and event.button in BUTTONS:
-            self._grasp(event.pos, event.button)
-        elif event.type == pygame.MOUSEBUTTONUP and event.button in BUTTONS:
-            self._release(event.pos, event.button)
+        else:
+            self._mouse.handle(event)
 
     def _press(self, code: int, character: str) -> None:
         if character.isdigit() and character.isascii():
@@ -388,45 +352,9 @@ class Window:
         number, self._number = self._number, 0
         return number or otherwise
 
-    def _grasp(self, pixel: tuple[int, int], button: int) -> None:
-        """Take hold of what lies at a pixel."""
-        frame, running = self.player.frame, self.player.playing
-        if button == pygame.BUTTON_LEFT:
-            self._pressed = pixel
-            if self._time_bar.hit(pixel):
-                self._grasped = self._scrub
-            elif self._slider.hit(pixel):
-                self._grasped = self._choose_speed
-        if self._grasped is not None:
-            self._grasped(pixel)
-        elif self._is_picture(pixel):
-            mods = pygame.key.get_mods()
-            self._pans = not self.hand.press(frame, self.camera, pixel, button, mods, running)
-
-    def _drag(self, event: pygame.Event) -> None:
-        if self._grasped is not None:
-            self._grasped(event.pos)
-        elif self._pans:
-            self.viewpoint.pan(*event.rel)
-        elif self.hand.busy or self._is_picture(event.pos):
-            self.hand.move(self.player.frame, self.camera, event.pos, self.player.playing)
-        else:
-            self.hand.leave()
-
-    def _release(self, pixel: tuple[int, int], button: int) -> None:
-        """Let go; what was pressed and not dragged is clicked."""
-        done = self.hand.busy and self.hand.release(
-            self.player.frame, self.camera, pixel, self.player.playing
-        )
-        near = self._pressed is not None and math.dist(self._pressed, pixel) < CLICK
-        if near and not done and self._grasped is None and button == pygame.BUTTON_LEFT:
-            self._click(pixel)
-        self._pressed = self._grasped = None
-        self._pans = False
-
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether at a pixel there is the picture, and nothing over it."""
-        over = self.help is not None or self._inspected.collidepoint(pixel)
+        over = self.help.is_open or self._inspected.collidepoint(pixel)
         return not over and self.layout.plot.collidepoint(pixel)
 
     def _scrub(self, pixel: tuple[int, int]) -> None:
@@ -441,13 +369,10 @@ class Window:
         if speed is not None and speed != self.player.speed:
             self.player.set_speed(speed)
 
-    def _click(self, pixel: tuple[int, int]) -> None:
-        """Select what lies at a pixel of the picture, or nothing."""
-        if not self._is_picture(pixel):
-            return
-        frame = self.player.frame
-        ((x, y),) = self.camera.to_world([pixel]).tolist()
-        self.selected = body_at(frame, (x, y), CLICK * self.layout.ui / self.camera.scale)
+    def _select_at(self, point: Point) -> None:
+        """Select what lies at a point [m] of the picture, or nothing."""
+        slack = CLICK * self.layout.ui / self.camera.scale
+        self.selected = body_at(self.player.frame, point, slack)
 
     # -- what keys do ---------------------------------------------------------------------------
 
@@ -457,30 +382,29 @@ class Window:
         self.player.restart()
         self._meet()
 
+    def _other_branch(self) -> None:
+        """Look at another branch; what is pulled or carried is let go of in this one."""
+        self.hand.cancel()
+        self.director.other_branch()
+
     def _toggle(self, layer: str) -> None:
         self.layers = replace(self.layers, **{layer: not getattr(self.layers, layer)})
 
     def _change_theme(self) -> None:
-        self._painter.theme = LIGHT if self._painter.theme.dark else DARK
+        self._painter.theme = theme_of(dark=not self._painter.theme.dark)
 
     def _change_text(self) -> None:
         """Take the next size of text, or the smallest one again."""
-        larger = [size for size in TEXT_SIZES if size > self.text]
-        self.text = larger[0] if larger else TEXT_SIZES[0]
+        self.text = next_text_size(self.text)
         self.notes.say(f"text: {self.text:g} times as large as at first")
 
     def _select_next(self) -> None:
         self.selected = next_body(self.player.frame, self.selected)
 
-    def _turn_help(self) -> None:
-        """Open the help, turn its page, or close it after the last one."""
-        page = 0 if self.help is None else self.help + 1
-        self.help = page if page == 0 or page < self._pages else None
-
     def _leave(self) -> None:
         """Close the help, let go of what is held, select none, or close the window."""
-        if self.help is not None:
-            self.help = None
+        if self.help.is_open:
+            self.help.close()
         elif self.hand.busy:
             self.hand.cancel()
         elif self.director.driver.robot is not None:
@@ -494,7 +418,7 @@ class Window:
 
     def _keep_picture(self) -> None:
         """Save what is seen, without the notes over it."""
-        surface = pygame.Surface((self.layout.header.width, self.layout.footer.bottom), 0, 32)
+        surface = pygame.Surface(self.layout.size, 0, 32)
         self._draw(surface, notes=False)
         self.keeper.picture(surface)
 
@@ -527,9 +451,7 @@ class Window:
 
     def _open_editor(self) -> None:
         """Draw on what is seen."""
-        self.hand.cancel()
-        self._pressed = self._grasped = None
-        self._pans = False
+        self._mouse.let_go()
         self.editor = self.director.editor(self._painter)
         if self.editor is not None:
             self.editor.text, self.editor.scale = self.text, self.scale

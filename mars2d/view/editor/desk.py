@@ -10,6 +10,7 @@ from mars2d.geometry import Point, grid_step
 from mars2d.view.camera import Camera
 from mars2d.view.editor.draft import Draft, Item, Motion, tidy
 from mars2d.view.editor.history import History
+from mars2d.view.viewpoint import Viewpoint
 
 __all__ = ["Desk", "Gesture"]
 
@@ -29,16 +30,16 @@ class Desk:
     """A draft under the hands of a person.
 
     selection: the things selected, in the order in which they were. corner: the number of the
-    corner that was touched last, of the one outline that is selected. ui: pixels a point.
+    corner that was touched last, of the one outline that is selected. viewpoint: from where it is
+    looked at.
     """
 
-    def __init__(self, draft: Draft, camera: Camera) -> None:
+    def __init__(self, draft: Draft, viewpoint: Viewpoint) -> None:
         """Start with nothing selected."""
         self.history = History(draft)
         self.selection: tuple[Item, ...] = ()
         self.corner: int | None = None
-        self.camera = camera
-        self.ui = 1.0
+        self.viewpoint = viewpoint
         self.snaps = True
         self.notice = ""
         self.warns = False
@@ -158,6 +159,16 @@ class Desk:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
 
     # -- how it is looked at ----------------------------------------------------------------------
+
+    @property
+    def camera(self) -> Camera:
+        """From where the drawing is seen."""
+        return self.viewpoint.camera
+
+    @property
+    def ui(self) -> float:
+        """Pixels a point."""
+        return self.viewpoint.layout.ui
 
     @property
     def step(self) -> float:

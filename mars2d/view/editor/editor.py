@@ -18,7 +18,6 @@ from mars2d.geometry import Point
 from mars2d.names import names
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
-from mars2d.view.camera import Camera
 from mars2d.view.editor.boundary import Boundary
 from mars2d.view.editor.chrome import Button, Header, draw_footer, draw_plate, draw_prompt
 from mars2d.view.editor.desk import Desk
@@ -41,13 +40,13 @@ from mars2d.view.editor.sketch import Sketch
 from mars2d.view.editor.tool import Tool, minus
 from mars2d.view.editor.toolbar import WIDTH, Toolbar
 from mars2d.view.editor.verdict import Judge
-from mars2d.view.help import draw_help
+from mars2d.view.help import Help
 from mars2d.view.layers import Layers
-from mars2d.view.layout import TEXT_SIZES, Layout, fitted
+from mars2d.view.layout import Layout, next_text_size
 from mars2d.view.painter import Painter
 from mars2d.view.stage import Stage
-from mars2d.view.theme import DARK, LIGHT
-from mars2d.view.viewpoint import DEEPEST, WHEEL_FACTOR, WIDEST, wheel_notches
+from mars2d.view.theme import theme_of
+from mars2d.view.viewpoint import Viewpoint, wheel_notches
 
 __all__ = ["Editor", "Outcome"]
 
@@ -67,8 +66,6 @@ NUDGES = {"left": (-1, 0), "right": (1, 0), "up": (0, 1), "down": (0, -1)}
 LAYERS = Layers(trails=False, sensors=False, messages=False)
 FEW = 40
 """The names of so many robots and props are shown, unless a person wants others, too."""
-REST = 0.12
-"""The camera moves until it has rested for so many seconds."""
 
 
 @dataclass(frozen=True)
@@ -105,28 +102,24 @@ class Editor:
         self.done = False
         self.outcome: Outcome | None = None
         self.to_run: Path | None = None
-        self.help = False
+        self.help = Help()
         self.prompt: Prompt | None = None
         self.document = Document(path, control)
-        self._page = 0
         self._before = scenario
-        self.layout = self._laid_out((1280, 720))
         draft = Draft.empty(scenario) if empty else Draft.of(scenario)
-        self.desk = Desk(draft, Camera(1.0, 0.0, 0.0))
+        self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
+        self.desk = Desk(draft, self.viewpoint)
         if changed:
             self.desk.history.lose()
         self.judge = Judge(draft)
-        self._fits = True
         self._stage, self._sketch = Stage(painter), Sketch()
         self._header, self._toolbar = Header(painter), Toolbar(painter)
         self._pointer = (-1, -1)
         self._dragging = self._panning = self._space = False
         self._held: set[int] = set()
         self._names = len(draft.robots) + len(draft.props) <= FEW
-        self._hurry = 0.0
         self._plain = False  # other add-ons than those drawn here are not shown
         self.tool_name, self.tool = "select", TOOLS["select"](self.desk)
-        self._fit()
         self._actions: dict[str, Callable[[], None]] = {
             **{name: lambda name=name: self._choose(name) for name in TOOLS},  # type: ignore[misc]
             "pose": self._ask_pose,
@@ -137,10 +130,10 @@ class Editor:
             "redo": self.desk.redo,
             "snap": self._toggle_snap,
             "names": self._toggle_names,
-            "fit": self._fit,
+            "fit": lambda: self.viewpoint.fit(self.desk.draft.sketch),
             "dark": self._toggle_dark,
             "text": self._next_text_size,
-            "help": self._toggle_help,
+            "help": self.help.turn,
             "leave": self._leave,
             "save": self._save,
             "run": self._run,
@@ -152,6 +145,11 @@ class Editor:
     def title(self) -> str:
         """What stands in the header."""
         return self.desk.draft.base.title if self.live else self.document.name
+
+    @property
+    def layout(self) -> Layout:
+        """Where everything lies."""
+        return self.viewpoint.layout
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -167,7 +165,7 @@ class Editor:
             self._held.clear()
             self._let_go()
         elif event.type == pygame.MOUSEWHEEL:
-            self._zoom(WHEEL_FACTOR ** wheel_notches(event))
+            self._zoom(wheel_notches(event))
         elif event.type == pygame.MOUSEMOTION:
             self._move(event)
         elif event.type == pygame.MOUSEBUTTONDOWN:
@@ -194,8 +192,8 @@ class Editor:
         key = action_of(name, event.unicode, live=self.live)
         if self._dragging or (again and not (key is not None and key.repeats)):
             return
-        if self.help and (key is None or key.action not in ("help", "leave")):
-            self.help = False
+        if key is None or key.action not in ("help", "leave"):
+            self.help.close()
         if event.key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.tool.confirm():
             return
         if event.key == pygame.K_BACKSPACE and self.tool.back():
@@ -212,8 +210,8 @@ class Editor:
     def _press(self, event: pygame.Event) -> None:
         if self.prompt is not None:
             return
-        if self.help:
-            self.help = False
+        if self.help.is_open:
+            self.help.close()
             return
         self._pointer = event.pos
         if event.button == pygame.BUTTON_LEFT:
@@ -239,7 +237,7 @@ class Editor:
     def _move(self, event: pygame.Event) -> None:
         self._pointer = event.pos
         if self._panning:
-            self._look(self.desk.camera.panned(*event.rel))
+            self.viewpoint.pan(*event.rel)
         elif self._dragging or self.layout.plot.collidepoint(event.pos):
             self.tool.move(self._world(event.pos), shift=self._shift)
         else:
@@ -306,40 +304,16 @@ class Editor:
         self._names = not self._names
 
     def _toggle_dark(self) -> None:
-        self.painter.theme = LIGHT if self.painter.theme.dark else DARK
+        self.painter.theme = theme_of(dark=not self.painter.theme.dark)
 
     def _next_text_size(self) -> None:
-        larger = (size for size in TEXT_SIZES if size > self.text)
-        self.text = next(larger, TEXT_SIZES[0])
-
-    def _toggle_help(self) -> None:
-        if self.help and self._page + 1 < self._pages:
-            self._page += 1
-        else:
-            self.help, self._page = not self.help, 0
-
-    _pages = 1
+        self.text = next_text_size(self.text)
 
     # -- looking --------------------------------------------------------------------------------
 
-    def _zoom(self, factor: float) -> None:
-        fit, camera = self._fitted().scale, self.desk.camera
-        wanted = min(max(camera.scale * factor, WIDEST * fit), DEEPEST * fit)
+    def _zoom(self, notches: float) -> None:
         pixel = self._pointer if self._pointer[0] >= 0 else self.layout.plot.center
-        self._look(camera.zoomed(pixel, wanted / camera.scale))
-
-    def _look(self, camera: Camera) -> None:
-        self._fits = False
-        self._hurry = time.perf_counter() + REST
-        self.desk.camera = camera
-
-    def _fit(self) -> None:
-        self._fits = True
-        self.desk.camera = self._fitted()
-
-    def _fitted(self) -> Camera:
-        size = self.layout.header.width, self.layout.footer.bottom
-        return fitted(self.desk.draft.sketch, size, self.layout)
+        self.viewpoint.zoom(notches, pixel)
 
     def _laid_out(self, size: tuple[int, int]) -> Layout:
         layout = Layout.of(size, text=self.text, scale=self.scale)
@@ -349,14 +323,10 @@ class Editor:
         return replace(layout, plot=room)
 
     def _arrange(self, size: tuple[int, int]) -> None:
-        before, self.layout = self.layout, self._laid_out(size)
-        self.painter.ui = self.desk.ui = self.layout.ui
-        if self.layout != before:
-            if self._fits:
-                self._fit()
-            else:
-                old, new = before.plot.center, self.layout.plot.center
-                self.desk.camera = self.desk.camera.panned(new[0] - old[0], new[1] - old[1])
+        layout = self._laid_out(size)
+        self.painter.ui = layout.ui
+        if layout != self.layout:  # the picture stays in place while the workspace is drawn
+            self.viewpoint.arrange(layout, self.desk.draft.sketch)
 
     # -- keeping --------------------------------------------------------------------------------
 
@@ -426,8 +396,8 @@ class Editor:
 
     def _leave(self) -> None:
         """Close the help, leave the tool, select none, or leave."""
-        if self.help:
-            self.help = False
+        if self.help.is_open:
+            self.help.close()
         elif self.tool.cancel():
             pass
         elif self.tool_name != "select":
@@ -477,11 +447,9 @@ class Editor:
         else:
             blink = time.monotonic() % 1.0 < 0.6
             draw_prompt(surface, self.layout, self.painter, self.prompt, blink=blink)
-        if not (self._dragging or self.help):
+        if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self._pointer, surface.get_rect())
-        if self.help:
-            keys = groups(live=self.live)
-            self._pages = draw_help(surface, self.layout, self.painter, keys, self._page)
+        self.help.draw(surface, self.layout, self.painter, groups(live=self.live))
 
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene = Scene()
@@ -492,7 +460,7 @@ class Editor:
         plot, camera = self.layout.plot, self.desk.camera
         frame = self._sketch.frame(draft, bare=self._plain)
         named = names(frame).shapes if self._names else []
-        marks, hurried = [*named, *scene.shapes], time.perf_counter() < self._hurry
+        marks, hurried = [*named, *scene.shapes], self.viewpoint.hurried
         draw = partial(self._stage.draw, marks=marks, hurried=hurried)
         try:
             draw(surface, frame, camera, LAYERS, plot)

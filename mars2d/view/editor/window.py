@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import pygame
 
-from mars2d.errors import InputError, Mars2dError
+from mars2d.errors import Mars2dError
 from mars2d.files import open_experiment
 from mars2d.view.desktop import desktop_scale, opening_size
-from mars2d.view.display import NO_DISPLAY, open_display
+from mars2d.view.display import PICTURES_A_SECOND, open_window, started_display
 from mars2d.view.editor.editor import Editor
 from mars2d.view.icon import icon
 from mars2d.view.preferences import Preferences
-from mars2d.view.theme import DARK, LIGHT
+from mars2d.view.theme import theme_of
 
 __all__ = ["EditorWindow"]
 
-PICTURES_A_SECOND = 60
-REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
 REST = 100
 """Without anything to do it looks again after so many milliseconds."""
 
@@ -37,28 +35,18 @@ class EditorWindow:
         self.editor, self.size = editor, size
         likes = preferences or Preferences()
         editor.text = likes.text
-        editor.painter.theme = DARK if likes.dark else LIGHT
+        editor.painter.theme = theme_of(dark=likes.dark)
 
     def run(self) -> None:
         """Open the window and wait until it is left. Raises InputError without a display."""
-        ours = not pygame.display.get_init()
-        open_display()
-        try:
+        with started_display():
             self.editor.scale = desktop_scale()
             self.size = opening_size(self.size, self.editor.scale)
             self._show()
             self._loop()
-        finally:
-            if ours:
-                pygame.display.quit()
 
     def _show(self) -> None:
-        pygame.display.set_icon(icon(self.editor.painter))
-        try:
-            pygame.display.set_mode(self.size, pygame.RESIZABLE)
-        except pygame.error as error:
-            raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
-        pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
+        open_window(self.size, icon(self.editor.painter))
 
     def _loop(self) -> None:
         clock, editor = pygame.time.Clock(), self.editor

@@ -1,0 +1,44 @@
+"""What is said across the foot of a window where nothing follows: that it is over, or has failed."""
+
+from __future__ import annotations
+
+from mars2d.errors import Mars2dError
+from mars2d.excerpt import Excerpt, excerpt_of
+from mars2d.timeline import Timeline
+from mars2d.view.bars import Banner
+from mars2d.view.player import Player
+
+__all__ = ["Outcome"]
+
+HINT = "← looks back   R restarts   Esc leaves"
+
+
+class Outcome:
+    """Tells how what a player plays has ended.
+
+    The lines of code that an error is about are those that were run: they are read once, however
+    the file is edited while they are shown.
+    """
+
+    def __init__(self, player: Player) -> None:
+        """Start with nothing to tell."""
+        self._player = player
+        self._error: Mars2dError | None = None
+        self._excerpt: Excerpt | None = None
+
+    def banner(self) -> Banner | None:
+        """Return what has to be said now, or None."""
+        player = self._player
+        if player.failed and player.error is not None:
+            excerpt = self._excerpt_of(player.error)
+            return Banner(str(player.error), HINT, error=True, excerpt=excerpt)
+        if not player.over:
+            return None
+        return Banner(player.frame.over_message or "The experiment is over.", HINT)
+
+    def _excerpt_of(self, error: Mars2dError) -> Excerpt | None:
+        if error is not self._error:
+            source = self._player.source
+            path = source.experiment.path if isinstance(source, Timeline) else None
+            self._error, self._excerpt = error, excerpt_of(error, path)
+        return self._excerpt
