@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from typing import NamedTuple
 
-__all__ = ["INDENT", "WIDTH", "Brackets", "Node", "laid_out", "quoted"]
+__all__ = ["INDENT", "WIDTH", "Brackets", "Node", "comment", "laid_out", "numeral", "quoted"]
 
 WIDTH = 100
 """Columns of a line."""
@@ -63,6 +63,16 @@ def _flat(node: Node) -> str:
     if isinstance(node, str):
         return node
     return node.opening + ", ".join(map(_flat, node.items)) + node.closing
+
+
+def numeral(value: float) -> str:
+    """Return a number, also one of numpy, as both read it back bit for bit."""
+    return repr(float(value) if isinstance(value, float) else int(value))
+
+
+def comment(text: str) -> str:
+    """Return a line of comment; what is no part of a line is left out."""
+    return "# " + "".join(c for c in " ".join(text.split()) if c.isprintable())
 
 
 def quoted(text: str) -> str:

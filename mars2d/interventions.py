@@ -96,4 +96,6 @@ def _read(value: Any) -> Any:
     return tuple(map(_read, value)) if isinstance(value, list) else value
 
 
-_KINDS: dict[str, type[Intervention]] = {kind.__name__: kind for kind in (Place, Pull, Steer, Change)}
+_KINDS: dict[str, type[Intervention]] = {
+    kind.__name__: kind for kind in (Place, Pull, Steer, Change)
+}

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mars2d import plain
-from mars2d.brackets import WIDTH, Brackets, Node, laid_out, quoted
+from mars2d.brackets import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
 from mars2d.description import Description
 from mars2d.reference import Reference, seen_from
 from mars2d.registry import BASES
@@ -49,8 +49,8 @@ def as_python(
     if control is not None:
         body.append(f"control = {lister.law(control)}")
     lost = [*missing, *(f"law {name_of(law)}" for law in lister.lost)]
-    notes = [f"# This is code, which is not written down: {_line(x)}" for x in dict.fromkeys(lost)]
-    title = _line(kept.title)[:TITLE].replace("\\", "/").replace('"', "'").strip()
+    notes = [comment(f"{plain.LOST}: {name}") for name in dict.fromkeys(lost)]
+    title = comment(kept.title)[2:][:TITLE].replace("\\", "/").replace('"', "'").strip()
     head = [f'"""{title or "A scenario."}"""', "", *lister.imports(), ""]
     return "\n".join([*head, *notes, *body]) + "\n"
 
@@ -94,7 +94,7 @@ class _Lister:
         if value is None or isinstance(value, bool):
             return repr(value)
         if isinstance(value, (int, float)):
-            return repr(float(value) if isinstance(value, float) else int(value))
+            return numeral(value)
         items = [self._plain(item) for item in value]
         if items and all(isinstance(item, (int, float)) for item in value):  # a point, a pose
             return Brackets("(", items, ",)" if len(items) == 1 else ")", filled=True)
@@ -142,8 +142,3 @@ class _Lister:
 def _named(name: str, node: Node) -> Node:
     """Return a node with a name in front."""
     return name + node if isinstance(node, str) else node._replace(opening=name + node.opening)
-
-
-def _line(text: str) -> str:
-    """Return text without what is no part of a line."""
-    return "".join(c for c in " ".join(text.split()) if c.isprintable())

@@ -32,6 +32,5 @@ def names(frame: Frame) -> Scene:
         )
         text = str(i) if crowd and body.name == f"robot{i}" else str(body.name)
         size = SMALL if crowd else SIZE
-
         scene.shapes.append(Text(place, text, INK, size, "above", HALO))
     return scene

@@ -26,6 +26,7 @@ from mars2d.sensors.base import Sensor
 from mars2d.shapes import Compound, Disc, Polygon, Shape
 
 __all__ = [
+    "LOST",
     "MOVING",
     "PARTS",
     "Place",
@@ -174,6 +175,9 @@ _FOLDERS = {
     "drive": "bodies", "prop": "props", "joint": "joints", "add-on": "addons", "sensor": "sensors",
 }  # fmt: skip
 """Of those, the families in which another package can ship a part by an entry point."""
+
+LOST = "This is code, which is not written down"
+"""What files say of parts that they do not hold."""
 
 MOVING = ("drive", "joint", "shape")
 """Without such parts of the user's own a scenario does not move as it did."""

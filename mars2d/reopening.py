@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from mars2d.changes import check_same
+from mars2d.changes import FREE, check_same
 from mars2d.description import Description
 from mars2d.props.base import Prop
 from mars2d.robot import Robot
@@ -14,7 +14,7 @@ from mars2d.usercode import name_of
 
 __all__ = ["alike", "carried", "check_alike", "merged"]
 
-WHOLE = ("title", "workspace", "on_exit", "stop_time", "animation")
+WHOLE = FREE - {"robots", "props", "addons"}
 """Fields of a scenario that may change while its world runs, each as a whole."""
 
 

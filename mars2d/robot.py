@@ -13,7 +13,7 @@ from mars2d.bodies.unicycle import Unicycle
 from mars2d.description import Description, choice, entry, number, text, wrong
 from mars2d.geometry import Point
 from mars2d.materials import surface_friction, surface_restitution
-from mars2d.rigid import Inertia, Surface, inertia_of
+from mars2d.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.scene import optional_color
 from mars2d.sensors.base import Sensor
 from mars2d.shapes import Disc, Shape, known_shape
@@ -124,6 +124,13 @@ class Robot(Description):
     def surface(self) -> Surface:
         """The friction and restitution of its sides."""
         return Surface(self.friction, self.restitution)
+
+    @property
+    def rigid(self) -> Rigid:
+        """The body that it is at the start."""
+        still = (0.0, 0.0, 0.0)
+        shape, inertia, surface = self.chassis, self.inertia, self.surface
+        return Rigid("Robot", str(self.name), self.pose, still, shape, inertia, surface)
 
     def _validate(self) -> None:
         if self.drive.max_force > ACCELERATION * self.mass:

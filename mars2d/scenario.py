@@ -257,16 +257,7 @@ class Scenario(Description):
     @cached_property
     def bodies(self) -> tuple[Rigid, ...]:
         """All bodies that move, as the physics takes them: the robots, then the props."""
-        still = (0.0, 0.0, 0.0)
-        robots = [
-            Rigid("Robot", str(r.name), r.pose, still, r.chassis, r.inertia, r.surface)
-            for r in self.robots
-        ]
-        props = [
-            Rigid(type(p).__name__, str(p.name), p.pose, p.velocity, p.shape, p.inertia, p.surface)
-            for p in self.props
-        ]
-        return (*robots, *props)
+        return (*(robot.rigid for robot in self.robots), *(prop.rigid for prop in self.props))
 
     @cached_property
     def _indices(self) -> dict[str, int]:
@@ -344,7 +335,7 @@ class Scenario(Description):
         """The iteration at the stop time: the run has this many sampling times."""
         return floor(self.stop_time / self.sampling_time * (1 + 1e-12) + 1e-9)
 
-    @property
+    @cached_property
     def colors(self) -> tuple[str, ...]:
         """The robots' colours, each its own or the next of the animation's base colours."""
         base = self.animation.base_colors

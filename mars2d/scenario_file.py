@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from mars2d import plain
-from mars2d.brackets import WIDTH, Brackets, Node, laid_out, quoted
+from mars2d.brackets import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
 from mars2d.description import Check, Description, wrong
 from mars2d.errors import InputError, described, nearest, shown
 from mars2d.files import law_in
@@ -87,8 +87,8 @@ class _Writer:
         """Return the whole file."""
         kept, lost = plain.without_code(scenario)
         self.missing += lost
-        head = [_comment(f"A scenario of MARS2D. Run it: mars2d run {filename}")]
-        head += [_comment(f"This is code, which is not written down: {name}") for name in lost]
+        head = [comment(f"A scenario of MARS2D. Run it: mars2d run {filename}")]
+        head += [comment(f"{plain.LOST}: {name}") for name in lost]
         team = [] if control is None else [self._law("control", control)]
         if control is None and not any(robot.controller for robot in kept.robots):
             team = [
@@ -138,7 +138,7 @@ class _Writer:
         if found is None:
             self.missing.append(f"law {name_of(law)}")
             hint = f'add {field} = "file.py:function"'
-            return _comment(f"law: {name_of(law)} can't be written down; {hint}")
+            return comment(f"law: {name_of(law)} can't be written down; {hint}")
         return f"{field} = {quoted(f'{seen_from(found.file, self.folder)}:{found.name}')}"
 
     def _in_line(self, place: Place, part: Description) -> Node:
@@ -172,16 +172,12 @@ class _Writer:
         if isinstance(value, bool):
             return str(value).lower()
         if isinstance(value, (int, float)):
-            return repr(float(value) if isinstance(value, float) else int(value))
+            return numeral(value)
         if isinstance(value, str):
             return quoted(value)
         if isinstance(value, Description):  # in another package's part
             return self._in_line(Place(Description), value)
         return Brackets("[", [self._plain(item) for item in value], "]", filled=True)
-
-
-def _comment(text: str) -> str:
-    return "# " + "".join(c for c in text if c.isprintable())
 
 
 def _type(place: Place, part: Description) -> list[str]:

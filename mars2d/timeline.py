@@ -7,7 +7,7 @@ import os
 import sys
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -67,10 +67,13 @@ class Timeline:
         self._seed = seed
         self._watchers = watchers
         self._begin(experiment)
+        with suppress(LawError):  # of a sensor at the start: it is kept as `error`
+            self._observe()
 
     def restart(self, experiment: Experiment | None = None) -> None:
         """Begin anew, with the experiment as its file is now, or as given; forget all branches."""
         self._begin(self._experiment.reopened() if experiment is None else experiment)
+        self._observe()
 
     def _begin(self, experiment: Experiment) -> None:
         """Build the world of an experiment whose laws have not been asked yet."""
@@ -81,6 +84,7 @@ class Timeline:
         self.row = 0
         self.remark = ""
         self._lines = {self._world: _Line(((0, 0),))}
+        self._errors: dict[World, LawError] = {}
         self._count = 0  # of branches that there have been
         self._waiting: list[World] = []
         self._seen: tuple[World, int, Record] | None = None
@@ -89,7 +93,6 @@ class Timeline:
         self._gone_back = False
         self._hopeless = False  # a way back has failed while nobody asked for it
         self._cost = self._opening = 0.0  # seconds of a control step, and to open the experiment
-        self._observe()
 
     # -- where one is -------------------------------------------------------------------------
 
@@ -131,6 +134,11 @@ class Timeline:
         return self.row == self.newest and self._world.over
 
     @property
+    def error(self) -> LawError | None:
+        """What a law, sensor or add-on raised at the newest row; None if none did."""
+        return self._errors.get(self._world)
+
+    @property
     def record(self) -> Record:
         """The record of the present branch, which holds those of the others as its `branches`.
 
@@ -158,7 +166,8 @@ class Timeline:
             self.row += 1
         elif not self._world.over:
             self._driven.update(self._world.hands.driven)
-            self._world.step()
+            with self._noting():
+                self._world.step()
             self.row = self.newest
             self._observe()
 
@@ -170,7 +179,17 @@ class Timeline:
     def _observe(self) -> None:
         """Read the sensors of what is seen next."""
         if not self._world.over:
-            self._world.observe()
+            with self._noting():
+                self._world.observe()
+
+    @contextmanager
+    def _noting(self) -> Iterator[None]:
+        """Keep the error that ends the run, for whoever comes back to it."""
+        try:
+            yield
+        except LawError as error:
+            self._errors[self._world] = error
+            raise
 
     # -- branches -----------------------------------------------------------------------------
 
@@ -218,14 +237,16 @@ class Timeline:
 
         Where `act` raises InputError, all is as it was before.
         """
-        before, branches, lines = self._world, [*self.branches], dict(self._lines)
+        before, branches = self._world, [*self.branches]
+        lines, errors = dict(self._lines), dict(self._errors)
         world = self.branch(progress)
         log = [*world.hands.log]
         try:
             act(world)
         except InputError:
             if world is not before:
-                self._world, self.branches, self._lines = before, branches, lines
+                self._world, self.branches = before, branches
+                self._lines, self._errors = lines, errors
                 if world.hands.log == log and not world.hands.driven:  # it may be asked for again
                     world.watch = None
                     self._waiting.append(world)
@@ -274,6 +295,7 @@ class Timeline:
             self.branches.append(before)
         else:
             del self._lines[before]
+            self._errors.pop(before, None)
         self._count += 1
         self._lines[world] = line.off(self._count, row)
         self._world = world

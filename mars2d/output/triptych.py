@@ -19,7 +19,7 @@ from mars2d.output.footage import Footage
 from mars2d.record import Record
 from mars2d.scene import Scene
 from mars2d.view.bars import Status, draw_header
-from mars2d.view.camera import Camera
+from mars2d.view.camera import PIXELS, Camera
 from mars2d.view.layers import Layers
 from mars2d.view.layout import Layout
 from mars2d.view.painter import Painter
@@ -135,7 +135,7 @@ class _Panel:
         self.mode, self.plot = mode, plot
         self._painter = painter
         self._stage = Stage(painter)
-        self._camera = Camera(1.0, 0.0, 0.0)
+        self._camera = PIXELS  # until it is told where to look
         began = record.contacts["began"]
         self._collisions = np.sort(record.contacts["time"][began])
 
@@ -218,7 +218,7 @@ class _Plot:
             px, py = (float(np.interp(at, times, points[:, k])) for k in (0, 1))
             if np.isfinite(py):
                 scene.circle((px, -py), 0.0, fill=color, stroke="#ffffff", pixels=5.0)
-        painter.paint(surface, scene.shapes, Camera(1.0, 0.0, 0.0))
+        painter.paint(surface, scene.shapes, PIXELS)
 
 
 def _drawn(canvas: Any) -> pygame.Surface:

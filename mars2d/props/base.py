@@ -9,7 +9,7 @@ from mars2d import checks
 from mars2d.description import Description, entry, number, real, text, wrong
 from mars2d.joints.base import Joint
 from mars2d.materials import MATERIALS, material, surface_friction, surface_restitution
-from mars2d.rigid import Inertia, Surface, inertia_of
+from mars2d.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.scene import optional_color
 from mars2d.shapes import Shape
 
@@ -103,6 +103,13 @@ class Prop(Description):
             if self.material is not None:
                 mass = MATERIALS[self.material].density * shape.area * self.height
         return inertia_of(shape, mass, self.moment)
+
+    @property
+    def rigid(self) -> Rigid:
+        """The body that it is at the start."""
+        kind, name = type(self).__name__, str(self.name)
+        shape, inertia, surface = self.shape, self.inertia, self.surface
+        return Rigid(kind, name, self.pose, self.velocity, shape, inertia, surface)
 
     @property
     def surface(self) -> Surface:

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Camera", "Margins"]
+__all__ = ["PIXELS", "Camera", "Margins"]
 
 Float = NDArray[np.float64]
 Margins = tuple[float, float, float, float]
@@ -83,3 +83,7 @@ class Camera:
         """Return (xmin, xmax, ymin, ymax), metres, of what a surface of this size shows."""
         (xmin, ymax), (xmax, ymin) = self.to_world([(0, 0), size]).tolist()
         return xmin, xmax, ymin, ymax
+
+
+PIXELS = Camera(1.0, 0.0, 0.0)
+"""For scenes in pixels, y upwards: of plots, legends, handles."""

@@ -35,22 +35,26 @@ class Director:
         self._player, self._notes, self._show_way_back = player, notes, show_way_back
         self.timeline = player.source if isinstance(player.source, Timeline) else None
         self.driver = Driver()
+        if self.timeline is not None:
+            player.error = self.timeline.error
 
     def change(self, act: Callable[[World], None]) -> bool:
         """Do something to the world; return whether that was done."""
         timeline = self._live()
         if timeline is None:
             return False
-        back = timeline.needs_way_back
+        back, branches = timeline.needs_way_back, len(timeline.branches)
         try:
             timeline.change(act, self._show_way_back)
         except InputError as error:
-            self._notes.say(str(error), "error")
+            self._notes.say(str(error), "warning")
             return False
         finally:
             if back or not self._player.playing:  # else time goes on from where it is
                 self._player.settle()
         self._player.error = None
+        if len(timeline.branches) > branches:
+            self._notes.say("a new branch begins here; B shows what was run before")
         if timeline.remark:
             self._notes.say(timeline.remark, "warning")
         return True
@@ -72,8 +76,11 @@ class Director:
         timeline.other_branch()
         for robot in timeline.world.hands.driven:
             timeline.world.hands.steer(robot, None)
-        self._player.error = None
+        self._player.error = timeline.error
         self._player.settle()
+        end = timeline.newest * timeline.scenario.sampling_time
+        again = "goes back" if len(timeline.branches) == 1 else "shows the next one"
+        self._notes.say(f"another branch, run until {end:.6g} s; B {again}")
 
     # -- a robot driven by hand ---------------------------------------------------------------
 
@@ -147,7 +154,7 @@ class Director:
             world.change(carried(world.scenario, outcome.scenario), world.control, moved)
 
         if self.change(draw):
-            self._notes.say("it goes on from now with what was drawn")
+            self._notes.say("what was drawn holds from now on; Space goes on")
 
     def _restart(self, experiment: Experiment) -> None:
         assert self.timeline is not None
@@ -158,4 +165,4 @@ class Director:
             return
         self._player.error = None
         self._player.settle()
-        self._notes.say("started anew with what was drawn")
+        self._notes.say("started anew with what was drawn; Space goes on")

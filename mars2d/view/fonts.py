@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -76,17 +77,24 @@ class Fonts:
     def wrap(
         self, text: str, size: float, room: float, lines: int, bold: bool = False
     ) -> list[str]:
-        """Return `text` as at most `lines` lines none of which is wider than `room` pixels."""
+        """Return `text` as at most `lines` lines none of which is wider than `room` pixels.
+
+        A path that is wider than a line is broken after one of its folders.
+        """
         result: list[str] = []
         for paragraph in text.splitlines() or [""]:
             line = ""
             for word in paragraph.split():
-                longer = f"{line} {word}".strip()
-                if line and self.width(longer, size, bold) > room:
-                    result.append(line)
-                    line = word
-                else:
-                    line = longer
+                parts = [word]
+                if self.width(word, size, bold) > room:
+                    parts = re.findall(r"[^/\\]+[/\\]*|[/\\]+", word)
+                for k, part in enumerate(parts):
+                    longer = f"{line}{'' if k else ' '}{part}".strip()
+                    if line and self.width(longer, size, bold) > room:
+                        result.append(line)
+                        line = part
+                    else:
+                        line = longer
             result.append(line)
         if len(result) > lines:
             result = [*result[: lines - 1], " ".join(result[lines - 1 :])]

@@ -12,7 +12,7 @@ from mars2d.forces import FORCE, SLIP, SLIPPING, in_newtons, round_force
 from mars2d.frame import Float, Frame
 from mars2d.scene import Scene, faded
 from mars2d.view.brushes import rgba
-from mars2d.view.camera import Camera
+from mars2d.view.camera import PIXELS
 from mars2d.view.meter import Bound, Reading, bound_of, span_of
 from mars2d.view.painter import Painter
 from mars2d.view.strokes import hairlines
@@ -21,9 +21,6 @@ __all__ = ["draw_force"]
 
 OVERSHOOT = 3.0
 """The scale goes up to the highest force, but at most to so many times the bound."""
-
-PIXELS = Camera(1.0, 0.0, 0.0)
-"""Scenes of plots are in pixels, y upwards."""
 
 HEAD, LEFT, FOOT = 22.0, 44.0, 17.0
 """The room for the title, for the numbers of forces and for those of times, points."""

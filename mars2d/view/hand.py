@@ -7,7 +7,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 from math import atan2, cos, degrees, hypot, pi, radians, sin
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 import pygame
@@ -228,13 +228,16 @@ class Hand:
         pose = None if self._deed is None else self._deed.pose(frame)
         return frame if self._deed is None or pose is None else _with(frame, self._deed.body, pose)
 
-    def marks(self, frame: Frame, camera: Camera) -> list[Shape]:
-        """Return the shapes that show what the pointer is over, and what it does."""
+    def marks(self, frame: Frame, camera: Camera, *, named: bool = False) -> list[Shape]:
+        """Return the shapes that show what the pointer is over, and what it does.
+
+        named: the names of all bodies are seen already.
+        """
         scene = Scene()
         if self._deed is not None:
             self._deed.draw(scene, frame, camera)
         elif self._hover is not None:
-            _draw_hover(scene, frame, camera, self._hover, self._pixel)
+            _draw_hover(scene, frame, camera, self._hover, self._pixel, named=named)
         return scene.shapes
 
     def _show_cursor(self) -> None:
@@ -342,7 +345,7 @@ class _Move:
         there = _with(frame, self.body, self.now)
         _draw_ring(scene, there, self.body, color, 2.5)
         words = f"would {fault}" if fault else self.words()
-        _draw_label(scene, there, camera, self.body, words, color)
+        _draw_label(scene, there, camera, self.body, words, color, "below")  # names are above
         self.draw_more(scene, frame.scenario, color)
 
     def words(self) -> str:
@@ -463,20 +466,30 @@ def _draw_ring(scene: Scene, frame: Frame, body: int, color: str, width: float) 
 
 
 def _draw_label(
-    scene: Scene, frame: Frame, camera: Camera, body: int, text: str, color: str
+    scene: Scene,
+    frame: Frame,
+    camera: Camera,
+    body: int,
+    text: str,
+    color: str,
+    side: Literal["above", "below"] = "above",
 ) -> None:
-    """Write something above the ring round a body."""
+    """Write something above or below the ring round a body."""
     shape, pose = frame.scenario.bodies[body].shape, np.array(_pose(frame, body))
     (x, y), radius = bounding_circle(shape, pose)
-    place = x, y + radius + 12 / camera.scale
-    scene.text(place, text, color=color, size=LABEL, anchor="above", halo=HALO)
+    off = radius + 12 / camera.scale
+    place = x, y + off if side == "above" else y - off
+    scene.text(place, text, color=color, size=LABEL, anchor=side, halo=HALO)
 
 
-def _draw_hover(scene: Scene, frame: Frame, camera: Camera, hover: Hover, pixel: Pixel) -> None:
+def _draw_hover(
+    scene: Scene, frame: Frame, camera: Camera, hover: Hover, pixel: Pixel, *, named: bool
+) -> None:
     """Draw the name of what the pointer is over, and a ring round it if it is a body."""
     if hover.body is not None:
         _draw_ring(scene, frame, hover.body, faded(GOOD, 0.8), 1.5)
-        _draw_label(scene, frame, camera, hover.body, hover.name, LIGHT.ink)
+        if not named:
+            _draw_label(scene, frame, camera, hover.body, hover.name, LIGHT.ink)
         return
     xmin, xmax, _, _ = frame.scenario.bounds
     left = _world(camera, pixel)[0] < (xmin + xmax) / 2  # the label lies towards the middle

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
@@ -33,6 +34,8 @@ PAD, GAP = 14.0, 9.0
 """Round all, and between two sections, points."""
 HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
 """The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
+LOW_FORCE = 76.0
+"""The plot of forces is at least so high, points."""
 LABEL = 72.0
 """The room for what a row of numbers is, points."""
 
@@ -47,15 +50,21 @@ BLOCK = 65_536
 
 MINUS = "\N{MINUS SIGN}"
 
+LONG_NUMBER = re.compile(r"(?<![\w.])-?\d+\.\d{3,}(e[+-]?\d+)?")
+
 Row = tuple[str, list[tuple[str, str]]]
 """What it is, and the names and values of its numbers."""
 
 
 class Section(NamedTuple):
-    """A part of the column: how high it is [points], and how it is drawn within a rectangle."""
+    """A part of the column: how high it is [points], and how it is drawn within a rectangle.
+
+    least: how low it may be made where there is little room, points; by default no lower.
+    """
 
     height: float
     draw: Callable[[pygame.Surface, pygame.Rect], None]
+    least: float | None = None
 
 
 class Inspector:
@@ -128,6 +137,9 @@ class Inspector:
         left_out: list[str] = []
         for name, section in self._sections(frame, body, reading):
             last = round(LINE * self.painter.ui)  # for what is left out
+            if section.least is not None and self._pixels(section) + last > room:
+                lower = (room - last) / self.painter.ui - GAP
+                section = section._replace(height=max(section.least, lower))  # noqa: PLW2901
             if self._pixels(section) + last <= room:
                 room -= self._pixels(section)
                 yield section
@@ -150,6 +162,7 @@ class Inspector:
             ),
         )
         if frame.scenario.physics == "contact":
+            yield "contacts", self._line("contacts", " · ".join(contacts_of(frame, body)) or "none")
             yield (
                 "forces",
                 Section(
@@ -157,14 +170,14 @@ class Inspector:
                     lambda surface, rect: draw_force(
                         surface, rect, self.painter, frame, body, reading
                     ),
+                    LOW_FORCE,
                 ),
             )
-            yield "contacts", self._line("contacts", " · ".join(contacts_of(frame, body)) or "none")
         for plot in sensor_plots(frame, body):
             yield plot.sensor.key, self._sensor(plot)
         if body < n and any(isinstance(addon, Communication) for addon in frame.scenario.addons):
             heard = [
-                f"{sender}, {frame.time - sent:.1f} s ago: {text}"
+                f"{sender}, {frame.time - sent:.1f} s ago: {rounded(text)}"
                 for sender, sent, text in inbox(frame, body)
             ]
             yield "its inbox", self._list("inbox", heard)
@@ -210,19 +223,26 @@ class Inspector:
         what: str,
         numbers: list[tuple[str, str]],
     ) -> None:
-        """Draw a row of up to three numbers."""
+        """Draw a row of up to three numbers; where columns are too narrow, one after the other."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
         image = fonts.render(what, 12.5 * ui, theme.muted)
         surface.blit(image, image.get_rect(midleft=rect.midleft))
-        left = rect.left + round(LABEL * ui)
+        left, gap = rect.left + round(LABEL * ui), round(8 * ui)
         column = (rect.right - left) / 3
-        for k, (name, value) in enumerate(numbers):
-            x = round(left + k * column)
-            image = fonts.render(name, 12.5 * ui, theme.muted)
-            surface.blit(image, image.get_rect(midleft=(x, rect.centery)))
-            x += image.get_width() + round(4 * ui)
-            image = fonts.render(value, 12.5 * ui, theme.ink)
-            surface.blit(image, image.get_rect(midleft=(x, rect.centery)))
+        for size in (12.5 * ui, 11.5 * ui, 10.5 * ui):
+            texts = [[fonts.render(f"{name} ", size, theme.muted),
+                      fonts.render(value, size, theme.ink)] for name, value in numbers]  # fmt: skip
+            widths = [sum(image.get_width() for image in pair) for pair in texts]
+            if sum(widths) + gap * (len(widths) - 1) <= rect.right - left:
+                break
+        in_columns = all(width + gap <= column for width in widths[:-1])
+        x = left
+        for k, pair in enumerate(texts):
+            x = round(left + k * column) if in_columns else x
+            for image in pair:
+                surface.blit(image, image.get_rect(midleft=(x, rect.centery)))
+                x += image.get_width()
+            x += gap
 
     def _draw_effort(self, surface: pygame.Surface, rect: pygame.Rect, effort: float) -> None:
         """Draw how much of its bounds the drive uses, as a bar."""
@@ -324,14 +344,14 @@ def state_of(frame: Frame, body: int) -> list[Row]:
     command = np.zeros(2)
     if len(frame.command_path):
         command = frame.command_path[-1][:, body]
-    rows: list[Row] = [("pose", pose), ("command", command_of(drive, command)), ("moves", moves)]
+    rows: list[Row] = [("pose", pose), ("command", command_words(drive, command)), ("moves", moves)]
     if isinstance(drive, Wheeled):
         left, right = drive.actuators(command[:, None])[:, 0].tolist()
         rows.append(("wheels", [("left", _number(left)), ("right", _number(right, "m/s"))]))
     return rows
 
 
-def command_of(drive: Drive, command: Any) -> list[tuple[str, str]]:
+def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
     """Return the names and values of a command (2,)."""
     first, second = np.asarray(command).tolist()
     if isinstance(drive, Car):
@@ -369,6 +389,15 @@ def contacts_of(frame: Frame, body: int) -> list[str]:
         name = f"obstacle {-1 - other}" if other < 0 else frame.scenario.bodies[other].name
         lines.append(f"{name}  {in_newtons(float(size[k]))}")
     return lines
+
+
+def rounded(text: str) -> str:
+    """Return a message with the numbers in it to three digits.
+
+    >>> rounded('[0.1558127,-12.5,{"a": 1e-17}]')
+    '[0.156,-12.5,{"a": 1e-17}]'
+    """
+    return LONG_NUMBER.sub(lambda found: f"{float(found[0]):.3g}", text)
 
 
 def sensor_plots(frame: Frame, body: int) -> Iterator[SensorPlot]:

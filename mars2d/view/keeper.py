@@ -11,7 +11,7 @@ import pygame
 from mars2d.errors import InputError
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
-from mars2d.view.camera import Camera
+from mars2d.view.camera import PIXELS
 from mars2d.view.keep import keep_picture, keep_python, start_film
 from mars2d.view.notes import Notes
 from mars2d.view.painter import Painter
@@ -54,6 +54,11 @@ class Keeper:
         if self._film is not None:
             self._try(self._end_film)
 
+    @property
+    def filming(self) -> bool:
+        """Whether what is seen is filmed."""
+        return self._film is not None
+
     def _begin_film(self) -> str:
         self._film = start_film(_here(), self._stem)
         return "filming; V ends the film"
@@ -76,7 +81,7 @@ class Keeper:
         scene, ui = Scene(), painter.ui
         place = plot.left + 22 * ui, -plot.top - 22 * ui
         scene.circle(place, 0.0, fill=FILMING, stroke="#ffffff", width=2.0, pixels=8.0)
-        painter.paint(screen, scene.shapes, Camera(1.0, 0.0, 0.0), shaded=False)
+        painter.paint(screen, scene.shapes, PIXELS, shaded=False)
 
     def _try(self, keep: Callable[[], str]) -> None:
         """Do something that tells what it has done, or why it can't be."""

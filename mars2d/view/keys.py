@@ -23,23 +23,29 @@ class Key:
 
 
 TIME = (
-    Key("pause", ("space",), ("Space",), "pause, go on; in manual mode one step"),
-    Key("step", ("right",), ("→",), "one step, and pause; after a number so many", repeats=True),
-    Key("back", ("left",), ("←",), "one step back; after a number so many", repeats=True),
+    Key("pause", ("space",), ("Space",), "pause, go on; in manual mode, one step"),
+    Key(
+        "step",
+        ("right",),
+        ("→",),
+        "one step, and pause; after a typed number, so many",
+        repeats=True,
+    ),
+    Key("back", ("left",), ("←",), "one step back; after a typed number, so many", repeats=True),
     Key("leap", ("page down",), ("PgDn",), "ten steps, and pause", repeats=True),
     Key("leap_back", ("page up",), ("PgUp",), "ten steps back", repeats=True),
     Key("start", ("home",), ("Home",), "look at the start"),
     Key("newest", ("end",), ("End",), "look at the newest step"),
     Key("faster", ("+", "=", "[+]"), ("+",), "faster", repeats=True),
     Key("slower", ("-", "[-]"), ("\N{MINUS SIGN}",), "slower", repeats=True),
-    Key("restart", ("r",), ("R",), "restart from time 0, with the file as it is now"),
+    Key("restart", ("r",), ("R",), "restart at time 0, with the file as it is now"),
     Key("branch", ("b",), ("B",), "the other branch: what was run before something was changed"),
 )
 
 SEE = (
     Key("grid", ("g",), ("G",), "grid on and off"),
     Key("trails", ("t",), ("T",), "trails on and off"),
-    Key("sensors", ("s",), ("S",), "sensors on and off; of a selected robot, its own alone"),
+    Key("sensors", ("s",), ("S",), "sensors on and off; where a robot is selected, its own alone"),
     Key("messages", ("m",), ("M",), "messages between robots on and off"),
     Key("forces", ("x",), ("X",), "contacts, their forces, and who slips, on and off"),
     Key("theory", ("y",), ("Y",), "what theory predicts, where add-ons draw it, on and off"),
@@ -54,23 +60,23 @@ SEE = (
 )
 
 DO = (
-    Key("drive", ("h",), ("H",), "drive the selected robot by hand: arrows, WASD, game controller"),
+    Key("drive", ("h",), ("H",), "drive the selected robot by hand: arrow keys, WASD, controller"),
     Key("edit", ("e",), ("E",), "draw walls, robots and more, while paused"),
     Key("picture", ("p",), ("P",), "save a picture"),
     Key("film", ("v",), ("V",), "start and stop a film"),
     Key("python", ("c",), ("C",), "save what is seen as a Python file, and copy it"),
     Key("help", ("f1",), ("F1",), "all keys, on and off"),
-    Key("leave", ("escape",), ("Esc",), "close the help, let go, select none, leave"),
+    Key("leave", ("escape",), ("Esc",), "close the help, let go, select none, clear errors, leave"),
 )
 
 KEYS = (*TIME, *SEE, *DO)
 
 MOUSE = (
     Key("zoom", (), ("Wheel",), "zoom about the pointer"),
-    Key("pan", (), ("Drag",), "move the picture; on the time bar, look at another time"),
-    Key("pick", (), ("Click",), "select a robot or prop; beside them, none"),
+    Key("pick", (), ("Click",), "select a robot or prop, and inspect it; beside them, none"),
     Key("carry", (), ("Drag it",), "pull a robot or prop; while paused, put it elsewhere"),
     Key("turn", (), ("Right drag",), "turn a robot or prop, while paused"),
+    Key("pan", (), ("Drag",), "beside them, move the picture; on the time bar, go to a time"),
 )
 
 GROUPS: Mapping[str, Sequence[Key]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}

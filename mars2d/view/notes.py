@@ -38,7 +38,8 @@ class _Note:
 class Notes:
     """Messages in the lower right corner of the picture, the newest lowest.
 
-    An error stays until another one replaces it, or until all are cleared.
+    An error stays until another one replaces it, or until all are cleared: in the window by Esc,
+    or by a file that is read without one.
     """
 
     def __init__(self) -> None:
@@ -48,6 +49,11 @@ class Notes:
     def __len__(self) -> int:
         """Return how many are there to be drawn."""
         return len(self._notes)
+
+    @property
+    def failed(self) -> bool:
+        """Whether there is an error among them."""
+        return any(note.kind == "error" for note in self._notes)
 
     def say(self, text: str, kind: NoteKind = "info") -> None:
         """Add a message; one that says the same goes, and an error for an error."""

@@ -1,4 +1,4 @@
-"""What is said across the foot of a window where nothing follows: that it is over, or has failed."""
+"""What is said across the foot of a window where nothing follows: why it is over, what failed."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from mars2d.view.player import Player
 __all__ = ["Outcome"]
 
 HINT = "← looks back   R restarts   Esc leaves"
+MEND = "correct the file and save it"
 
 
 class Outcome:
@@ -31,7 +32,8 @@ class Outcome:
         player = self._player
         if player.failed and player.error is not None:
             excerpt = self._excerpt_of(player.error)
-            return Banner(str(player.error), HINT, error=True, excerpt=excerpt)
+            hint = HINT if excerpt is None else f"{MEND}   {HINT}"
+            return Banner(str(player.error), hint, error=True, excerpt=excerpt)
         if not player.over:
             return None
         return Banner(player.frame.over_message or "The experiment is over.", HINT)

@@ -1,4 +1,4 @@
-"""What may be switched on over the picture: names, links to neighbours, the scale of velocities."""
+"""What may be switched on over the picture: names, and links to neighbours."""
 
 from __future__ import annotations
 
@@ -7,34 +7,22 @@ from collections.abc import Hashable
 import numpy as np
 import pygame
 
-from mars2d.forces import round_force
 from mars2d.frame import Frame
 from mars2d.neighbours import Everyone
-from mars2d.scenario import Scenario
-from mars2d.scene import Scene, Text, faded
+from mars2d.scene import Scene, Text
 from mars2d.usercode import called
-from mars2d.velocities import VELOCITY, in_metres_a_second, speed_scale
 from mars2d.view.brushes import rgba
 from mars2d.view.camera import Camera
 from mars2d.view.painter import Painter
 from mars2d.view.theme import mixed
 
-__all__ = ["Labels", "Links", "draw_speed_legend"]
+__all__ = ["Labels", "Links"]
 
 MOST = 600
 """Of the links between neighbours, so many are drawn: the first ones."""
 
 FAINT = 0.55
 """The opacity of links."""
-
-LONGEST = 72.0
-"""Of the legend's arrow, points."""
-
-SMALLEST = 300.0
-"""The height of a picture with a legend, points, at least."""
-
-FORCES = 132.0
-"""The room that the legend of forces takes, points."""
 
 KEPT = 2000
 """So many labels are kept."""
@@ -126,50 +114,3 @@ class Links:
             pairs = {(min(i, j), max(i, j)) for i, row in enumerate(found) for j in row}
         self._pairs = np.array(sorted(pairs)[:MOST], dtype=int).reshape(-1, 2)
         return self._pairs
-
-
-def draw_speed_legend(
-    surface: pygame.Surface,
-    painter: Painter,
-    scenario: Scenario,
-    camera: Camera,
-    plot: pygame.Rect,
-    *,
-    beside: bool,
-) -> None:
-    """Draw an arrow of a round speed as long as it is now, and say what the arcs are.
-
-    beside: leave room for the legend of the forces.
-    """
-    ui, theme = painter.ui, painter.theme
-    if plot.height < SMALLEST * ui or plot.width < 2 * SMALLEST * ui:
-        return
-    scale = speed_scale(scenario)
-    pixels = scale.meter_a_second * camera.scale
-    speed = round_force(LONGEST * ui / pixels)
-    length = speed * pixels
-    size, pad, row = 13 * ui, 10 * ui, 24 * ui
-    words = in_metres_a_second(speed), "turn in 1 s"
-    column = max(length, 24 * ui)
-    width = pad + column + 8 * ui + max(painter.fonts.width(w, size) for w in words) + pad
-    plate = pygame.Rect(0, 0, round(width), round(2 * row + 8 * ui))
-    left = plot.left + (8 + (FORCES if beside else 0)) * ui
-    plate.bottomleft = (round(left), plot.bottom - round(8 * ui))
-    painter.panel(surface, plate, faded(theme.plate, 0.9), 8 * ui, theme.edge)
-    left, middle = plate.left + pad, plate.top + 4 * ui + row / 2
-    scene = Scene()
-    scene.arrow((left, -middle), (left + length, -middle), fill=VELOCITY, width=scale.width)
-    _turn(scene, left + column / 2, -middle - row, 9 * ui)
-    painter.paint(surface, scene.shapes, Camera(1.0, 0.0, 0.0))
-    for k, word in enumerate(words):
-        image = painter.fonts.render(word, size, theme.text)
-        place = image.get_rect(midleft=(round(left + column + 8 * ui), round(middle + k * row)))
-        surface.blit(image, place)
-
-
-def _turn(scene: Scene, x: float, y: float, radius: float) -> None:
-    """Draw the mark of turning about a point."""
-    angles = np.linspace(-0.6, 2.6, 16)
-    rim = np.array([x, y - radius / 3]) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
-    scene.line(rim[:-2], stroke=VELOCITY, width=2.0)
-    scene.arrow(rim[-6], rim[-1], fill=VELOCITY, width=2.0)

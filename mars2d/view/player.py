@@ -223,7 +223,8 @@ class Player:
 
     def fail(self, error: Mars2dError) -> None:
         """Stop at the present frame, without what add-ons and sensors draw: one of them raised."""
-        self.error = error
+        if str(self.error) != str(error):  # it raises at each picture
+            self.error = error
         self._settle()
         self._present = replace(self._present, readings={}, draw_addons=None)
 

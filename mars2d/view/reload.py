@@ -34,7 +34,7 @@ class Reload:
     """Lets a timeline go on with its experiment's files as they are saved.
 
     Laws, obstacles and the like are in effect from the present row on; where more has changed, the
-    run begins anew. A file with an error is told of, and the law of before goes on. progress: is
+    run begins anew. A file with an error is told of, and the old law goes on. progress: is
     told how far the new laws have got with what was run before.
     """
 
@@ -90,7 +90,7 @@ class Reload:
             try:
                 return Reloaded(f"{name}: {self._take(self._experiment.reopened())}")
             except Mars2dError as error:
-                goes_on = "" if self._timeline.over else "; the law of before goes on"
+                goes_on = "" if self._timeline.over else "\nthe old law goes on"
                 problem = Reloaded(f"{error}{goes_on}", error)
         self._watch({*self._stamps, *files})
         return problem

@@ -8,13 +8,12 @@ from math import inf, log
 import pygame
 
 from mars2d.scene import Scene
-from mars2d.view.camera import Camera
+from mars2d.view.camera import PIXELS
 from mars2d.view.painter import Painter
 from mars2d.view.tooltip import draw_tooltip
 
 __all__ = ["SpeedSlider", "times"]
 
-PIXELS = Camera(1.0, 0.0, 0.0)
 BAND = 4.0
 """The height of its line, points."""
 VALUE, SHARE = 108.0, 0.48

@@ -21,8 +21,8 @@ from mars2d.view.camera import Camera
 from mars2d.view.canvas import Canvas, grid_bounds
 from mars2d.view.grid import labels
 from mars2d.view.layers import Layers
-from mars2d.view.legend import draw_legend
-from mars2d.view.overlays import Labels, Links, draw_speed_legend
+from mars2d.view.legend import draw_legends
+from mars2d.view.overlays import Labels, Links
 from mars2d.view.painter import Painter
 
 __all__ = ["MEMORY", "Stage"]
@@ -100,12 +100,10 @@ class Stage:
         if layers.names:
             self._names.draw(surface, self.painter, names(frame), camera)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
-        if layers.forces:
-            draw_legend(surface, self.painter, frame.scenario, camera, plot)
-        if layers.velocities:
-            draw_speed_legend(
-                surface, self.painter, frame.scenario, camera, plot, beside=layers.forces
-            )
+        draw_legends(
+            surface, self.painter, frame.scenario, camera, plot,
+            forces=layers.forces, velocities=layers.velocities,
+        )  # fmt: skip
         surface.set_clip(before)
 
     def _moving(

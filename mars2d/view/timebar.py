@@ -8,11 +8,12 @@ from typing import Literal
 
 import numpy as np
 import pygame
+from numpy.typing import NDArray
 
 from mars2d.forces import FORCE
 from mars2d.geometry import grid_step
 from mars2d.scene import Scene
-from mars2d.view.camera import Camera
+from mars2d.view.camera import PIXELS
 from mars2d.view.painter import Painter
 from mars2d.view.theme import Theme, mixed
 from mars2d.view.tooltip import draw_tooltip
@@ -27,7 +28,6 @@ SHORTEST = 10.0
 """The least that is shown of them, seconds."""
 BAND = 6.0
 """The height of the bar, points."""
-PIXELS = Camera(1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +54,39 @@ class TimeState:
         return min(grid_step(time) / self.sampling_time, float(self.last))
 
 
+@dataclass(slots=True)
+class _Ticks:
+    """Which columns of pixels events lie in, from the left of the line; more events may follow.
+
+    rows: of the events, a list that may grow. width: of the line, pixels. extent: as of the state.
+    """
+
+    rows: Sequence[int]
+    width: int
+    extent: float
+    count: int = 0
+    columns: NDArray[np.bool_] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.columns = np.zeros(self.width + 1, dtype=bool)
+
+    def stretches(self, left: int, thick: int) -> list[tuple[int, int]]:
+        """Return the columns in which there is anything, as first ones and how many.
+
+        left: where the line begins. thick: of a tick, pixels.
+        """
+        new = np.array(self.rows[self.count :], dtype=np.float64)
+        places = np.rint(left + self.width * np.minimum(new / self.extent, 1.0)).astype(int)
+        self.columns[places - left] = True
+        self.count = len(self.rows)
+        columns = np.flatnonzero(self.columns)
+        gaps = np.flatnonzero(np.diff(columns) > thick)
+        starts = columns[np.concatenate([[0], gaps + 1])] if len(columns) else columns
+        ends = columns[np.concatenate([gaps, [-1]])] if len(columns) else columns
+        firsts = (starts + left - thick // 2).tolist()
+        return list(zip(firsts, (ends - starts + thick).tolist(), strict=True))
+
+
 class TimeBar:
     """Draws the state of an experiment along a line, and tells which row lies where on it."""
 
@@ -62,6 +95,7 @@ class TimeBar:
         self._line = pygame.Rect(0, 0, 0, 0)
         self._area = pygame.Rect(0, 0, 0, 0)
         self._state: TimeState | None = None
+        self._ticks: dict[MarkKind, _Ticks] = {}
 
     def hit(self, pixel: tuple[int, int]) -> bool:
         """Return whether a pixel belongs to the bar: a press there goes to its row."""
@@ -169,12 +203,23 @@ class TimeBar:
             ("error", above, below + long - above),
         )
         for kind, top, height in ticks:
-            rows = np.array(state.marks.get(kind, ()), dtype=np.float64)
-            width = thick * (2 if kind == "error" else 1)
+            wide = thick * (2 if kind == "error" else 1)
             color = _mark_color(kind, painter.theme)
-            shares = np.minimum(rows / state.extent, 1.0)
-            for x in np.unique(np.rint(line.left + line.width * shares)).astype(int).tolist():
-                surface.fill(color, (x - width // 2, top, width, height))
+            for x, width in self._ticks_of(kind, state).stretches(line.left, wide):
+                surface.fill(color, (x, top, width, height))
+
+    def _ticks_of(self, kind: MarkKind, state: TimeState) -> _Ticks:
+        """Return the ticks of a kind of event; those of a list that has only grown go on."""
+        rows, width, extent = state.marks.get(kind, ()), self._line.width, state.extent
+        ticks = self._ticks.get(kind)
+        if (
+            ticks is None
+            or ticks.rows is not rows
+            or (ticks.width, ticks.extent) != (width, extent)
+            or ticks.count > len(rows)
+        ):
+            ticks = self._ticks[kind] = _Ticks(rows, width, extent)
+        return ticks
 
     def _handle(
         self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -51,6 +51,7 @@ __all__ = ["Window"]
 HINTS = (
     ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
 )  # fmt: skip
+HAND_HINTS = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
 LEAP = 10
 """How many steps PgDn and PgUp do, unless a number is typed before."""
@@ -62,6 +63,8 @@ LAYERS = (
     "grid", "trails", "sensors", "messages", "forces", "theory", "addons", "names", "velocities",
 )  # fmt: skip
 """The layers that have a key each of the same name."""
+THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
+"""The layers that code of a user's may draw."""
 
 
 class Window:
@@ -125,7 +128,7 @@ class Window:
             "branch": self._other_branch,
             **{layer: partial(self._toggle, layer) for layer in LAYERS},
             "select": self._select_next,
-            "follow": lambda: self.viewpoint.follow(self.selected),
+            "follow": self._follow_or_not,
             "fit": self.viewpoint.fit,
             "dark": self._change_theme,
             "text": self._change_text,
@@ -181,6 +184,8 @@ class Window:
             screen = pygame.display.get_surface() or screen
             self.draw(screen)
             self.keeper.film(screen, self.layout.plot, self._painter)
+            if self.keeper.filming and self.editor is None:  # what is said is not in the film
+                self.notes.draw(screen, self.layout.plot, self._painter, time.monotonic())
             pygame.display.flip()
             self.player.drawing = time.perf_counter() - start
             self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - IDLE)
@@ -202,10 +207,11 @@ class Window:
         reloaded = None if self._reload is None else self._reload.poll(time.monotonic())
         if reloaded is None:
             return
-        failed = reloaded.error is not None
-        self.notes.say(reloaded.message, "error" if failed else "info")
-        if not failed:
-            self.player.error = None
+        if reloaded.error is None:
+            self.notes.clear()  # of the mistake that is mended now
+        self.notes.say(reloaded.message, "info" if reloaded.error is None else "error")
+        if self.director.timeline is not None:
+            self.player.error = self.director.timeline.error
         self.player.settle()
         self._meet()
 
@@ -226,24 +232,24 @@ class Window:
 
     # -- drawing --------------------------------------------------------------------------------
 
-    def draw(self, surface: pygame.Surface) -> None:
+    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
         """Draw everything on a surface; the layout follows its size."""
         if self.editor is not None:
             self.editor.draw(surface)
             return
         try:
-            self._draw(surface)
+            self._draw(surface, self.layers, notes=notes)
         except Mars2dError as error:  # of what a user's add-on or sensor draws
             self.player.fail(error)
-            self._draw(surface)
+            self._draw(surface, replace(self.layers, **dict.fromkeys(THEIRS, False)), notes=notes)
 
-    def _draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
+    def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
         banner = self._outcome.banner()
         frame = self.hand.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui = layout.ui
         self.viewpoint.arrange(layout, frame.scenario)
-        marks = self.hand.marks(frame, self.camera)
+        marks = self.hand.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
@@ -252,14 +258,14 @@ class Window:
             surface,
             sensed_by(frame, self.selected),
             self.camera,
-            self.layers,
+            layers,
             layout.plot,
             beneath=others,
             marks=marks,
             hurried=self.viewpoint.hurried,
         )
         self._inspect(surface, frame)
-        if notes:
+        if notes and not self.keeper.filming:
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
@@ -279,14 +285,21 @@ class Window:
             surface, layout.slider, painter, player.speed, player.factor, pointer=pointer,
             held=self._mouse.drags(self._choose_speed),
         )  # fmt: skip
-        hints = MANUAL_HINTS if player.manual else HINTS
-        draw_footer(surface, layout, painter, banner, summary(frame), hints)
+        draw_footer(surface, layout, painter, banner, summary(frame), self._hints())
+
+    def _hints(self) -> Sequence[tuple[str, str]]:
+        """Return the keys that serve now, and what they do."""
+        if self._drives:
+            return HAND_HINTS
+        if self.player.manual:
+            return MANUAL_HINTS
+        return (("Space", "go on"), *HINTS[1:]) if self.player.paused else HINTS
 
     def _status(self) -> Status:
         if self._number:
             return Status(f"{self._number} ...", "waiting")
         text, kind = self.player.status()
-        if self.director.driver.robot is not None and kind in ("running", "waiting"):
+        if self._drives and kind in ("running", "waiting") and not self.player.over:
             return Status(f"{text}  {self.director.driver.status}", "hand")
         return Status(text, kind)
 
@@ -306,8 +319,19 @@ class Window:
         position = np.hstack([frame.pose, frame.prop_pose])[:2, self.selected]
         ((x, y),) = self.camera.to_pixels([position]).tolist()
         place = self._inspector.place(self.layout.plot, (x, y))
-        if place is not None:
+        if place is not None and not (self._drives and self._hides(place, frame)):
             self._inspected = self._inspector.draw(surface, place, frame, self.selected)
+
+    @property
+    def _drives(self) -> bool:
+        """Whether a robot is driven by hand."""
+        return self.director.driver.robot is not None
+
+    def _hides(self, place: pygame.Rect, frame: Frame) -> bool:
+        """Return whether a rectangle lies over the workspace, where one who drives looks."""
+        xmin, xmax, ymin, ymax = frame.scenario.bounds
+        (left, top), (right, bottom) = self.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).tolist()
+        return place.colliderect(pygame.Rect(left, top, right - left, bottom - top))
 
     def _layout(self, size: tuple[int, int], banner: Banner | None) -> Layout:
         """Return where everything lies on a surface of this size."""
@@ -379,6 +403,7 @@ class Window:
     def _restart(self) -> None:
         """Start anew, with the file as it is now."""
         self.hand.cancel()
+        self.notes.clear()
         self.player.restart()
         self._meet()
 
@@ -396,13 +421,25 @@ class Window:
     def _change_text(self) -> None:
         """Take the next size of text, or the smallest one again."""
         self.text = next_text_size(self.text)
-        self.notes.say(f"text: {self.text:g} times as large as at first")
+        self.notes.say(f"text {self.text:g} times as large as usual")
+
+    def _follow_or_not(self) -> None:
+        """Let the camera follow what is selected, or all robots; or stay where it is."""
+        self.viewpoint.follow(self.selected)
+        if self.viewpoint.following is None:
+            self.notes.say("the camera stays where it is; F shows all")
+            return
+        bodies = self.player.source.scenario.bodies
+        who = "all robots" if self.selected is None else bodies[self.selected].name
+        self.notes.say(f"the camera follows {who}; L ends it")
 
     def _select_next(self) -> None:
         self.selected = next_body(self.player.frame, self.selected)
 
     def _leave(self) -> None:
-        """Close the help, let go of what is held, select none, or close the window."""
+        """Close the help, let go of what is held, select none, clear errors, or leave."""
+        if self._number:
+            return  # what was typed is forgotten
         if self.help.is_open:
             self.help.close()
         elif self.hand.busy:
@@ -411,6 +448,8 @@ class Window:
             self.director.let_go()
         elif self.selected is not None:
             self.selected = None
+        elif self.notes.failed:
+            self.notes.clear()
         else:
             self._open = False
 
@@ -419,7 +458,7 @@ class Window:
     def _keep_picture(self) -> None:
         """Save what is seen, without the notes over it."""
         surface = pygame.Surface(self.layout.size, 0, 32)
-        self._draw(surface, notes=False)
+        self.draw(surface, notes=False)
         self.keeper.picture(surface)
 
     def _keep_python(self) -> None:
@@ -458,7 +497,7 @@ class Window:
 
     def _close_editor(self, editor: Editor) -> None:
         """Go on with what was drawn, if it is to be."""
-        self.editor = None
+        self.editor, self.text = None, editor.text
         self._held.clear()
         if editor.outcome is not None:
             self.director.apply(editor.outcome)

@@ -45,7 +45,7 @@ def state_of(editor):
         "prompt": None if editor.prompt is None else editor.prompt.label,
         "typed": None if editor.prompt is None else editor.prompt.text,
         "error": None if editor.prompt is None else editor.prompt.error,
-        "help": editor.help,
+        "help": editor.help.is_open,
         "snaps": desk.snaps,
         "step": desk.step,
         "changed": desk.history.changed,

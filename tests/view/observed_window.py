@@ -1,8 +1,8 @@
 """The window that the tests start as a process of its own: it tells what it shows.
 
 Arguments: speed, then options as JSON: `experiment` or `record`, a file, and `human`, a robot; or
-else fields of Circling. `dark` and `text` are how it looks, `windows` is how many come one after
-the other.
+else fields of Circling. `dark`, `text` and `silent`, without notes, are how it looks; `windows` is
+how many come one after the other.
 """
 
 import dataclasses
@@ -24,12 +24,26 @@ class Observed(Window):
     """A window that prints its state as a line of JSON whenever that has changed."""
 
     told = state = ""
+    said = 0  # how many notes there were
+    silent = False  # without notes, which fade
 
-    def draw(self, surface):
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        say = self.notes.say
+
+        def count(*words, **more):
+            self.said += 1
+            say(*words, **more)
+
+        self.notes.say = count
+
+    def draw(self, surface, **options):
         if self.told != self.state:  # of the picture before, which is on the screen by now
             self.told = self.state
             print(self.told, flush=True)
-        super().draw(surface)
+        if self.silent:
+            self.notes.clear()
+        super().draw(surface, **options)
         self.state = json.dumps(state_of(self) | {"size": surface.get_size()})
 
 
@@ -38,7 +52,7 @@ def state_of(window):
     frame, source, timeline = player.frame, player.source, director.timeline
     seen = window.hand.shown(frame)
     bar, slider = window._time_bar, window._slider
-    banner = window._banner()
+    banner = window._outcome.banner()
     return {
         "time": round(frame.time, 3),
         "row": source.row,
@@ -67,8 +81,9 @@ def state_of(window):
         "layers": dataclasses.asdict(window.layers),
         "text": window.text,
         "dark": window._painter.theme.dark,
-        "help": window.help,
+        "help": window.help.page,
         "notes": [note.text for note in window.notes._notes],
+        "said": window.said,
         "banner": None if banner is None else banner.text,
         "line": None if banner is None or banner.excerpt is None else banner.excerpt.line,
         "filming": window.keeper._film is not None,
@@ -110,11 +125,13 @@ def source_of(options):
 
 def main():
     speed, options = sys.argv[1], json.loads(sys.argv[2])
+    silent = options.pop("silent", False)
     windows, human = options.pop("windows", 1), options.pop("human", None)
     look = Preferences(dark=options.pop("dark", False), text=options.pop("text", 1.0))
     for _ in range(windows):
         source = source_of({**options})
         window = Observed(source, speed if speed == "max" else float(speed), (800, 600), look)
+        window.silent = silent
         if human is not None:
             window.wait_for(human)
         try:

@@ -278,8 +278,8 @@ def compare(name, seen):
     path = REFERENCES / f"{name}.png"
     if os.environ.get("MARS2D_REFERENCES") == "new":
         path.parent.mkdir(exist_ok=True)
-        palette = Image.fromarray(seen.astype(np.uint8)).quantize(128, dither=Image.Dither.NONE)
-        palette.save(path, optimize=True)
+        picture = Image.fromarray(seen.astype(np.uint8))
+        picture.quantize(256, kmeans=1, dither=Image.Dither.NONE).save(path, optimize=True)
     wanted = np.asarray(Image.open(path).convert("RGB")).astype(int)
     assert wanted.shape == seen.shape
     off = np.abs(wanted - seen).max(axis=2)

@@ -24,7 +24,9 @@ from mars2d.view.editor.prompt import Prompt
 from mars2d.view.editor.sketch import Sketch
 from mars2d.view.editor.target import item_at, items_within
 from mars2d.view.editor.verdict import judge
+from mars2d.view.layout import Layout
 from mars2d.view.painter import Painter
+from mars2d.view.viewpoint import Viewpoint
 
 SQUARE = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))
 BOW = ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
@@ -243,8 +245,14 @@ def test_a_sketch_stays_the_same_object_until_what_stands_still_changes():
     assert draft.base == furnished()
 
 
+def seen_by(camera):
+    viewpoint = Viewpoint(furnished(), Layout.of((1280, 720)))
+    viewpoint.camera = camera
+    return Desk(Draft.of(furnished()), viewpoint)
+
+
 def test_what_lies_uppermost_is_hit():
-    desk = Desk(Draft.of(furnished()), Camera(50.0, 400.0, 300.0))
+    desk = seen_by(Camera(50.0, 400.0, 300.0))
     for point, item in {
         (-3.0, 0.1): Item("robot", 0),
         (0.1, -2.1): Item("prop", 0),
@@ -260,13 +268,13 @@ def test_what_lies_uppermost_is_hit():
 
 
 def test_the_grid_follows_the_zoom_and_points_are_tidy():
-    desk = Desk(Draft.of(furnished()), Camera(50.0, 400.0, 300.0))
+    desk = seen_by(Camera(50.0, 400.0, 300.0))
     assert desk.step == 0.2
     assert desk.snapped((0.31, -0.29)) == (0.4, -0.2)
     assert desk.snapped((0.6000001, 1e-9)) == (0.6, 0.0)
     desk.snaps = False
     assert desk.snapped((0.3141592, -0.2718281)) == (0.31, -0.27)
-    desk.camera = Camera(5000.0, 0.0, 0.0)
+    desk.viewpoint.camera = Camera(5000.0, 0.0, 0.0)
     desk.snaps = True
     assert desk.step == 0.002
 
@@ -306,6 +314,16 @@ def test_a_document_proposes_a_name_that_is_free_and_never_a_py(tmp_path, monkey
     assert Document(None).proposal == "scenario.toml"
 
 
+def test_a_document_that_was_named_is_kept_there_and_never_over_another_file(tmp_path):
+    document = Document(tmp_path / "room.toml")
+    assert (document.path, document.new) == (tmp_path / "room.toml", True)
+    (tmp_path / "room.toml").write_text("somebody else's, of a moment ago")
+    assert document.is_another(tmp_path / "room.toml")
+    document.save(Scenario(robots=1), tmp_path / "room.toml")
+    assert not document.new
+    assert not document.is_another(tmp_path / "room.toml")
+
+
 # -- the editor on a surface ----------------------------------------------------------------------
 
 
@@ -317,7 +335,7 @@ def test_it_draws_at_every_size(size, text):
     surface = pygame.Surface(size, 0, 32)
     editor.draw(surface)
     editor.desk.select(editor.desk.draft.items())
-    editor.help = True
+    editor.help.turn()
     editor.draw(surface)
     assert len(set(pygame.surfarray.array3d(surface).reshape(-1, 3).sum(axis=1).tolist())) > 20
 

@@ -18,6 +18,7 @@ from mars2d.scene import Arrow, Line, Text
 from mars2d.velocities import speed_scale, velocities
 from mars2d.view.camera import Camera
 from mars2d.view.layers import Layers
+from mars2d.view.legend import draw_legends
 from mars2d.view.overlays import Labels, Links
 from mars2d.view.painter import Painter
 from mars2d.view.stage import Stage
@@ -81,6 +82,22 @@ def test_in_a_crowd_those_that_turn_the_most_have_arcs():
     shapes = velocities(frame).shapes
     assert sum(isinstance(shape, Line) for shape in shapes) < 20
     assert sum(isinstance(shape, Arrow) and shape.stroke is None for shape in shapes) > 100
+
+
+@pytest.mark.parametrize("scale", [20.0, 80.0, 150.0, 333.0])
+def test_the_legends_lie_side_by_side(scale):
+    scenario, plot = frame_of([(0, 0, 0)]).scenario, pygame.Rect(0, 0, 1280, 600)
+    camera, seen = Camera(scale, 320.0, 240.0), {}
+    for forces, velocities_too in ((True, False), (False, True), (True, True)):
+        surface = pygame.Surface(plot.size, 0, 32)
+        draw_legends(
+            surface, Painter(), scenario, camera, plot, forces=forces, velocities=velocities_too
+        )
+        seen[forces, velocities_too] = pygame.surfarray.array3d(surface).any(axis=(1, 2))
+    wide = [int(seen[key].sum()) for key in ((True, False), (False, True))]
+    both = seen[True, True]
+    assert int(both.sum()) == sum(wide)
+    assert len(np.flatnonzero(np.diff(both.astype(int)))) == 4  # with a gap between them
 
 
 # -- names ----------------------------------------------------------------------------------------

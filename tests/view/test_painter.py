@@ -334,7 +334,7 @@ def test_the_window_draws_itself_at_any_size(size, fails_at):
     window = Window(Circling(rows=5, fails_at=fails_at), "max")
     for _ in range(10):
         window.player.step()
-    window.help = True
+    window.help.turn()
     surface = pygame.Surface(size, 0, 32)
     window.draw(surface)
     assert window.layout.footer.bottom == size[1] or size[1] < 200

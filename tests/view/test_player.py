@@ -319,12 +319,33 @@ def test_another_speed_can_be_set():
     assert p.status()[0] == "max"
 
 
+def test_a_pause_in_between_two_steps_shows_the_later_one():
+    p = player(1.0, scenario=circling_scenario(sampling_time=1.0))
+    play(p, 1.5)
+    p.pause()
+    assert p.frame.time == 2.0
+
+
+def test_where_a_restart_fails_it_is_told_at_the_newest_step():
+    def fail():
+        raise InputError("the file can't be read")
+
+    p = player(1.0, rows=50)
+    p.step(20)
+    p.back(15)
+    p.source.restart = fail
+    p.restart()
+    assert str(p.error) == "the file can't be read"
+    assert p.failed
+    assert p.source.row == 20
+
+
 @pytest.mark.parametrize(
     ("name", "action"),
     [
         ("space", "step"), ("return", "step"), ("right", "step"), ("a", "step"), ("up", "step"),
-        ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"), ("tab", "select"),
-        ("escape", "leave"),
+        ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),
+        ("tab", "select"), ("escape", "leave"),
         ("left shift", None), ("left ctrl", None),
     ],
 )  # fmt: skip

@@ -131,7 +131,7 @@ def test_an_error_is_told_of_and_the_law_of_before_goes_on(desk, name, text, whe
     desk.write(name, text)
     (said,) = desk.wait()
     assert said.message.startswith(where)
-    assert said.message.endswith("; the law of before goes on")
+    assert said.message.endswith("\nthe old law goes on")
     assert said.error is not None
     assert desk.command == [[0.1, 0.0], [0.2, 0.1]]
     assert desk.wait() == []  # once

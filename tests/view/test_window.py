@@ -3,14 +3,17 @@
 What keys and mouse do with time, with the run and with files is in test_window_*.py.
 """
 
+import ast
 import signal
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mars2d.errors import InputError
+from mars2d.view import keys
 from mars2d.view.display import display_available
 from mars2d.view.window import Window
 from tests.view.circling import Circling
@@ -38,10 +41,10 @@ def banner(seen, color):
 def test_layers_are_switched_by_keys(open_window):
     window = open_window(20, rows=60)
     window.until(lambda s: s["over"])
-    keys = {
+    layers = {
         "g": "grid", "t": "trails", "s": "sensors", "i": "names", "u": "velocities", "y": "theory",
     }  # fmt: skip
-    for key, layer in keys.items():
+    for key, layer in layers.items():
         was, before = window.state["layers"][layer], window.still()
         window.press(key)
         window.until(lambda s, layer=layer, was=was: s["layers"][layer] is not was)
@@ -129,7 +132,7 @@ def test_d_and_z_change_the_light_and_the_size_of_text(open_window):
     for size in (1.3, 1.7, 2.2, 1.0):
         window.press("z")
         window.until(lambda s, size=size: s["text"] == size)
-    assert window.says("text: 1 times")
+    assert window.says("text 1 times")
 
 
 @needs_screen
@@ -384,3 +387,38 @@ def test_a_display_that_is_gone_is_no_display(no_display, monkeypatch):
 def test_a_display_is_found(no_display, monkeypatch, screen):
     monkeypatch.setenv("DISPLAY", screen)
     assert display_available()
+
+
+# -- all of them ----------------------------------------------------------------------------------
+
+ON_A_KEYBOARD = {
+    "page down": "Next", "page up": "Prior", "right": "Right", "left": "Left", "home": "Home",
+    "end": "End", "+": "plus", "-": "minus", "tab": "Tab", "f1": "F1", "escape": "Escape",
+}  # fmt: skip
+"""What xdotool calls keys that pygame calls otherwise."""
+
+GESTURES = {
+    "zoom": "test_the_wheel_zooms_about_the_pointer_and_f_fits",
+    "pan": "test_a_drag_of_the_picture_pans_and_selects_nothing",
+    "pick": "test_a_click_selects_a_robot_and_shows_the_force_on_it",
+    "carry": "test_escape_puts_back_what_is_carried_and_a_right_drag_turns",
+    "turn": "test_escape_puts_back_what_is_carried_and_a_right_drag_turns",
+}
+
+
+def test_every_key_and_gesture_of_the_help_has_a_test():
+    pressed, tests = set(), set()
+    for path in Path(__file__).parent.glob("test_window*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
+                tests.add(node.name)
+                texts = [each for each in ast.walk(node) if isinstance(each, ast.Constant)]
+                pressed |= {each.value for each in texts if isinstance(each.value, str)}
+    untested = [
+        key.action
+        for key in keys.KEYS
+        if not any(ON_A_KEYBOARD.get(name, name) in pressed for name in key.names)
+    ]
+    assert untested == []
+    assert {key.action for key in keys.MOUSE} == set(GESTURES)
+    assert set(GESTURES.values()) <= tests

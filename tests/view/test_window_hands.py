@@ -41,15 +41,17 @@ def test_keys_drive_against_the_law_and_escape_lets_go(open_window, room):
     assert window.settle()["driving"] is None
 
 
-def test_in_the_past_the_first_key_that_drives_makes_a_branch(open_window, room):
+def test_played_from_the_past_the_first_key_that_drives_makes_a_branch(open_window, room):
     window = open_window(10, experiment=str(room))
     window.until(lambda s: s["newest"] > 40)
     window.press("space", "Home", "h")
     window.until(lambda s: s["driving"] == 0 and s["row"] == 0)
     assert window.settle()["branches"] == 0
+    window.do("keydown", "s", "sleep", "0.2", "keyup", "s")
+    assert window.settle()["branches"] == 0  # who looks back changes nothing
+    window.press("space")
     window.do("keydown", "s")
     window.until(lambda s: s["branches"] == 1)
-    window.press("space")
     window.until(lambda s: s["robots"][0][0] < -2.05)
     window.do("keyup", "s")
 
@@ -148,3 +150,11 @@ def test_drawn_in_the_past_it_makes_a_branch(open_window, room):
     draw_wall(window, (-1, 0), (-1, 1))
     window.press("Return")
     window.until(lambda s: s["editor"] is None and s["branches"] == 1 and s["newest"] == 10)
+
+
+def test_how_the_editor_looks_stays_so_in_the_window(open_window, room):
+    window = open_window(0, experiment=str(room))
+    window.press("e")
+    window.until(lambda s: s["editor"] is not None)
+    window.press("z", "d", "Escape")
+    window.until(lambda s: s["editor"] is None and s["text"] == 1.3 and s["dark"])

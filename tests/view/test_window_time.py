@@ -67,6 +67,8 @@ def test_a_number_before_an_arrow_is_how_many_steps(open_window):
     window.until(lambda s: s["row"] == start + 9)
     window.press("2", "Prior")
     window.until(lambda s: s["row"] == start + 7)
+    window.press("7", "7", "Escape")  # it is forgotten; the window stays
+    assert window.settle()["chip"] != "77 ..."
     window.press("Home")
     window.until(lambda s: s["row"] == 0 and s["past"])
     window.press("End")
@@ -221,7 +223,7 @@ def test_a_law_that_is_saved_is_in_effect_from_now_on(open_window, room):
     furthest = window.settle()["robots"][0][0]
     window.until(lambda s: s["robots"][0][0] < furthest)
     room.write_text(room.read_text().replace("return -0.2, 0.0", "return -0.2 0.0"))
-    window.says("the law of before goes on")
+    window.says("the old law goes on")
     row = window.state["row"]
     window.until(lambda s: s["row"] > row + 3)
     assert window.process.poll() is None
@@ -229,14 +231,12 @@ def test_a_law_that_is_saved_is_in_effect_from_now_on(open_window, room):
 
 def test_a_file_with_fewer_robots_starts_anew_whatever_was_selected(open_window, room):
     window = open_window(1, experiment=str(room))
-    window.press("Tab", "Tab", "l", "h")
-    window.until(lambda s: s["driving"] == 1 and s["following"])
-    window.press("h", "Tab")
-    window.until(lambda s: s["selected"] == 2)
     window.point(1, -1)
     window.until(lambda s: s["over_body"] == 2)
-    window.press("Tab", "Tab", "Tab", "h")
-    window.until(lambda s: s["driving"] == 1)
+    window.press("Tab", "Tab", "h", "l")
+    window.until(lambda s: (s["driving"], s["selected"], s["following"]) == (1, 1, True))
+    window.press("Tab")
+    window.until(lambda s: s["selected"] == 2)
     text = room.read_text().replace("[red, blue]", "[red]").replace("props=[crate],", "")
     room.write_text(text)
     window.until(lambda s: len(s["robots"]) == 1 and not s["props"])
@@ -271,14 +271,24 @@ def test_a_recording_can_be_looked_at_and_says_what_can_not_be_done(open_window,
     window.until(lambda s: abs(s["row"] - newest / 2) <= 1)
     robots = window.settle()["robots"]
     for key in ("h", "e", "b"):
-        window.until(lambda s: not s["notes"], 7)
+        said = window.state["said"]
         window.press(key)
+        window.until(lambda s, said=said: s["said"] == said + 1)
         window.says("this is a recording")
-    window.until(lambda s: not s["notes"], 7)
     window.drag((-2, -1), (-1, -1.5))
-    window.says("this is a recording")
+    window.until(lambda s: s["said"] == said + 2)
     assert window.settle()["robots"] == robots
     assert (window.state["driving"], window.state["editor"]) == (None, None)
     window.press("r")
     window.until(lambda s: s["row"] == 0 or s["playing"])
     assert window.look()[PLOT].mean() > 200
+
+
+def test_escape_forgets_a_number_and_closes_nothing(open_window):
+    window = open_window(0)
+    window.press("2", "5")
+    window.until(lambda s: s["chip"] == "25 ...")
+    window.press("Escape")
+    window.until(lambda s: s["chip"] == "manual")
+    window.press("Right")
+    window.until(lambda s: s["row"] == 1)

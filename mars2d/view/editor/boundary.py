@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import hypot
 from typing import ClassVar
 
 from mars2d.geometry import Point, rectangle
@@ -12,6 +11,7 @@ from mars2d.view.editor.draft import Draft, Item
 from mars2d.view.editor.handles import Handle, handle_at
 from mars2d.view.editor.select import Taking
 from mars2d.view.editor.target import edge_at, foot_on
+from mars2d.view.editor.tool import sides
 
 __all__ = ["Boundary"]
 
@@ -87,5 +87,5 @@ class Boundary(Taking):
         ring = self.desk.draft.workspace
         if isinstance(self.gesture, Spanning) and ring is not None:
             (ax, ay), (bx, by) = ring[0], ring[2]
-            return f"{hypot(bx - ax, 0):.3g} m x {hypot(0, by - ay):.3g} m"
+            return sides(bx - ax, by - ay)
         return super().remark

@@ -18,14 +18,15 @@ UNTITLED = Scenario.__dataclass_fields__["title"].default
 class Document:
     """A scenario file, with a name or still without one.
 
-    path: the file that was opened, if it is a .toml, and may be written again; of any other name
-    only the stem is used. control: the law of the team.
+    path: the file that was opened or is to be made, if it is a .toml; of any other name only the
+    stem is used. control: the law of the team.
     """
 
     def __init__(self, path: Path | None, control: Callable[[Any], Any] | None = None) -> None:
         """Open a file, or nothing."""
         toml = path is not None and path.suffix.lower() == scenario_file.SUFFIX
-        self.path = path if toml and path is not None and path.exists() else None
+        self.path = path if toml else None
+        self.new = self.path is None or not self.path.exists()  # there is no file of it yet
         self.control = control
         wanted = Path("scenario.toml") if path is None else path
         self._wanted = wanted.with_suffix(scenario_file.SUFFIX)
@@ -60,14 +61,15 @@ class Document:
 
     def is_another(self, path: Path) -> bool:
         """Return whether a path is a file that is there and is not the one opened."""
-        return path.exists() and (self.path is None or path.absolute() != self.path.absolute())
+        mine = self.path is not None and path.absolute() == self.path.absolute()
+        return path.exists() and (self.new or not mine)
 
     def save(self, scenario: Scenario, path: Path) -> str:
         """Write a scenario to a file, which is open from now on; return what to say of it."""
         if scenario.title == UNTITLED:
             scenario = scenario.replace(title=path.stem.replace("_", " ").capitalize())
         missing = scenario_file.save(scenario, path, self.control)
-        self.path = self._wanted = path
+        self.path, self._wanted, self.new = path, path, False
         if missing:
             return f"Saved {path}, without what is code: {', '.join(missing)}"
         return f"Saved {path}"

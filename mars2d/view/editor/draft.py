@@ -249,14 +249,8 @@ class Draft:
     def body(self, item: Item) -> Rigid | None:
         """Return the body of a robot or prop; None of all else."""
         if item.kind == "robot":
-            r = self.robots[item.number]
-            still = (0.0, 0.0, 0.0)
-            return Rigid("Robot", str(r.name), r.pose, still, r.chassis, r.inertia, r.surface)
-        if item.kind == "prop":
-            p = self.props[item.number]
-            kind = type(p).__name__
-            return Rigid(kind, str(p.name), p.pose, p.velocity, p.shape, p.inertia, p.surface)
-        return None
+            return self.robots[item.number].rigid
+        return self.props[item.number].rigid if item.kind == "prop" else None
 
     def place(self, item: Item) -> Point:
         """Return the point that a thing is held by when it is put on the grid."""

@@ -176,10 +176,7 @@ class Editor:
     def _press_key(self, event: pygame.Event) -> None:
         name = chord(event.key, event.mod)
         if self.prompt is not None:
-            prompt = self.prompt
-            prompt.press(name, event.unicode)
-            if not prompt.open and self.prompt is prompt:
-                self.prompt = None
+            self._answer(self.prompt, name, event.unicode)
             return
         if event.key == pygame.K_SPACE:
             self._space = True
@@ -206,6 +203,12 @@ class Editor:
             self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
         else:
             self._actions[key.action]()
+
+    def _answer(self, prompt: Prompt, name: str, character: str) -> None:
+        """Give a key to a prompt; it is gone when it has its answer, unless that asks anew."""
+        prompt.press(name, character)
+        if not prompt.open and self.prompt is prompt:
+            self.prompt = None
 
     def _press(self, event: pygame.Event) -> None:
         if self.prompt is not None:
@@ -280,7 +283,7 @@ class Editor:
         if not (self.desk.selection or self.tool.puts):
             self.desk.say("select something first, or choose a tool that puts things", warns=True)
             return
-        label, hint = "x y [degrees] =", "as 1.5 2 90   Enter takes it   Esc stays"
+        label, hint = "x y [degrees] =", "as 1.5 2 90   Enter takes it   Esc cancels"
         self.prompt = Prompt(label, hint, {"return": self._put}, field=True)
 
     def _put(self, text: str) -> None:
@@ -343,10 +346,12 @@ class Editor:
             return
         if self.document.path is None:
             self.prompt = Prompt(
-                "Save as", "Enter saves   Esc stays",
+                "Save as", "Enter saves   Esc cancels",
                 {"return": lambda text: self._save_as(text, then)},
                 text=self.document.proposal, field=True,
             )  # fmt: skip
+        elif self.document.new:
+            self._save_as(str(self.document.path), then)
         else:
             self._write(self.document.path, then)
 
@@ -356,7 +361,7 @@ class Editor:
             self._write(path, then)
             return
         self.prompt = Prompt(
-            f"{path} is there already.", "Enter overwrites it   Esc stays",
+            f"{path} is there already.", "Enter overwrites it   Esc cancels",
             {"return": lambda _: self._write(path, then)},
         )  # fmt: skip
 
@@ -377,7 +382,7 @@ class Editor:
 
     def _run(self) -> None:
         """Ask for a run of the file, saved first if need be."""
-        if self.desk.history.changed or self.document.path is None:
+        if self.desk.history.changed or self.document.new:
             self._save(then=self._run)
         else:
             self.to_run = self.document.path
@@ -487,10 +492,12 @@ class Editor:
         text, kind = self.tool.hint, "hint"
         if desk.notice:
             text, kind = desk.notice, "error" if desk.warns else "note"
-        elif self.judge.verdict.faults:
+        elif self.judge.verdict.faults and desk.draft.robots:
+            text, kind = self.judge.verdict.text, "error"
+        elif self.judge.verdict.faults and self.tool_name == "select":
             text = self.judge.verdict.text
-            kind = "error" if desk.draft.robots else "hint"
-        right = ""
+            text = text[:1].upper() + text[1:]
+        right = "Esc leaves   F1 all keys" if self.live else "F1 all keys"
         if self.layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
             right = minus(f"x {x:g} m   y {y:g} m")
@@ -501,7 +508,7 @@ class Editor:
             return "the run is paused"
         if self.desk.history.changed:
             return "not saved yet"
-        return "new" if self.document.path is None else ""
+        return "new" if self.document.new else ""
 
     def _buttons(self) -> list[Button]:
         history = self.desk.history

@@ -43,9 +43,6 @@ VIEW = (
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
     Key("help", ("f1",), ("F1",), "all keys, on and off"),
     Key("leave", ("escape",), ("Esc",), "leave the tool, select none, leave"),
-)
-
-LOOKS = (
     Key("dark", ("d",), ("D",), "dark or light"),
     Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
 )
@@ -71,7 +68,7 @@ MOUSE = (
 GROUPS = (
     ("Tools", TOOLS),
     ("Change", EDIT),
-    ("Look", (*VIEW, *LOOKS)),
+    ("Look", VIEW),
     ("Keep", (*FILE, *RUN)),
     ("In a paused run", LIVE),
     ("Mouse", MOUSE),
@@ -80,13 +77,12 @@ GROUPS = (
 
 def groups(*, live: bool) -> tuple[tuple[str, tuple[Key, ...]], ...]:
     """Return the groups for the page of help; live: in a paused run."""
-    look = ("Look", VIEW if live else (*VIEW, *LOOKS))
     keep = ("Keep", (*LIVE, *FILE) if live else (*FILE, *RUN))
-    return (("Tools", TOOLS), ("Change", EDIT), look, keep, ("Mouse", MOUSE))
+    return (("Tools", TOOLS), ("Change", EDIT), ("Look", VIEW), keep, ("Mouse", MOUSE))
 
 
 _COMMON = {name: key for group in (TOOLS, EDIT, VIEW, FILE) for key in group for name in key.names}
-_RUN = {name: key for key in (*RUN, *LOOKS) for name in key.names}
+_RUN = {name: key for key in RUN for name in key.names}
 _LIVE = {name: key for key in LIVE for name in key.names}
 
 

@@ -7,10 +7,10 @@ from typing import ClassVar
 from mars2d.geometry import Outline, Point, rectangle
 from mars2d.looks import INK
 from mars2d.scene import Scene, faded
-from mars2d.view.editor.desk import Desk, Gesture
+from mars2d.view.editor.desk import Desk
 from mars2d.view.editor.draft import Draft, Item
 from mars2d.view.editor.handles import MARK, PAPER
-from mars2d.view.editor.tool import Tool, stretch
+from mars2d.view.editor.tool import Maker, Making, Tool, sides, stretch
 
 __all__ = ["DrawPolygon", "DrawRectangle", "DrawWall"]
 
@@ -138,13 +138,12 @@ class DrawPolygon(Chain):
             scene.circle(self.corners[0], 0.0, stroke=MARK, width=2.0, pixels=8.0)
 
 
-class Across(Gesture):
+class Across(Making):
     """Draws a rectangle from corner to corner."""
 
     def __init__(self, desk: Desk, start: Point) -> None:
         """Begin with a corner."""
         self.desk, self.draft, self.start = desk, desk.draft, desk.snapped(start)
-        self.item: Item | None = None
 
     @property
     def area(self) -> Outline:
@@ -163,7 +162,7 @@ class Across(Gesture):
         return draft
 
 
-class DrawRectangle(Tool):
+class DrawRectangle(Maker):
     """Draws rectangular obstacles."""
 
     hint: ClassVar[str] = "Drag from corner to corner"
@@ -179,25 +178,13 @@ class DrawRectangle(Tool):
         if self.gesture is not None:
             self.desk.drag(self.gesture, point, shift=shift)
 
-    def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """Keep the rectangle, and select it."""
-        gesture, self.gesture, self.pressed = self.gesture, None, None
-        self.desk.settle()
-        if gesture is not None and gesture.item is not None:
-            self.desk.select([gesture.item])
-
-    def cancel(self) -> bool:
-        """Forget it."""
-        busy, self.gesture, self.pressed = self.gesture is not None, None, None
-        return self.desk.drop() or busy
-
     @property
     def remark(self) -> str:
         """The size."""
         if self.gesture is None or not self.gesture.area:
             return ""
         (ax, ay), (bx, by) = self.gesture.area[0], self.gesture.area[2]
-        return f"{bx - ax:.3g} m x {by - ay:.3g} m"
+        return sides(bx - ax, by - ay)
 
     def draw(self, scene: Scene) -> None:
         """Draw where the corner would be."""

@@ -15,25 +15,24 @@ from mars2d.props.base import Prop
 from mars2d.props.box import Box
 from mars2d.robot import Robot
 from mars2d.scene import Scene, faded
-from mars2d.view.editor.desk import Desk, Gesture
+from mars2d.view.editor.desk import Desk
 from mars2d.view.editor.draft import Draft, Item, Motion, tidy
 from mars2d.view.editor.gestures import NOTCH, spanned
 from mars2d.view.editor.handles import MARK, angle_of
 from mars2d.view.editor.target import item_at
-from mars2d.view.editor.tool import Tool, minus
+from mars2d.view.editor.tool import Maker, Making, minus, sides
 
 __all__ = ["PlaceBall", "PlaceBeacon", "PlaceBox", "PlaceRobot", "PlaceWaypoint"]
 
 GHOST = faded(MARK, 0.7)
 
 
-class New(Gesture):
+class New(Making):
     """Puts a new thing, which the drag shapes."""
 
     def __init__(self, place: Place, start: Point) -> None:
         """Begin where the button went down."""
         self.place, self.start, self.draft = place, place.desk.snapped(start), place.desk.draft
-        self.item: Item | None = None
         self.begun = False
 
     def to(self, point: Point, *, shift: bool) -> Draft:
@@ -43,7 +42,7 @@ class New(Gesture):
         return draft
 
 
-class Place(Tool):
+class Place(Maker):
     """The base of them: a click puts a thing, a drag shapes it, if it has a shape."""
 
     gesture: New | None = None
@@ -60,18 +59,6 @@ class Place(Tool):
         if self.gesture is not None and (self.gesture.begun or self.dragged(point)):
             self.gesture.begun = True
             self.desk.drag(self.gesture, point, shift=shift)
-
-    def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """Keep it, and select it."""
-        gesture, self.gesture, self.pressed = self.gesture, None, None
-        self.desk.settle()
-        if gesture is not None and gesture.item is not None:
-            self.desk.select([gesture.item])
-
-    def cancel(self) -> bool:
-        """Take it away again."""
-        busy, self.gesture, self.pressed = self.gesture is not None, None, None
-        return self.desk.drop() or busy
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put a thing at a typed place."""
@@ -150,7 +137,7 @@ class PlaceBox(Place):
     def remark(self) -> str:
         """The size."""
         prop = _new_prop(self)
-        return f"{prop.length:.3g} m x {prop.width:.3g} m" if isinstance(prop, Box) else ""
+        return sides(prop.length, prop.width) if isinstance(prop, Box) else ""
 
 
 class PlaceBall(Place):

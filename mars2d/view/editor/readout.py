@@ -11,7 +11,7 @@ from mars2d.props import Ball, Box, Puck
 from mars2d.props.base import Prop
 from mars2d.view.editor.desk import Desk
 from mars2d.view.editor.draft import Item
-from mars2d.view.editor.tool import minus
+from mars2d.view.editor.tool import minus, sides
 
 __all__ = ["described"]
 
@@ -52,7 +52,7 @@ def _length(item: Item, corners: Outline) -> str:
 
 def _size(prop: Prop) -> list[str]:
     if isinstance(prop, Box):
-        return [f"{prop.length:.4g} m x {prop.width:.4g} m"]
+        return [sides(prop.length, prop.width)]
     if isinstance(prop, (Ball, Puck)):
         return [f"diameter {prop.diameter:.4g} m"]
     return []

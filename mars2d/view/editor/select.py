@@ -14,7 +14,7 @@ from mars2d.view.editor.draft import Item, Motion
 from mars2d.view.editor.gestures import Cornering, Moving, Sizing, Turning
 from mars2d.view.editor.handles import MARK, Handle, draw_handles, handle_at, ring_of
 from mars2d.view.editor.target import item_at, items_within
-from mars2d.view.editor.tool import Tool, minus, stretch
+from mars2d.view.editor.tool import Tool, minus, sides, stretch
 
 __all__ = ["Select", "Taking"]
 
@@ -93,13 +93,13 @@ class Taking(Tool):
             return "" if ring is None or item is None else self._heading(item)
         if isinstance(gesture, Sizing) and item is not None:
             box = self.desk.draft.props[item.number]
-            return f"{box.length:.3g} m x {box.width:.3g} m" if isinstance(box, Box) else ""
+            return sides(box.length, box.width) if isinstance(box, Box) else ""
         corners = None if item is None else self.desk.draft.corners(item)
         if isinstance(gesture, Cornering) and corners is not None and item is not None:
             k = gesture.number
-            sides = [(k - 1, k)] if k or item.kind != "wall" else []
-            sides += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not sides else []
-            return "   ".join(stretch(corners[a], corners[b]) for a, b in sides)
+            edges = [(k - 1, k)] if k or item.kind != "wall" else []
+            edges += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not edges else []
+            return "   ".join(stretch(corners[a], corners[b]) for a, b in edges)
         return ""
 
     def _heading(self, item: Item) -> str:

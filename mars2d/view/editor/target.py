@@ -12,7 +12,7 @@ from mars2d.view.editor.desk import Desk
 from mars2d.view.editor.draft import Item
 from mars2d.view.selection import body_at
 
-__all__ = ["edge_at", "foot_on", "item_at", "items_within"]
+__all__ = ["edge_at", "foot_on", "inside", "item_at", "items_within"]
 
 NEAR = 6.0
 """So many points beside a line or a body still hit it."""
@@ -37,7 +37,7 @@ def item_at(desk: Desk, point: Point) -> Item | None:
         if _on_line(point, wall, slack):
             return Item("wall", i)
     for i, outline in reversed(list(enumerate(draft.outlines))):
-        if edge_at(point, outline, slack) is not None or _inside(point, outline):
+        if edge_at(point, outline, slack) is not None or inside(point, outline):
             return Item("outline", i)
     return None
 
@@ -76,6 +76,7 @@ def _on_line(point: Point, wall: Outline, slack: float) -> bool:
     return any(hypot(point[0] - x, point[1] - y) <= slack for x, y in feet)
 
 
-def _inside(point: Point, outline: Outline) -> bool:
+def inside(point: Point, outline: Outline) -> bool:
+    """Return whether a point lies in a closed outline."""
     x, y = np.array([point], dtype=float).T
     return len(outline) > 2 and bool(inside_polygon(x, y, np.array(outline))[0])

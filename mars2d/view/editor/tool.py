@@ -7,10 +7,11 @@ from typing import ClassVar
 
 from mars2d.geometry import Point
 from mars2d.scene import Scene
-from mars2d.view.editor.desk import Desk
+from mars2d.view.editor.desk import Desk, Gesture
+from mars2d.view.editor.draft import Item
 from mars2d.view.editor.handles import angle_of
 
-__all__ = ["Tool", "minus", "stretch"]
+__all__ = ["Maker", "Making", "Tool", "minus", "sides", "stretch"]
 
 CLICK = 5.0
 """A press of the mouse that moves by less, in points, is a click."""
@@ -68,11 +69,40 @@ class Tool:
         return self.pressed is not None and not self.desk.near(self.pressed, point, CLICK)
 
 
+class Making(Gesture):
+    """A drag that makes a thing; item: that thing, while there is one."""
+
+    item: Item | None = None
+
+
+class Maker(Tool):
+    """The base of tools whose drag makes a thing."""
+
+    gesture: Making | None = None
+
+    def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
+        """Keep it, and select it."""
+        gesture, self.gesture, self.pressed = self.gesture, None, None
+        self.desk.settle()
+        if gesture is not None and gesture.item is not None:
+            self.desk.select([gesture.item])
+
+    def cancel(self) -> bool:
+        """Take it away again."""
+        busy, self.gesture, self.pressed = self.gesture is not None, None, None
+        return self.desk.drop() or busy
+
+
 def stretch(a: Point, b: Point) -> str:
     """Return how long an edge is, and where it points."""
     length = hypot(b[0] - a[0], b[1] - a[1])
     turn = round(degrees(angle_of(a, b)), 1) + 0.0
     return minus(f"{length:.4g} m   {turn:g}°") if length else ""
+
+
+def sides(length: float, width: float) -> str:
+    """Return how long and wide a rectangle is."""
+    return f"{length:.4g} m x {width:.4g} m"
 
 
 def minus(text: str) -> str:

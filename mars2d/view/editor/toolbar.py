@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pygame
 
+from mars2d.view.editor.chrome import draw_plate
 from mars2d.view.editor.icons import draw_icon
 from mars2d.view.editor.keys import TOOLS, VIEW
 from mars2d.view.keys import Key
@@ -79,12 +80,8 @@ class Toolbar:
         self, surface: pygame.Surface, pointer: tuple[int, int], bounds: pygame.Rect
     ) -> None:
         """Say what the button beneath the pointer is for."""
-        painter, theme, ui = self._painter, self._painter.theme, self._painter.ui
+        gap = round(10 * self._painter.ui)
         for key, place in self._places:
             if place.collidepoint(pointer):
-                text = painter.fonts.render(key.help[0].upper() + key.help[1:], 15 * ui, theme.ink)
-                plate = text.get_rect().inflate(round(22 * ui), round(14 * ui))
-                plate.midleft = (place.right + round(10 * ui), place.centery)
-                plate.clamp_ip(bounds)
-                painter.panel(surface, plate, theme.plate, 6 * ui, theme.key_edge)
-                surface.blit(text, text.get_rect(center=plate.center))
+                words, beside = key.help[0].upper() + key.help[1:], place.move(gap, 0).midright
+                draw_plate(surface, self._painter, [words], bounds, midleft=beside)

@@ -15,6 +15,7 @@ from mars2d.geometry import Outline, outside_polygon
 from mars2d.rigid import Rigid
 from mars2d.scenario import Scenario
 from mars2d.view.editor.draft import Draft, Item, flaw
+from mars2d.view.editor.target import inside
 
 __all__ = ["Fault", "Judge", "Verdict", "judge"]
 
@@ -157,11 +158,11 @@ def _in_obstacles(draft: Draft, items: list[Item], bodies: list[Rigid]) -> Itera
             outline, obstacle = obstacles[k]
             try:
                 starts.check_off_obstacles([body], [outline], draft.base.max_overlap)
-            except InputError as error:
-                inside = "starts inside" in str(error)
-                hint = "; if it is a room, draw it as walls" if inside else ""
+            except InputError:
                 what = "an obstacle" if obstacle is None else draft.name(obstacle)
-                where = "inside" if inside else "in contact with"
+                within = inside(center, outline)
+                hint = "; if it is a room, draw it as walls" if within else ""
+                where = "inside" if within else "in contact with"
                 culprits = (item,) if obstacle is None else (item, obstacle)
                 yield Fault(f"{body.name} starts {where} {what}{hint}", culprits)
                 break
