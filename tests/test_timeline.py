@@ -166,7 +166,7 @@ def test_worlds_that_wait_change_nothing(memory):
     timeline.go(60)
     idle(timeline)
     timeline.go(120)
-    idle(timeline)
+    idle(timeline, 4000)
     rows = sorted(world.iteration for world in timeline._waiting)
     assert set(rows) >= {24, 48, 72, 96}
     finish(timeline)

@@ -25,6 +25,7 @@ BANNER_LINES = 8
 CODE_LINES = 5
 LARGEST_BANNER = 0.5
 """Of the surface's height: longer text is cut, and code about the line it is about left out."""
+SEPARATOR = " · "
 SHORTEST_TITLE = 110.0
 """Points; where a title gets less, something else in the header goes first."""
 
@@ -151,8 +152,8 @@ def draw_footer(
 ) -> None:
     """Draw the banner across the footer, or where there is none a quiet line of text.
 
-    hints: pairs of a key and what it does, for the right end; where there is no room for all, the
-    last ones stay.
+    left: of its parts, with dots between, as many as there is room for. hints: pairs of a key and
+    what it does, for the right end; where there is no room for all, the last ones stay.
     """
     ui, bar, fonts, theme = layout.ui, layout.footer, painter.fonts, painter.theme
     if bar.height <= 0:
@@ -164,7 +165,10 @@ def draw_footer(
     surface.fill(theme.bar, bar)
     surface.fill(theme.edge, (bar.left, bar.top, bar.width, 1))
     end = _hints(surface, painter, hints, bar, ui)
-    text = fonts.shorten(left, 14 * ui, end - 2 * pad)
+    text = left
+    while fonts.width(text, 14 * ui) > end - 2 * pad and SEPARATOR in text:
+        text = text.rpartition(SEPARATOR)[0].rstrip()
+    text = fonts.shorten(text, 14 * ui, end - 2 * pad)
     if len(text) > 3:
         image = fonts.render(text, 14 * ui, theme.muted)
         surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))

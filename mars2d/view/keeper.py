@@ -61,7 +61,7 @@ class Keeper:
 
     def _begin_film(self) -> str:
         self._film = start_film(_here(), self._stem)
-        return "filming; V ends the film"
+        return f"filming {self._film.path}; V ends the film"
 
     def _end_film(self) -> str:
         assert self._film is not None

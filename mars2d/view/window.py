@@ -289,11 +289,12 @@ class Window:
 
     def _hints(self) -> Sequence[tuple[str, str]]:
         """Return the keys that serve now, and what they do."""
+        go_on, (drive, slowly, *rest) = ("Space", "go on"), HAND_HINTS
         if self._drives:
-            return HAND_HINTS
+            return (go_on, drive, *rest) if self.player.paused else (drive, slowly, *rest)
         if self.player.manual:
             return MANUAL_HINTS
-        return (("Space", "go on"), *HINTS[1:]) if self.player.paused else HINTS
+        return (go_on, *HINTS[1:]) if self.player.paused else HINTS
 
     def _status(self) -> Status:
         if self._number:

@@ -32,12 +32,21 @@ from mars2d.sensors import (
 )
 from mars2d.view.brushes import rgba
 from mars2d.view.forceplot import draw_force
-from mars2d.view.inspector import Inspector, contacts_of, inbox, sensor_plots, state_of
+from mars2d.view.inspector import (
+    Inspector,
+    contacts_of,
+    inbox,
+    rounded,
+    sensor_plots,
+    state_of,
+)
+from mars2d.view.layout import Layout
 from mars2d.view.meter import Meter
 from mars2d.view.painter import Painter
 from mars2d.view.sensorplot import history
 from mars2d.view.theme import DARK, LIGHT, mixed
 from tests.view.circling import Circling
+from tests.view.written import Written, painter
 
 PLOT = pygame.Rect(0, 52, 1280, 580)
 FORCE = (0xA3, 0x00, 0x3C)
@@ -315,3 +324,33 @@ def test_it_takes_little_time(world):
         inspector.draw(surface, rect, frame, 0)
         taken.append(time.thread_time() - start)
     assert min(taken) < 0.002
+
+
+@pytest.mark.parametrize("width", [220, 300, 344])
+def test_the_numbers_of_a_row_stay_apart_however_narrow_it_is(width):
+    layout = Layout.of((1280, 720))
+    inspector = Inspector(painter(layout, LIGHT))
+    surface = Written((width, 40))
+    far, angle = "\N{MINUS SIGN}123.45 m", "\N{MINUS SIGN}179°"
+    numbers = [("x", far), ("y", far), ("θ", angle)]
+    inspector._draw_row(surface, pygame.Rect(0, 0, width, 20), "pose", numbers)
+    assert surface.crowded() == []
+
+
+def test_in_little_room_the_plot_of_forces_is_lower_rather_than_left_out():
+    frame = team().frame
+    reading = Meter().read(frame, 2)
+
+    def heights(room):
+        sections = Inspector(Painter())._chosen(frame, 2, room, reading)
+        return [section.height for section in sections if section.least is not None]
+
+    assert heights(600) == [118.0]
+    assert 76.0 <= heights(265)[0] < 118.0
+    assert heights(200) == []
+
+
+def test_numbers_in_messages_are_rounded_and_words_are_not():
+    assert rounded('["token",1]') == '["token",1]'
+    assert rounded("[0.1558127275076811,-0.0683]") == "[0.156,-0.0683]"
+    assert rounded('"version 1.2.345 of a.1234"') == '"version 1.2.345 of a.1234"'

@@ -15,7 +15,7 @@ from mars2d import InputError, Robot, Scenario
 from mars2d.files import open_experiment
 from mars2d.output.filming import FPS, Filming
 from mars2d.view.keep import free_name, keep_picture, keep_python, start_film
-from tests.view.test_window import bare_environment, needs_screen, screen  # noqa: F401
+from tests.view.person import bare_environment, needs_screen
 
 SIZE = (160, 120)
 
@@ -102,7 +102,7 @@ def test_nothing_stays_where_writing_fails(tmp_path, monkeypatch):
 
 
 @needs_screen
-def test_a_listing_is_on_the_clipboard_of_a_window(screen, tmp_path):  # noqa: F811
+def test_a_listing_is_on_the_clipboard_of_a_window(screen, tmp_path):
     code = (
         "import pygame; from pathlib import Path; from mars2d import Scenario\n"
         "from mars2d.view.keep import keep_python\n"

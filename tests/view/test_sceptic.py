@@ -309,3 +309,16 @@ def test_after_b_the_pace_is_measured_anew(desk):
     desk.play(25)
     desk.press("b", "home", "b")
     assert desk.window.player.factor is None
+
+
+# -- films ----------------------------------------------------------------------------------------
+
+
+def test_a_film_says_where_it_is_before_the_window_may_be_closed(desk):
+    desk = desk()
+    desk.press("v")
+    (note,) = desk.notes
+    desk.window.keeper.film(desk.surface, desk.window.layout.plot, desk.window._painter)
+    desk.window.keeper.close()
+    (film,) = (path for path in desk.path.parent.iterdir() if path.suffix in (".mp4", ".gif"))
+    assert str(film) in note
