@@ -7,13 +7,13 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.base import HOOKS, Addon
+from mars2d.addons.base import Addon, hooks_of
 from mars2d.addons.communication import Communication
 from mars2d.errors import InputError, counted
 from mars2d.placement import obstruction
 from mars2d.scenario import Scenario
 
-__all__ = ["check_same", "hooks_of", "with_poses"]
+__all__ = ["check_same", "with_poses"]
 
 Float = NDArray[np.float64]
 
@@ -24,11 +24,6 @@ FREE = frozenset(
 
 FREE_OF_BODIES = frozenset({"pose", "color"})
 FREE_OF_ROBOTS = FREE_OF_BODIES | {"controller"}
-
-
-def hooks_of(addon: Addon) -> tuple[str, ...]:
-    """Return the hooks that an add-on has of its own: only these are called."""
-    return tuple(hook for hook in HOOKS if getattr(type(addon), hook) is not getattr(Addon, hook))
 
 
 def check_same(before: Scenario, after: Scenario) -> None:

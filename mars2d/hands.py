@@ -53,6 +53,7 @@ class Hands:
         """Take the world; nothing is done to it yet."""
         self._world = world
         self._driven: dict[int, tuple[float, float]] = {}
+        self._steered: set[int] = set()  # of whom the log says so
         self._pulls: dict[int, Pull] = {}
         self._held: list[int] = []
         self._force: dict[int, float] = {}
@@ -79,24 +80,23 @@ class Hands:
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise wrong("Hands.steer(command)", command, "two numbers, or None")
         first, second = (real("Hands.steer(command)", number, "a number") for number in pair)
-        if not self._is_driven(index):
-            self.log.append(Steer(self._world.iteration, index, driven=True))
+        if index not in self._steered:
+            self._note(Steer(self._world.iteration, index, driven=True))
         self._driven[index] = first, second
 
     def _drive_no_more(self, robot: int) -> None:
         self._driven.pop(robot, None)
-        if self._is_driven(robot):
-            self.log.append(Steer(self._world.iteration, robot, driven=False))
+        if robot in self._steered:
+            self._note(Steer(self._world.iteration, robot, driven=False))
 
-    def _is_driven(self, robot: int) -> bool:
-        """Return whether the log says that a robot is driven now."""
-        said = (i for i in reversed(self.log) if isinstance(i, Steer) and i.robot == robot)
-        last = next(said, None)
-        return last is not None and last.driven
+    def _note(self, steer: Steer) -> None:
+        """Tell that a robot is driven from now on, or no more."""
+        (self._steered.add if steer.driven else self._steered.discard)(steer.robot)
+        self.log.append(steer)
 
     def let_go(self) -> None:
         """Let go of all that is driven or pulled."""
-        for robot in {each.robot for each in self.log if isinstance(each, Steer)}:
+        for robot in sorted(self._steered):
             self._drive_no_more(robot)
         for pull in self.pulls:
             self._pull(replace(pull, row=self._world.iteration, target=None))
@@ -210,7 +210,7 @@ class Hands:
                 intervention.scenario, intervention.control, dict(intervention.moved)
             )
         elif isinstance(intervention, Steer):
-            self.log.append(intervention)
+            self._note(intervention)
         else:
             self._pull(intervention)
 

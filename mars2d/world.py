@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d import checks
-from mars2d.addons.base import HOOKS, Addon
+from mars2d.addons.base import HOOKS, Addon, hooks_of
 from mars2d.addons.communication import Communication
 from mars2d.bodies.drives import Drives
-from mars2d.changes import check_same, hooks_of, with_poses
+from mars2d.changes import check_same, with_poses
 from mars2d.channel import Channel
 from mars2d.contact import CONTACT
 from mars2d.control import Law, commands, team_command

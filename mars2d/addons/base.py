@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from mars2d.frame import Frame
     from mars2d.world import World
 
-__all__ = ["HOOKS", "Addon", "Color"]
+__all__ = ["HOOKS", "Addon", "Color", "hooks_of"]
 
 Color = tuple[float, float, float]
 """Red, green and blue from 0 to 1."""
@@ -116,3 +116,8 @@ class Addon(Live):
 
     def on_stop(self, world: World) -> None:
         """Do what is to be done once, when the experiment is over."""
+
+
+def hooks_of(addon: Addon) -> tuple[str, ...]:
+    """Return the hooks that an add-on has of its own: only these are called."""
+    return tuple(hook for hook in HOOKS if getattr(type(addon), hook) is not getattr(Addon, hook))

@@ -119,13 +119,13 @@ class Director:
 
     # -- drawing on it ------------------------------------------------------------------------
 
-    @property
-    def scenario(self) -> Scenario:
+    def scenario_now(self) -> Scenario:
         """The scenario with all bodies where they are seen."""
         frame = self._player.frame
         try:
             return with_poses(frame.scenario, np.hstack([frame.pose, frame.prop_pose]))
-        except InputError:  # in the thick of a crowd bodies may overlap
+        except InputError as error:  # in the thick of a crowd bodies may overlap
+            self._notes.say(f"bodies are shown where they were at the start: {error}", "warning")
             return frame.scenario
 
     def editor(self, painter: Painter) -> Editor | None:
@@ -136,7 +136,7 @@ class Director:
         self._player.pause()
         self.let_go()
         path, control = timeline.experiment.path, timeline.world.control
-        return Editor(self.scenario, painter, path=path, live=True, control=control)
+        return Editor(self.scenario_now(), painter, path=path, live=True, control=control)
 
     def apply(self, outcome: Outcome) -> None:
         """Go on from now, or from the start, with what was drawn."""
@@ -144,7 +144,7 @@ class Director:
         if outcome.when == "start":
             self._restart(self.timeline.experiment.redrawn(outcome.scenario))
             return
-        before = self.scenario.bodies
+        before = self.scenario_now().bodies
         bodies = enumerate(outcome.scenario.bodies)
         moved = {i: body.pose for i, body in bodies if body.pose != before[i].pose}
 

@@ -167,6 +167,7 @@ class Marks:
         self._seen = 0  # contacts
         self._next = 0.0
         self._touched: list[int] = []
+        self._handled: tuple[World | None, int, list[int]] = None, 0, []
 
     def rows(self) -> Mapping[MarkKind, Sequence[int]]:
         """Return the rows of each kind, in ascending order; of collisions those of a moment ago."""
@@ -174,10 +175,17 @@ class Marks:
         self._look(world, time.monotonic())
         return {
             "collision": self._touched,
-            "hand": sorted({each.row for each in world.hands.log}),
+            "hand": self._by_hand(world),
             "branch": sorted({timeline.parted(other) for other in timeline.branches}),
             "error": [world.iteration] if world.over and not world.finished else [],
         }
+
+    def _by_hand(self, world: World) -> list[int]:
+        """Return the rows at which hands did something."""
+        log = world.hands.log
+        if self._handled[:2] != (world, len(log)):
+            self._handled = world, len(log), sorted({each.row for each in log})
+        return self._handled[2]
 
     def _look(self, world: World, now: float) -> None:
         """Look for contacts that began since the last look."""

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from math import atan2, cos, degrees, hypot, pi, radians, sin
+from math import atan2, cos, degrees, dist, hypot, pi, radians, sin
 from typing import Literal, Protocol
 
 import numpy as np
@@ -28,13 +28,13 @@ from mars2d.view.hover import Finder, Hover
 from mars2d.view.theme import LIGHT
 from mars2d.world import World
 
-__all__ = ["Hand", "pull_of"]
+__all__ = ["CLICK", "Hand", "pull_of"]
 
 Float = NDArray[np.float64]
 Pixel = tuple[int, int]
 
-CLICK = 5
-"""A press that moves by less, in pixels, is a click."""
+CLICK = 5.0
+"""A press that moves by less, in points, is a click."""
 LONG = 0.3
 """A press that lasts longer, in seconds, is no click: it holds what moves."""
 NOTCH = radians(15)
@@ -101,6 +101,7 @@ class Hand:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._change, self._say, self._clock = change, say, clock
+        self.click = CLICK  # pixels
         self._finder = Finder()
         self._hover: Hover | None = None
         self._pressed: tuple[Pixel, int, int, float] | None = None  # pixel, body, button, since
@@ -126,12 +127,12 @@ class Hand:
     def move(self, frame: Frame, camera: Camera, pixel: Pixel, running: bool) -> None:
         """Take where the pointer is."""
         self._pixel, self._inside = pixel, True
-        if self._pressed is not None and hypot(*np.subtract(pixel, self._pressed[0])) >= CLICK:
+        if self._pressed is not None and dist(pixel, self._pressed[0]) >= self.click:
             self._begin(frame, camera, running)
         if self._deed is not None:
             self._deed.move(frame, _world(camera, pixel), _mods())
         else:
-            self._hover = self._finder.find(frame, _world(camera, pixel), CLICK / camera.scale)
+            self._hover = self._finder.find(frame, _world(camera, pixel), self.click / camera.scale)
         self._show_cursor()
 
     def leave(self) -> None:

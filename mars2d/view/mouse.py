@@ -12,14 +12,12 @@ from mars2d.view.hand import Hand
 from mars2d.view.player import Player
 from mars2d.view.viewpoint import Viewpoint, wheel_notches
 
-__all__ = ["CLICK", "Mouse"]
+__all__ = ["Mouse"]
 
 Pixel = tuple[int, int]
 Grip = tuple[Callable[[Pixel], bool], Callable[[Pixel], None]]
 """Whether a pixel is where something can be taken hold of, and what a drag to a pixel does."""
 
-CLICK = 5.0
-"""A press of the mouse that moves by less, in points, is a click."""
 BUTTONS = (pygame.BUTTON_LEFT, pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT)
 
 
@@ -93,7 +91,7 @@ class Mouse:
 
     def _release(self, pixel: Pixel, button: int) -> None:
         """Let go; what was pressed and not dragged is clicked."""
-        camera, near = self._viewpoint.camera, CLICK * self._viewpoint.layout.ui
+        camera, near = self._viewpoint.camera, self._hand.click
         done = self._hand.busy and self._hand.release(
             self._player.frame, camera, pixel, self._player.playing
         )

@@ -11,6 +11,7 @@ from typing import Literal
 from mars2d.animation import playback_speed
 from mars2d.errors import Mars2dError
 from mars2d.frame import Frame
+from mars2d.view.slider import BEHIND, times
 from mars2d.view.source import Source
 
 __all__ = ["SPEEDS", "Player", "between"]
@@ -109,7 +110,7 @@ class Player:
             return
         if self.speed == float("inf"):
             self._advance_for_long()
-            self._settle()
+            self.settle()
         else:
             wanted = self._time + self.speed * min(wall, LONGEST_GAP)
             self._advance_until(wanted)
@@ -135,7 +136,7 @@ class Player:
                 break
         else:
             self._todo = 0
-        self._settle()
+        self.settle()
 
     def back(self, count: int = 1) -> None:
         """Go back by so many sampling times, and pause."""
@@ -145,14 +146,14 @@ class Player:
         """Go to a row, or to the nearest one that there is as yet, and pause."""
         self.pause()
         self.source.go(row)
-        self._settle()
+        self.settle()
 
     def pause(self) -> None:
         """Stop time, if it passes, and show the present frame."""
         self._todo = 0
         if not self.manual:
             self.paused = True
-        self._settle()
+        self.settle()
 
     def pause_or_resume(self) -> None:
         """Stop time or let it pass; in manual mode, one step."""
@@ -162,7 +163,7 @@ class Player:
         self._todo = 0
         self.paused = not self.paused
         if self.paused:
-            self._settle()
+            self.settle()
 
     def set_speed(self, speed: float) -> None:
         """Play at a factor of real time, or as fast as it goes: inf."""
@@ -192,7 +193,7 @@ class Player:
         except Mars2dError as error:
             self.error = error
             self.source.go(self.source.newest)  # where it is told
-        self._settle()
+        self.settle()
 
     def status(self) -> Status:
         """Return what the clock does."""
@@ -210,26 +211,21 @@ class Player:
     def _pace_in_words(self) -> str:
         factor = self.factor
         if self.speed == float("inf"):
-            return "max" if factor is None else f"max  {_times(factor)}"
-        text = _times(self.speed)
-        if factor is not None and factor < 0.9 * self.speed:
-            text += f"  reaches {_times(factor)}"
+            return "max" if factor is None else f"max  {times(factor)}"
+        text = times(self.speed)
+        if factor is not None and factor < BEHIND * self.speed:
+            text += f"  reaches {times(factor)}"
         return text
-
-    def settle(self) -> None:
-        """Show what was done to the world, at whatever time that leads to."""
-        self._pace.clear()
-        self._settle()
 
     def fail(self, error: Mars2dError) -> None:
         """Stop at the present frame, without what add-ons and sensors draw: one of them raised."""
         if str(self.error) != str(error):  # it raises at each picture
             self.error = error
-        self._settle()
+        self.settle()
         self._present = replace(self._present, readings={}, draw_addons=None)
 
-    def _settle(self) -> None:
-        """Show the source's present frame."""
+    def settle(self) -> None:
+        """Show the source's present frame, as after something was done to the world."""
         self._present = self.source.frame
         self._previous = None
         self._time = self._present.time
@@ -246,7 +242,7 @@ class Player:
         while self._present.time < wanted and not self.source.over:
             before = self._present
             if not self._advance():
-                self._settle()
+                self.settle()
                 break
             self._present, self._previous = self.source.frame, before
             if self._clock() >= deadline:
@@ -286,10 +282,3 @@ def between(first: Frame, second: Frame, time: float) -> Frame:
         command_path=second.command_path,
         messages=second.messages,
     )
-
-
-def _times(factor: float) -> str:
-    """Return a factor of real time as it is read: 0.1x, 2x, 340x."""
-    if factor >= 10 and factor != round(factor):
-        factor = float(f"{factor:.2g}")
-    return f"{factor:.10g}x" if factor == round(factor, 1) else f"{factor:.2g}x"

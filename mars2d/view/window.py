@@ -23,14 +23,14 @@ from mars2d.view.director import Director
 from mars2d.view.display import PICTURES_A_SECOND, open_window, started_display
 from mars2d.view.editor import Editor
 from mars2d.view.ghosts import Marks, ghosts
-from mars2d.view.hand import Hand
+from mars2d.view.hand import CLICK, Hand
 from mars2d.view.help import Help
 from mars2d.view.icon import icon
 from mars2d.view.inspector import Inspector
 from mars2d.view.keeper import Keeper
 from mars2d.view.layers import Layers
 from mars2d.view.layout import Layout, next_text_size
-from mars2d.view.mouse import CLICK, Mouse
+from mars2d.view.mouse import Mouse
 from mars2d.view.notes import Notes, Progress, draw_progress
 from mars2d.view.outcome import Outcome
 from mars2d.view.painter import Painter
@@ -247,7 +247,7 @@ class Window:
         banner = self._outcome.banner()
         frame = self.hand.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
-        self._painter.ui = layout.ui
+        self._painter.ui, self.hand.click = layout.ui, CLICK * layout.ui
         self.viewpoint.arrange(layout, frame.scenario)
         marks = self.hand.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
@@ -396,7 +396,7 @@ class Window:
 
     def _select_at(self, point: Point) -> None:
         """Select what lies at a point [m] of the picture, or nothing."""
-        slack = CLICK * self.layout.ui / self.camera.scale
+        slack = self.hand.click / self.camera.scale
         self.selected = body_at(self.player.frame, point, slack)
 
     # -- what keys do ---------------------------------------------------------------------------
@@ -466,7 +466,7 @@ class Window:
         """Save the scenario as it is seen as a Python file."""
         timeline = self.director.timeline
         self.keeper.python(
-            self.director.scenario, None if timeline is None else timeline.world.control
+            self.director.scenario_now(), None if timeline is None else timeline.world.control
         )
 
     def _drive_or_not(self) -> None:
