@@ -1,7 +1,6 @@
 """The editor, driven by real mouse moves and key presses on a screen of its own."""
 
 import json
-import os
 import queue
 import subprocess
 import sys
@@ -19,7 +18,7 @@ from mars2d.props import Box
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.view.editor import keys
-from tests.view.person import Driver, bare_environment, compare, differing, needs_screen
+from tests.view.person import ROOT, Driver, bare_environment, compare, differing, needs_screen
 
 
 class Hands(Driver):
@@ -27,7 +26,7 @@ class Hands(Driver):
 
     def __init__(self, screen, folder, source="-", **options):
         self.environment = bare_environment(
-            DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=os.pathsep.join(sys.path)
+            DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=str(ROOT)
         )
         self.process = subprocess.Popen(
             [sys.executable, "-m", "tests.view.observed_editor", str(source), json.dumps(options)],
