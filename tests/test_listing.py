@@ -30,7 +30,8 @@ def test_all_kinds_of_parts_are_listed():
     text = as_python(scenario)
     assert executed(text) == scenario
     assert as_python(executed(text)) == text
-    assert max(map(len, text.splitlines())) <= 100
+    named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
+    assert max(map(len, named)) <= 100
 
 
 @pytest.mark.parametrize("name", examples())
@@ -42,7 +43,8 @@ def test_an_example_is_listed_but_for_its_code(name, tmp_path):
     kept, lost = plain.without_code(experiment.scenario)
     assert bare(again.scenario) == bare(kept)
     assert all(name in text for name in lost)
-    assert max(map(len, text.splitlines())) <= 100
+    named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
+    assert max(map(len, named)) <= 100
     assert (again.control is None) == (experiment.control is None)
 
 

@@ -472,7 +472,7 @@ def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
     )  # fmt: skip
     while not list(folder.glob("*.pdf")):
         assert child.poll() is None
-        time.sleep(0.05)
+        time.sleep(0.002)  # it may end soon after
     os.killpg(child.pid, signal.SIGINT)  # as a terminal does: to all of them
     out, err = child.communicate(timeout=30)
     assert child.returncode == 130

@@ -73,7 +73,8 @@ def test_an_example_comes_back_but_for_its_code(name, tmp_path):
     assert bare(again) == bare(kept)
     assert set(lost) <= set(missing)
     assert all(name in text for name in lost)
-    assert max(map(len, text.splitlines())) <= 100
+    named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
+    assert max(map(len, named)) <= 100
 
 
 @pytest.mark.parametrize("name", ["billiards", "go_to_point", "push_box", "sumo", "tug_of_war"])
