@@ -8,25 +8,15 @@ quicker one shoves the other along, and who is caught looking away has no force 
 Measured: the impulse of the first clash, in its control step, and who is in the ring at the end.
 """
 
-from math import cos, hypot, pi, sin
+from math import pi
 
 import numpy as np
 
-from mars2d import Addon, Animation, Robot, Scenario, Unicycle, load_law
+from mars2d import Animation, Robot, Scenario, Unicycle, load_law
+from mars2d.addons import Ring
 from mars2d.prediction import Prediction
 
 RING = 1.5  # m, its radius; its middle is (0, 0)
-
-
-class Referee(Addon):
-    """Ends the bout when a robot's middle has left the ring, or when time is over."""
-
-    def on_step(self, world):
-        inside = [robot.name for robot in world.robots if hypot(*robot.pose[:2]) <= RING]
-        if len(inside) == 1:
-            world.stop(f"{inside[0]} wins: the other has left the ring after {world.time:.2f} s")
-        elif not inside or world.iteration == world.scenario.last_iteration:
-            world.stop("a draw")
 
 
 def scenario(red: str = "sumo_players/pusher.py", blue: str = "sumo_players/dodger.py"):
@@ -37,11 +27,11 @@ def scenario(red: str = "sumo_players/pusher.py", blue: str = "sumo_players/dodg
             robot.replace(name="red", color="red", controller=load_law(red)).at(-0.8, 0, 0),
             robot.replace(name="blue", color="blue", controller=load_law(blue)).at(0.8, 0, pi),
         ],
-        workspace=[(RING * cos(a), RING * sin(a)) for a in np.linspace(0, 2 * pi, 90, False)],
+        workspace=[(-2, -2), (2, -2), (2, 2), (-2, 2)],
         on_exit="ignore",
         sampling_time=0.02,
         stop_time=20.0,
-        addons=[Referee()],
+        addons=[Ring({"red": ["red"], "blue": ["blue"]}, radius=RING)],
         animation=Animation(playback_speed=0.3, show_initial_pose=False, forces=True),
     )
 

@@ -1,5 +1,7 @@
 """The add-on Game: roles, captures, score, who has won; and robots that are held."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -156,6 +158,17 @@ def test_a_loaded_record_tells_the_same_and_runs_again(tmp_path, capture):
             again.step(command)
     assert again.over_message == world.over_message
     assert again.record.digest == world.record.digest
+
+
+@pytest.mark.parametrize(("later", "winner"), [(1e-14, "pursuer"), (0.05, None)])
+def test_a_capture_at_the_last_instant_counts_whose_time_is_rounded_up(later, winner):
+    """The last row is that of 3.4 s; what comes in the control step after it is in no row."""
+    record = played(chase()).record
+    contacts = record.contacts.copy()
+    assert len(contacts) == 1
+    contacts["time"] = record.time[-1] + later
+    changed = dataclasses.replace(record, contacts=contacts)
+    assert record.scenario.addons[0].outcome(changed).winner == winner
 
 
 def test_captures_are_drawn_from_a_record_as_they_were_live(tmp_path):

@@ -10,6 +10,7 @@ from mars2d.addons.floor import Floor
 from mars2d.addons.game import Game
 from mars2d.addons.map import Map
 from mars2d.addons.potential_field import PotentialField
+from mars2d.addons.ring import Ring
 from mars2d.addons.theory import Theory
 from mars2d.addons.trails import Trails
 from mars2d.addons.voronoi import Voronoi
@@ -29,6 +30,7 @@ __all__ = [
     "Game",
     "Map",
     "PotentialField",
+    "Ring",
     "Theory",
     "Trails",
     "Voronoi",

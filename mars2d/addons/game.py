@@ -2,84 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.base import Addon
+from mars2d.addons.contest import Capture, Contest, Outcome, Teams, mark
 from mars2d.description import entry, real, wrong
-from mars2d.errors import InputError, likely
+from mars2d.errors import likely
 from mars2d.scene import Scene, faded
 
 if TYPE_CHECKING:
     from mars2d.frame import Frame
     from mars2d.record import Record
-    from mars2d.scenario import Scenario
     from mars2d.world import World
 
 __all__ = ["Capture", "Game", "Outcome"]
 
 Float = NDArray[np.float64]
-Role = tuple[str, tuple[str | int, ...]]
-Teams = tuple[tuple[int, ...], tuple[int, ...]]
-"""The indices of the hunters, and of the evaders."""
-
 CONTACT = "contact"
-ROLES = "two roles, that of the hunters first, as {'pursuer': ['red'], 'evader': ['blue']}"
-MARK = "#222222"
-"""The colour of what marks a caught robot."""
-
-
-class Capture(NamedTuple):
-    """One capture: when [s], and the indices of the robot that caught and of the caught one."""
-
-    time: float
-    hunter: int
-    evader: int
-
-
-class Outcome(NamedTuple):
-    """How a game stands: its captures in order, each role's score, the role that has won, or None.
-
-    The hunters' score is how many they have caught, that of the evaders how many are free.
-    """
-
-    captures: tuple[Capture, ...]
-    score: dict[str, int]
-    winner: str | None
-
-    @property
-    def capture_time(self) -> float:
-        """When the last one was caught, seconds; nan where one is free, or nobody was caught."""
-        caught = bool(self.captures) and list(self.score.values())[1] == 0
-        return self.captures[-1].time if caught else float("nan")
-
-
-def _roles(name: str, value: object) -> tuple[Role, ...]:
-    """Check two roles with their robots, a dict or, as in a file, pairs; keep them as pairs."""
-    pairs = list(value.items()) if isinstance(value, Mapping) else value
-    if not isinstance(pairs, (list, tuple)) or len(pairs) != 2:
-        raise wrong(name, value, ROLES)
-    for pair in pairs:
-        if not isinstance(pair, (list, tuple)) or len(pair) != 2 or not isinstance(pair[0], str):
-            raise wrong(name, value, ROLES)
-    if pairs[0][0] == pairs[1][0]:
-        raise InputError(f"{name}: two roles are called {pairs[0][0]!r}")
-    return tuple((role, _robots(f"{name}[{role!r}]", robots)) for role, robots in pairs)
-
-
-def _robots(name: str, value: object) -> tuple[str | int, ...]:
-    expected = "a list of robots, by their names or indices, as ['red', 'blue']"
-    if not isinstance(value, (list, tuple, range)):
-        raise wrong(name, value, expected)
-    if not value:
-        raise wrong(name, value, f"{expected}; nobody has this role")
-    for item in value:
-        if isinstance(item, bool) or not isinstance(item, (str, int, np.integer)):
-            raise wrong(name, value, expected)
-    return tuple(item if isinstance(item, str) else int(item) for item in value)
 
 
 def _capture(name: str, value: object) -> str | float:
@@ -94,7 +35,7 @@ def _capture(name: str, value: object) -> str | float:
     return distance
 
 
-class Game(Addon):
+class Game(Contest):
     """A game of pursuit: robots of the first role hunt those of the second.
 
     >>> game = Game({"pursuer": ["red"], "evader": ["blue"]}, capture=0.4)
@@ -110,9 +51,6 @@ class Game(Addon):
     `outcome` says the same, also of a loaded one.
     """
 
-    roles: tuple[Role, ...] = entry(
-        check=_roles, kw_only=False, doc="the robots of both roles by name or index, hunters first"
-    )
     capture: str | float = entry(
         default=CONTACT, check=_capture, unit="m",
         doc="'contact', or how near a hunter's pose has to come to an evader's",
@@ -189,31 +127,10 @@ class Game(Addon):
 
     def outcome(self, record: Record) -> Outcome:
         """Return captures, score and winner of a record, loaded or just made."""
-        teams, end = self.teams(record.scenario), record.time.max(initial=0.0)
-        contacts = record.contacts[record.contacts["time"] <= end]
+        teams = self.teams(record.scenario)
+        contacts = record.contacts[record.contact_rows < len(record)]  # before its last row
         captures = self._found(teams, record.time, record.pose, contacts)
         return self._outcome(teams, captures, len(record) > record.scenario.last_iteration)
-
-    def teams(self, scenario: Scenario) -> Teams:
-        """Return the indices of the hunters and of the evaders in a scenario.
-
-        Raises InputError for a robot that is not there, or that stands in the roles twice.
-        """
-        names = [str(robot.name) for robot in scenario.robots]
-        taken: dict[int, str] = {}
-        teams = []
-        for role, robots in self.roles:
-            team = []
-            for robot in robots:
-                index = scenario.index_of(f"{type(self).__name__}.roles[{role!r}]", robot)
-                if index in taken:
-                    twice = f"is {taken[index]} and {role}"
-                    twice = f"stands twice as {role}" if taken[index] == role else twice
-                    raise InputError(f"{type(self).__name__}.roles: {names[index]} {twice}")
-                taken[index] = role
-                team.append(index)
-            teams.append(tuple(team))
-        return teams[0], teams[1]
 
     def _outcome(self, teams: Teams, captures: tuple[Capture, ...], time_is_over: bool) -> Outcome:
         (hunting, _), (evading, _) = self.roles
@@ -253,17 +170,8 @@ class Game(Addon):
                 color = faded(scenario.colors[hunter], 0.5)
                 scene.circle(frame.pose[:2, hunter], float(self.capture), stroke=color)
         for capture in found:
-            self._mark(scene, frame, capture)
-
-    def _mark(self, scene: Scene, frame: Frame, capture: Capture) -> None:
-        """Cross out a caught robot, and write the time on the side away from who caught it."""
-        arm = 1.25 * frame.scenario.robots[capture.evader].radius
-        x, y = frame.pose[:2, capture.evader].tolist()
-        scene.circle((x, y), arm, stroke=MARK, width=1.2)
-        scene.cross((x, y), arm, stroke=MARK, width=1.2)
-        above, when = y > frame.pose[1, capture.hunter], f"{round(capture.time, 1):g} s"
-        place, label = (y + arm, f"{when}\n") if above else (y - arm, f"\n{when}")
-        scene.text((x, place), label, color=MARK, size=10.0, halo="#ffffff")
+            above = bool(frame.pose[1, capture.evader] > frame.pose[1, capture.hunter])
+            mark(scene, frame, capture.evader, f"{round(capture.time, 1):g} s", above)
 
 
 def _touches(

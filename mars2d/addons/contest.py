@@ -1,0 +1,127 @@
+"""Contests between roles: what all games have in common, whatever decides them."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from mars2d.addons.base import Addon
+from mars2d.description import entry, wrong
+from mars2d.errors import InputError
+from mars2d.scene import Scene
+
+if TYPE_CHECKING:
+    from mars2d.frame import Frame
+    from mars2d.record import Record
+    from mars2d.scenario import Scenario
+
+__all__ = ["Capture", "Contest", "Outcome", "Teams"]
+
+Role = tuple[str, tuple[str | int, ...]]
+Teams = tuple[tuple[int, ...], tuple[int, ...]]
+"""The indices of the robots of the first role, in a pursuit the hunters, and of the second."""
+
+ROLES = "two roles, hunters first if there are any, as {'pursuer': ['red'], 'evader': ['blue']}"
+MARK = "#222222"
+"""The colour of what marks a robot that is out of the game."""
+
+
+class Capture(NamedTuple):
+    """One capture: when [s], and the indices of the robot that caught and of the caught one."""
+
+    time: float
+    hunter: int
+    evader: int
+
+
+class Outcome(NamedTuple):
+    """How a contest stands: its captures in order, each role's score, the role that won, or None.
+
+    In a pursuit the hunters' score is how many they have caught, that of the evaders how many are
+    free. In a ring, where nobody is captured, it is how many are still in it.
+    """
+
+    captures: tuple[Capture, ...]
+    score: dict[str, int]
+    winner: str | None
+
+    @property
+    def capture_time(self) -> float:
+        """When the last one was caught, seconds; nan where one is free, or nobody was caught."""
+        caught = bool(self.captures) and list(self.score.values())[1] == 0
+        return self.captures[-1].time if caught else float("nan")
+
+
+def _roles(name: str, value: object) -> tuple[Role, ...]:
+    """Check two roles with their robots, a dict or, as in a file, pairs; keep them as pairs."""
+    pairs = list(value.items()) if isinstance(value, Mapping) else value
+    if not isinstance(pairs, (list, tuple)) or len(pairs) != 2:
+        raise wrong(name, value, ROLES)
+    for pair in pairs:
+        if not isinstance(pair, (list, tuple)) or len(pair) != 2 or not isinstance(pair[0], str):
+            raise wrong(name, value, ROLES)
+    if pairs[0][0] == pairs[1][0]:
+        raise InputError(f"{name}: two roles are called {pairs[0][0]!r}")
+    return tuple((role, _robots(f"{name}[{role!r}]", robots)) for role, robots in pairs)
+
+
+def _robots(name: str, value: object) -> tuple[str | int, ...]:
+    expected = "a list of robots, by their names or indices, as ['red', 'blue']"
+    if not isinstance(value, (list, tuple, range)):
+        raise wrong(name, value, expected)
+    if not value:
+        raise wrong(name, value, f"{expected}; nobody has this role")
+    for item in value:
+        if isinstance(item, bool) or not isinstance(item, (str, int, np.integer)):
+            raise wrong(name, value, expected)
+    return tuple(item if isinstance(item, str) else int(item) for item in value)
+
+
+class Contest(Addon):
+    """The base of add-ons that say who has won: two roles, the robots of each, an outcome.
+
+    A tournament finds the roles that laws are played in by the one contest of its scenario.
+    """
+
+    roles: tuple[Role, ...] = entry(
+        check=_roles, kw_only=False,
+        doc="the robots of both roles by name or index, hunters first if there are any",
+    )  # fmt: skip
+
+    @abstractmethod
+    def outcome(self, record: Record) -> Outcome:
+        """Return captures, score and winner of a record, loaded or just made."""
+
+    def teams(self, scenario: Scenario) -> Teams:
+        """Return the indices of the first role's robots in a scenario, and of the second role's.
+
+        Raises InputError for a robot that is not there, or that stands in the roles twice.
+        """
+        names = [str(robot.name) for robot in scenario.robots]
+        taken: dict[int, str] = {}
+        teams = []
+        for role, robots in self.roles:
+            team = []
+            for robot in robots:
+                index = scenario.index_of(f"{type(self).__name__}.roles[{role!r}]", robot)
+                if index in taken:
+                    twice = f"is {taken[index]} and {role}"
+                    twice = f"stands twice as {role}" if taken[index] == role else twice
+                    raise InputError(f"{type(self).__name__}.roles: {names[index]} {twice}")
+                taken[index] = role
+                team.append(index)
+            teams.append(tuple(team))
+        return teams[0], teams[1]
+
+
+def mark(scene: Scene, frame: Frame, robot: int, label: str, above: bool) -> None:
+    """Cross out a robot, by its index, that is out of the game; write a label above or below it."""
+    arm = 1.25 * frame.scenario.robots[robot].radius
+    x, y = frame.pose[:2, robot].tolist()
+    scene.circle((x, y), arm, stroke=MARK, width=1.2)
+    scene.cross((x, y), arm, stroke=MARK, width=1.2)
+    place, lines = (y + arm, f"{label}\n") if above else (y - arm, f"\n{label}")
+    scene.text((x, place), lines, color=MARK, size=10.0, halo="#ffffff")

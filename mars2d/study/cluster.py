@@ -1,0 +1,108 @@
+"""Clusters: many machines that do tasks together, by Dask."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import warnings
+from collections.abc import Iterator
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import Any
+
+from mars2d.errors import InputError, MissingExtraError
+from mars2d.study.attempt import one_line
+
+__all__ = ["cluster"]
+
+PATIENCE = 5.0
+"""How long a scheduler may take to answer, seconds."""
+
+ALIKE = ("mars2d", "pymunk", "numpy")
+"""What must be of one version everywhere, so that a run comes to the same wherever it is done."""
+
+LOGGERS = ("distributed", "distributed.client", "tornado.application")
+
+
+@contextmanager
+def cluster(address: str) -> Iterator[Executor]:
+    """Connect to a Dask cluster by the address of its scheduler, as ``tcp://10.0.0.5:8786``.
+
+    Yields an executor for `each_done`. What the cluster runs when this ends is forgotten. Raises
+    MissingExtraError without Dask, InputError where no scheduler answers within `PATIENCE`, and
+    where a worker has another version of Python or of what is in `ALIKE`. Warns if there is no
+    worker yet: tasks wait for one.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise MissingExtraError(
+            f'{address}: a cluster needs Dask: pip install "mars2d[cluster]"'
+        ) from None
+    with _without_log():
+        _check_scheduler(address)
+        client = Client(address, timeout=PATIENCE, set_as_default=False)
+        try:
+            _check_workers(address, client.get_versions(packages=ALIKE))
+            yield client.get_executor(pure=False)
+        finally:
+            client.close(timeout=PATIENCE)
+
+
+def _check_scheduler(address: str) -> None:
+    """Raise InputError unless a scheduler is there."""
+    with ThreadPoolExecutor(1) as thread:  # a notebook has an event loop in this one
+        try:
+            kind = thread.submit(asyncio.run, _kind(address)).result()
+        except Exception as error:
+            raise InputError(
+                f"{address}: no Dask scheduler answers there ({one_line(error)}): expected its "
+                "address, as tcp://10.0.0.5:8786, which `dask scheduler` prints"
+            ) from error
+    if kind != "Scheduler":
+        raise InputError(f"{address}: a Dask {kind.lower()}; expected the address of its scheduler")
+
+
+async def _kind(address: str) -> str:
+    """Return what answers at an address: a Scheduler, a Worker, a Nanny."""
+    from distributed import Security
+    from distributed.core import rpc
+
+    arguments = Security().get_connection_args("client")
+    async with rpc(address, connection_args=arguments, timeout=PATIENCE) as there:
+        identity = await asyncio.wait_for(there.identity(), PATIENCE)
+    return str(identity["type"])
+
+
+def _check_workers(address: str, versions: dict[str, Any]) -> None:
+    """Raise InputError where a worker differs from this process; warn where there is none."""
+    here = _compared(versions["client"])
+    for worker, found in versions["workers"].items():
+        for name, there in _compared(found).items():
+            if there != here[name]:
+                raise InputError(
+                    f"{worker}, a worker of {address}: {name} {there or 'is not installed'}; "
+                    f"expected {here[name]}, as here: runs would not come to the same"
+                )
+    if not versions["workers"]:
+        warnings.warn(f"{address}: no worker yet: runs wait until there is one", stacklevel=4)
+
+
+def _compared(versions: dict[str, Any]) -> dict[str, str | None]:
+    packages = versions["packages"]
+    python = ".".join(str(packages["python"]).split(".")[:2])
+    return {"Python": python} | {name: packages[name] for name in ALIKE}
+
+
+@contextmanager
+def _without_log() -> Iterator[None]:
+    """Keep from the terminal what Dask tells itself: what matters is raised."""
+    loggers = [logging.getLogger(name) for name in LOGGERS]
+    before = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, before, strict=True):
+            logger.setLevel(level)

@@ -1,0 +1,310 @@
+"""Figures of studies: measures over a setting, each mean with its interval, each run a dot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.errors import InputError, counted
+from mars2d.output.figure import (
+    check_axes,
+    line_style,
+    new_figure,
+    plain_name,
+    save_drawing,
+    style_ticks,
+)
+from mars2d.output.panels import (
+    Entry,
+    caption,
+    finish,
+    name_curves,
+    say,
+    set_span,
+    short_number,
+)
+from mars2d.output.style import DASHES, Style, style_of
+from mars2d.study.estimates import Estimate, estimates
+from mars2d.study.layout import Layout, layout_of
+from mars2d.study.statistics import confident
+from mars2d.study.table import Table
+from mars2d.study.text import in_words
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["plot_study", "save_study_figure"]
+
+Float = NDArray[np.float64]
+
+MOST_DOTS = 400
+"""So many runs a point shows as dots at most; of more, every k-th."""
+
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+
+SIZE = 0.6
+"""Of a marker, in heights of small text."""
+
+HEIGHT = 1.5
+"""The height of a panel, in heights of a panel over time."""
+
+
+def plot_study(
+    table: Table,
+    axes: Sequence[Axes] | None = None,
+    *,
+    confidence: float = 0.95,
+    x: str | None = None,
+    style: str = "screen",
+) -> list[Axes]:
+    """Draw the measures of a study over a setting, one panel a mean or share; return the axes.
+
+    Means and shares have their intervals, of `confidence`; each run is a faint dot. The mean of
+    some runs alone, since others have no number, is hollow, and the panel below shows their share.
+    x: the setting along the axis, by default the first with several numbers; each combination of
+    the others is a line. axes: one for each panel, row by row; by default those of a new figure.
+    style: as in `Record.plot`. Raises InputError where there is nothing to draw, or too much.
+    """
+    look, confidence = style_of(style), confident(confidence)
+    shown = estimates(table, both=False)
+    if not table.results or not shown:
+        what = "measures" if table.results else "runs"
+        raise InputError(f"figure: the study of {table.experiment} has no {what}")
+    layout = layout_of(table.settings, table.points(), x)
+    with look.fonts():
+        grid = _grid(axes, shown, len(layout.columns), look)
+        for ax in grid.ravel():
+            _dress(ax, layout, look)
+        for row, estimate in zip(grid, shown, strict=True):
+            _draw(row, table, estimate, layout, look, confidence)
+            caption(row[0], estimate.label, "%" if estimate.share else estimate.unit, look)
+        for k, ax in enumerate(grid.ravel()):
+            if axes is not None or k >= grid.size - len(layout.columns):
+                _name_axis(ax, table, layout, k % len(layout.columns), look)
+            else:
+                ax.tick_params(labelbottom=False)
+            ax.tick_params(labelleft=axes is not None or not k % len(layout.columns))
+        title = f"{table.experiment}: means with {100 * confidence:.4g} % intervals"
+        if table.failed:
+            title += f", {counted(len(table.failed), 'run')} failed"
+        name_curves(
+            _above(grid, own=axes is None), title, _entries(table, shown, layout, look), look
+        )
+    return finish(list(grid.ravel()), own=axes is None)
+
+
+def save_study_figure(
+    table: Table,
+    path: str | Path,
+    *,
+    confidence: float = 0.95,
+    x: str | None = None,
+    style: str = "screen",
+) -> Path:
+    """Save the figure of `plot_study` as ``.png``, ``.pdf`` or ``.svg`` and return its path.
+
+    The same table gives the same bytes. Raises InputError as `plot_study`, for another suffix, and
+    where it can't be written.
+    """
+    look = style_of(style)
+
+    def draw() -> Any:
+        return plot_study(table, confidence=confidence, x=x, style=style)[0].figure
+
+    return save_drawing(draw, path, trim=look.trim, dpi=look.dpi)
+
+
+# -- panels ----------------------------------------------------------------------------------------
+
+
+def _grid(
+    axes: Sequence[Axes] | None, shown: Sequence[Estimate], wide: int, look: Style
+) -> NDArray[Any]:
+    """Return the axes of panels, (estimates, columns): those given, or those of a new figure."""
+    tall = len(shown)
+    if axes is not None:
+        given = np.ravel(np.asarray(axes, dtype=object))
+        for ax in given:
+            check_axes(ax)
+        if len(given) != tall * wide:
+            names = ", ".join(estimate.label for estimate in shown)
+            beside = f" x {wide} side by side" if wide > 1 else ""
+            panels = f"{counted(tall, 'panel')} ({names}){beside}"
+            raise InputError(f"axes: {len(given)} of them, for {panels}: one for each")
+        return given.reshape(tall, wide)
+    width = (look.single if wide == 1 else look.full) or (7.0 if wide == 1 else 2.5 * wide + 2.5)
+    height = tall * HEIGHT * look.panel + 0.09 * look.label
+    figure = new_figure(*(look.page or (width, height)))
+    return figure.subplots(tall, wide, sharex=True, sharey="row", squeeze=False)
+
+
+def _above(grid: NDArray[Any], *, own: bool) -> Axes:
+    """Return the axes above which title and legend stand: of panels side by side, as wide as all.
+
+    Those of panels that were given are the first alone: what is above the others is not ours.
+    """
+    first: Axes = grid[0, 0]
+    if grid.shape[1] == 1 or not own:
+        return first
+    place = first.get_gridspec()
+    assert place is not None  # they are those of `figure.subplots`
+    wide = first.figure.add_subplot(place[0, :])
+    wide.set_axis_off()
+    return wide
+
+
+def _draw(
+    row: Sequence[Axes],
+    table: Table,
+    estimate: Estimate,
+    layout: Layout,
+    look: Style,
+    confidence: float,
+) -> None:
+    """Draw an estimate into its panels, which share their limits."""
+    points, spans = table.points(), [np.empty(0)]
+    for ax, (_, lines) in zip(row, layout.columns, strict=True):
+        for name, line in lines.items():
+            entry = _entry(layout, name, look)
+            places = np.array([layout.place(point, name) for point in line])
+            runs = [estimate.values(points[point]) for point in line]
+            if not estimate.share:
+                spans += [_dots(ax, places, runs, entry, look)]
+            spans += [_means(ax, places, runs, entry, estimate, layout, look, confidence)]
+    seen = np.concatenate(spans)
+    seen = seen[np.isfinite(seen)]
+    for ax in row:
+        if estimate.share:
+            ax.set_ylim(-6, 106)
+        else:
+            set_span(ax, *((seen.min(), seen.max()) if len(seen) else (0.0, 1.0)))
+        if not len(seen):
+            ax.set_yticks([])
+            say(ax, "nothing was measured", look)
+
+
+def _dots(ax: Axes, places: Float, runs: Sequence[Float], entry: Entry, look: Style) -> Float:
+    """Draw each run as a dot, and return their values."""
+    for place, values in zip(places, runs, strict=True):
+        kept = values[np.isfinite(values)]
+        kept = kept[:: -(-len(kept) // MOST_DOTS) or 1]
+        ax.plot(
+            np.full(len(kept), place), kept, linestyle="none", marker="o", color=entry.color,
+            markersize=0.35 * look.small, markeredgewidth=0, alpha=0.22, zorder=2.2,
+        )  # fmt: skip
+    return np.concatenate(runs)
+
+
+def _means(
+    ax: Axes,
+    places: Float,
+    runs: Sequence[Float],
+    entry: Entry,
+    estimate: Estimate,
+    layout: Layout,
+    look: Style,
+    confidence: float,
+) -> Float:
+    """Draw means or shares with their intervals, and return the bounds."""
+    scale = 100.0 if estimate.share else 1.0
+    found = [estimate.interval(values, confidence) for values in runs]
+    mean, low, high = (
+        scale * np.array([getattr(each, part) for each in found])
+        for part in ("mean", "low", "high")
+    )
+    joined = np.isfinite(mean)
+    ax.errorbar(
+        places, mean, np.nan_to_num([mean - low, high - mean]), linestyle="none",
+        color=entry.color, elinewidth=0.9 * entry.width, capsize=0.35 * look.small,
+        capthick=0.9 * entry.width, zorder=3,
+    )  # fmt: skip
+    if layout.numeric:
+        order = np.argsort(places[joined])
+        ax.plot(
+            places[joined][order], mean[joined][order], color=entry.color,
+            linestyle=line_style(entry.dash), linewidth=entry.width, alpha=0.6, zorder=2.8,
+        )  # fmt: skip
+    for place, value, each, values in zip(places, mean, found, runs, strict=True):
+        hollow = estimate.some and each.count < len(values)
+        ax.plot(
+            [place], [value], linestyle="none", marker=entry.marker, color=entry.color,
+            markerfacecolor="white" if hollow else entry.color, markersize=SIZE * look.small,
+            markeredgewidth=entry.width, zorder=3.2, clip_on=False,
+        )  # fmt: skip
+    return np.concatenate([mean, low, high])
+
+
+def _dress(ax: Axes, layout: Layout, look: Style) -> None:
+    """Set the scale, limits and ticks of the axis, grid and spines."""
+    from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+
+    tall = ax.get_window_extent().height * 72 / ax.figure.dpi  # points
+
+    if layout.logarithmic:
+        ax.set_xscale("log")
+        ax.xaxis.set_minor_locator(NullLocator())
+    ax.set_xlim(*layout.limits())
+    if layout.roomy():
+        scaled = layout.scaled()
+        ticks = 10**scaled if layout.logarithmic else scaled
+        ax.xaxis.set_major_locator(FixedLocator(ticks.tolist()))
+        ax.set_xticklabels([plain_name(in_words(v)) for v in layout.values] or [""])
+        for text in ax.get_xticklabels():
+            text.set_parse_math(False)
+    else:
+        ax.xaxis.set_major_formatter(FuncFormatter(short_number))
+    ax.yaxis.set_major_locator(
+        MaxNLocator(
+            nbins=int(np.clip(tall / (2.4 * look.small), 2, 5)),
+            steps=[1, 2, 2.5, 5, 10],
+            min_n_ticks=2,
+        )
+    )
+    ax.yaxis.set_major_formatter(FuncFormatter(short_number))
+    ax.set_facecolor("white")
+    ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
+    ax.set_axisbelow(True)
+    style_ticks(ax, look)
+    ax.spines[:].set(color=look.line, linewidth=0.8 * look.stroke)
+    ax.spines[["top", "right"]].set_visible(False)
+
+
+def _name_axis(ax: Axes, table: Table, layout: Layout, column: int, look: Style) -> None:
+    """Say below a panel what its axis is, and what it differs in from those beside it."""
+    name = table.settings[layout.axis] if layout.axis is not None else "all runs"
+    title = layout.columns[column][0]
+    text = "\n".join(filter(None, [name, title]))
+    ax.set_xlabel(text, color=look.ink, fontsize=look.label, parse_math=False)
+
+
+# -- lines -----------------------------------------------------------------------------------------
+
+
+def _entry(layout: Layout, name: str, look: Style) -> Entry:
+    """Return how a line looks: colour, line style and marker, any of which tells it apart."""
+    index = layout.lines.index(name)
+    color, dash = look.curve(index)
+    if not look.greys:
+        dash = DASHES[index % len(DASHES)]
+    return Entry(name, color, dash, 1.3 * look.stroke, MARKERS[index % len(MARKERS)])
+
+
+def _entries(table: Table, shown: Sequence[Estimate], layout: Layout, look: Style) -> list[Entry]:
+    """Return what the legend names: lines, if there are several, and what hollow means."""
+    entries = []
+    if len(layout.lines) > 1:
+        entries = [_entry(layout, name, look) for name in layout.lines]
+        if not layout.numeric:
+            entries = [entry._replace(dash="") for entry in entries]
+    width = 1.3 * look.stroke
+    entries = [each._replace(name=plain_name(each.name)) for each in entries]
+    means = [estimate for estimate in shown if estimate.some]
+    runs = [estimate.values(each) for estimate in means for each in table.points().values()]
+    if any(0 < np.isfinite(values).sum() < len(values) for values in runs):
+        hollow = Entry("mean of some runs alone", look.muted, "", width, "o", hollow=True)
+        entries.append(hollow)
+    return entries

@@ -1,0 +1,250 @@
+"""The process that an isolated law runs in: it is told of the world, and answers with commands."""
+
+from __future__ import annotations
+
+import contextlib
+import faulthandler
+import io
+import json
+import os
+import pickle
+import random
+import socket
+import struct
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+
+from mars2d.control import Law, robot_command
+from mars2d.errors import Mars2dError, described
+from mars2d.files import law_in
+from mars2d.study.isolation.briefing import Briefing
+from mars2d.study.isolation.frames import (
+    ANSWER,
+    COMMANDS,
+    FAULT,
+    LINE,
+    READY,
+    WANTED,
+    Reader,
+    framed,
+)
+from mars2d.study.isolation.limits import MB
+from mars2d.study.isolation.mirror import Mirror
+from mars2d.usercode import users_line
+
+__all__ = ["CUT_OFF", "main"]
+
+CUT_OFF = 70
+"""The exit code of a process whose law has closed the connection to the match."""
+
+LATE = 0.6
+"""After this share of its time a law is late: the line is told where it is."""
+
+RESERVE = 64 * MB
+"""How much more memory there is for saying that there is no more."""
+
+
+def main(channel: socket.socket, output: socket.socket) -> NoReturn:
+    """Serve one match and end the process.
+
+    channel: to the match. output: takes what is printed.
+    """
+    code = CUT_OFF
+    try:
+        _redirect(output)
+        Host(channel).serve()
+        code = 0
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        os._exit(code)  # whatever the law has left behind: threads, handlers, functions at exit
+
+
+def _redirect(output: socket.socket) -> None:
+    """Let the standard input be empty, and all that is printed go to the match."""
+    with Path(os.devnull).open("rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
+    for descriptor in (1, 2):
+        os.dup2(output.fileno(), descriptor)
+    output.close()
+    sys.stdin = Path(os.devnull).open(encoding="utf-8")  # noqa: SIM115 - for as long as it runs
+    faulthandler.enable(2)
+
+
+class _Printed(io.TextIOWrapper):
+    """A standard stream that counts what is written, so that a flood ends at the same print."""
+
+    total, most = 0, 0
+    """Bytes, of all streams."""
+
+    def __init__(self, descriptor: int, host: Host) -> None:
+        raw = io.FileIO(descriptor, "w", closefd=False)
+        super().__init__(io.BufferedWriter(raw), "utf-8", "backslashreplace")
+        self._host = host
+
+    def write(self, text: str) -> int:
+        _Printed.total += len(text.encode("utf-8", "backslashreplace"))
+        if _Printed.total > _Printed.most:
+            stack = traceback.extract_stack()
+            self._host.fail("output", users_line(stack), f"printed more than {_Printed.most} bytes")
+            threading.Event().wait()  # for its end
+        written = super().write(text)
+        self.flush()
+        return written
+
+
+class Host:
+    """Runs the law of one role for its robots."""
+
+    def __init__(self, channel: socket.socket) -> None:
+        """Take the connection to the match."""
+        self._channel = channel
+        self._frames = Reader(2**32)
+        self._writing = threading.Lock()
+        self._thinking: tuple[float, float] | None = None  # since when, and how long it may
+        os.register_at_fork(after_in_child=channel.close)  # what a law forks does not answer
+
+    def serve(self) -> None:
+        """Load the law, then answer each control step, until the match is over."""
+        briefing: Briefing = pickle.loads(self._next()[1])
+        limits = briefing.limits
+        os.chdir(briefing.folder)
+        random.seed(briefing.chance)
+        np.random.seed(briefing.chance)  # noqa: NPY002 - laws that draw from it
+        _Printed.most = int(limits.output * MB)
+        printed = _Printed(1, self), _Printed(2, self)
+        for name, stream in zip(("stdout", "stderr"), printed, strict=True):
+            setattr(sys, name, stream)
+            setattr(sys, f"__{name}__", stream)
+        pause = min(limits.tick, limits.start) * LATE / 4
+        threading.Thread(target=self._tell_line, args=(pause,), daemon=True).start()
+        _limit_memory(int(limits.memory * MB))
+        self._thinking = time.monotonic(), limits.start
+        mirror = Mirror(briefing, self._velocities)
+        try:
+            laws = [Law(law_in(briefing.file, "control"), view) for view in mirror.mine]
+        except BaseException as error:
+            self._blame("start", error, briefing.file.name)
+            return
+        self._answer(READY, b"")
+        while True:
+            frame = self._next()
+            self._thinking = time.monotonic(), limits.tick
+            mirror.show(*frame)
+            commands = self._commands(laws)
+            if commands is None:
+                return
+            self._answer(
+                COMMANDS, ANSWER.pack(mirror.iteration) + commands + mirror.taken_letters()
+            )
+
+    def _velocities(self) -> tuple[bytes, bytes]:
+        """Return the frame of the present control step with velocities, and so from now on."""
+        with self._writing:
+            self._channel.sendall(framed(WANTED, b""))
+        return self._next()
+
+    def _commands(self, laws: Sequence[Law]) -> bytes | None:
+        """Return the commands of all robots, two numbers each; None after a fault that was told."""
+        asked = b""
+        for law in laws:
+            kind = "error"
+            try:
+                command: Any = law.command()
+                kind = "command"
+                asked += struct.pack("<2d", *robot_command(law, command))
+            except BaseException as error:
+                self._blame(kind, error, None)
+                return None
+        return asked
+
+    def _blame(self, kind: str, error: BaseException, file: str | None) -> None:
+        """Tell what was raised while the law was loaded or asked."""
+        place = users_line(traceback.extract_tb(error.__traceback__)) or file
+        if _wants_memory(error):
+            kind = "memory"
+            _more_memory()
+        try:
+            if isinstance(error, Mars2dError):
+                place, text = error.where or place, str(error.args[0] if error.args else error)
+            else:
+                text = f"raised {described(error)}"
+        except BaseException as worse:  # of its __str__
+            text = f"raised {type(error).__name__}, whose text raises {type(worse).__name__}"
+        self.fail(kind, place, text)
+
+    def fail(self, kind: str, place: str | None, text: str) -> None:
+        """Tell the match what the law has done."""
+        fault = {"kind": kind, "where": place, "text": " ".join(text.split())[:2000]}
+        self._answer(FAULT, json.dumps(fault).encode())
+        with contextlib.suppress(EOFError):
+            self._next()  # which is the end
+
+    def _tell_line(self, pause: float) -> None:
+        """Tell, in a thread of its own, at which line a law is that takes long."""
+        main = threading.main_thread().ident or 0
+        told = None
+        while True:
+            time.sleep(pause)
+            thinking = self._thinking
+            if thinking is None or thinking == told:
+                continue
+            since, allowed = thinking
+            if time.monotonic() - since < LATE * allowed:
+                continue
+            told = thinking
+            with contextlib.suppress(Exception), self._writing:
+                place = users_line(traceback.extract_stack(sys._current_frames()[main]))
+                if place is not None and self._thinking is thinking:
+                    self._channel.sendall(framed(LINE, json.dumps(place).encode()))
+
+    def _answer(self, kind: bytes, body: bytes) -> None:
+        self._thinking = None
+        with self._writing:
+            self._channel.sendall(framed(kind, body))
+
+    def _next(self) -> tuple[bytes, bytes]:
+        """Return the kind and body of the next frame. Raises EOFError when the match is over."""
+        while True:
+            piece = self._channel.recv(1 << 12)
+            if not piece:
+                raise EOFError
+            for frame in self._frames.read(piece):
+                return frame
+
+
+def _limit_memory(more: int) -> None:
+    """Let this process take so many bytes more than now, where the system can enforce it."""
+    if sys.platform != "linux":
+        return
+    import resource
+
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    now = pages * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (now + more, now + more + RESERVE))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def _more_memory() -> None:
+    """Take the reserve, so that there is memory for saying that there was none."""
+    if sys.platform == "linux":
+        import resource
+
+        most = resource.getrlimit(resource.RLIMIT_AS)[1]
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def _wants_memory(error: BaseException | None) -> bool:
+    """Return whether an error is, or comes of, one that there is no memory."""
+    while error is not None:
+        if isinstance(error, MemoryError):
+            return True
+        error = error.__cause__
+    return False

@@ -1,0 +1,147 @@
+"""The layout of a study's figure: which setting is the axis, which make lines, which panels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import prod
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.errors import InputError, nearest
+from mars2d.study.text import Point, in_words
+
+__all__ = ["Layout", "layout_of"]
+
+Float = NDArray[np.float64]
+
+MOST_LINES, MOST_COLUMNS = 8, 6
+"""So many lines a panel has at most, and so many panels stand side by side."""
+
+DODGE, SPREAD = 0.024, 0.5
+"""How far apart lines are at the same value, so that no interval covers another: as a share of the
+axis, and all of them at most as a share of the gap between two values."""
+
+Line = tuple[Point, ...]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """What goes where in the figure of a study.
+
+    axis: the place in a point of the setting along the axis, or None where none varies; values:
+    what it has. columns: panels side by side, each with its title and its lines by their names.
+    """
+
+    axis: int | None
+    values: tuple[Any, ...]
+    columns: tuple[tuple[str, dict[str, Line]], ...]
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """The names of all lines, each once."""
+        return tuple(dict.fromkeys(name for _, lines in self.columns for name in lines))
+
+    @property
+    def numeric(self) -> bool:
+        """Whether the axis is one of numbers; else one of words, evenly spaced."""
+        return self.axis is not None and all(map(_is_number, self.values))
+
+    @property
+    def logarithmic(self) -> bool:
+        """Whether the numbers are more evenly spaced by their ratios, as 4, 8, 16."""
+        if not self.numeric or len(self.values) < 3 or min(self.values) <= 0:
+            return False
+        steps = [np.diff(np.sort(f(np.array(self.values, dtype=float)))) for f in (_same, np.log)]
+        even, even_ratio = (float(each.std() / each.mean()) for each in steps)
+        return even_ratio < 0.9 * even
+
+    def scaled(self) -> Float:
+        """Return where the values lie along the axis, (k,), on a scale that is even."""
+        if not self.numeric:
+            return np.arange(max(1, len(self.values)), dtype=float)
+        values = np.array(self.values, dtype=float)
+        return np.log10(values) if self.logarithmic else values
+
+    def place(self, point: Point, line: str) -> float:
+        """Return where a point of a line is drawn: at its value, but for the dodge."""
+        scaled, count = self.scaled(), len(self.lines)
+        k = self.values.index(point[self.axis]) if self.axis is not None else 0
+        gap = float(np.diff(np.sort(scaled)).min()) if len(scaled) > 1 else 1.0
+        dodge = min(SPREAD * gap / count, DODGE * (float(np.ptp(scaled)) or 5.0))
+        moved = scaled[k] + (self.lines.index(line) - (count - 1) / 2) * dodge
+        return float(10**moved if self.logarithmic else moved)
+
+    def limits(self) -> tuple[float, float]:
+        """Return the ends of the axis."""
+        scaled = self.scaled()
+        low, high = float(scaled.min()), float(scaled.max())
+        margin = 0.07 * (high - low) if self.numeric and high > low else 0.5
+        ends = low - margin, high + margin
+        return (10 ** ends[0], 10 ** ends[1]) if self.logarithmic else ends
+
+    def roomy(self) -> bool:
+        """Whether each value can have a tick of its own."""
+        scaled = np.sort(self.scaled())
+        gaps = np.diff(scaled) / (float(np.ptp(scaled)) or 1.0)
+        return len(scaled) < 2 or (len(scaled) <= 10 and float(gaps.min()) > 0.05)
+
+
+def _same(values: Float) -> Float:
+    return values
+
+
+def layout_of(settings: Sequence[str], points: Iterable[Point], x: str | None = None) -> Layout:
+    """Return the layout for the points of a study.
+
+    x: the setting along the axis; by default the first with several numbers, else with several
+    values. Raises InputError for another one, and for more points than a figure can show: so it can
+    be asked before hours of runs.
+    """
+    every = list(points)
+    values = [tuple(dict.fromkeys(column)) for column in zip(*every, strict=True)]
+    several = [k for k, found in enumerate(values) if len(found) > 1]
+    if x is not None and x not in settings:
+        raise InputError(f"figure: x = {x!r}: there is no such setting{nearest(x, settings)}")
+    numeric = [k for k in several if all(map(_is_number, values[k]))]
+    axis = list(settings).index(x) if x is not None else next(iter([*numeric, *several]), None)
+    others = [k for k in several if k != axis]
+    beside = _beside(others, settings, values)
+    inside = [k for k in others if k != beside]
+    columns = []
+    for value in values[beside] if beside is not None else [None]:
+        lines: dict[str, list[Point]] = {}
+        for point in every:
+            if beside is None or point[beside] == value:
+                name = ", ".join(f"{settings[k]} = {in_words(point[k])}" for k in inside)
+                lines.setdefault(name, []).append(point)
+        title = "" if beside is None else f"{settings[beside]} = {in_words(value)}"
+        columns.append((title, {name: tuple(line) for name, line in lines.items()}))
+    return Layout(axis, values[axis] if axis is not None else (), tuple(columns))
+
+
+def _beside(
+    others: Sequence[int], settings: Sequence[str], values: Sequence[Sequence[Any]]
+) -> int | None:
+    """Return the setting that panels side by side differ in, if one panel had too many lines."""
+    if prod(len(values[k]) for k in others) <= MOST_LINES:
+        return None
+    fits = [
+        k
+        for k in others
+        if len(values[k]) <= MOST_COLUMNS
+        and prod(len(values[j]) for j in others if j != k) <= MOST_LINES
+    ]
+    if fits:
+        return min(fits, key=lambda k: len(values[k]))
+    sizes = " x ".join(f"{len(values[k])} of {settings[k]}" for k in others)
+    raise InputError(
+        f"figure: {sizes} are too many lines: at most {MOST_LINES} in a panel and {MOST_COLUMNS} "
+        f"panels side by side; draw fewer values, or another setting along the axis"
+    )
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -1,0 +1,226 @@
+"""Measures: what a run came to, as one number or one word."""
+
+from __future__ import annotations
+
+import inspect
+import math
+import numbers
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mars2d.addons.contest import Contest, Outcome
+from mars2d.errors import InputError, LawError, nearest, shown
+from mars2d.usercode import called, definition
+
+if TYPE_CHECKING:
+    from mars2d.record import Record
+    from mars2d.scenario import Scenario
+
+__all__ = ["UNITS", "Measure", "measure_named", "measured", "measures"]
+
+Measure = Callable[["Record"], Any]
+
+LONGEST = 80
+"""The letters of a word at most: it stands in one cell of a table."""
+
+EXPECTED = "expected a number, a word, or None where there is nothing to measure"
+
+
+# -- those built in --------------------------------------------------------------------------------
+
+
+def capture_time(record: Record) -> float | None:
+    """When the last evader of its contest was caught, seconds; nothing where one stayed free."""
+    time = _outcome("capture_time", record).capture_time
+    return None if math.isnan(time) else time
+
+
+def winner(record: Record) -> str | None:
+    """The role that won its contest, a word; nothing where it stayed undecided."""
+    return _outcome("winner", record).winner
+
+
+def end_time(record: Record) -> float | None:
+    """When the run ended, seconds."""
+    return float(record.time[-1]) if len(record) else None
+
+
+def collisions(record: Record) -> int:
+    """How many times two bodies came to touch."""
+    return record.collisions
+
+
+def path_length(record: Record) -> float | None:
+    """How far the robots drove, metres: the mean over the robots."""
+    if not len(record):
+        return None
+    from mars2d.output.columns import signals
+
+    (speed,) = signals(record, ["speed"], None)
+    driven = np.nansum(speed.values, axis=0) * record.scenario.sampling_time
+    return float(driven.mean())
+
+
+def least_clearance(record: Record) -> float | None:
+    """The least gap between a robot and another body, metres; 0 in touch, nothing if alone."""
+    if not len(record):
+        return None
+    from mars2d.output.distances import clearances
+
+    gaps = clearances(record).pair
+    return float(gaps.min()) if gaps.size else None
+
+
+def final_spread(record: Record) -> float | None:
+    """How far the robots are from their common centre at the end, metres: root mean square."""
+    if not len(record):
+        return None
+    place = record.pose[-1, :2]
+    apart = place - place.mean(axis=1, keepdims=True)
+    return float(np.sqrt((apart**2).sum(axis=0).mean()))
+
+
+def effort(record: Record) -> float | None:
+    """How much of their bounds the drives used, from 0 to 1: the mean over robots and time."""
+    return float(record.effort[1:].mean()) if len(record) > 1 else None
+
+
+def _outcome(measure: str, record: Record) -> Outcome:
+    return _contest(measure, record.scenario).outcome(record)
+
+
+def _contest(measure: str, scenario: Scenario) -> Contest:
+    """Return a scenario's contest; raise InputError where there is none, or more than one."""
+    contests = [addon for addon in scenario.addons if isinstance(addon, Contest)]
+    if len(contests) != 1:
+        found = f"{len(contests)} contests" if contests else "no contest"
+        raise InputError(
+            f"measure {measure!r}: the scenario has {found}: it needs one add-on as Game, which "
+            f"says who has won"
+        )
+    return contests[0]
+
+
+BUILT_IN: dict[str, Measure] = {
+    measure.__name__: measure
+    for measure in (
+        capture_time, winner, end_time, collisions, path_length, least_clearance, final_spread,
+        effort,
+    )
+}  # fmt: skip
+
+OF_CONTESTS = frozenset({"capture_time", "winner"})
+
+UNITS = {
+    "capture_time": "s",
+    "end_time": "s",
+    "path_length": "m",
+    "least_clearance": "m",
+    "final_spread": "m",
+}
+"""The units of those built in that have one."""
+
+
+# -- all of them, by name --------------------------------------------------------------------------
+
+
+def measures() -> dict[str, str]:
+    """Return what each measure built in tells, by its name, in one line."""
+    return {
+        name: (inspect.getdoc(made) or "").partition("\n")[0] for name, made in BUILT_IN.items()
+    }
+
+
+def measure_named(
+    name: str, functions: Mapping[str, Callable[..., Any]], scenario: Scenario | None = None
+) -> Measure:
+    """Return a measure by name: a function of the experiment's file, or else one built in.
+
+    functions: the public functions of the file, by name; one of them is a measure if it can be
+    called with a record alone. scenario: if given, it is asked whether it has what a measure built
+    in needs. Raises InputError, with the nearest name.
+    """
+    own = functions.get(name)
+    if own is not None and name not in ("scenario", "control", "checks"):
+        if not _takes_one(own):
+            raise InputError(
+                f"measure {name!r}: {name}{inspect.signature(own)} is no measure: expected a "
+                f"function of the record alone, as {name}(record)"
+            )
+        return own
+    if name not in BUILT_IN:
+        more = [key for key, function in functions.items() if _takes_one(function)]
+        others = {*more} - {"scenario", "control", "checks"}
+        known = nearest(name, [*BUILT_IN, *others], most=20)
+        raise InputError(f"there is no measure {name!r}{known}")
+    if scenario is not None and name in OF_CONTESTS:
+        _contest(name, scenario)
+    return BUILT_IN[name]
+
+
+def _takes_one(function: Callable[..., Any]) -> bool:
+    try:
+        inspect.signature(function).bind(None)
+    except TypeError:
+        return False
+    return True
+
+
+def measured(name: str, function: Measure, record: Record) -> float | str | None:
+    """Return what a measure makes of a record: a number, a word, or None.
+
+    Truth values count as 1 and 0, NaN as None; an infinity stays one. Raises LawError, which points
+    at file and line, where a function of the user's raises or returns anything else; InputError
+    where one built in can't be had.
+    """
+    if function is BUILT_IN.get(name):
+        return _plain(function(record))
+    with called(name, function):
+        value = function(record)
+    try:
+        return _plain(value)
+    except InputError as error:
+        refused = LawError(f"{name} returned {shown(value)}: {error}")
+        refused.where = definition(function)
+        raise refused from None
+
+
+def _plain(value: Any) -> float | str | None:
+    """Return a number as Python's own, or a word; raise InputError for anything else."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
+    if value is None:
+        return None
+    if isinstance(value, str):
+        return _word(value)
+    if isinstance(value, (numbers.Integral, np.bool_)):
+        return _whole(int(value))
+    if isinstance(value, numbers.Real):
+        number = _whole(value)
+        return None if math.isnan(number) else number
+    raise InputError(EXPECTED)
+
+
+def _whole(value: Any) -> float:
+    """Return an integer as it is and anything else as a float, if it is one."""
+    try:
+        number = float(value)
+    except (OverflowError, TypeError, ValueError):
+        raise InputError(f"{EXPECTED}; this one is beyond a float") from None
+    return int(value) if isinstance(value, int) and number == value else number
+
+
+def _word(value: str) -> str:
+    """Return a word that a table keeps as it is: no number, one line, not too long."""
+    word = " ".join(value.split())
+    if not word:
+        raise InputError("expected a word with letters, or None where there is nothing to measure")
+    if len(word) > LONGEST:
+        raise InputError(f"expected a word of at most {LONGEST} letters")
+    try:
+        float(word)
+    except ValueError:
+        return word
+    raise InputError("a word that reads as a number; return the number itself")

@@ -1,0 +1,256 @@
+"""Running a study: its rows are made, and written as they come."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Callable, Generator, Iterator
+from concurrent.futures import Executor
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import cast
+
+from mars2d.errors import InputError, Mars2dError, nearest
+from mars2d.interrupt import noted_interrupts
+from mars2d.progress import Progress
+from mars2d.study.code import code_of
+from mars2d.study.one import One, opened, run_one
+from mars2d.study.plan import cell, cells_of
+from mars2d.study.prepare import Study
+from mars2d.study.results import Results, another, save_table
+from mars2d.study.table import Result, Table
+from mars2d.study.work import Failure, each_done, worker_count
+
+__all__ = ["StudyInterrupted", "run_study"]
+
+Key = tuple[tuple[str, ...], int]
+"""What tells the runs of a study apart: the cells of its settings, and the seed."""
+
+
+class StudyInterrupted(KeyboardInterrupt):
+    """Ctrl-C during a study; `table` holds the runs that were done until then."""
+
+    def __init__(self, message: str, table: Table) -> None:
+        super().__init__(message)
+        self.table = table
+
+
+def run_study(
+    study: Study,
+    out: Path | None = None,
+    *,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    retry: bool = False,
+    show_progress: bool = True,
+) -> Table:
+    """Make the rows of a study, but those that its file `out` holds, and return them all in order.
+
+    executor, workers, retry, show_progress: see `mars2d.sweep`. Raises InputError for a file of
+    another study, and where a file of the experiment changes meanwhile; StudyInterrupted.
+    """
+    if executor is None:
+        worker_count(workers)
+    if out is not None and out.suffix.lower() != ".csv":
+        raise InputError(f"{out}: expected a name that ends in .csv")
+    with _kept(study, out, retry) as (known, keep):
+        run = _Run(study, known)
+        try:
+            todo = run.results(executor, workers, show_progress)
+            with noted_interrupts() as check, closing(todo) as results:
+                for result in results:
+                    keep(result)
+                    check()
+        except KeyboardInterrupt:
+            table = run.table()
+            where = "were made" if out is None else f"are in {out}; the same command goes on"
+            said = f"{len(table)} of {len(study.plan)} runs {where}"
+            raise StudyInterrupted(said, table) from None
+    table = run.table()
+    if out is not None:
+        save_table(table, out)
+    return table
+
+
+def _table(study: Study, rows: dict[int, Result]) -> Table:
+    """Return the table of a study with some of its rows, in order."""
+    results = tuple(result for _, result in sorted(rows.items()))
+    return Table(study.title, tuple(study.plan.settings), study.measures, results)
+
+
+@contextmanager
+def _kept(
+    study: Study, out: Path | None, retry: bool
+) -> Iterator[tuple[dict[int, Result], Callable[[Result], None]]]:
+    """Yield the rows that are there already, by their numbers, and what keeps one more.
+
+    The file has these rows, with these numbers, before one more is added.
+    """
+    if out is None:
+        yield {}, lambda _: None
+        return
+    blank = _table(study, {})
+    with Results(out, blank) as file:
+        rows = _rows_of(study, file.known, out)
+    if retry:
+        rows = {row: result for row, result in rows.items() if not result.error}
+    if tuple(rows.values()) != file.known:
+        save_table(_table(study, rows), out)
+    with Results(out, blank) as file:
+        yield rows, file.add
+
+
+def _rows_of(study: Study, known: tuple[Result, ...], out: Path) -> dict[int, Result]:
+    """Return the rows of a file by their numbers in a study; refuse those of another one."""
+    places = {
+        (cells_of(options), seed): row for row, (options, seed) in enumerate(study.plan.runs(), 1)
+    }
+    rows = {}
+    for result in known:
+        row = places.get((cells_of(result.options), result.seed))
+        if row is None:
+            raise another(out, _difference(study, result))
+        rows[row] = dataclasses.replace(result, row=row)
+    for row in _one_of_each(rows):
+        _refuse_other_code(study, rows[row], out)
+    return rows
+
+
+def _difference(study: Study, result: Result) -> str:
+    """Return why a row is not of a study: a value or a seed that is not in its plan."""
+    for name, values in study.plan.settings.items():
+        value, known = cell(result.options[name]), [*map(cell, values)]
+        if value not in known:
+            return f"it has {name} = {value}, which this one has not{nearest(value, known, 1.0)}"
+    return f"it has the seed {result.seed}, which this one has not: seeds may only become more"
+
+
+def _one_of_each(rows: dict[int, Result]) -> Iterator[int]:
+    """Yield rows in which each code and value is found together."""
+    seen: set[tuple[str, str, str]] = set()
+    for row, result in sorted(rows.items()):
+        pairs = {(result.code, name, cell(value)) for name, value in result.options.items()}
+        pairs.add((result.code, "", ""))
+        if result.code and not pairs <= seen:
+            seen |= pairs
+            yield row
+
+
+def _refuse_other_code(study: Study, result: Result, out: Path) -> None:
+    """Refuse a row whose experiment has changed since."""
+    point = cells_of(result.options)
+    code = study.codes.get(point)
+    if code is None:
+        one = dataclasses.replace(study.blank, options=result.options, seed=result.seed)
+        try:
+            code = code_of(opened(one), one.code)
+        except Mars2dError:
+            code = "none"
+        study.codes[point] = code
+    if code != result.code:
+        raise another(
+            out,
+            f"{study.title}, what it reads, or MARS2D has changed since row {result.row} was made",
+        )
+
+
+class _Run:
+    """The rows that a study has by now."""
+
+    def __init__(self, study: Study, known: dict[int, Result]) -> None:
+        self._study, self._rows = study, known
+
+    def table(self) -> Table:
+        """Return the rows in order."""
+        return _table(self._study, self._rows)
+
+    def results(
+        self, executor: Executor | None, workers: int | None, show_progress: bool
+    ) -> Generator[Result, None, None]:
+        """Make those that are missing; yield each as it comes."""
+        todo = [one for one in self._ones() if one.row not in self._rows]
+        if not todo:
+            return
+        progress = _Bar(len(self._study.plan), self._rows) if show_progress else None
+        try:
+            made_by = each_done(run_one, todo, executor, workers)
+            with closing(cast("Generator[tuple[int, Result | Failure]]", made_by)) as done:
+                for index, made in done:
+                    result = _result(todo[index], made, self._study)
+                    self._refuse_changed(result)
+                    self._rows[result.row] = result
+                    if progress is not None:
+                        progress.add(result)
+                    yield result
+        finally:
+            if progress is not None:
+                progress.close()
+
+    def _ones(self) -> Iterator[One]:
+        for row, (options, seed) in enumerate(self._study.plan.runs(), 1):
+            yield dataclasses.replace(self._study.blank, row=row, options=options, seed=seed)
+
+    def _refuse_changed(self, result: Result) -> None:
+        """Refuse a row that was made after a file of the experiment has changed."""
+        study = self._study
+        file = study.watched.changed()
+        if file is not None:
+            raise InputError(
+                f"{file} has changed while the study was running: put it back and go on, or begin "
+                "another study, with another --out"
+            )
+        if result.code:
+            code = study.codes.setdefault(cells_of(result.options), result.code)
+            if code != result.code:
+                raise InputError(
+                    f"row {result.row}: the experiment's files were others where it was run than "
+                    "where other rows of its point were"
+                )
+
+
+def _result(one: One, made: Result | Failure, study: Study) -> Result:
+    if isinstance(made, Result):
+        return made
+    nothing = dict.fromkeys(study.measures)
+    return Result(one.row, one.options, one.seed, nothing, " ".join(made.error.split()))
+
+
+class _Bar:
+    """A progress bar that counts runs and failures, and estimates by those that it has seen."""
+
+    def __init__(self, total: int, known: dict[int, Result]) -> None:
+        self._bar = Progress(total, "runs")
+        self._total, self._known, self._done = total, len(known), len(known)
+        self._failed = sum(bool(result.error) for result in known.values())
+        self._start = time.monotonic()
+
+    def add(self, result: Result) -> None:
+        """Count one more run."""
+        self._done += 1
+        self._failed += bool(result.error)
+        pace = (time.monotonic() - self._start) / (self._done - self._known)
+        failed = f", {self._failed} failed" if self._failed else ""
+        left = duration(pace * (self._total - self._done))
+        self._bar.update(self._done, f"{self._done}/{self._total}{failed}, {left} left")
+
+    def close(self) -> None:
+        """Wipe the bar off the terminal."""
+        self._bar.close()
+
+
+def duration(seconds: float) -> str:
+    """Return a duration as it is said, in two units at most.
+
+    >>> [duration(seconds) for seconds in (8, 150, 9000, 200000)]
+    ['8 s', '2 min 30 s', '2 h 30 min', '2 d 7 h']
+    """
+    whole = round(seconds)
+    for unit, size, smaller, part in (
+        ("d", 86400, "h", 3600),
+        ("h", 3600, "min", 60),
+        ("min", 60, "s", 1),
+    ):
+        if whole >= size:
+            rest = whole % size // part
+            return f"{whole // size} {unit} {rest} {smaller}" if rest else f"{whole // size} {unit}"
+    return f"{whole} s"

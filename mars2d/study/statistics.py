@@ -1,0 +1,285 @@
+"""Statistics of many runs: intervals, shares, paired differences, and how many seeds are enough.
+
+Runs of different seeds are independent of each other, so the methods for independent observations
+hold. A value that is nan or infinite was not measured: it is left out, and `count` says how many
+are left.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, hypot, inf, isfinite, nan, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.description import real, wrong
+
+__all__ = [
+    "Interval",
+    "confident",
+    "interval",
+    "paired",
+    "paired_shares",
+    "proportion",
+    "seeds_for_share",
+    "seeds_needed",
+    "shared",
+    "unpaired",
+    "unpaired_shares",
+]
+
+Float = NDArray[np.float64]
+
+MANY = 1_000_000
+"""From so many observations on Student's quantile is that of the normal distribution."""
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A mean, the bounds between which the true one lies, and of how many observations it is.
+
+    The bounds are nan where the observations are too few for any.
+    """
+
+    mean: float
+    low: float
+    high: float
+    count: int
+
+    @property
+    def half_width(self) -> float:
+        """Half the distance of the bounds."""
+        return (self.high - self.low) / 2
+
+
+def interval(values: ArrayLike, confidence: float = 0.95) -> Interval:
+    """Return the mean of some values (n,) and Student's interval of it.
+
+    One value has no bounds; values that are all the same have an interval of no width. It is exact
+    for values that are normally distributed, and near enough for others if they are many.
+    Source: Student, The probable error of a mean, Biometrika 6 (1908).
+
+    >>> found = interval([4.0, 5.0, 6.0])
+    >>> found.mean, round(found.low, 3), round(found.high, 3)
+    (5.0, 2.516, 7.484)
+    """
+    confidence = confident(confidence)
+    found = _finite(values)
+    if len(found) < 2:
+        return Interval(float(found[0]) if len(found) else nan, nan, nan, len(found))
+    mean, error = _mean(found), _deviation(found) / sqrt(len(found))
+    return _around(mean, error, len(found) - 1, confidence, len(found))
+
+
+def proportion(successes: float, count: int, confidence: float = 0.95) -> Interval:
+    """Return the share of successes among `count` runs and Wilson's interval of it, from 0 to 1.
+
+    It holds for few runs and for shares near 0 and 1, where mean and deviation mislead. Of no runs
+    nothing is known: the share is nan, from 0 to 1.
+    Source: E. B. Wilson, Journal of the American Statistical Association 22 (1927).
+
+    >>> found = proportion(0, 10)
+    >>> found.mean, found.low, round(found.high, 3)
+    (0.0, 0.0, 0.278)
+    """
+    z = _normal(confident(confidence))
+    if not 0 <= successes <= count:
+        raise wrong("proportion(successes)", successes, f"a number from 0 to {count}, the count")
+    if not count:
+        return Interval(nan, 0.0, 1.0, 0)
+    share = successes / count
+    middle = (share + z**2 / (2 * count)) / (1 + z**2 / count)
+    half = _wilson_half(share, count, z)
+    low = max(middle - half, 0.0) if successes else 0.0
+    high = min(middle + half, 1.0) if successes < count else 1.0
+    return Interval(share, low, high, int(count))
+
+
+def paired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
+    """Return the mean of a - b and Student's interval of it, where a[k] and b[k] belong together.
+
+    a, b: (n,), of runs from the same seeds. Chance that both have in common cancels out, so the
+    interval is narrower than that of `unpaired` where they go up and down together. Pairs of which
+    either is missing are left out: `count` pairs were not. Raises InputError for other shapes.
+    Source: A. M. Law, Simulation Modeling and Analysis, 5th ed. (2015), sections 10.2.1 and 11.2,
+    paired-t interval and common random numbers.
+    """
+    first, second = _pairs(a, b)
+    with np.errstate(invalid="ignore", over="ignore"):
+        return interval(first - second, confidence)
+
+
+def unpaired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
+    """Return the difference of the means of a (n,) and b (m,), which need not vary alike.
+
+    For runs that do not belong together in pairs. Its count is that of all values.
+    Source: B. L. Welch, Biometrika 34 (1947), degrees of freedom by Satterthwaite (1946).
+    """
+    confidence = confident(confidence)
+    first, second = _finite(a), _finite(b)
+    count = len(first) + len(second)
+    if not (len(first) and len(second)):
+        return Interval(nan, nan, nan, count)
+    mean = _mean(first) - _mean(second)
+    if len(first) < 2 or len(second) < 2:
+        return Interval(mean, nan, nan, count)
+    errors = [_deviation(values) ** 2 / len(values) for values in (first, second)]
+    error = sqrt(sum(errors))
+    if error == 0:
+        return Interval(mean, mean, mean, count)
+    shares = [
+        (e / error**2) ** 2 / (len(v) - 1) for e, v in zip(errors, (first, second), strict=True)
+    ]
+    return _around(mean, error, 1 / sum(shares), confidence, count)
+
+
+def paired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
+    """Return the share in a less that in b, from -1 to 1, where a[k] and b[k] belong together.
+
+    a, b: (n,) of 1 and 0; nan is left out with its pair. Pairs that are all the same leave room for
+    a difference, as `proportion` does, in place of an interval of no width.
+    Source: D. G. Bonett, R. M. Price, Journal of Educational and Behavioral Statistics 37 (2012),
+    the adjusted Wald interval.
+    """
+    z = _normal(confident(confidence))
+    first, second = _pairs(a, b)
+    both = np.isfinite(first) & np.isfinite(second)
+    n = int(both.sum())
+    if not n:
+        return Interval(nan, nan, nan, 0)
+    more, less = (int((both & (x > y)).sum()) for x, y in ((first, second), (second, first)))
+    up, down = (more + 1) / (n + 2), (less + 1) / (n + 2)
+    half = z * sqrt((up + down - (up - down) ** 2) / (n + 2))
+    low, high = max(up - down - half, -1.0), min(up - down + half, 1.0)
+    return Interval((more - less) / n, low, high, n)
+
+
+def unpaired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
+    """Return the share in a (n,) less that in b (m,), both of 1 and 0, in no pairs.
+
+    Source: R. G. Newcombe, Statistics in Medicine 17 (1998) 873, from two intervals of Wilson's.
+    """
+    first, second = shared(a, confidence), shared(b, confidence)
+    count = first.count + second.count
+    if not (first.count and second.count):
+        return Interval(nan, nan, nan, count)
+    mean = first.mean - second.mean
+    down = hypot(first.mean - first.low, second.high - second.mean)
+    up = hypot(first.high - first.mean, second.mean - second.low)
+    return Interval(mean, mean - down, mean + up, count)
+
+
+def shared(values: ArrayLike, confidence: float = 0.95) -> Interval:
+    """Return the share of 1 among values (n,) of 1 and 0, with Wilson's interval."""
+    found = _finite(values)
+    return proportion(int((found == 1).sum()), len(found), confidence)
+
+
+def seeds_needed(values: ArrayLike, half_width: float, confidence: float = 0.95) -> int | None:
+    """Return how many runs give an interval of at most this half width, if they vary as these do.
+
+    values: (n,) of the runs there are; of fewer than two nothing can be said: None. It is the
+    smallest n with t s / sqrt(n) <= half_width, where Student's t is that of n runs and s the
+    standard deviation of the values: a forecast, as good as s is known.
+    Source: A. M. Law, Simulation Modeling and Analysis, 5th ed. (2015), section 9.4.1.
+
+    >>> seeds_needed([9.0, 10.0, 11.0], half_width=0.5)
+    18
+    """
+    confidence = confident(confidence)
+    wanted = _width(half_width)
+    found = _finite(values)
+    if len(found) < 2:
+        return None
+    deviation = _deviation(found)
+    least = (_normal(confidence) * deviation / wanted) ** 2  # t is larger than the normal quantile
+    if not isfinite(least) or least > MANY:
+        return ceil(least) if isfinite(least) else None
+    n = max(2, ceil(least))
+    while _student(confidence, n - 1) * deviation / sqrt(n) > wanted:
+        n += 1
+    return n
+
+
+def seeds_for_share(share: float, half_width: float, confidence: float = 0.95) -> int:
+    """Return how many runs give a share an interval of at most this half width (of 1).
+
+    >>> seeds_for_share(0.5, 0.1)
+    93
+    """
+    z = _normal(confident(confidence))
+    wanted = _width(half_width)
+    low, high = 0, 1
+    while _wilson_half(share, high, z) > wanted:
+        low, high = high, 2 * high
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if _wilson_half(share, middle, z) > wanted else (low, middle)
+    return high
+
+
+# -- what they have in common ----------------------------------------------------------------------
+
+
+def _around(mean: float, error: float, freedom: float, confidence: float, count: int) -> Interval:
+    half = _student(confidence, freedom) * error if error else 0.0
+    return Interval(mean, mean - half, mean + half, count)
+
+
+def _student(confidence: float, freedom: float) -> float:
+    """Return how many standard errors the bounds are away, with so many degrees of freedom."""
+    from scipy.special import stdtrit
+
+    return float(stdtrit(freedom, (1 + confidence) / 2))
+
+
+def _normal(confidence: float) -> float:
+    from scipy.special import ndtri
+
+    return float(ndtri((1 + confidence) / 2))
+
+
+def _wilson_half(share: float, count: int, z: float) -> float:
+    within = share * (1 - share) / count + z**2 / (4 * count**2)
+    return z / (1 + z**2 / count) * sqrt(within)
+
+
+def _finite(values: ArrayLike) -> Float:
+    found: Float = np.asarray(values, dtype=float).ravel()
+    return found[np.isfinite(found)]
+
+
+def _pairs(a: ArrayLike, b: ArrayLike) -> tuple[Float, Float]:
+    first, second = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    if first.ndim != 1 or first.shape != second.shape:
+        raise wrong("pairs", (first.shape, second.shape), "two lists of the same length")
+    return first, second
+
+
+def _mean(values: Float) -> float:
+    """Return the mean; of values that are all the same it is that value, to the last bit."""
+    with np.errstate(over="ignore"):
+        return float(values[0]) if np.ptp(values) == 0 else float(values.mean())
+
+
+def _deviation(values: Float) -> float:
+    """Return the standard deviation of what the values are a sample of."""
+    with np.errstate(over="ignore"):
+        return 0.0 if np.ptp(values) == 0 else float(values.std(ddof=1))
+
+
+def confident(value: object) -> float:
+    """Return a confidence that was given; raise InputError if it is not between 0 and 1."""
+    expected = "a share between 0 and 1, as 0.95"
+    confidence = real("confidence", value, expected)
+    if not 0 < confidence < 1:
+        raise wrong("confidence", value, expected)
+    return confidence
+
+
+def _width(value: object) -> float:
+    half_width = real("half_width", value, "a number > 0")
+    if not 0 < half_width < inf:
+        raise wrong("half_width", value, "a number > 0")
+    return half_width

@@ -1,0 +1,100 @@
+"""Sweeps: an experiment at each point of a grid of settings, with the same seeds at each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from mars2d.description import wrong
+from mars2d.errors import InputError
+from mars2d.scenario import Scenario
+from mars2d.study.table import Table
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from mars2d.study.measures import Measure
+
+__all__ = ["sweep"]
+
+
+def sweep(
+    experiment: str | Path | ModuleType | Scenario,
+    settings: Mapping[str, Any] | None = None,
+    seeds: int | Iterable[int] = 1,
+    measures: str | Measure | Iterable[str | Measure] = (),
+    *,
+    control: Callable[[Any], Any] | None = None,
+    stop_time: float | None = None,
+    out: str | Path | None = None,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    time_limit: float | None = None,
+    retry: bool = False,
+    show_progress: bool = True,
+) -> Table:
+    """Run an experiment at each point of a grid, with each seed, and return what was measured.
+
+    experiment: a file, the name of a shipped example, a module that has a file, or a Scenario.
+    settings: options by their dotted names, or parameters of a scenario function: a list, range or
+    array has several values, anything else is one; a point is one value of each. seeds: how many,
+    from 0 on, or a list; each point has the same ones, so that points can be compared seed by seed.
+    measures: names of measures built in or of functions in the experiment's file, or functions of
+    the record; by default when a run ended, its collisions, and if it is a game, the capture time.
+    control: the law of the team, in place of the experiment's. stop_time: seconds, as one more
+    setting.
+
+    out: a .csv file that takes each row as it comes; where it holds rows of this study, these are
+    not run again, but with `retry` those that have an error. executor: any of concurrent.futures';
+    by default processes, `workers` of them, one a core. With processes, call this under
+    ``if __name__ == "__main__":``. time_limit: seconds that a run may take. show_progress: whether
+    a terminal shows a bar.
+
+    A run that fails is a row with its `error`. The rows depend neither on the workers nor on the
+    order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
+
+    Raises InputError for what can't be run, before the first run, and where the file holds another
+    study; `mars2d.study.run.StudyInterrupted` after Ctrl-C.
+    """
+    # Processes and networks take a while to import, and few need them.
+    from mars2d.study.plan import Plan, seeds_of, settings_of
+    from mars2d.study.prepare import prepared
+    from mars2d.study.run import run_study
+    from mars2d.study.workers import leave_if_imported_again
+
+    leave_if_imported_again()
+    if not isinstance(out, (str, Path, type(None))):
+        raise wrong("out", out, "the name of a file, as 'results.csv'")
+    plan = Plan(settings_of(_with_stop_time(settings, stop_time)), seeds_of(seeds))
+    study = prepared(experiment, plan, _listed(measures), control=control, time_limit=time_limit)
+    return run_study(
+        study,
+        None if out is None else Path(out),
+        executor=executor,
+        workers=workers,
+        retry=retry,
+        show_progress=show_progress,
+    )
+
+
+def _with_stop_time(settings: Mapping[str, Any] | None, stop_time: float | None) -> Any:
+    if stop_time is None or not isinstance(settings, (Mapping, type(None))):
+        return settings
+    if settings and "stop_time" in settings:
+        raise InputError("stop_time is given twice, once among the settings")
+    return {**(settings or {}), "stop_time": stop_time}
+
+
+def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Measure, ...]:
+    if isinstance(measures, str) or callable(measures):
+        return (measures,)
+    expected = "names of measures, or functions of a record"
+    if not isinstance(measures, Iterable):
+        raise wrong("measures", measures, expected)
+    listed = tuple(measures)
+    for measure in listed:
+        if not isinstance(measure, str) and not callable(measure):
+            raise wrong("measures", measure, expected)
+    return listed

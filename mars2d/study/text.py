@@ -1,0 +1,111 @@
+"""Points, numbers and columns of studies as text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+from typing import Any
+
+from mars2d.errors import counted
+from mars2d.prediction import number
+from mars2d.study.table import Table
+
+__all__ = [
+    "Point",
+    "head",
+    "in_words",
+    "name_of_point",
+    "near",
+    "percent",
+    "side_by_side",
+    "varied",
+]
+
+WIDTH = 80
+"""Columns of a terminal, which a table keeps to where it can."""
+
+Point = tuple[Any, ...]
+
+
+def varied(table: Table) -> list[tuple[int, str]]:
+    """Return the settings that have several values, with their places in a point."""
+    several = [len({*values}) > 1 for values in zip(*table.points(), strict=True)]
+    return [(k, name) for k, name in enumerate(table.settings) if k < len(several) and several[k]]
+
+
+def in_words(value: Any) -> str:
+    """Return a setting's value as people write it."""
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def name_of_point(table: Table, point: Point, leave_out: Sequence[str] = ()) -> str:
+    """Return the settings of a point that vary, as ``gain = 0.5, n = 4``."""
+    names = [(k, name) for k, name in varied(table) if name not in leave_out]
+    return ", ".join(f"{name} = {in_words(point[k])}" for k, name in names)
+
+
+def head(table: Table, what: str) -> str:
+    """Return the first line: how many runs of what, with the settings that are the same for all."""
+    places, points = {k for k, _ in varied(table)}, list(table.points())
+    same = [
+        f", {name} = {in_words(points[0][k])}"
+        for k, name in enumerate(table.settings if points else ())
+        if k not in places
+    ]
+    return f"{counted(len(table.results), 'run')} of {table.experiment}{''.join(same)}: {what}"
+
+
+def near(value: float, half_width: float) -> str:
+    """Return a number with the digits that its interval leaves: two of those of half of it."""
+    if half_width > 0 and isfinite(half_width):
+        return number(value, half_width)
+    return f"{value:.4g}"
+
+
+def percent(share: float, count: int) -> str:
+    """Return a share of so many runs in percent."""
+    return f"{100 * share:z.{0 if count < 200 else 1}f}"
+
+
+# -- tables ----------------------------------------------------------------------------------------
+
+
+def side_by_side(left: list[list[str]], columns: list[list[str]]) -> list[str]:
+    """Return tables that are not too wide: the columns on the left stand in each of them.
+
+    left: rows of cells, the headings first. columns: each with its heading.
+    """
+    room = WIDTH - sum(max(map(len, cells)) + 2 for cells in zip(*left, strict=True))
+    tables: list[list[list[str]]] = []
+    used = room
+    for column in map(_aligned, columns):
+        width = max(map(len, column)) + 2
+        if used + width > room + 2:
+            tables.append([])
+            used = 0
+        tables[-1].append(column)
+        used += width
+    settings = [list(cells) for cells in zip(*left, strict=True)]
+    return [_lines([*map(_justified, settings), *each]) for each in tables or [[]]]
+
+
+def _aligned(column: list[str]) -> list[str]:
+    """Return cells whose first parts end below each other."""
+    heading, *cells = column
+    room = max((len(cell.partition(" ")[0]) for cell in cells), default=0)
+    return [heading, *(" " * (room - len(cell.partition(" ")[0])) + cell for cell in cells)]
+
+
+def _justified(column: list[str]) -> list[str]:
+    """Return cells of the same width: numbers end below each other, words begin there."""
+    width = max(map(len, column))
+    words = any(cell[:1].isalpha() for cell in column[1:])
+    return [cell.ljust(width) if words else cell.rjust(width) for cell in column]
+
+
+def _lines(columns: list[list[str]]) -> str:
+    widths = [max(map(len, column)) for column in columns]
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in zip(*columns, strict=True)
+    )

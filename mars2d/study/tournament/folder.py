@@ -1,0 +1,178 @@
+"""A tournament's folder, in which matches are kept as they come."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
+
+from mars2d.errors import InputError
+from mars2d.recorder import versions
+from mars2d.study.isolation.limits import Limits, Verdict
+from mars2d.study.results import lock
+from mars2d.study.tournament.entrants import law_code
+from mars2d.study.tournament.match import Match, Played
+from mars2d.study.tournament.schedule import Schedule
+
+__all__ = ["PLAYED", "Folder", "played_before"]
+
+PLAYED = "played.jsonl"
+"""The file that is written while matches are played."""
+
+FORMAT = 1
+"""The version of its format; a folder of another one is refused."""
+
+
+def _prints(schedule: Schedule, limits: Limits) -> dict[int, str]:
+    """Return a hash for each match, by number: of all that decides how it goes.
+
+    That is the experiment, the laws, options and seed, the limits and the versions; not its number.
+    """
+    every = dict.fromkeys(file for match in schedule.matches for file in match.files.values())
+    laws = {file: _hash(law_code(Path(file)).values()) for file in every}
+    others = sorted(schedule.files - {Path(file) for file in every})
+    common = _hash([f"{versions()} {limits}".encode(), *(path.read_bytes() for path in others)])
+    return {
+        match.number: _hash(
+            [
+                common.encode(),
+                repr((match.options, match.seed, match.laws)).encode(),
+                *(laws[file].encode() for file in match.files.values()),
+            ]
+        )
+        for match in schedule.matches
+    }
+
+
+def _hash(parts: Iterable[bytes]) -> str:
+    """Return a hash of some bytes, one after the other."""
+    sha = hashlib.sha256()
+    for part in parts:
+        sha.update(f"{len(part)} ".encode() + part)
+    return sha.hexdigest()
+
+
+class Folder:
+    """Keeps each match in a file when it is done, and finds again those that were played before.
+
+    A line is one match, as JSON. Who is killed in the midst of a line loses that match alone. A
+    match is played again where its experiment, a law, a limit or a version has changed, and where
+    it had no result. Raises InputError for a folder with other things in it, and for one that
+    can't be written.
+    """
+
+    def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
+        self._path = path
+        self._head = _head(schedule)
+        self._prints = _prints(schedule, limits)
+        _make(path)
+        before = _known(path, schedule, self._prints)
+        self.before = tuple(p for p in before if p.replay or not (replays and p.steps))
+
+    def keep(self, played: Played) -> None:
+        """Write a match that is done."""
+        row = asdict(replace(played, match=_named(played.match)))
+        self._write({"print": self._prints[played.match.number], **row})
+
+    def __enter__(self) -> Folder:
+        log = self._path / PLAYED
+        with _writing(log):
+            self._file = log.open("a+b")
+        try:
+            lock(self._file, log)
+            self._file.seek(0)
+            data = self._file.read()
+            if not data:
+                self._write(self._head)
+            elif not data.endswith(b"\n"):
+                self._file.write(b"\n")  # after a line that was not written to its end
+        except BaseException:
+            self._file.close()
+            raise
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        with suppress(OSError):  # a full disk, of which `keep` has told already
+            self._file.close()
+
+    def _write(self, row: Mapping[str, Any]) -> None:
+        with _writing(self._path / PLAYED):
+            self._file.write(json.dumps(row).encode() + b"\n")
+            self._file.flush()
+
+
+def played_before(path: Path, schedule: Schedule, limits: Limits) -> tuple[Played, ...]:
+    """Return those matches of a schedule that a folder holds; it need not be there."""
+    return _known(path, schedule, _prints(schedule, limits)) if path.is_dir() else ()
+
+
+def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[Played, ...]:
+    """Return those matches of a schedule that were played with a result, found by their hash."""
+    log = path / PLAYED
+    if not log.exists():
+        others = sorted(each.name for each in path.iterdir() if not each.name.startswith("."))
+        if others:
+            raise InputError(
+                f"{path}: holds {others[0]}, which is not of a tournament; nothing was changed. "
+                "Name a new folder by --out, or an empty one"
+            )
+        return ()
+    with _writing(log):
+        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+    head = _json(lines[0]) if lines else _head(schedule)
+    if head != _head(schedule):
+        other = head.get("experiment") if isinstance(head, dict) else None
+        of = f"of a tournament of {other}" if other else "not of this version"
+        raise InputError(f"{path}: is {of}; name another folder by --out")
+    known = {}
+    for line in lines[1:]:
+        kept = _json(line)
+        if isinstance(kept, dict) and not kept["error"]:
+            known[kept.pop("print")] = kept
+    return tuple(
+        _played(known[mark], match)
+        for match in schedule.matches
+        if (mark := prints[match.number]) in known
+    )
+
+
+def _head(schedule: Schedule) -> dict[str, Any]:
+    return {"mars2d tournament": FORMAT, "experiment": Path(schedule.experiment).name}
+
+
+def _make(path: Path) -> None:
+    if path.exists() and not path.is_dir():
+        raise InputError(f"{path}: this is a file; expected a folder")
+    if not path.absolute().parent.is_dir():
+        raise InputError(f"{path}: there is no folder {path.parent}")
+    with _writing(path):
+        path.mkdir(exist_ok=True)
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise InputError(f"{path}: can't be written: {error.strerror or error}") from error
+
+
+def _named(match: Match) -> Match:
+    """Return a match whose options are plain text, for people: its hash is what identifies it."""
+    return replace(match, options={name: repr(value) for name, value in match.options.items()})
+
+
+def _played(kept: Mapping[str, Any], match: Match) -> Played:
+    verdicts = {role: Verdict(*verdict) for role, verdict in kept["verdicts"].items()}
+    return Played(**{**kept, "match": match, "verdicts": verdicts})
+
+
+def _json(line: str) -> Any:
+    try:
+        return json.loads(line)
+    except ValueError:
+        return None  # a line that was not written to its end

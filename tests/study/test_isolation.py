@@ -1,0 +1,709 @@
+"""Isolated laws: the same runs as in one process, and a named verdict for whatever a law does."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import subprocess
+import sys
+import threading
+import time
+from math import pi
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+from mars2d import Holonomic, InputError, LawError, Robot, Scenario, load_law
+from mars2d.addons import Communication, Game, Map
+from mars2d.files import Experiment
+from mars2d.loop import simulate
+from mars2d.neighbours import Neighbourhood, Within
+from mars2d.props import Puck
+from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
+from mars2d.study.isolation import Guard, Limits, Verdict, nursery
+from mars2d.world import World
+
+LIMITS = Limits(tick=4.0, match=20.0, memory=200, output=0.1, start=20.0)
+
+IMPATIENT = dataclasses.replace(LIMITS, tick=0.5)
+"""Where something is to be too slow."""
+
+GOOD = """
+def control(robot):
+    return 0.1, 0.2
+"""
+
+
+def law(folder: Path, text: str, name: str = "law.py") -> Path:
+    file = folder / name
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def pair(**fields) -> Scenario:
+    robot = Robot(**fields)
+    return Scenario(robots=[robot.at(-2, 0), robot.at(2, 0, pi)], stop_time=2.0)
+
+
+def played(scenario: Scenario, laws: dict, seed: int = 1, limits: Limits = LIMITS):
+    """Run a match to its end or its failure; return the record, the guard, and the error."""
+    with Guard(scenario, laws, seed, limits) as guard:
+        try:
+            return simulate(Experiment(guard.scenario), seed).record, guard, None
+        except LawError as error:
+            return error.record, guard, error
+
+
+# -- determinism ---------------------------------------------------------------------------------
+
+
+PURSUE = """
+from math import atan2
+from mars2d.geometry import wrap
+
+def control(robot):
+    x, y = robot.neighbours[0].position - robot.position
+    return 0.3, wrap(atan2(y, x) - robot.pose[2]) + robot.rng.normal()
+"""
+
+FLEE = """
+import numpy as np
+
+def control(robot):
+    robot.memory.steps = 0
+    while True:
+        robot.memory.steps += 1
+        away = robot.position - robot.neighbours[0].position
+        yield away * (1 + 0.01 * robot.memory.steps) + 0.01 * robot.velocity[:2]
+"""
+
+PUSHER = """
+import numpy as np
+
+def control(robot):
+    world = robot.world
+    other = world.robots[1 - robot.index]
+    bearing = np.arctan2(*(other.position - robot.position)[::-1]) - robot.pose[2]
+    touched = len(robot.contacts) + len(world.contacts) + world.props[0].velocity[0]
+    drawn = robot.rng.normal() * world.effort.sum() + world.velocity[0, 1 - robot.index]
+    return 1.0 + 0.01 * touched, 6 * np.arctan2(np.sin(bearing), np.cos(bearing)) + drawn
+"""
+
+SENSING = """
+def control(robot):
+    near = robot.sense.proximity
+    scan = robot.sense.range_finder
+    assert not scan.flags.writeable
+    if robot.sense.bumper.any() or near:
+        yield -0.3, robot.rng.uniform(1, 2)
+    while True:
+        yield 0.3, min(1, robot.sense.range_finder.min()) + robot.effort
+"""
+
+TALKING = """
+def control(robot):
+    heard = {m.name: m.content["x"] for m in robot.inbox if isinstance(m.content, dict)}
+    robot.send({"x": float(robot.pose[0]), "t": (robot.time, None)})
+    if heard:
+        robot.send([1, float("inf")], to=sorted(heard)[0])
+    near = [n.pose[2] for n in robot.neighbours]
+    return 0.2, 0.1 * sum(heard.values()) + sum(near) + robot.command[0]
+"""
+
+
+class Rim(Neighbourhood):
+    """A rule of the user's own, which a law's process does not know."""
+
+    def of(self, position):
+        return [[1], [0], [0, 1]]
+
+
+def pursuit() -> Scenario:
+    red = Robot(name="red", sees="positions")
+    blue = red.replace(name="blue", drive=Holonomic(max_linear_speed=0.2))
+    game = Game({"pursuer": ["red"], "evader": ["blue"]})
+    return Scenario(robots=[red.at(-2, 2), blue.at(1, 1)], stop_time=8, addons=[game])
+
+
+def sumo() -> Scenario:
+    robot = Robot(friction="rubber")
+    puck = Puck(pose=(0, 0.3, 0))
+    robots = [robot.at(-0.8, 0), robot.at(0.8, 0, pi)]
+    return Scenario(robots=robots, props=[puck], stop_time=2, sampling_time=0.02, on_exit="wall")
+
+
+def maze() -> Scenario:
+    sensors = [
+        Proximity(range=0.4),
+        RangeFinder(beams=9, noise=0.01, recorded=False),
+        Bumper(),
+    ]
+    robot = Robot(sees="sensors", sensors=sensors)
+    walls = Map([[(1, -1), (1, 1)], [(-1, -2), (2, -2)]])
+    return Scenario(robots=[robot.at(-2, 0), robot.at(0, -1, 1)], stop_time=10, addons=[walls])
+
+
+def talk() -> Scenario:
+    robot = Robot(sees="partial")
+    channel = Communication(loss=0.3, range=4.0, delay=0.15)
+    return Scenario(
+        robots=[robot.at(-2, 0), robot.at(0, -1, 1), robot.at(1, 1)],
+        neighbours=Within(3.0),
+        stop_time=5,
+        addons=[channel],
+    )
+
+
+MATCHES = {
+    "positions, generators, memory, velocity": (pursuit, {"red": [0], "blue": [1]}, PURSUE, FLEE),
+    "full, contacts, props": (sumo, {"red": [0], "blue": [1]}, PUSHER, PUSHER),
+    "sensors only": (maze, {"red": [0], "blue": [1]}, SENSING, SENSING),
+    "messages": (talk, {"red": [0, 2], "blue": [1]}, TALKING, TALKING),
+    "a rule of the user's own": (
+        lambda: talk().replace(neighbours=Rim()), {"red": [0, 2], "blue": [1]}, TALKING, TALKING,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("match", MATCHES)
+def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path) -> None:
+    make, roles, *texts = MATCHES[match]
+    files = [law(tmp_path, text, f"law{k}.py") for k, text in enumerate(texts)]
+    laws = dict(zip(roles, zip(files, roles.values(), strict=True), strict=True))
+    scenario = make()
+    robots = list(scenario.robots)
+    for file, indices in laws.values():
+        for i in indices:
+            robots[i] = robots[i].replace(controller=load_law(file))
+    for seed in (3, 4):
+        here = simulate(Experiment(scenario.replace(robots=robots)), seed).record
+        there, guard, error = played(scenario, laws, seed, Limits())
+        assert error is None, error
+        assert len(there) == len(here) > 20
+        assert there.digest == here.digest
+        assert there.messages.tobytes() == here.messages.tobytes()
+        assert guard.verdicts == {}
+
+
+def test_a_law_beside_others_in_the_match_is_isolated_alone(tmp_path) -> None:
+    file = law(tmp_path, PURSUE)
+    scenario = pursuit()
+    red, blue = scenario.robots
+    blue = blue.replace(controller=load_law(law(tmp_path, FLEE, "flee.py")))
+    both = scenario.replace(robots=[red.replace(controller=load_law(file)), blue])
+    here = simulate(Experiment(both), 5).record
+    blue = blue.replace(controller=load_law(tmp_path / "flee.py"))
+    there, *_ = played(scenario.replace(robots=[red, blue]), {"red": (file, [0])}, 5, Limits())
+    assert there.digest == here.digest
+
+
+def test_a_match_can_be_played_again_whatever_its_laws_draw_from(tmp_path) -> None:
+    text = """
+import random
+import numpy as np
+def control(robot):
+    words = list({"a", "b", "c", "d", "e", "f"})
+    return 0.1 * random.random(), np.random.rand() + 0.1 * words.index("c")
+"""
+    file = law(tmp_path, text)
+    laws = {"a": (file, [0]), "b": (file, [1])}
+    runs = [played(pair(), laws, seed)[0] for seed in (1, 1, 2)]
+    first, again, other = (run.digest for run in runs)
+    assert first == again != other
+    speeds = runs[0].command[:, 0]
+    assert len(np.unique(speeds)) > len(speeds)  # nor do both laws draw the same
+
+
+# -- what a law may see --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("sees", "expression", "words"),
+    [
+        ("positions", "robot.neighbours[0].pose", "sees positions only: a neighbour's pose"),
+        ("positions", "robot.world", "sees itself and its neighbours' positions only"),
+        ("sensors", "robot.position", "sees sensors only: robot.position is not available"),
+        ("sensors", "robot.sense.sonar", "robot0 has no sensor 'sonar'; it carries none"),
+        ("partial", "robot.heading", "a robot has no 'heading'"),
+        ("partial", "robot.send(1)", "robots can't talk: add Communication()"),
+        ("full", "robot.world.addons", "robot.world.addons is not available to an isolated law"),
+        ("full", "robot.world.step()", "robot.world.step is not available to an isolated law"),
+        ("full", "robot.world.rng", "available to an isolated law; there is robot.rng"),
+        ("full", "robot.world.poses", "a world has no 'poses'; did you mean 'pose'?"),
+        ("full", "robot.world.robots[1].memory", "robots[1].memory is not available: it is anot"),
+        ("full", "robot.world.robots[1].pose.__setitem__(0, 1.0)", "read-only"),
+    ],
+)
+def test_what_an_isolated_law_may_not_see_is_refused_in_words(
+    sees, expression, words, tmp_path
+) -> None:
+    file = law(tmp_path, f"def control(robot):\n    {expression}\n    return 0, 0\n")
+    _, guard, error = played(pair(sees=sees), {"red": (file, [0])})
+    verdict = guard.verdicts["red"]
+    assert verdict.kind == "error"
+    assert verdict.text.startswith("law.py, line 2: ")
+    assert words in verdict.text
+    assert str(error) == f"red: {verdict.text}"
+
+
+def test_its_process_does_not_hold_what_a_law_may_not_see(tmp_path) -> None:
+    """However it is asked: the law looks behind its view."""
+    text = """
+import json, numpy as np
+def control(robot):
+    world = robot._world
+    poses = [r.pose for r in world.scenario.robots]
+    print(json.dumps([world.pose.tolist(), world.velocity.tolist(), poses, hasattr(world, "_seed"),
+                      world.command.tolist()]))
+    return 0.1, 0.2
+"""
+    robot = Robot(sees="positions")
+    scenario = Scenario(
+        robots=[robot.at(-2, 0, 0.5), robot.at(2, 0, 0.7), robot.at(4, 4, 0.9)],
+        neighbours=Within(4.5),
+        stop_time=0.0,
+    )
+    _, guard, error = played(scenario, {"red": (law(tmp_path, text), [0])})
+    assert error is None
+    pose, velocity, starts, seed, command = eval(guard.output["red"], {"NaN": None, "false": False})
+    assert pose == [[-2.0, 2.0, None], [0.0, 0.0, None], [0.5, None, None]]
+    assert velocity == [[0.0, None, None]] * 3
+    assert starts == [[0.0, 0.0, 0.0]] * 3
+    assert command == [[0.0, None, None]] * 2
+    assert seed is False
+
+
+# -- faults and verdicts -------------------------------------------------------------------------
+
+FOREVER = "import time\ndef control(robot):\n    robot.memory.x = 1\n    {}\n    return 0, 0\n"
+
+NASTY = {
+    "an endless loop": ("slow", "line 4: no command after 0.5 s", FOREVER.format("while 1: pass")),
+    "a long sleep": ("slow", "line 4: no command after 0.5 s", FOREVER.format("time.sleep(1e9)")),
+    "it swallows all exceptions": ("slow", "no command after", """
+        def control(robot):
+            while True:
+                try:
+                    while True: pass
+                except BaseException: pass"""),
+    "it ignores signals": ("slow", "line 5: no command", """
+        import signal
+        def control(robot):
+            for s in (signal.SIGTERM, signal.SIGINT): signal.signal(s, signal.SIG_IGN)
+            while True: pass"""),
+    "it stops its own process": ("slow", "no command after", """
+        import os, signal
+        def control(robot):
+            os.kill(os.getpid(), signal.SIGSTOP)"""),
+    "it waits for its own thread": ("slow", "line 3: no command", """
+        import threading
+        def control(robot): threading.Event().wait()"""),
+    "a loop in C": ("slow", "law.py: no command after", """
+        def control(robot): return sum(range(10**12)), 0"""),
+    "many quick steps": ("clock", "its commands took more than 0.3 s in all", """
+        import time
+        def control(robot): time.sleep(0.05); return 0, 0"""),
+    "a memory bomb": ("memory", "line 4: control raised MemoryError; it may take 200 MB", """
+        kept = []
+        def control(robot):
+            while True: kept.append("x" * 10_000_000 + str(len(kept)))"""),
+    "a huge array": ("memory", "line 3: control raised", """
+        import numpy as np
+        def control(robot): return np.ones(10**9)"""),
+    "a memory bomb while it is loaded": ("memory", "line 2: MemoryError; it may take 200 MB", """
+        kept = [0] * 10**9"""),
+    "an exception": ("error", "line 2: control raised ZeroDivisionError: division by zero", """
+        def control(robot): return 1 / 0, 0"""),
+    "a misspelt name": ("error", "line 3: control raised NameError: name 'speeed' is not", """
+        speed = 1
+        def control(robot): return speeed, 0"""),
+    "SystemExit": ("error", "line 2: control raised SystemExit: 3", """
+        def control(robot): raise SystemExit(3)"""),
+    "KeyboardInterrupt": ("error", "line 2: raised KeyboardInterrupt", """
+        def control(robot): raise KeyboardInterrupt"""),
+    "an exception of its own": ("error", "line 3: raised Bad: no", """
+        class Bad(BaseException): pass
+        def control(robot): raise Bad("no")"""),
+    "an exception that raises": ("error", "raised Bad, whose text raises ValueError", """
+        class Bad(BaseException):
+            def __str__(self): raise ValueError
+        def control(robot): raise Bad"""),
+    "deep recursion": ("error", "line 2: control raised RecursionError", """
+        def control(robot): return control(robot)"""),
+    "reading the keyboard": ("error", "line 2: control raised EOFError", """
+        def control(robot): return input(), 0"""),
+    "a huge message": ("error", "robot.send: content = 'xxx", """
+        def control(robot): robot.send("x" * 10**6); return 0, 0"""),
+    "a flood of messages": ("error", "robot.send: more than 100000 bytes in one", """
+        def control(robot):
+            for k in range(10**6): robot.send(k)"""),
+    "NaN": ("command", "line 2: control returned (nan, 0.0): a command must be finite", """
+        def control(robot): return float("nan"), 0"""),
+    "a wrong shape": ("command", "line 2: control returned (1, 2, 3): expected two numbers", """
+        def control(robot): return 1, 2, 3"""),
+    "text": ("command", "control returned 'fast': expected two numbers", """
+        def control(robot): return "fast" """),
+    "nothing": ("command", "control returned nothing: a law returns its command", """
+        def control(robot): pass"""),
+    "os._exit": ("exit", "law.py: its process has ended itself, with code 3", """
+        import os
+        def control(robot): os._exit(3)"""),
+    "a null pointer": ("exit", "line 3: its process was ended by the signal SIGSEGV, a segm", """
+        import ctypes
+        def control(robot): ctypes.string_at(0)"""),
+    "endless recursion in C": ("exit", "SIGSEGV", """
+        import sys
+        sys.setrecursionlimit(10**9)
+        class A:
+            def __getattr__(self, name): return getattr(self, name + "x"[:0])
+        def control(robot): return A().x"""),
+    "it kills itself": ("exit", "by the signal SIGKILL", """
+        import os
+        def control(robot): os.kill(0, 9)"""),
+    "it kills who has started it": ("slow", "line 5: no command after", """
+        import os
+        def control(robot):
+            os.kill(os.getppid(), 9)
+            while True: pass"""),
+    "it closes all its files": ("exit", "law.py: its process has closed the connection", """
+        import os
+        def control(robot): os.closerange(0, 200); return 0, 0"""),
+    "it closes all and goes on": ("exit", "law.py: its process has closed the connection", """
+        import os, time
+        def control(robot): os.closerange(0, 200); time.sleep(1e9)"""),
+    "it writes to all its files": ("exit", "what it says to the match is no answer", """
+        import os
+        def control(robot):
+            for k in range(3, 50):
+                try: os.write(k, b"hello, this is no answer" * 10)
+                except OSError: pass
+            return 0, 0"""),
+    "a flood of prints": ("output", "line 3: printed more than 100000 bytes", """
+        def control(robot):
+            while True: print("Hello, world! " * 10)"""),
+    "a flood that C writes": ("output", "printed more than 100000 bytes", """
+        import os
+        def control(robot):
+            while True: os.write(1, b"x" * 10_000)"""),
+    "a flood of errors": ("output", "line 3: printed more than 100000 bytes", """
+        import sys
+        def control(robot): sys.stderr.write("x" * 200_000)"""),
+    "an endless loop while it is loaded": ("start", "line 2: not loaded after 0.5 s", """
+        while True: pass"""),
+    "an error while it is loaded": ("start", "law.py, line 2: ModuleNotFoundError: No module", """
+        import nowhere"""),
+    "a syntax error": ("start", "law.py, line 2: invalid syntax: 1 +* 1", """
+        1 +* 1"""),
+    "no control": ("start", "law.py: has no law 'control'; did you mean 'contrl'?", """
+        def contrl(robot): return 0, 0"""),
+    "a control of two": ("start", "law.py: control = control(a, b): expected a function of", """
+        def control(a, b): return 0, 0"""),
+    "os._exit while it is loaded": ("exit", "its process has ended itself, with code 0", """
+        import os; os._exit(0)"""),
+}  # fmt: skip
+
+
+def undented(text: str) -> str:
+    lines = text.splitlines()
+    return "\n".join(line.removeprefix("        ") for line in lines) + "\n"
+
+
+@pytest.mark.parametrize("fault", NASTY)
+def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_path) -> None:
+    kind, words, text = NASTY[fault]
+    limits = LIMITS
+    if kind == "clock":
+        limits = dataclasses.replace(LIMITS, match=0.3)
+    if kind == "slow":
+        limits = IMPATIENT
+    if "loop while it is loaded" in fault:
+        limits = dataclasses.replace(LIMITS, start=0.5)
+    nasty = law(tmp_path, undented(text))
+    good = law(tmp_path, GOOD, "good.py")
+    scenario = pair(sees="partial").replace(addons=[Communication()])
+    began = time.perf_counter()
+    record, guard, error = played(scenario, {"bad": (nasty, [0]), "good": (good, [1])}, 1, limits)
+    took = time.perf_counter() - began
+    verdict = guard.verdicts.pop("bad")
+    assert verdict.kind == kind, verdict
+    assert words in verdict.text, verdict
+    assert verdict.text.startswith("law.py"), verdict
+    assert "\n" not in verdict.text
+    assert guard.verdicts == {}  # nobody else is to blame
+    assert record.over_message == f"Error: {error}"
+    assert took < 15.0
+
+
+def test_a_law_that_fails_later_has_its_time_and_the_rows_until_then(tmp_path) -> None:
+    text = "def control(robot):\n    return 0.1, 1 / (1 - round(robot.time, 9))\n"
+    laws = {"bad": (law(tmp_path, text), [0]), "good": (law(tmp_path, GOOD, "good.py"), [1])}
+    record, guard, error = played(pair(), laws)
+    text = "law.py, line 2: control raised ZeroDivisionError: float division by zero"
+    assert guard.verdicts == {"bad": Verdict("error", text, pytest.approx(1.0))}
+    assert str(error) == f"bad: {text}"
+    assert len(record) == 10
+
+
+def test_all_that_fail_in_the_same_control_step_have_verdicts(tmp_path) -> None:
+    slow = law(tmp_path, FOREVER.format("while 1: pass"), "slow.py")
+    none = law(tmp_path, "def control(robot): pass\n", "none.py")
+    scenario = pair()
+    scenario = scenario.replace(robots=[*scenario.robots, Robot(pose=(0, 3, 0))])
+    good = law(tmp_path, GOOD, "good.py")
+    laws = {"slow": (slow, [0]), "good": (good, [1]), "none": (none, [2])}
+    _, guard, error = played(scenario, laws, 1, IMPATIENT)
+    assert {role: verdict.kind for role, verdict in guard.verdicts.items()} == {
+        "slow": "slow",
+        "none": "command",
+    }
+    assert str(error).startswith("slow: slow.py, line 4: no command")
+    assert "; none: none.py, line 1: control returned nothing" in str(error)
+
+
+def test_what_a_law_prints_is_kept_in_order_however_it_is_printed(tmp_path) -> None:
+    text = """
+import os, subprocess, sys
+print("loaded", end=" ")
+def control(robot):
+    print(robot.iteration if hasattr(robot, "iteration") else round(10 * robot.time), end="")
+    os.write(1, b"/")
+    if robot.time == 0:
+        print("\\u00e4\\ud800", file=sys.stderr)
+        subprocess.run(["echo", "child"])
+    return 0, 0
+"""
+    _, guard, error = played(pair(), {"a": (law(tmp_path, text), [0])})
+    assert error is None
+    assert guard.output["a"].startswith("loaded 0/\u00e4\\ud800\nchild\n1/2/3/")
+
+
+def test_of_much_output_the_beginning_is_kept(tmp_path) -> None:
+    text = "def control(robot):\n    print('x' * 9999)\n    return 0, 0\n"
+    _, guard, _ = played(pair(), {"a": (law(tmp_path, text), [0])})
+    assert guard.verdicts["a"].kind == "output"
+    assert guard.verdicts["a"].time == pytest.approx(1.0)  # ten lines are within the limit
+    assert guard.output["a"] == ("x" * 9999 + "\n") * 6 + "x" * 4000
+
+
+# -- nothing is left behind ----------------------------------------------------------------------
+
+
+def descendants() -> set[int]:
+    """All processes that have come of this one, but for the nursery."""
+    parents = {}
+    for folder in Path("/proc").iterdir():
+        if folder.name.isdigit():
+            try:
+                stat = (folder / "stat").read_text()
+            except OSError:
+                continue
+            parents[int(folder.name)] = int(stat.rpartition(")")[2].split()[1])
+    found = {os.getpid()}
+    while more := {child for child, parent in parents.items() if parent in found} - found:
+        found |= more
+    return found - {os.getpid()} - {n._process.pid for n in nursery._nurseries.values()}
+
+
+def held() -> tuple[int, int]:
+    return len([*Path("/proc/self/fd").iterdir()]), threading.active_count()
+
+
+needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+
+
+@needs_proc
+def test_fifty_matches_leave_no_process_thread_or_file_behind(tmp_path) -> None:
+    bad = "def control(robot):\n    return 0, 1 / (robot.index + robot.time - 0.1)\n"
+    laws = {"a": (law(tmp_path, bad), [0]), "b": (law(tmp_path, GOOD, "good.py"), [1])}
+    scenario = pair().replace(stop_time=0.2)
+    played(scenario, laws)
+    before, others = held(), descendants()
+    for k in range(50):
+        if k % 2:
+            _, guard, _ = played(scenario, laws)
+            assert guard.verdicts["a"].kind == "error"
+        else:
+            with pytest.raises(RuntimeError), Guard(scenario, laws, 1, LIMITS) as guard:
+                World(guard.scenario, seed=1).step()
+                raise RuntimeError
+    assert held() == before
+    assert descendants() <= others
+
+
+@needs_proc
+def test_what_a_law_has_started_ends_with_it(tmp_path) -> None:
+    """Children that it forks, their threads, programs: they neither answer nor outlive it."""
+    text = """
+import os, subprocess, sys, threading, time
+def control(robot):
+    if robot.time == 0:
+        subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)"])
+        threading.Thread(target=time.sleep, args=(1000,)).start()
+        child = os.fork()
+        if child == 0:
+            threading.Thread(target=time.sleep, args=(1000,)).start()
+            return 5, 5
+        print(child)
+    return 0.1, 0.2
+"""
+    file = law(tmp_path, text)
+    played(pair(), {"a": (file, [0])})
+    others = descendants()
+    record, guard, error = played(pair(), {"a": (file, [0])})
+    assert error is None
+    assert (record.command[:, 0, 0] == 0.1).all()
+    assert descendants() <= others
+    assert not Path(f"/proc/{guard.output['a'].split()[0]}/cmdline").is_file() or (
+        Path(f"/proc/{guard.output['a'].split()[0]}/stat").read_text().split()[2] == "Z"
+    )
+
+
+@needs_proc
+def test_laws_end_with_the_match_when_it_is_killed(tmp_path) -> None:
+    """Also those that never come back to see that nobody is there."""
+    text = "import os\ndef control(robot):\n    print(os.getpid())\n    while True: pass\n"
+    code = f"""
+import os, sys, threading, time
+from pathlib import Path
+from mars2d import Robot, Scenario, World
+from mars2d.study.isolation import Guard, Limits
+scenario = Scenario(robots=[Robot()])
+laws = {{"a": (Path({str(law(tmp_path, text))!r}), [0])}}
+with Guard(scenario, laws, 1, Limits(tick=100)) as guard:
+    def tell():
+        while not guard._processes["a"]._first:
+            guard._processes["a"].drain()
+            time.sleep(0.01)
+        print(guard.output["a"], flush=True)
+        os.kill(os.getpid(), 9)
+    threading.Thread(target=tell).start()
+    World(guard.scenario).step()
+"""
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", code], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == -9, done.stderr
+    law_process = Path("/proc") / done.stdout.strip() / "stat"
+    for _ in range(200):
+        if not law_process.is_file() or law_process.read_text().split()[2] == "Z":
+            break
+        time.sleep(0.02)
+    else:
+        pytest.fail("the law goes on")
+
+
+@needs_proc
+def test_ctrl_c_ends_the_match_and_its_laws(tmp_path) -> None:
+    text = "def control(robot):\n    while True: pass\n"
+    before, others = held(), descendants()
+    guard = Guard(pair(), {"a": (law(tmp_path, text), [0])}, 1, Limits(tick=100))
+
+    def press() -> None:
+        time.sleep(0.3)
+        os.kill(os.getpid(), 2)
+
+    presser = threading.Thread(target=press)
+    with pytest.raises(KeyboardInterrupt), guard:
+        presser.start()
+        simulate(Experiment(guard.scenario), 1)
+    presser.join()
+    assert held() == before
+    assert descendants() <= others
+    assert guard.verdicts == {}
+
+
+# -- processes -----------------------------------------------------------------------------------
+
+
+def test_where_there_is_no_nursery_a_law_starts_by_itself(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("sys.platform", "elsewhere")
+    laws = {"a": (law(tmp_path, PUSHER), [0]), "b": (law(tmp_path, "1 / 0\n", "bad.py"), [1])}
+    _, guard, _ = played(sumo(), laws)
+    assert [*guard.verdicts] == ["b"]
+    assert guard.verdicts["b"].text == "bad.py, line 1: ZeroDivisionError: division by zero"
+
+
+def test_a_nursery_that_was_killed_is_replaced(tmp_path) -> None:
+    laws = {"a": (law(tmp_path, GOOD), [0])}
+    played(pair(), laws)
+    for each in nursery._nurseries.values():
+        each._process.kill()
+        each._process.wait()
+    record, _, error = played(pair(), laws)
+    assert error is None
+    assert record.finished
+
+
+# -- what can't be guarded -----------------------------------------------------------------------
+
+
+def test_a_guard_says_what_is_wrong_with_what_it_is_given(tmp_path) -> None:
+    file = law(tmp_path, GOOD)
+    with pytest.raises(
+        InputError, match=r"Guard.laws\['a'\]: there is no robot 2; they are 0 to 1"
+    ):
+        Guard(pair(), {"a": (file, [2])}, 1)
+    with pytest.raises(InputError, match=r"Guard.laws: robot1 has the laws of a and b"):
+        Guard(pair(), {"a": (file, [1]), "b": (file, [1])}, 1)
+    with pytest.raises(InputError, match=r"Limits.tick = 0: expected a number > 0"):
+        Limits(tick=0)
+    guard = Guard(pair(), {"a": (file, [0])}, 1)
+    with pytest.raises(LawError, match="use the Guard in a with statement"):
+        World(guard.scenario, seed=1).step()
+    with guard:
+        World(guard.scenario, seed=1).step()
+        with pytest.raises(LawError, match="a Guard is for one run"):
+            World(guard.scenario, seed=1).step()
+    with pytest.raises(InputError, match="a Guard is for one run"), guard:
+        pass
+
+
+def test_a_file_that_is_not_there_is_a_verdict_too(tmp_path) -> None:
+    _, guard, _ = played(pair(), {"a": (tmp_path / "gone.py", [0])})
+    assert guard.verdicts["a"].kind == "start"
+    assert "gone.py" in guard.verdicts["a"].text
+
+
+class Eyes(Sensor):
+    """Shows a law what it is made with."""
+
+    what: Any = None
+
+    def read(self, robot, world, rng):
+        return 1.0
+
+    def shown(self, reading):
+        return self.what
+
+
+class Seen(NamedTuple):
+    bearing: float
+
+
+@pytest.mark.parametrize("what", [Seen(1.0), {"left": [Seen(1.0)]}, lambda: 1])
+def test_a_reading_that_no_other_process_knows_is_no_fault_of_the_law(what, tmp_path) -> None:
+    scenario = pair(sensors=[Eyes(what=what, recorded=False)])
+    _, guard, error = played(scenario, {"a": (law(tmp_path, GOOD), [0])})
+    assert guard.verdicts == {}
+    assert "sensor 'eyes' reads a " in str(error)
+    assert "can't be handed to a law in another process: expected numbers, text" in str(error)
+
+
+def test_readings_may_be_of_many_kinds(tmp_path) -> None:
+    what = {"left": (1, [2.5, None, "x"]), "right": np.arange(3)}
+    text = "def control(robot):\n    print(robot.sense.eyes)\n    return 0, 0\n"
+    scenario = pair(sensors=[Eyes(what=what, recorded=False)]).replace(stop_time=0.0)
+    _, guard, error = played(scenario, {"a": (law(tmp_path, text), [0])})
+    assert error is None
+    assert guard.output["a"] == f"{what}\n"
+
+
+def test_readings_are_those_of_the_robots_sensors(tmp_path) -> None:
+    text = "def control(robot):\n    print(sorted(dir(robot.sense)))\n    return 0, 0\n"
+    scenario = maze().replace(stop_time=0.0)
+    _, guard, error = played(scenario, {"a": (law(tmp_path, text), [0])})
+    assert error is None
+    assert guard.output["a"] == "['bumper', 'proximity', 'range_finder']\n"
+    assert np.isfinite(scenario.robots[0].radius)

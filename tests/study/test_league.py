@@ -1,0 +1,185 @@
+"""How laws stand after matches."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+
+import pytest
+
+from mars2d.study.isolation import Verdict
+from mars2d.study.tournament.league import head_to_head, league
+from mars2d.study.tournament.league_text import league_text
+from mars2d.study.tournament.match import Match, Played
+from mars2d.study.tournament.tournament import Tournament
+
+ROLES = ("pursuer", "evader")
+
+
+def played(number, pursuer, evader, winner, capture_time=None, **more) -> Played:
+    """A match that went as is said; its options, seed and record do not matter."""
+    seed, options = more.pop("seed", 0), more.pop("options", {})
+    match = Match(number, "chase.py", options, seed, {"pursuer": pursuer, "evader": evader})
+    more = {"digest": f"{number}", **more}
+    return Played(match, winner=winner, capture_time=capture_time, **more)
+
+
+def tournament(*matches: Played, settings: tuple[str, ...] = ()) -> Tournament:
+    standings = tuple(league(matches, ROLES))
+    return Tournament("Chase", "chase.py", ROLES, matches, standings, settings)
+
+
+SLOW = MappingProxyType({"pursuer": Verdict("slow", "c.py, line 7: no command after 1 s", 2.0)})
+BOTH = {**SLOW, "evader": Verdict("error", "y.py, line 2: it raised", 2.0)}
+
+
+def test_each_role_has_its_own_table_and_points_are_1_for_a_match_won_and_a_half_for_a_draw():
+    standings = league(
+        [
+            played(1, "a", "x", "pursuer", 3.0),
+            played(2, "a", "y", None),
+            played(3, "b", "x", "evader"),
+            played(4, "b", "y", "evader"),
+        ],
+        ROLES,
+    )
+    table = [(s.role, s.law, s.points, s.played, s.won, s.drawn, s.lost) for s in standings]
+    assert table == [
+        ("pursuer", "a", 1.5, 2, 1, 1, 0),
+        ("pursuer", "b", 0.0, 2, 0, 0, 2),
+        ("evader", "y", 1.5, 2, 1, 1, 0),
+        ("evader", "x", 1.0, 2, 1, 0, 1),
+    ]
+    share = standings[0].share
+    assert share.mean == 0.75
+    assert 0 < share.low < 0.75 < share.high < 1
+
+
+def test_a_forfeit_is_lost_and_where_both_fail_both_lose():
+    a, b = league([played(1, "c", "y", "evader", verdicts=SLOW)], ROLES)
+    assert (a.lost, a.forfeits, a.points, b.won, b.forfeits) == (1, 1, 0, 1, 0)
+    a, b = league([played(1, "c", "y", None, verdicts=BOTH)], ROLES)
+    assert (a.lost, a.forfeits, a.drawn, b.lost, b.forfeits, b.drawn) == (1, 1, 0, 1, 1, 0)
+
+
+def test_a_match_without_a_result_counts_for_nobody():
+    match = played(1, "a", "x", None).match
+    first, second = league([Played.without_result(match, "the process died")], ROLES)
+    assert (first.played, first.points, second.played) == (0, 0, 0)
+
+
+def test_of_equal_points_the_quicker_hunter_and_the_evader_that_lasts_longer_stand_higher():
+    matches = [
+        played(1, "a", "x", "pursuer", 9.0),
+        played(2, "a", "y", "pursuer", 4.0),
+        played(3, "b", "x", "pursuer", 8.0),
+        played(4, "b", "y", "pursuer", 3.0),
+    ]
+    standings = league(matches, ROLES)
+    assert [s.law for s in standings] == ["b", "a", "x", "y"]
+    assert [s.capture_time for s in standings] == [5.5, 6.5, 8.5, 3.5]
+    never = played(5, "a", "z", "evader"), played(6, "b", "z", "evader")
+    assert [s.law for s in league([*matches, *never], ROLES)][2:] == ["z", "x", "y"]
+
+
+def test_then_names_decide():
+    standings = league([played(k, law, "x", "evader") for k, law in enumerate("cab")], ROLES)
+    assert [s.law for s in standings] == ["a", "b", "c", "x"]
+
+
+def test_laws_that_play_both_roles_stand_in_one_table_with_the_time_that_they_hunted():
+    matches = [played(1, "a", "b", "pursuer", 2.0), played(2, "b", "a", "evader")]
+    first, second = league(matches, ROLES)
+    assert (first.law, first.role, first.played, first.won, first.capture_time) == (
+        "a",
+        "",
+        2,
+        2,
+        2,
+    )
+    assert (second.law, second.lost, second.capture_time) == ("b", 2, None)
+
+
+def test_who_played_more_matches_does_not_stand_higher_for_that():
+    matches = [played(1, "a", "b", "pursuer"), played(2, "b", "a", "evader")]
+    matches += [played(k, "c", law, "evader") for k, law in enumerate("abb", 3)]
+    matches += [played(k, "c", "d", "pursuer") for k in range(6, 12)]
+    assert [(s.law, s.points) for s in league(matches, ROLES)] == [
+        ("a", 3.0), ("c", 6.0), ("b", 2.0), ("d", 0.0),
+    ]  # fmt: skip
+
+
+def test_points_of_one_against_the_other_do_not_count_what_has_no_result():
+    draw, lost = played(1, "a", "x", None), played(2, "a", "x", "evader")
+    error = Played.without_result(draw.match, "no")
+    assert head_to_head([draw, lost, error], ROLES) == {("a", "x"): 0.5}
+    both = played(1, "a", "x", None, verdicts=BOTH)
+    assert head_to_head([both], ROLES) == {("a", "x"): 0.0}
+
+
+# -- in words --------------------------------------------------------------------------------------
+
+
+def test_the_text_has_tables_points_of_pairings_rounds_and_faults():
+    text = league_text(
+        tournament(
+            played(1, "a", "x", "pursuer", 2.5, options={"mu": 0.8}),
+            played(2, "c", "x", "evader", options={"mu": 0.8}, verdicts=SLOW),
+            played(3, "a", "x", "pursuer", 3.5, options={"mu": 0.9}),
+            played(4, "c", "x", "evader", options={"mu": 0.9}, verdicts=SLOW),
+            settings=("mu",),
+        )
+    )
+    assert (
+        text
+        == """\
+   pursuer  points         share (95 %)  played  won  lost  forfeits  caught after
+1  a             2  1.00 (0.34 to 1.00)       2    2     0         0         3.0 s
+2  c             0  0.00 (0.00 to 0.66)       2    0     2         2             -
+
+   evader  points         share (95 %)  played  won  lost  caught after
+1  x            2  0.50 (0.15 to 0.85)       4    2     2         3.0 s
+
+Points of each pursuer against each evader:
+pursuer \\ evader  x
+a                 2
+c                 0
+
+points with  mu = 0.8  mu = 0.9
+a                   1         1
+c                   0         0
+x                   1         1
+
+c: 2 matches forfeited: slow: c.py, line 7: no command after 1 s (match 2 and 1 other)"""
+    )
+
+
+def test_matches_without_a_result_are_told_with_their_error():
+    lost = [Played.without_result(played(k, "a", "x", None).match, "it died") for k in (1, 2)]
+    text = league_text(tournament(*lost))
+    assert "2 matches without a result: it died (match 1 and 1 other)" in text
+    assert "1  a             0             -       0" in text
+
+
+@pytest.mark.parametrize(
+    ("digests", "said"),
+    [
+        ("aabb", "The 2 seeds gave the same match in each pairing: nothing in it is random."),
+        ("aabc", "The 2 seeds gave the same match, since nothing in it is random: a against x."),
+        ("abcd", None),
+    ],
+)
+def test_seeds_that_gave_the_same_match_are_told(digests, said):
+    pairs = [("a", "x", 0), ("a", "x", 1), ("b", "x", 0), ("b", "x", 1)]
+    matches = [
+        played(k, first, second, "evader", seed=seed, digest=digest)
+        for k, ((first, second, seed), digest) in enumerate(zip(pairs, digests, strict=True), 1)
+    ]
+    text = league_text(tournament(*matches))
+    assert text.endswith(said) if said else "same match" not in text
+
+
+def test_a_table_that_is_wider_than_a_terminal_is_left_to_the_page():
+    laws = [f"a_law_with_a_long_name_{k}" for k in range(12)]
+    text = league_text(tournament(*(played(k, "a", law, "evader") for k, law in enumerate(laws))))
+    assert "Points of each" not in text
+    assert max(map(len, text.splitlines())) <= 100

@@ -1,0 +1,180 @@
+"""Results: a study's table as a file, whole, torn, of another study, or written to by others."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from mars2d import InputError, Table
+from mars2d.study.results import Results, load_table, save_table
+from mars2d.study.table import Result
+
+ROWS = (
+    Result(1, {"n": 1, "red": "a, b.py"}, 0, {"time": 0.1 + 0.2, "won": "red"}, "", "ab", "12"),
+    Result(2, {"n": 1, "red": "5"}, 1, {"time": None, "won": None}, 'a.py, line 3: "no"', "", ""),
+    Result(3, {"n": (1, 2), "red": ""}, 2, {"time": 3, "won": "blue"}, "", "cd", "12"),
+)
+TABLE = Table("duel.py", ("n", "red"), ("time", "won"), ROWS)
+
+
+def of(*results):
+    return Table("duel.py", ("n", "red"), ("time", "won"), results)
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "results.csv"
+
+
+def test_a_table_comes_back_from_its_file_as_it_was(path):
+    assert load_table(save_table(TABLE, path)) == TABLE
+    assert Table.load(TABLE.save(path)) == TABLE
+
+
+def test_the_file_is_as_rfc_4180_has_it(path):
+    save_table(TABLE, path)
+    assert path.read_bytes().decode().split("\r\n") == [
+        "row,experiment,n,red,seed,time,won,digest,code,error",
+        '1,duel.py,1,"a, b.py",0,0.30000000000000004,red,ab,12,',
+        '2,duel.py,1,\'5\',1,,,,,"a.py, line 3: ""no"""',
+        '3,duel.py,"(1, 2)",,2,3,blue,cd,12,',
+        "",
+    ]
+
+
+def test_pandas_reads_the_file_without_options(path):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.read_csv(save_table(TABLE, path))
+    assert frame["time"].tolist()[::2] == [0.1 + 0.2, 3.0]
+    assert frame["time"].isna().tolist() == [False, True, False]
+    assert frame["error"][1] == 'a.py, line 3: "no"'
+
+
+def test_rows_are_in_the_file_as_soon_as_they_are_added(path):
+    with Results(path, of()) as file:
+        file.add(ROWS[1])
+        assert load_table(path) == of(ROWS[1])
+        file.add(ROWS[0])
+        assert load_table(path) == of(*ROWS[:2])  # by their numbers
+
+
+@pytest.mark.parametrize("cut", [1, 5, 30])
+def test_a_line_that_was_broken_off_is_left_out_and_the_next_begins_anew(path, cut):
+    save_table(of(*ROWS[:2]), path)
+    path.write_bytes(path.read_bytes()[:-cut])
+    assert load_table(path) == of(ROWS[0])
+    with Results(path, of()) as file:
+        assert file.known == ROWS[:1]
+        file.add(ROWS[2])
+    assert load_table(path) == of(ROWS[0], ROWS[2])
+
+
+def test_a_header_that_was_broken_off_is_written_anew(path):
+    path.write_bytes(b"row,exper")
+    with Results(path, of()) as file:
+        assert file.known == ()
+        file.add(ROWS[0])
+    assert load_table(path) == of(ROWS[0])
+
+
+def test_a_file_is_written_by_one_at_a_time(path):
+    with Results(path, of()):
+        with pytest.raises(InputError, match="another process is writing to it"):
+            Results(path, of()).__enter__()
+        assert load_table(path) == Table("", ("n", "red"), ("time", "won"), ())
+    with Results(path, of()):
+        pass  # and then by the next
+
+
+@pytest.mark.parametrize(
+    ("blank", "said"),
+    [
+        (Table("other.py", ("n", "red"), ("time", "won"), ()), "experiment: duel.py; now: other"),
+        (Table("duel.py", ("n",), ("time", "won"), ()), "settings: n, red; now: n. Give"),
+        (Table("duel.py", ("n", "red"), (), ()), "measures: time, won; now: none"),
+    ],
+)
+def test_a_file_of_another_study_is_refused_and_stays_as_it_was(path, blank, said):
+    before = save_table(TABLE, path).read_bytes()
+    with pytest.raises(InputError, match=said):
+        Results(path, blank).__enter__()
+    assert path.read_bytes() == before
+    with Results(path, of()) as file:  # nor does it stay locked
+        assert file.known == ROWS
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b"", "it is empty"),
+        (b"a,b\r\n1,2\r\n", "is no table of a study"),
+        (b"\xff\xfe\r\n", "UTF-8"),
+        (b"row,experiment,seed,digest,code,error\r\n1,a.py,0\r\n", "line 2: 3 cells, expected 6"),
+        (b"row,experiment,seed,digest,code,error\r\nx,a.py,0,,,\r\n", "line 2: row = 'x'"),
+        (b"row,experiment,seed,digest,code,error\r\n1,a.py,-1,,,\r\n", "line 2: seed = '-1'"),
+        (b'row,experiment,seed,digest,code,error\r\n1,"a"b,0,,,\r\n', "line 2"),
+        (
+            b"row,experiment,seed,digest,code,error\r\n1,a.py,0,,,\r\n2,b.py,0,,,\r\n",
+            "line 3: experiment 'b.py', where the rows before have 'a.py'",
+        ),
+    ],
+)
+def test_what_is_no_table_says_so_in_one_line(path, data, said):
+    path.write_bytes(data)
+    with pytest.raises(InputError) as caught:
+        load_table(path)
+    assert said in str(caught.value)
+    assert str(path) in str(caught.value)
+
+
+def test_a_table_that_a_spreadsheet_has_saved_is_read(path):
+    save_table(TABLE, path)
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\r\n", b"\n"))
+    assert load_table(path) == TABLE
+
+
+def test_a_file_that_can_not_be_written_or_read_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"none.csv: can't be written"):
+        Results(tmp_path / "none" / "none.csv", of()).__enter__()
+    with pytest.raises(InputError, match=r"none.csv: can't be read"):
+        load_table(tmp_path / "none.csv")
+    with pytest.raises(InputError, match=r"ends in .csv"):
+        save_table(TABLE, tmp_path / "table.xlsx")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no full disk to try")
+def test_a_full_disk_is_told_in_one_line(path):
+    with (
+        pytest.raises(InputError, match=r"results.csv: can't be written: No space left"),
+        Results(path, of()) as file,
+        Path("/dev/full").open("wb") as full,
+    ):
+        os.dup2(full.fileno(), file._file.fileno())  # from now on it is written to a full disk
+        file.add(ROWS[0])
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="this system has no devices as files")
+def test_a_device_is_not_read_as_a_table(path):
+    path.symlink_to("/dev/zero")
+    with pytest.raises(InputError, match=r"results.csv: expected a file"):
+        Results(path, of()).__enter__()
+
+
+def test_a_notebook_shows_the_first_rows_and_no_tags_of_the_users():
+    table = of(*(Result(k, {"n": k, "red": "<b>"}, 0, {"time": 1.0}) for k in range(1, 31)))
+    html = table._repr_html_()
+    assert html.count("<tr>") == 21
+    assert "and 10 rows more" in html
+    assert "&lt;b&gt;" in html
+    assert "<b>" not in html
+
+
+def test_a_frame_has_a_row_a_run_and_columns_of_settings_and_measures():
+    pytest.importorskip("pandas")
+    frame = TABLE.to_frame()
+    assert [*frame.columns] == ["n", "red", "seed", "time", "won", "digest", "code", "error"]
+    assert frame.loc[1, "time"] == 0.1 + 0.2
+    assert frame["n"].tolist() == [1, 1, (1, 2)]
+    assert of(ROWS[1]).to_frame()["time"].dtype == float  # a column of nothing is one of numbers

@@ -1,0 +1,191 @@
+"""Statistics hold against printed tables, against worked examples, and against chance itself."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from mars2d import InputError
+from mars2d.study.statistics import (
+    interval,
+    paired,
+    paired_shares,
+    proportion,
+    seeds_for_share,
+    seeds_needed,
+    shared,
+    unpaired,
+    unpaired_shares,
+)
+
+STUDIES = 2000
+
+
+def within_chance(covered, confidence=0.95, studies=STUDIES):
+    """Whether so many of the studies may cover the truth by chance, once in ten thousand not."""
+    low, high = stats.binom.ppf([5e-5, 1 - 5e-5], studies, confidence)
+    return low <= covered <= high
+
+
+@pytest.mark.parametrize(
+    ("n", "confidence", "t"),
+    [(2, 0.95, 12.706), (5, 0.95, 2.776), (10, 0.99, 3.250), (31, 0.90, 1.697), (121, 0.95, 1.980)],
+)
+def test_the_interval_of_a_mean_has_the_quantiles_of_the_printed_tables(n, confidence, t):
+    values = np.random.default_rng(n).normal(size=n)
+    found = interval(values, confidence)
+    assert found.half_width / (values.std(ddof=1) / math.sqrt(n)) == pytest.approx(t, abs=6e-4)
+    assert found.mean == pytest.approx(values.mean())
+    assert found.count == n
+
+
+def test_student_s_own_example_of_sleep():
+    # Additional hours of sleep by two drugs (Student 1908, table I).
+    first = [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0]
+    second = [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4]
+    found = paired(second, first)
+    assert found.mean == pytest.approx(1.58)
+    assert (found.low, found.high) == pytest.approx((0.7001, 2.4599), abs=1e-4)
+    apart = unpaired(second, first)
+    assert (apart.low, apart.high) == pytest.approx((-0.2055, 3.3655), abs=1e-4)
+
+
+def test_intervals_cover_the_true_mean_as_often_as_they_say():
+    rng = np.random.default_rng(1)
+    studies = 3.0 + 2.0 * rng.normal(size=(STUDIES, 5))
+    found = [interval(values) for values in studies]
+    covered = sum(each.low <= 3.0 <= each.high for each in found)
+    assert within_chance(covered)
+    # With the normal distribution's 1.96 in place of Student's quantile they would not.
+    half = 1.96 * studies.std(axis=1, ddof=1) / math.sqrt(5)
+    assert not within_chance(int((abs(studies.mean(axis=1) - 3.0) <= half).sum()))
+
+
+def test_differences_are_covered_as_often_as_they_say_in_pairs_and_in_none():
+    rng = np.random.default_rng(2)
+    common = rng.normal(size=(STUDIES, 8))
+    a = 1.0 + common + 0.3 * rng.normal(size=(STUDIES, 8))
+    b = common + 0.3 * rng.normal(size=(STUDIES, 8))
+    in_pairs = [paired(x, y) for x, y in zip(a, b, strict=True)]
+    assert within_chance(sum(each.low <= 1.0 <= each.high for each in in_pairs))
+    c = 4 * rng.normal(size=(STUDIES, 12))
+    apart = [unpaired(x, y) for x, y in zip(a, c, strict=True)]
+    assert within_chance(sum(each.low <= 1.0 <= each.high for each in apart))
+    wide = [unpaired(x, y) for x, y in zip(a, b, strict=True)]
+    assert np.mean([w.half_width / p.half_width for w, p in zip(wide, in_pairs, strict=True)]) > 2
+
+
+def test_wilson_s_interval_has_its_published_values():
+    found = proportion(81, 263)  # Newcombe (1998), table I, method 3
+    assert (found.low, found.high) == pytest.approx((0.2553, 0.3662), abs=5e-5)
+    found = proportion(0, 20)
+    assert (found.low, found.high) == pytest.approx((0.0, 0.1611), abs=5e-5)
+    found = proportion(29, 29)
+    assert (found.low, found.high) == pytest.approx((0.8830, 1.0), abs=5e-5)
+
+
+def test_wilson_s_interval_covers_on_the_average_over_all_shares():
+    n = 20
+    bounds = [proportion(k, n) for k in range(n + 1)]
+    covered = []
+    for share in np.linspace(0.02, 0.98, 97):
+        chance = stats.binom.pmf(range(n + 1), n, share)
+        covered.append(
+            sum(c for c, b in zip(chance, bounds, strict=True) if b.low <= share <= b.high)
+        )
+    assert np.mean(covered) == pytest.approx(0.95, abs=0.01)
+    assert min(covered) > 0.83  # that of a mean and its deviation falls to 0.33
+
+
+def test_paired_and_unpaired_shares_cover_their_difference():
+    rng = np.random.default_rng(3)
+    luck = rng.random((STUDIES, 40))
+    a, b = (luck < 0.7).astype(float), (luck < 0.5).astype(float)
+    other = (rng.random((STUDIES, 30)) < 0.5).astype(float)
+    for function, second in ((paired_shares, b), (unpaired_shares, other)):
+        found = [function(x, y) for x, y in zip(a, second, strict=True)]
+        covered = sum(each.low <= 0.2 <= each.high for each in found) / STUDIES
+        assert 0.92 <= covered <= 0.985  # both are approximations for few runs
+
+
+def test_newcombe_s_example_of_two_shares():
+    a, b = np.repeat([1.0, 0.0], [56, 14]), np.repeat([1.0, 0.0], [48, 32])
+    found = unpaired_shares(a, b)  # Newcombe (1998), 56/70 and 48/80, method 10
+    assert (found.mean, found.low, found.high) == pytest.approx((0.2, 0.0524, 0.3339), abs=5e-5)
+
+
+def test_shares_that_are_all_the_same_leave_room():
+    found = paired_shares([1.0] * 10, [1.0] * 10)
+    assert found.mean == 0
+    assert found.low == pytest.approx(-found.high)
+    assert found.high > 0.1
+    assert shared([1, 1, math.nan, 0]).count == 3
+
+
+def test_few_values_and_equal_values_have_honest_bounds():
+    assert interval([]).count == 0
+    assert math.isnan(interval([]).mean)
+    one = interval([4.0])
+    assert (one.mean, one.count) == (4.0, 1)
+    assert math.isnan(one.low)
+    assert math.isnan(one.high)
+    same = interval([0.1] * 7)
+    assert (same.mean, same.low, same.high) == (0.1, 0.1, 0.1)
+    assert (proportion(0, 0).low, proportion(0, 0).high) == (0.0, 1.0)
+
+
+def test_what_was_not_measured_is_left_out_and_counted():
+    found = interval([1.0, math.nan, 2.0, math.inf, 3.0])
+    assert (found.mean, found.count) == (2.0, 3)
+    found = paired([1.0, math.nan, 3.0, 5.0, math.inf], [0.0, 1.0, math.nan, 4.0, math.inf])
+    assert (found.mean, found.count) == (1.0, 2)
+    assert unpaired([1.0, 2.0], [math.nan]).count == 2
+    assert math.isnan(unpaired([1.0, 2.0], [math.nan]).mean)
+    assert math.isnan(unpaired([1.0, 2.0], [1.0]).low)
+    assert unpaired([1.0, 1.0], [3.0, 3.0]).half_width == 0
+    assert paired_shares([math.nan], [1.0]).count == 0
+
+
+def test_the_seeds_needed_are_the_fewest_whose_interval_is_narrow_enough():
+    values = np.random.default_rng(4).normal(10.0, 2.0, 30)
+    for half_width in (5.0, 1.0, 0.3, 0.1):
+        n = seeds_needed(values, half_width)
+
+        def half(runs):
+            return stats.t.ppf(0.975, runs - 1) * values.std(ddof=1) / math.sqrt(runs)
+
+        assert half(n) <= half_width
+        assert n == 2 or half(n - 1) > half_width
+    assert seeds_needed([1.0, 1.0, 1.0], 0.1) == 2
+    assert seeds_needed([1.0], 0.1) is None
+    assert seeds_needed([0.0, 1.0], 1e-9) == pytest.approx(1.92e18, rel=0.01)
+
+
+def test_the_seeds_for_a_share_are_the_fewest_too():
+    for share in (0.0, 0.1, 0.5):
+        n = seeds_for_share(share, 0.05)
+        z = stats.norm.ppf(0.975)
+
+        def half(runs, share=share, z=z):
+            inside = share * (1 - share) / runs + z**2 / (4 * runs**2)
+            return z / (1 + z**2 / runs) * math.sqrt(inside)
+
+        assert half(n) <= 0.05 < half(n - 1)
+
+
+@pytest.mark.parametrize("confidence", [0, 1, 95, -0.5, math.nan, "0.95", True])
+def test_a_confidence_is_a_share(confidence):
+    with pytest.raises(InputError, match=r"confidence = .*expected a share between 0 and 1"):
+        interval([1.0, 2.0], confidence)
+
+
+def test_what_makes_no_sense_is_refused():
+    with pytest.raises(InputError, match="two lists of the same length"):
+        paired([1.0, 2.0], [1.0])
+    with pytest.raises(InputError, match="half_width = 0"):
+        seeds_needed([1.0, 2.0], 0)
+    with pytest.raises(InputError, match="successes"):
+        proportion(5, 4)

@@ -1,0 +1,451 @@
+"""Sweeps: what is run, what a row holds, how a study goes on, what it refuses."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import Executor, ThreadPoolExecutor
+
+import pytest
+
+import mars2d
+from mars2d import InputError, Robot, Scenario
+from mars2d.cli import main
+from mars2d.study.results import Results, load_table
+from mars2d.testing import deadline
+
+DRIFT = '''
+"""Robots drift."""
+from pathlib import Path
+from mars2d import Robot, Scenario
+
+def law(robot):
+    if robot.time == 0.0:
+        with Path("ran.txt").open("a") as file:
+            file.write(".")
+    return gain * robot.rng.uniform(), 0.0
+
+def scenario(gain=1.0, n=1, seed=0):
+    globals()["gain"] = gain
+    robots = [Robot(pose=(0, 0.4 * k, seed), controller=law) for k in range(n)]
+    return Scenario(title="Drift", robots=robots, stop_time=1.0)
+
+def far(record):
+    return float(abs(record.pose[-1, :2]).max())
+
+def word(record):
+    return "much" if far(record) > 0.5 else None
+
+def broken(record):
+    return 1 / 0
+
+def two(record, other):
+    return 0
+'''
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """A folder with an experiment, which notes each robot that it runs."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    (tmp_path / "drift.py").write_text(DRIFT)
+    return tmp_path
+
+
+def sweep(settings=None, seeds=2, measures="far", experiment="drift.py", **more):
+    """Sweep in a thread of this process, which starts at once."""
+    with ThreadPoolExecutor(1) as executor:
+        more = {"executor": executor} | more
+        return mars2d.sweep(experiment, settings, seeds, measures, **more)
+
+
+def runs(folder):
+    file = folder / "ran.txt"
+    return len(file.read_text()) if file.exists() else 0
+
+
+# -- what a row holds ------------------------------------------------------------------------------
+
+
+def test_each_row_is_the_run_that_mars2d_run_makes(here):
+    table = sweep({"gain": [0.5, 1.0], "robots.*.diameter": [0.2, 0.3]}, 2, stop_time=0.5)
+    assert len(table) == 8
+    assert table.settings == ("gain", "robots.*.diameter", "stop_time")
+    for row, result in enumerate(table.results, 1):
+        record = mars2d.run("drift.py", options=result.options, seed=result.seed)
+        assert result.row == row
+        assert result.digest == record.digest
+        assert result.measures == {"far": abs(record.pose[-1, :2]).max()}
+    assert len({result.digest for result in table.results}) == 4  # a size changes nothing here
+    assert len({result.code for result in table.results}) == 1
+
+
+def test_each_point_has_the_same_seeds(here):
+    points = sweep({"gain": [0.5, 1.0]}, [4, 2]).points()
+    assert {p: [r.seed for r in results] for p, results in points.items()} == {
+        (0.5,): [4, 2], (1.0,): [4, 2]
+    }  # fmt: skip
+
+
+def test_measures_are_the_files_the_ones_built_in_or_functions_given(here):
+    def here_alone(record):
+        return len(record)
+
+    table = sweep(None, 1, ["far", "collisions", "word", here_alone])
+    assert table.measures == ("far", "collisions", "word", "here_alone")
+    record = mars2d.run("drift.py")
+    assert table.results[0].measures == {
+        "far": abs(record.pose[-1, :2]).max(), "collisions": 0, "word": None, "here_alone": 11
+    }  # fmt: skip
+
+
+def test_without_measures_there_are_those_that_fit_any_run(here):
+    assert sweep(None, 1, ()).measures == ("end_time", "collisions")
+    game = sweep({"stop_time": 0.5}, 1, (), "pursuit_corners")
+    assert game.measures == ("capture_time", "end_time", "collisions")
+
+
+def test_a_scenario_and_a_module_are_run_as_well(here):
+    scenario = Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=0.5)
+    table = sweep(
+        {"sampling_time": [0.1, 0.05]}, 1, "collisions", scenario, control=lambda w: (1, 0)
+    )
+    assert [result.error for result in table.results] == ["", ""]
+    assert table.results[0].digest == mars2d.run(scenario, control=lambda w: (1, 0)).digest
+    module = mars2d.files.open_module("drift.py")
+    assert sweep(experiment=module).results[0].digest == sweep().results[0].digest
+
+
+def test_a_run_that_fails_is_a_row_with_its_error_and_the_others_go_on(here):
+    law = "return 1 / (robot.rng.uniform() - 1.5) if gain < 1 else robot.speeed, 0.0"
+    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
+    fine, failed = sweep({"gain": [0.5, 1.0]}, 1).results
+    assert (fine.error, failed.digest, failed.measures) == ("", "", {"far": None})
+    assert failed.error.startswith("drift.py, line 10: a robot has no 'speeed'")
+
+
+def test_a_point_that_can_not_be_opened_is_a_row_with_its_error(here):
+    table = sweep({"n": [1, 40]}, 2)
+    assert [bool(result.error) for result in table.results] == [False, False, True, True]
+    assert "starts outside the workspace" in table.failed[0].error
+
+
+def test_a_measure_that_fails_leaves_the_run_its_digest_and_its_other_measures(here):
+    (result,) = sweep(None, 1, ["broken", "far"]).results
+    assert result.digest
+    assert result.measures["broken"] is None
+    assert result.measures["far"] > 0
+    assert "drift.py, line 24: broken raised ZeroDivisionError" in result.error
+
+
+def test_a_run_that_takes_too_long_is_a_row_that_names_the_line(here):
+    loop = "while gain == 2.0: pass\n    return 0.1, 0.0"
+    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", loop))
+    hangs, ends = sweep({"gain": [2.0, 1.0]}, 1, time_limit=0.5).results
+    assert hangs.error == "took longer than 0.5 s, in drift.py, line 10"
+    assert (ends.error, bool(ends.digest)) == ("", True)
+
+
+def test_a_run_that_waits_for_the_system_is_left_behind(here, monkeypatch):
+    monkeypatch.setattr(deadline, "GRACE", 0.2)
+    wait = "import time; time.sleep(2.5 if gain == 2.0 else 0)\n    return 0.1, 0.0"
+    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", wait))
+    start = time.monotonic()
+    hangs, ends = sweep({"gain": [2.0, 1.0]}, 1, time_limit=0.3).results
+    assert time.monotonic() - start < 2.4
+    assert hangs.error == "took longer than 0.3 s, in drift.py, line 10"
+    assert ends.error == ""
+
+
+# -- what is refused before the first run ----------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ({"measures": "farr"}, "there is no measure 'farr'; did you mean 'far'?"),
+        ({"measures": "two"}, "two(record, other) is no measure"),
+        ({"measures": "capture_time"}, "the scenario has no contest"),
+        ({"measures": ["far", "far"]}, "measure 'far': is there twice"),
+        ({"measures": 3}, "measures = 3: expected names"),
+        ({"settings": {"gian": [1, 2]}}, "there is no option 'gian'; did you mean 'gain'?"),
+        ({"settings": {"gain": ["much"]}}, "scenario(gain) = 'much': expected a number"),
+        ({"settings": {"n": [40, 50]}}, "starts outside the workspace"),
+        ({"settings": {"seed": [1, 2]}}, "seeds are not a setting"),
+        ({"settings": {"error": [1]}}, "setting 'error': is a column of each table"),
+        ({"settings": {"far": [1]}}, "measure 'far': is a setting as well"),
+        ({"settings": {"stop_time": 1}, "stop_time": 2}, "stop_time is given twice"),
+        ({"experiment": "drfit.py"}, "there is no such file; did you mean 'drift.py'?"),
+        ({"experiment": 3}, "experiment = 3: expected a file"),
+        ({"seeds": 0}, "seeds = 0"),
+        ({"time_limit": -1}, "time_limit = -1"),
+        ({"out": "a.xlsx"}, "a.xlsx: expected a name that ends in .csv"),
+        ({"out": "none/a.csv"}, "a.csv: can't be written"),
+        ({"executor": None, "workers": 0}, "workers=0"),
+        ({"executor": 3}, "executor=3"),
+    ],
+)
+def test_what_can_not_be_run_is_said_before_the_first_run(here, how, said):
+    with pytest.raises(InputError) as caught:
+        sweep(**how)
+    assert said in str(caught.value)
+    assert runs(here) == 0
+
+
+# -- going on --------------------------------------------------------------------------------------
+
+
+def test_what_is_in_the_file_is_not_run_again_and_seeds_and_values_may_become_more(here):
+    first = sweep({"gain": [0.5, 1.0]}, 2, out="r.csv")
+    assert load_table("r.csv") == first
+    assert runs(here) == 4
+    assert sweep({"gain": [0.5, 1.0]}, 2, out="r.csv") == first
+    assert runs(here) == 4
+    more = sweep({"gain": [0.25, 0.5, 1.0]}, 3, out="r.csv")
+    assert runs(here) == 9
+    again = sweep({"gain": [0.25, 0.5, 1.0]}, 3, out="anew.csv")
+    assert more == again == load_table("r.csv")
+    assert (here / "r.csv").read_bytes() == (here / "anew.csv").read_bytes()
+
+
+def test_rows_that_move_have_their_new_numbers_before_the_next_is_added(here):
+    sweep({"gain": [0.5, 1.0]}, 2, out="r.csv")
+    with pytest.raises(KeyboardInterrupt):
+        sweep({"gain": [0.5, 1.0]}, 4, out="r.csv", measures="far", executor=Interrupting())
+    rows = [(r.row, r.options["gain"], r.seed) for r in load_table("r.csv").results]
+    assert rows == [(1, 0.5, 0), (2, 0.5, 1), (5, 1.0, 0), (6, 1.0, 1)]
+
+
+class Interrupting(Executor):
+    """Takes tasks, and is interrupted."""
+
+    def submit(self, function, *arguments, **named):
+        raise KeyboardInterrupt
+
+
+def test_a_torn_line_is_run_again(here):
+    whole = sweep(None, 3, out="r.csv")
+    data = (here / "r.csv").read_bytes()
+    (here / "r.csv").write_bytes(data[:-20])
+    assert sweep(None, 3, out="r.csv") == whole
+    assert (here / "r.csv").read_bytes() == data
+    assert runs(here) == 4
+
+
+def test_rows_with_errors_are_run_again_only_if_asked(here):
+    law = 'return (1 / 0 if Path("bad").exists() else 0.1), 0.0'
+    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
+    (here / "bad").touch()
+    assert len(sweep(None, 2, out="r.csv").failed) == 2
+    (here / "bad").unlink()
+    assert len(sweep(None, 2, out="r.csv").failed) == 2
+    assert runs(here) == 2
+    assert sweep(None, 2, out="r.csv", retry=True).failed == ()
+    assert runs(here) == 4
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ({"seeds": 1}, "it has the seed 1, which this one has not"),
+        ({"settings": {"gain": [0.5, 2.0]}}, "it has gain = 1.0, which this one has not"),
+        ({"settings": {"n": [1]}}, "its settings: gain; now: n"),
+        ({"measures": ["far", "word"]}, "its measures: far; now: far, word"),
+        ({"experiment": "./other.py"}, "its experiment: drift.py; now: other.py"),
+    ],
+)
+def test_a_file_of_another_study_is_refused(here, how, said):
+    (here / "other.py").write_text(DRIFT)
+    same = {"settings": {"gain": [0.5, 1.0]}, "out": "r.csv"}
+    sweep(**same)
+    before = (here / "r.csv").read_bytes()
+    with pytest.raises(InputError) as caught:
+        sweep(**(same | how))
+    assert str(caught.value).startswith("r.csv: holds another study; " + said)
+    assert "Give another --out, or delete it" in str(caught.value)
+    assert (here / "r.csv").read_bytes() == before
+
+
+def test_a_file_made_by_other_code_is_refused(here):
+    (here / "beside.py").write_text("STEP = 0.4\n")
+    (here / "drift.py").write_text("from beside import STEP\n" + DRIFT.replace("0.4", "STEP"))
+    sweep({"gain": [0.5]}, out="r.csv")
+    (here / "beside.py").write_text("STEP = 0.5\n")
+    with pytest.raises(InputError, match="has changed since row 1 was made"):
+        sweep({"gain": [0.5]}, 3, out="r.csv")
+    (here / "beside.py").write_text("STEP = 0.4\n")
+    assert len(sweep({"gain": [0.5]}, 3, out="r.csv")) == 3
+
+
+def test_a_file_that_changes_meanwhile_ends_the_study_with_the_rows_until_then(here):
+    change = 'Path("drift.py").write_text(Path("drift.py").read_text() + "#")'
+    law = f"gain == 0.3 and robot.time == 0.5 and {change}\n    return 0.1, 0.0"
+    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
+    with pytest.raises(InputError, match=r"drift.py has changed while the study was running"):
+        sweep({"gain": [0.1, 0.2, 0.3, 0.4]}, 1, out="r.csv")
+    assert [result.options["gain"] for result in load_table("r.csv").results] == [0.1, 0.2]
+
+
+def test_two_studies_do_not_write_to_one_file(here):
+    table = sweep(out="r.csv")
+    with Results(here / "r.csv", table), pytest.raises(InputError, match="another process"):
+        sweep(out="r.csv")
+
+
+# -- the command -----------------------------------------------------------------------------------
+
+COMMAND = ["sweep", "drift.py", "--set", "gain=0.5,1.0", "--seeds", "20", "--measure", "far"]
+
+
+def command(*arguments):
+    return subprocess.Popen(
+        [sys.executable, "-P", "-m", "mars2d", *arguments],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, encoding="utf-8",
+        start_new_session=True,
+    )  # fmt: skip
+
+
+def once_rows(file, count, process):
+    """Wait until a file has some rows, and return them."""
+    end = time.monotonic() + 60
+    while not file.exists() or len(rows := file.read_bytes().split(b"\r\n")[1:-1]) < count:
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    return rows
+
+
+def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(here):
+    slow = DRIFT.replace("return gain", "__import__('time').sleep(0.005)\n    return gain")
+    (here / "drift.py").write_text(slow)
+    study = [*COMMAND, "--out", "r.csv", "--workers", "2"]
+
+    process = command(*study)
+    once_rows(here / "r.csv", 3, process)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+    _, errors = process.communicate(timeout=30)
+    rows = len(load_table("r.csv"))
+    assert process.returncode == 130, errors
+    assert errors == f"mars2d: {rows} of 40 runs are in r.csv; the same command goes on\n"
+    assert 3 <= rows < 40
+
+    process = command(*study)
+    once_rows(here / "r.csv", rows + 3, process)
+    os.kill(process.pid, signal.SIGKILL)
+    process.communicate(timeout=30)
+    with (here / "r.csv").open("ab") as file:
+        file.write(b"17,drift.py,0.5,1,0.2")  # what a full disk or a power failure leaves
+    there = len(load_table("r.csv"))
+    assert rows + 3 <= there < 40
+
+    (here / "ran.txt").unlink()
+    sweep({"gain": [0.5, 1.0]}, 20, out="r.csv")
+    assert runs(here) == 40 - there
+    sweep({"gain": [0.5, 1.0]}, 20, out="one.csv")
+    assert (here / "r.csv").read_bytes() == (here / "one.csv").read_bytes()
+
+
+def test_a_row_is_run_again_alone(here, capsys):
+    sweep({"gain": [0.5, 1.0]}, 2, ["far", "word"], out="sweep.csv")
+    capsys.readouterr()
+    assert main(["sweep", "--row", "3", "--view", "--html", "run.html", "--record", "run.npz"]) == 0
+    out, errors = capsys.readouterr()
+    assert out.startswith("row 3 of sweep.csv: drift.py, gain = 1.0, seed 0\n")
+    assert out.endswith(", the same\n")
+    assert "there is no display, so this runs without a window" in errors
+    assert mars2d.load("run.npz").digest == load_table("sweep.csv").results[2].digest
+    assert (here / "run.html").stat().st_size > 10_000
+
+
+def test_a_row_of_code_that_has_changed_is_another_run(here, capsys):
+    sweep(out="sweep.csv")
+    (here / "drift.py").write_text(DRIFT.replace("0.4 * k, seed", "1.0, seed"))
+    assert main(["sweep", "sweep.csv", "--row", "1"]) == 0
+    out, errors = capsys.readouterr()
+    assert "this is another run" in out
+    assert "drift.py, what it reads, or MARS2D has changed" in errors
+
+
+def test_a_row_of_a_law_that_fails_shows_its_error(here, capsys):
+    (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
+    sweep(out="sweep.csv")
+    assert main(["sweep", "--row", "2"]) == 2
+    out, errors = capsys.readouterr()
+    assert "then: drift.py, line 10: law raised ZeroDivisionError" in out
+    assert errors == "mars2d: drift.py, line 10: law raised ZeroDivisionError: division by zero\n"
+
+
+def test_the_newest_study_of_the_folder_is_meant_where_none_is_named(here, capsys):
+    sweep(out="old.csv")
+    os.utime("old.csv", (1, 1))
+    sweep(out="new.csv")
+    (here / "other.csv").write_text("a,b\n1,2\n")
+    assert main(["sweep", "--row", "1"]) == 0
+    assert "row 1 of new.csv" in capsys.readouterr().out
+
+
+def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
+    sweep({"gain": [0.5, 1.0]}, 3, out="r.csv")
+    before = runs(here)
+    assert main(["sweep", "r.csv", "--compare", "gain", "--figure", "r.png"]) == 0
+    out = capsys.readouterr().out
+    assert "6 runs of drift.py" in out
+    assert "differences from gain = 0.5" in out
+    assert out.endswith("table:  r.csv\nfigure: r.png\n")
+    assert (here / "r.png").stat().st_size > 5_000
+    assert runs(here) == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([], "an EXPERIMENT is needed"),
+        (["--row", "1"], "there is no study in this folder"),
+        (["r.csv", "--row", "9"], "--row 9: is not in r.csv; it has rows up to 2"),
+        (["drift.py", "--row", "1"], "expected the .csv of a study, not drift.py"),
+        (["r.csv", "--seeds", "3"], "--seeds: r.csv is there already"),
+        (["r.csv", "--row", "1", "--set", "gain=1"], "--set: --row N runs one row as it was"),
+        (["drift.py", "--view"], "--view: it is of one run: give --row N"),
+        (["drift.py", "--set", "gain=1", "--set", "gain=2"], "--set gain: is given twice"),
+        (["drift.py", "--set", "stop_time=1", "--stop-time", "2"], "--stop-time: is given twice"),
+        (["drift.py", "--set", "gain=1,2", "--compare", "gian"], "did you mean 'gain'?"),
+        (["drift.py", "--set", "gain=1", "--compare", "gain"], "it has one value"),
+        (["drift.py", "--confidence", "95"], "expected a number between 0 and 1"),
+        (["drift.py", "--out", "a.txt"], "--out a.txt: expected a name that ends in .csv"),
+        (["drift.py", "--figure", "a.txt"], "--figure a.txt: expected a name that ends in"),
+        (["nothing.csv"], "nothing.csv: can't be read"),
+    ],
+)
+def test_a_mistake_on_the_command_line_is_one_line(here, arguments, said, capsys):
+    if "r.csv" in arguments:
+        sweep(out="r.csv")
+    assert main(["sweep", *arguments]) == 2
+    errors = capsys.readouterr().err
+    assert said in errors
+    assert errors.count("\n") == 1
+
+
+def test_points_that_can_not_be_opened_are_said_before_the_first_run(here, capsys):
+    assert main([*COMMAND[:2], "--set", "n=1,40", "--workers", "1"]) == 0
+    out, errors = capsys.readouterr()
+    assert errors.startswith("mars2d: drift.py, line 15, with n = 40")
+    assert "1 run failed" in out
+    assert len(load_table("sweep.csv").failed) == 1
+
+
+def test_ctrl_c_in_python_leaves_the_rows_that_were_made(here):
+    with pytest.raises(KeyboardInterrupt) as caught:
+        sweep({"gain": [0.5, 1.0]}, 5, measures=["far", _interrupting])
+    assert 3 <= len(caught.value.table) < 10
+    assert "of 10 runs were made" in str(caught.value)
+
+
+def _interrupting(record):
+    if record.seed == 3:
+        signal.raise_signal(signal.SIGINT)  # to the main thread, which waits
+    return 0
