@@ -60,8 +60,8 @@ KINDS: tuple[type[Description], ...] = (
     Sensor, Proximity, RangeFinder, SonarRing, Bumper, LineCamera,
     RangeBearing, sensors.Beacon, Pose, Odometry, Imu, Ground,
     Addon, Map, addons.Beacon, Floor, Communication, Burst, addons.Estimate,
-    addons.Voronoi, addons.Density, addons.Game, addons.Waypoints, addons.PotentialField,
-    addons.Trails, addons.FieldOfView, addons.Theory,
+    addons.Voronoi, addons.Density, addons.Game, addons.Ring, addons.Waypoints,
+    addons.PotentialField, addons.Trails, addons.FieldOfView, addons.Theory,
     Everyone, Within, Nearest, Delaunay, Graph,
     Prediction,
 )  # fmt: skip

@@ -8,6 +8,9 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from mars2d.addons import Addon
 from mars2d.animation import Animation
 from mars2d.bodies import Car, Differential, Drive, Holonomic, Unicycle
@@ -21,6 +24,11 @@ from mars2d.scenario import Scenario
 from mars2d.sensors import Sensor
 from mars2d.session import run
 from mars2d.world import World
+
+if TYPE_CHECKING:
+    from mars2d.study.sweep import sweep
+    from mars2d.study.table import Table
+    from mars2d.study.tournament.tournament import tournament
 
 __version__ = "0.1.0"
 
@@ -44,6 +52,7 @@ __all__ = [
     "Robot",
     "Scenario",
     "Sensor",
+    "Table",
     "Unicycle",
     "Within",
     "World",
@@ -51,4 +60,19 @@ __all__ = [
     "load",
     "load_law",
     "run",
+    "sweep",
+    "tournament",
 ]
+
+_OF_MANY_RUNS = {
+    "Table": "mars2d.study.table",
+    "sweep": "mars2d.study.sweep",
+    "tournament": "mars2d.study.tournament.tournament",
+}
+"""What is imported when it is first asked for: most programs run one experiment."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _OF_MANY_RUNS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_OF_MANY_RUNS[name]), name)

@@ -6,7 +6,7 @@ import argparse
 import re
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NoReturn
 
 from mars2d import __version__
@@ -24,7 +24,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     0 when all was done, 2 for bad input, 1 for a fault of MARS2D's, 130 after Ctrl-C.
     """
     try:
-        arguments = parser().parse_args(argv)
+        arguments, unknown = parser().parse_known_args(argv)
+        if unknown:
+            arguments.refuse(f"unrecognized arguments: {' '.join(unknown)}")
         arguments.execute(arguments)
         if sys.stdout is not None:  # it is None where it was closed
             sys.stdout.flush()
@@ -34,8 +36,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except Mars2dError as error:
         print(f"mars2d: {error}", file=sys.stderr)
         return FAULT
-    except KeyboardInterrupt:
-        print("mars2d: interrupted", file=sys.stderr)
+    except KeyboardInterrupt as interrupt:
+        print(f"mars2d: {str(interrupt) or 'interrupted'}", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
         sys.stderr.close()  # whoever read our output has seen enough
@@ -56,22 +58,33 @@ def parser() -> argparse.ArgumentParser:
     for verb in VERBS:
         doc = (verb.execute.__doc__ or "").strip()
         sub = verbs.add_parser(verb.NAME, help=doc, description=doc, allow_abbrev=False)
-        sub.set_defaults(execute=verb.execute)
+        sub.set_defaults(execute=verb.execute, refuse=sub.error)
         verb.add_arguments(sub)
+    for sub in verbs.choices.values():
+        sub.elsewhere = {option for other in verbs.choices.values() for option in other.options}
     return root
 
 
 class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one line that names the nearest right word."""
 
+    elsewhere: Collection[str] = ()
+    """Options of other verbs: they are not misspelt."""
+
+    @property
+    def options(self) -> list[str]:
+        """The options of this parser itself."""
+        return [option for action in self._actions for option in action.option_strings]
+
     def error(self, message: str) -> NoReturn:
         """Raise an InputError in place of printing the usage and leaving."""
-        known = [option for action in self._actions for option in action.option_strings]
+        known = self.options
         for action in self._actions:
             if isinstance(action, argparse._SubParsersAction):
                 known += [*action.choices]
                 known += [o for sub in action.choices.values() for o in sub._option_string_actions]
-        words = [word for word in re.split(r"[\s'=:]+", message) if word not in known]
+        right = {*known, *self.elsewhere}
+        words = [word for word in re.split(r"[\s'=:]+", message) if word not in right]
         hint = next(filter(None, (likely(word, known) for word in words)), "")
         message = message.partition(" (choose from")[0]
         raise InputError(f"{message}{hint} (see {self.prog} --help)")

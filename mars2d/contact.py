@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["CONTACT", "EPISODE", "ContactLog", "Solved", "episodes"]
+__all__ = ["CONTACT", "EPISODE", "ContactLog", "Solved", "episodes", "rows_of"]
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
@@ -165,6 +165,18 @@ def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:
     for name in ("normal_impulse", "tangential_impulse"):
         result[name] = np.bincount(group, rows[name], count)
     return result[np.argsort(result["began"], kind="stable")]
+
+
+def rows_of(contacts: NDArray[np.void], time: Float, sampling_time: float) -> NDArray[np.intp]:
+    """Return the row of a record that each contact's control step led to, (c,).
+
+    contacts: (c,) of dtype CONTACT. time: (T,) seconds, of the rows; of what came after the last
+    one the row is T. What began at the very end of a control step belongs to it; what began before
+    it, and has the time of its start, does too.
+    """
+    rounding = 1e-6 * sampling_time
+    within = contacts["time"] + np.where(contacts["began"], -rounding, rounding)
+    return np.searchsorted(time, within, side="left")
 
 
 def _ordered(a: Int, b: Int) -> tuple[Int, Int]:

@@ -150,6 +150,14 @@ def entry(
     )
 
 
+def whole(text: str) -> str:
+    """Return a text with a question mark for each half a character, which no file can hold.
+
+    Python has them in names of files that are not in UTF-8.
+    """
+    return text.encode(errors="replace").decode()
+
+
 def _check_bool(name: str, value: object) -> bool:
     if isinstance(value, (bool, np.bool_)):
         return bool(value)
@@ -159,6 +167,8 @@ def _check_bool(name: str, value: object) -> bool:
 def _check_str(name: str, value: object) -> str:
     if not isinstance(value, str):
         raise wrong(name, value, "text in quotes")
+    if whole(value) != value:
+        raise wrong(name, value, "text without half a character, which no file can hold")
     return value
 
 

@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +18,24 @@ LIBRARIES = (
     "pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow", "ezdxf",
     "svgelements", "pyyaml",
 )  # fmt: skip
+
+
+class Extra(NamedTuple):
+    """An extra of the installation: what it is for, what there is without it, what it adds."""
+
+    extra: str
+    name: str
+    always: str
+    more: str
+    packages: tuple[str, ...]
+
+
+EXTRAS = (
+    Extra("video", "films", ".gif", ".mp4", ("av",)),
+    Extra("data", "records", ".npz, .mat, .csv", ".nc, pandas, xarray", ("pandas", "xarray")),
+    Extra("log", "logs", "", ".mcap", ("mcap", "foxglove-schemas-protobuf")),
+    Extra("cluster", "workers", "all cores of this machine", "Dask clusters", ("distributed",)),
+)
 
 
 @dataclass(frozen=True)
@@ -38,7 +57,7 @@ def examine() -> Iterator[Finding]:
     for name in LIBRARIES:
         yield _library(name)
     yield _display()
-    yield _films()
+    yield from map(_extra, EXTRAS)
     yield _kernel()
     yield from _plugins()
     yield _physics()
@@ -59,12 +78,17 @@ def _display() -> Finding:
     return Finding("display", "none: runs are without a window, pictures and films work", ok=None)
 
 
-def _films() -> Finding:
-    try:
-        version = importlib.metadata.version("av")
-    except importlib.metadata.PackageNotFoundError:
-        return Finding("films", '.gif; for .mp4 as well: pip install "mars2d[video]"', ok=None)
-    return Finding("films", f".gif and .mp4 (PyAV {version})")
+def _extra(extra: Extra) -> Finding:
+    """Say what an extra's packages offer, or the line that installs them."""
+    found = []
+    for package in extra.packages:
+        try:
+            found.append(f"{package} {importlib.metadata.version(package)}")
+        except importlib.metadata.PackageNotFoundError:
+            line = f'for {extra.more}: pip install "mars2d[{extra.extra}]"'
+            return Finding(extra.name, "; ".join(filter(None, [extra.always, line])), ok=None)
+    offered = ", ".join(filter(None, [extra.always, extra.more]))
+    return Finding(extra.name, f"{offered} ({', '.join(found)})")
 
 
 def _kernel() -> Finding:

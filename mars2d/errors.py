@@ -96,6 +96,16 @@ def counted(count: int, thing: str) -> str:
     return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
 
 
+def ordinal(number: int) -> str:
+    """Return a number as it counts things in order, as ``1st`` or ``12th``.
+
+    >>> [ordinal(number) for number in (2, 3, 12, 32)]
+    ['2nd', '3rd', '12th', '32nd']
+    """
+    teens = 10 < number % 100 < 20
+    return f"{number}{'th' if teens else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"
+
+
 def shown(value: Any, limit: int = 60) -> str:
     """Return `value` as it is quoted in a message: its repr, cut to `limit` characters."""
     try:

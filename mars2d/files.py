@@ -11,7 +11,7 @@ import numbers
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import ModuleType
@@ -47,7 +47,8 @@ class Experiment:
     filename: the file's name, or empty. checks: the function of the record that compares a run with
     theory, or None. summary: the first line of the file's docstring, or empty. path: where the file
     lies, or None. opened: opens the experiment anew, with laws that share nothing with these; None
-    where it does not come from a file alone. files: all that was read for it.
+    where it does not come from a file alone. files: all that was read for it. functions: the public
+    functions that its file defines, by name.
     """
 
     scenario: Scenario
@@ -58,6 +59,7 @@ class Experiment:
     path: Path | None = None
     opened: Callable[[], Experiment] | None = None
     files: frozenset[Path] = frozenset()
+    functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
 
     def reopened(self) -> Experiment:
         """Return the experiment opened anew, or itself where it does not come from a file.
@@ -115,6 +117,7 @@ def open_experiment(
     source: str | Path | ModuleType | Scenario,
     options: Mapping[str, Any] | None = None,
     control: Callable[[Any], Any] | None = None,
+    seed: int | None = None,
 ) -> Experiment:
     """Return the experiment that `source` names, with its fields overridden by `options`.
 
@@ -122,15 +125,17 @@ def open_experiment(
     Scenario. options: dotted names of fields, or keyword parameters of a scenario function, with
     their values; ``map`` is a file whose walls take the place of the experiment's, or a Map, and
     ``map.unit`` and the like are how it is read. control: the law of the team, in place of the
-    experiment's own. Raises InputError, which points at file and line.
+    experiment's own. seed: of the run; a scenario function gets it that has a parameter ``seed``,
+    unless the options set that: so starts may be drawn at random. Raises InputError, which points
+    at file and line.
     """
     if options is not None and not isinstance(options, Mapping):
         raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
     given = options or {}
     with files_read() as files:
-        experiment = _opened(source, given, control)
+        experiment = _opened(source, given, control, seed)
     if control is None and isinstance(source, (str, Path)):
-        opened = partial(open_experiment, source, dict(given))
+        opened = partial(open_experiment, source, dict(given), seed=seed)
         return dataclasses.replace(experiment, opened=opened, files=frozenset(files))
     return experiment
 
@@ -139,6 +144,7 @@ def _opened(
     source: str | Path | ModuleType | Scenario,
     given: Mapping[str, Any],
     control: Callable[[Any], Any] | None,
+    seed: int | None,
 ) -> Experiment:
     options = dict(given)
     if isinstance(source, Scenario):
@@ -156,7 +162,7 @@ def _opened(
             f"experiment = {shown(source)}: expected a file, the name of an example, or a Scenario"
         )
     try:
-        scenario = _scenario_of(module, options, Path(name))
+        scenario = _scenario_of(module, options, Path(name), seed)
         own = getattr(module, "control", None)
         if own is not None:
             checks.law("control", own, "the world")
@@ -169,7 +175,14 @@ def _opened(
     law = own if control is None else control
     summary = (module.__doc__ or "").strip().partition("\n")[0]
     lies = Path(name).absolute() if isinstance(source, (str, Path)) else None
-    return Experiment(scenario, law, Path(name).name, check, summary, lies)
+    functions = {
+        key: value
+        for key, value in vars(module).items()
+        if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
+    }
+    return Experiment(
+        scenario, law, Path(name).name, check, summary, path=lies, functions=functions
+    )
 
 
 def _of_scenario_file(
@@ -305,7 +318,9 @@ def _line_in(error: BaseException, path: Path) -> str:
     return f"{path.name}, line {lines[-1]}" if lines else path.name
 
 
-def _scenario_of(module: ModuleType, options: dict[str, Any], path: Path) -> Scenario:
+def _scenario_of(
+    module: ModuleType, options: dict[str, Any], path: Path, seed: int | None
+) -> Scenario:
     """Return a module's scenario, made by its scenario function if it has one."""
     names = [name for name in vars(module) if not name.startswith("__")]
     if not hasattr(module, "scenario"):
@@ -317,9 +332,12 @@ def _scenario_of(module: ModuleType, options: dict[str, Any], path: Path) -> Sce
     scenario = module.scenario
     chart = MapOption.popped(options, path)
     if callable(scenario) and not isinstance(scenario, Scenario):
-        if chart is not None and "map" in inspect.signature(scenario).parameters:
-            options["map"] = chart.value_for(inspect.signature(scenario).parameters["map"].default)
+        parameters = inspect.signature(scenario).parameters
+        if chart is not None and "map" in parameters:
+            options["map"] = chart.value_for(parameters["map"].default)
             chart = None
+        if seed is not None and "seed" in parameters:
+            options.setdefault("seed", seed)
         scenario = _call_scenario(scenario, options)
     if not isinstance(scenario, Scenario):
         raise InputError(f"scenario = {shown(scenario)}: expected a Scenario, or a function of one")

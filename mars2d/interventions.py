@@ -6,15 +6,16 @@ the commands they make a run again, to the bit.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
+from math import isfinite
 from typing import Any
 
 from mars2d import plain
 from mars2d.geometry import Point
 from mars2d.scenario import Scenario
 
-__all__ = ["Change", "Intervention", "Place", "Pull", "Steer", "of_plain", "to_plain"]
+__all__ = ["Change", "Intervention", "Place", "Pull", "Steer", "check", "of_plain", "to_plain"]
 
 Triple = tuple[float, float, float]
 
@@ -88,6 +89,43 @@ def of_plain(data: Any) -> Intervention:
     """Return the intervention that `to_plain` made plain; raises what it may if that is none."""
     values = {name: _read(value) for name, value in data.items() if name != "type"}
     return _KINDS[data["type"]](**values)
+
+
+def check(done: Sequence[Intervention], scenario: Scenario, rows: int) -> None:
+    """Raise ValueError for what can't have been done in a run of so many rows, in this order."""
+    robots, bodies = len(scenario.robots), len(scenario.bodies)
+    before = 0
+    for each in done:
+        if isinstance(each, Place):
+            sound = _is_index(each.body, bodies) and _are_numbers(each.pose, 3)
+        elif isinstance(each, Pull):
+            aimed = each.target is None or _are_numbers(each.target, 2)
+            held = _are_numbers(each.grip, 2) and _are_numbers((each.force, each.speed), 2)
+            sound = _is_index(each.body, bodies) and held and aimed
+        elif isinstance(each, Steer):
+            sound = _is_index(each.robot, robots) and isinstance(each.driven, bool)
+        else:
+            sound = isinstance(each.scenario, Scenario) and all(
+                _is_index(body, bodies) and _are_numbers(pose, 3) for body, pose in each.moved
+            )
+            sound &= [body.name for body in each.scenario.bodies] == [
+                body.name for body in scenario.bodies
+            ]
+        if not (sound and _is_index(each.row, rows + 1) and each.row >= before):
+            raise ValueError(type(each).__name__)
+        before = each.row
+
+
+def _is_index(value: object, end: int) -> bool:
+    return type(value) is int and 0 <= value < end
+
+
+def _are_numbers(values: object, count: int) -> bool:
+    return (
+        isinstance(values, tuple)
+        and len(values) == count
+        and all(type(value) in (int, float) and isfinite(value) for value in values)
+    )
 
 
 def _read(value: Any) -> Any:

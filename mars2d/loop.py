@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
+from typing import TYPE_CHECKING
 
 from mars2d.files import Experiment
+from mars2d.interrupt import noted_interrupts
 from mars2d.pace import RealTime
 from mars2d.record import Record
+from mars2d.storage import Column, DiskError, Storage
 from mars2d.world import Watcher, World
+
+if TYPE_CHECKING:
+    from mars2d.formats.mcap import Log
 
 __all__ = ["Interrupted", "open_world", "simulate", "watch_by"]
 
@@ -25,35 +32,53 @@ def simulate(
     seed: int = 0,
     speed: float | str = "max",
     watchers: Sequence[Watcher] = (),
+    log: Log | None = None,
 ) -> World:
     """Run an opened experiment to its end and return the world, which is over.
 
     speed: simulated seconds per second, > 0, or "max". watchers: called with the world at each
-    control step, once its sensors have been read: to draw, to count, to wait. A LawError that ends
-    the run carries what was recorded until then as its `record`; Ctrl-C raises Interrupted, which
-    does as well.
+    control step, once its sensors have been read: to draw, to count, to wait. log: what writes each
+    control step to a file when it is done, and is closed at the end, whatever that is; it keeps the
+    columns of the record in files, too. A LawError that ends the run carries what was recorded
+    until then as its `record`; a DiskError of the log, and Interrupted, which Ctrl-C raises, do as
+    well.
     """
     every: list[Watcher] = [*watchers]
     if speed != "max":
         every.append(RealTime(float(speed)))
-    world = open_world(experiment, seed, every)
-    try:
-        while not world.over:
-            world.step()
-    except KeyboardInterrupt:
-        world.break_off("Interrupted by Ctrl-C")
-        raise Interrupted(world.record) from None
+    with log or nullcontext():
+        world = open_world(experiment, seed, every, Column if log is None else log.storage)
+        try:
+            with noted_interrupts() as check:
+                while not world.over:
+                    world.step()
+                    if log is not None:
+                        log.follow(world)
+                    check()
+        except KeyboardInterrupt:
+            world.break_off("Interrupted by Ctrl-C")
+            raise Interrupted(world.record) from None
+        except DiskError as error:
+            world.break_off(f"Error: {error}")
+            error.record = world.record
+            raise
     return world
 
 
-def open_world(experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()) -> World:
-    """Return the world of an experiment, which calls the watchers at each control step."""
+def open_world(
+    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = (), storage: Storage = Column
+) -> World:
+    """Return the world of an experiment, which calls the watchers at each control step.
+
+    storage: what keeps the columns of its record.
+    """
     return World(
         experiment.scenario,
         experiment.control,
         seed,
         filename=experiment.filename,
         watch=watch_by(watchers),
+        storage=storage,
     )
 
 

@@ -1,4 +1,4 @@
-"""What a sensor measures: kinds of numbers, how they look when nothing is there, how they err."""
+"""What is measured or commanded: kinds of numbers, how they look when nothing is there, and err."""
 
 from __future__ import annotations
 
@@ -11,17 +11,19 @@ from numpy.typing import NDArray
 
 from mars2d.geometry import wrap
 
-__all__ = ["ANGLE", "COLOR", "DISTANCE", "FLAG", "NUMBER", "Quantity"]
+__all__ = ["ANGLE", "COLOR", "DISTANCE", "FLAG", "NUMBER", "UNKNOWN", "Quantity"]
 
 Values = NDArray[np.float64] | NDArray[np.bool_]
 
 GROSS = 10.0
 """An outlier of a number without bounds is so many times further off than its noise."""
 
+SYMBOLS = {"omega": "ω", "delta": "δ"}
+
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """One number that a sensor measures: its name, its unit, and its kind.
+    """One number that a sensor measures, or a drive is commanded by: its name, unit and kind.
 
     kind: "distance" (>= 0, inf when nothing is there), "angle" (in (-pi, pi]), "color" (0 to 1),
     "flag" (True or False) or "number". Of all but distances and flags, nan says that nothing is
@@ -31,6 +33,11 @@ class Quantity:
     name: str
     unit: str = ""
     kind: Literal["distance", "angle", "color", "flag", "number"] = "number"
+
+    @property
+    def symbol(self) -> str:
+        """Its name as people write it: ω for omega."""
+        return SYMBOLS.get(self.name, self.name)
 
     @property
     def missing(self) -> float | bool:
@@ -68,3 +75,6 @@ DISTANCE = Quantity("distance", "m", "distance")
 ANGLE = Quantity("angle", "rad", "angle")
 COLOR = Quantity("color", "", "color")
 FLAG = Quantity("flag", "", "flag")
+
+UNKNOWN = (Quantity("u₁"), Quantity("u₂"))
+"""The command of a drive that does not say what it is."""

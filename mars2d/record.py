@@ -3,38 +3,38 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import interventions, plain
-from mars2d.contact import CONTACT
-from mars2d.errors import InputError, counted
+from mars2d.contact import CONTACT, rows_of
+from mars2d.errors import counted
 from mars2d.frame import Frame
 from mars2d.interventions import Change, Intervention
 from mars2d.message import MESSAGE, in_flight
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
+from mars2d.storage import Texts, blocks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
+    from pandas import DataFrame
+    from xarray import Dataset
 
-__all__ = ["FORMAT", "Record", "load"]
+__all__ = ["COLUMNS", "Record", "load"]
 
 Float = NDArray[np.float64]
 
-FORMAT = 3
-"""The version of the file format; files of another one are refused."""
-
-_COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
+COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
+"""The columns that each record has, one row a control step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class Record:
     sensor_robots: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     contacts: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=CONTACT))
     messages: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=MESSAGE))
-    contents: tuple[str, ...] = ()
+    contents: Sequence[str] = ()
     over_message: str = ""
     finished: bool = True
     filename: str = ""
@@ -78,7 +78,7 @@ class Record:
     branches: tuple[Record, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
-        for name in (*_COLUMNS, "contacts", "messages"):
+        for name in (*COLUMNS, "contacts", "messages"):
             object.__setattr__(self, name, _unwritable(getattr(self, name)))
         sensors = {name: _unwritable(values) for name, values in self.sensors.items()}
         object.__setattr__(self, "sensors", sensors)
@@ -94,28 +94,33 @@ class Record:
     def digest(self) -> str:
         """The sha256 over all columns: the same for the same run, to the last bit."""
         sha = hashlib.sha256()
-        for name, column in self._columns().items():
+        for name, column in self.columns().items():
             sha.update(f"{name} {column.dtype.str} {column.shape} ".encode())
-            sha.update(np.ascontiguousarray(column).tobytes())
+            for block in blocks(column):
+                sha.update(block.tobytes())
         sha.update(self.over_message.encode())
         return sha.hexdigest()
 
     @property
     def collisions(self) -> int:
         """How many times two bodies came to touch."""
-        return int(self.contacts["began"].sum())
+        return sum(int(block["began"].sum()) for block in blocks(self.contacts))
 
-    def _columns(self) -> dict[str, NDArray[Any]]:
-        """Return all columns under the names that they have in a file."""
-        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in _COLUMNS}
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Return all columns as plain arrays, under the names that they have in a file.
+
+        Those of sensors, contacts and messages are ``sensor:NAME``, ``contact:FIELD`` and
+        ``message:FIELD``; the texts of messages are ``contents`` (UTF-8, one after the other) and
+        ``content_sizes`` (bytes of each).
+        """
+        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in COLUMNS}
         columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
         # Field by field, since a structured array holds undefined bytes between its fields.
         columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
         if self.contents:
-            texts = [text.encode() for text in self.contents]
             columns |= {f"message:{name}": self.messages[name] for name in MESSAGE.names or ()}
-            columns["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
-            columns["content_sizes"] = np.array([len(text) for text in texts], dtype=np.int64)
+            texts = Texts.of(self.contents)
+            columns |= {"contents": texts.data, "content_sizes": texts.sizes}
         return columns
 
     def frame(self, row: int) -> Frame:
@@ -139,7 +144,7 @@ class Record:
             effort=self.effort[row],
             prop_path=self.prop_pose[:row],
             effort_path=self.effort[:row],
-            contact_log=lambda: self.contacts[: np.searchsorted(self._contact_rows, row, "right")],
+            contact_log=lambda: self.contacts[: np.searchsorted(self.contact_rows, row, "right")],
             messages=self._messages_before(row),
             command_path=self.command[:row],
             message_log=lambda: (self.messages, self.contents),
@@ -149,28 +154,22 @@ class Record:
 
     def scenario_at(self, row: int) -> Scenario:
         """Return the scenario as it was at row `row`, after what was changed there."""
-        k = bisect_right(self._changes, row, key=lambda change: change.row)
-        return self._changes[k - 1].scenario if k else self.scenario
+        k = bisect_right(self.changes, row, key=lambda change: change.row)
+        return self.changes[k - 1].scenario if k else self.scenario
 
     @cached_property
-    def _changes(self) -> list[Change]:
-        return [each for each in self.interventions if isinstance(each, Change)]
+    def changes(self) -> tuple[Change, ...]:
+        """Those of the interventions that changed the scenario, in order."""
+        return tuple(each for each in self.interventions if isinstance(each, Change))
 
     @cached_property
-    def _contact_rows(self) -> NDArray[np.intp]:
-        """The row that each contact's control step led to.
-
-        What began at the very end of a control step belongs to it; what began before it, and has
-        the time of its start, too.
-        """
-        rounding = 1e-6 * self.scenario.sampling_time
-        time, began = self.contacts["time"], self.contacts["began"]
-        within = time + np.where(began, -rounding, rounding)
-        return np.searchsorted(self.time, within, side="left")
+    def contact_rows(self) -> NDArray[np.intp]:
+        """The row that each contact's control step led to, (c,), see `mars2d.contact.rows_of`."""
+        return rows_of(self.contacts, self.time, self.scenario.sampling_time)
 
     def _contacts_before(self, row: int) -> NDArray[np.void]:
         """Return the contacts of the control step that led to a row."""
-        ends = np.searchsorted(self._contact_rows, [row, row + 1])
+        ends = np.searchsorted(self.contact_rows, [row, row + 1])
         return self.contacts[ends[0] : ends[1]]
 
     def _messages_before(self, row: int) -> NDArray[np.void]:
@@ -188,127 +187,122 @@ class Record:
         flight = self.messages["arrival"] - self.messages["time"]
         return float(np.nanmax(flight, initial=0.0))
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    # -- what people look at ------------------------------------------------------------------
+
+    def plot(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
         """Draw the paths: initial poses hollow, final poses filled, obstacles and grid.
 
-        ax: matplotlib axes to draw on; by default those of a new figure. Returns the axes.
+        ax: matplotlib axes to draw on; by default those of a new figure. style: "screen", "print"
+        or "projector", see `mars2d.output.style`. Returns the axes.
         """
         from mars2d.output.figure import plot_paths
 
-        return plot_paths(self, ax)
+        return plot_paths(self, ax, style=style)
+
+    def plot_snapshots(
+        self, times: ArrayLike, figure: Figure | None = None, *, style: str = "screen"
+    ) -> Figure:
+        """Draw the paths until each of some times [s], one panel a time; return the figure."""
+        from mars2d.output.figure import plot_snapshots
+
+        return plot_snapshots(self, times, figure, style=style)
+
+    def plot_signals(
+        self,
+        *columns: str,
+        robots: Sequence[str | int] | None = None,
+        axes: Sequence[Axes] | None = None,
+        start: float | None = None,
+        end: float | None = None,
+        style: str = "screen",
+    ) -> list[Axes]:
+        """Draw columns over time, one panel a column; see `mars2d.output.signals.plot_signals`."""
+        from mars2d.output.signals import plot_signals
+
+        return plot_signals(self, columns, robots, axes, start=start, end=end, style=style)
+
+    def plot_contacts(
+        self, axes: Sequence[Axes] | None = None, *, style: str = "screen"
+    ) -> list[Axes]:
+        """Draw who touched whom when, and how hard; see `mars2d.output.contacts.plot_contacts`."""
+        from mars2d.output.contacts import plot_contacts
+
+        return plot_contacts(self, axes, style=style)
+
+    def plot_distances(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+        """Draw distances over time; see `mars2d.output.distances.plot_distances`."""
+        from mars2d.output.distances import plot_distances
+
+        return plot_distances(self, ax, style=style)
+
+    def film(
+        self,
+        path: str | Path,
+        *,
+        speed: float = 1.0,
+        size: tuple[int, int] = (1280, 720),
+        fps: float = 25,
+        start: float | None = None,
+        end: float | None = None,
+    ) -> Path:
+        """Make a film, .gif or .mp4, of a part of the run; see `mars2d.output.film.film_record`."""
+        from mars2d.output.film import film_record
+
+        return film_record(self, path, speed=speed, size=size, fps=fps, start=start, end=end)
+
+    def save_html(self, path: str | Path) -> Path:
+        """Write a replay as one HTML file, which any browser plays without a network."""
+        from mars2d.output.html import save_html
+
+        return save_html(self, path)
+
+    def _repr_html_(self) -> str:
+        """Return an inline replay, for a notebook."""
+        from mars2d.output.notebook import record_html
+
+        return record_html(self)
+
+    def _repr_svg_(self) -> str:
+        """Return a picture of the end, for what shows notebooks without scripts."""
+        from mars2d.output.notebook import record_svg
+
+        return record_svg(self)
+
+    # -- what programs read -------------------------------------------------------------------
+
+    def to_frame(self, table: str = "bodies") -> DataFrame:
+        """Return a table of pandas: "bodies", "contacts" or "messages"; see `formats.frame`."""
+        from mars2d.formats.frame import to_frame
+
+        return to_frame(self, table)
+
+    def to_xarray(self) -> Dataset:
+        """Return all columns as a dataset of xarray, with units; see `mars2d.formats.dataset`."""
+        from mars2d.formats.dataset import to_xarray
+
+        return to_xarray(self)
 
     def save(self, path: str | Path) -> Path:
-        """Write the record to a file ``.npz`` and return its path; InputError if it can't be."""
-        path = Path(path)
-        if path.suffix.lower() != ".npz":
-            raise InputError(f"{path}: a record is saved as .npz, this ends in {path.suffix!r}")
-        header = {
-            "format": FORMAT,
-            "scenario": plain.from_description(self.scenario),
-            "seed": self.seed,
-            "over_message": self.over_message,
-            "finished": self.finished,
-            "filename": self.filename,
-            "versions": dict(self.versions),
-            "messages": bool(self.contents),
-            "sensor_robots": {name: list(robots) for name, robots in self.sensor_robots.items()},
-            "interventions": [interventions.to_plain(each) for each in self.interventions],
-            "digest": self.digest,
-        }
-        text = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
-        try:
-            with path.open("wb") as file:
-                np.savez_compressed(file, allow_pickle=False, header=text, **self._columns())
-        except OSError as error:
-            raise InputError(f"{path}: can't be written: {error.strerror}") from error
-        return path
+        """Write the record to a file and return its path; the ending says in which format.
+
+        ``.npz`` numpy, ``.mat`` Matlab and Octave, ``.csv`` a long table, ``.nc`` netCDF, ``.mcap``
+        a log for Foxglove. Each can be read again by `load`, with the same digest. Raises
+        InputError where it can't be written, MissingExtraError where a library is missing.
+        """
+        from mars2d import formats
+
+        return formats.save(self, path)
 
 
-def load(path: str | Path) -> Record:
-    """Read a record that `Record.save` wrote. Raises InputError for anything else."""
-    path = Path(path)
-    try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
-            header = json.loads(data["header"].tobytes())
-            other = _of_another_format(header)
-            columns = {} if other else {name: data[name] for name in _names(header)}
-        record = None if other else _assemble(header, columns)
-        damaged = record is not None and record.digest != header["digest"]
-    except OSError as error:
-        raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
-    except Exception as error:  # zip, zlib, numpy and json have their own each
-        raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
-    if record is None:
-        raise InputError(f"{path}: {other}")
-    if damaged:
-        raise InputError(f"{path}: damaged: its columns do not have the digest that it states")
-    return record
+def load(path: str | Path, largest: float = 2**31) -> Record:
+    """Read a record that `Record.save` wrote, or the log of a run, whole or broken off.
 
+    largest: the most data that are read, bytes; a file that holds or claims more is refused before
+    memory is taken. Raises InputError for that, and for anything else that is not such a file.
+    """
+    from mars2d import formats
 
-def _of_another_format(header: Any) -> str:
-    """Return what is to be said of a file of another format than this one's."""
-    made = header["versions"].get("mars2d", "?")
-    if header["format"] > FORMAT:
-        return f"written by a newer version of MARS2D, {made}"
-    if header["format"] < FORMAT:
-        return f"written by an older version of MARS2D, {made}: run the experiment again"
-    return ""
-
-
-def _names(header: Any) -> list[str]:
-    """Return the names of the columns that a file with this header holds."""
-    contacts = [f"contact:{name}" for name in CONTACT.names or ()]
-    messages = [*(f"message:{name}" for name in MESSAGE.names or ()), "contents", "content_sizes"]
-    sensors = [f"sensor:{name}" for name in header["sensor_robots"]]
-    return [*_COLUMNS, *contacts, *sensors, *(messages if header["messages"] else ())]
-
-
-def _messages(columns: dict[str, NDArray[Any]]) -> tuple[NDArray[np.void], tuple[str, ...]]:
-    """Return the messages and their contents that a file held."""
-    messages = np.zeros(len(columns["message:time"]), dtype=MESSAGE)
-    for name in MESSAGE.names or ():
-        messages[name] = columns[f"message:{name}"]
-    text, ends = columns["contents"].tobytes(), np.cumsum(columns["content_sizes"]).tolist()
-    contents = [text[start:end].decode() for start, end in pairwise([0, *ends])]
-    return messages, tuple(contents)
-
-
-def _assemble(header: Any, columns: dict[str, NDArray[Any]]) -> Record:
-    """Put a record together from what a file held; raises what it may if that is not a record."""
-    contacts = np.zeros(len(columns["contact:time"]), dtype=CONTACT)
-    for name in CONTACT.names or ():
-        contacts[name] = columns[f"contact:{name}"]
-    messages, contents = _messages(columns) if header["messages"] else (np.zeros(0, MESSAGE), ())
-    robots = {name: tuple(indices) for name, indices in header["sensor_robots"].items()}
-    scenario, missing = plain.to_scenario(header["scenario"])
-    rows, n, props = len(columns["time"]), len(scenario.robots), len(scenario.props)
-    wanted = [(rows,), (rows, 3, n), (rows, 2, n), (rows,), (rows, 3, props), (rows, n)]
-    shapes: dict[str, tuple[int, ...]] = dict(zip(_COLUMNS, wanted, strict=True))
-    shapes |= {f"sensor:{name}": (rows, len(robots[name])) for name in robots}
-    for name, shape in shapes.items():
-        if columns[name].shape[: len(shape)] != shape:
-            raise ValueError(f"column {name} has the shape {columns[name].shape}")
-    return Record(
-        scenario=scenario,
-        seed=header["seed"],
-        time=columns["time"],
-        pose=columns["pose"],
-        command=columns["command"],
-        command_time=columns["command_time"],
-        prop_pose=columns["prop_pose"],
-        effort=columns["effort"],
-        sensors={name: columns[f"sensor:{name}"] for name in robots},
-        sensor_robots=robots,
-        contacts=contacts,
-        messages=messages,
-        contents=contents,
-        over_message=header["over_message"],
-        finished=header["finished"],
-        filename=header["filename"],
-        versions=dict(header["versions"]),
-        missing=missing,
-        interventions=tuple(interventions.of_plain(each) for each in header["interventions"]),
-    )
+    return formats.load(path, largest)
 
 
 def _unwritable(array: NDArray[Any]) -> NDArray[Any]:

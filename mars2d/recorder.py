@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from math import prod
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.contact import CONTACT
+from mars2d.description import whole
 from mars2d.errors import LawError, shown
 from mars2d.imperfection import as_numbers
 from mars2d.interventions import Intervention
@@ -19,44 +19,12 @@ from mars2d.message import MESSAGE, as_of, in_flight
 from mars2d.record import Record
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
+from mars2d.storage import Column, DiskError, Storage, Texts, blocks
 from mars2d.usercode import called
 
 __all__ = ["History", "Recorder"]
 
 Float = NDArray[np.float64]
-
-
-RESERVED = 2**25
-"""How much memory a column takes before it grows, bytes."""
-
-
-class _Column:
-    """An array that rows are appended to, its capacity doubling."""
-
-    def __init__(self, shape: tuple[int, ...], dtype: Any, capacity: int) -> None:
-        row = max(1, prod(shape) * np.dtype(dtype).itemsize)
-        self._rows = np.zeros((max(1, min(capacity, RESERVED // row)), *shape), dtype=dtype)
-        self.shape, self.dtype = shape, self._rows.dtype
-
-    def write(self, row: int, value: Any) -> None:
-        if row >= len(self._rows):
-            grown = np.zeros((2 * len(self._rows), *self._rows.shape[1:]), dtype=self._rows.dtype)
-            grown[:row] = self._rows[:row]
-            self._rows = grown
-        self._rows[row] = value
-
-    def write_block(self, row: int, values: NDArray[Any]) -> None:
-        end = row + len(values)
-        if end > len(self._rows):
-            grown = np.zeros((2 * end, *self._rows.shape[1:]), dtype=self._rows.dtype)
-            grown[:row] = self._rows[:row]
-            self._rows = grown
-        self._rows[row:end] = values
-
-    def upto(self, count: int) -> NDArray[Any]:
-        view = self._rows[:count]
-        view.flags.writeable = False
-        return view
 
 
 class History:
@@ -100,27 +68,35 @@ class History:
 
 
 class Recorder:
-    """Writes the rows of one run."""
+    """Writes the rows of one run.
 
-    def __init__(self, scenario: Scenario) -> None:
-        """Take the scenario, which says how many robots and sensors there are."""
+    scenario: what it was at the start. rows: how many there are. sensor_robots: the robots that
+    carry each sensor that is recorded.
+    """
+
+    def __init__(self, scenario: Scenario, storage: Storage = Column) -> None:
+        """Take the scenario, which says how many robots and sensors there are.
+
+        storage: what makes the columns, in memory or in files.
+        """
         n, props = len(scenario.robots), len(scenario.props)
         capacity = min(scenario.last_iteration + 1, 4096)
         self._columns = {
-            "time": _Column((), float, capacity),
-            "pose": _Column((3, n), float, capacity),
-            "command": _Column((2, n), float, capacity),
-            "command_time": _Column((), float, capacity),
-            "prop_pose": _Column((3, props), float, capacity),
-            "effort": _Column((n,), float, capacity),
+            "time": storage((), float, capacity),
+            "pose": storage((3, n), float, capacity),
+            "command": storage((2, n), float, capacity),
+            "command_time": storage((), float, capacity),
+            "prop_pose": storage((3, props), float, capacity),
+            "effort": storage((n,), float, capacity),
         }
         self._capacity = capacity
-        self._scenario = scenario
-        self._sensors: dict[str, _Column] = {}
-        self._contacts: list[NDArray[np.void]] = []
-        self._messages = _Column((), MESSAGE, 64)
-        self._message_count, self._longest_flight = 0, 0.0
-        self._contents: list[str] = []
+        self._storage = storage
+        self.scenario = scenario
+        self._sensors: dict[str, Column] = {}
+        self._contacts = storage((), CONTACT, 64)
+        self._messages = storage((), MESSAGE, 64)
+        self._contact_count, self._message_count, self._longest_flight = 0, 0, 0.0
+        self._contents = Texts(storage)
         self.rows = 0
         self.sensor_robots: dict[str, tuple[int, ...]] = {}
         self._reads: dict[str, Callable[..., Any]] = {}
@@ -153,7 +129,7 @@ class Recorder:
         dtype = bool if given.dtype.kind == "b" else float
         column = self._sensors.get(name)
         if column is None:
-            column = self._sensors[name] = _Column(given.shape, dtype, self._capacity)
+            column = self._sensors[name] = self._storage(given.shape, dtype, self._capacity)
         if given.shape != column.shape or dtype != column.dtype:
             raise LawError(
                 f"sensor {name!r} read {shown(values)}: the shape and kind of a reading can't "
@@ -165,13 +141,12 @@ class Recorder:
     def write_contacts(self, contacts: NDArray[np.void]) -> None:
         """Write the contacts of one control step."""
         if len(contacts):
-            self._contacts.append(contacts)
+            self._contacts.write_block(self._contact_count, contacts)
+            self._contact_count += len(contacts)
 
     def contacts(self) -> NDArray[np.void]:
         """Return all contacts so far."""
-        if len(self._contacts) > 1:
-            self._contacts = [np.concatenate(self._contacts)]
-        return self._contacts[0] if self._contacts else np.empty(0, dtype=CONTACT)
+        return self._contacts.upto(self._contact_count)
 
     def write_messages(self, text: str, rows: NDArray[np.void]) -> None:
         """Write one content that was sent, and its rows (k,) of MESSAGE, one a receiver.
@@ -188,7 +163,7 @@ class Recorder:
     def in_flight(self, time: float) -> NDArray[np.void]:
         """Return the messages that were under way in the control step that led to a time, s."""
         messages = self._messages.upto(self._message_count)
-        return in_flight(messages, time, self._scenario.sampling_time, self._longest_flight)
+        return in_flight(messages, time, self.scenario.sampling_time, self._longest_flight)
 
     def messages(self) -> tuple[NDArray[np.void], Sequence[str]]:
         """Return all messages so far, and the texts that their field `content` numbers."""
@@ -200,6 +175,22 @@ class Recorder:
         if column is None or robot not in robots:
             return None
         return column.upto(rows)[:, robots.index(robot)]
+
+    def sensors(self) -> dict[str, NDArray[Any]]:
+        """Return the readings so far by the sensors' names, as `Record.sensors`."""
+        return {name: column.upto(self.rows) for name, column in self._sensors.items()}
+
+    @property
+    def counts(self) -> tuple[int, int, int, int]:
+        """How many rows, contacts, messages and contents there are."""
+        return self.rows, self._contact_count, self._message_count, len(self._contents)
+
+    def row(self, row: int) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return one row of all columns by their names, and of all sensors by theirs."""
+        return (
+            {name: column.row(row) for name, column in self._columns.items()},
+            {name: column.row(row) for name, column in self._sensors.items()},
+        )
 
     def column(self, name: str) -> NDArray[Any]:
         """Return a column so far, as a view that can't be written."""
@@ -217,26 +208,41 @@ class Recorder:
         """Return the record so far; what is written later does not change it."""
         now = float(self.column("time")[-1]) if self.rows else 0.0
         return Record(
-            scenario=self._scenario,
+            scenario=self.scenario,
             seed=seed,
-            time=self.column("time").copy(),
-            pose=self.column("pose").copy(),
-            command=self.column("command").copy(),
-            command_time=self.column("command_time").copy(),
-            prop_pose=self.column("prop_pose").copy(),
-            effort=self.column("effort").copy(),
-            sensors={k: column.upto(self.rows).copy() for k, column in self._sensors.items()},
+            time=self.column("time"),
+            pose=self.column("pose"),
+            command=self.column("command"),
+            command_time=self.column("command_time"),
+            prop_pose=self.column("prop_pose"),
+            effort=self.column("effort"),
+            sensors=self.sensors(),
             sensor_robots={k: v for k, v in self.sensor_robots.items() if k in self._sensors},
             contacts=self.contacts(),
-            messages=as_of(self._messages.upto(self._message_count), now),
-            contents=tuple(self._contents),
-            over_message=over_message,
+            messages=self._messages_as_of(now),
+            contents=self._contents.snapshot(),
+            over_message=whole(over_message),
             finished=finished,
-            filename=filename,
+            filename=whole(filename),
             versions=versions(),
             drawn=drawn,
             interventions=tuple(each for each in interventions if each.row < self.rows),
         )
+
+    def _messages_as_of(self, now: float) -> NDArray[np.void]:
+        """Return a copy of all messages, with the status that they have at a time, s."""
+        try:
+            return self._copied_messages(self._storage, now)
+        except DiskError:  # which has ended the run: what was recorded must not be lost by it
+            return self._copied_messages(Column, now)
+
+    def _copied_messages(self, storage: Storage, now: float) -> NDArray[np.void]:
+        copied = storage((), MESSAGE, self._message_count)
+        count = 0
+        for block in blocks(self._messages.upto(self._message_count)):
+            copied.write_block(count, as_of(block, now))
+            count += len(block)
+        return copied.upto(count)
 
 
 def _as_reading(name: str, values: Sequence[Any] | NDArray[Any]) -> NDArray[Any]:

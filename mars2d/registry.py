@@ -129,8 +129,14 @@ def _walk(family: str) -> Iterator[type[Description]]:
         for name in getattr(module, "__all__", ()):
             kind = getattr(module, name)
             is_part = isinstance(kind, type) and issubclass(kind, Description)
-            if is_part and info.name != "base":
+            if is_part and info.name != "base" and not _leaves_methods(kind):
                 yield kind
+
+
+def _leaves_methods(kind: type) -> bool:
+    """Return whether a class leaves methods to those that derive from it, as Contest does."""
+    methods = (getattr(kind, name, None) for name in dir(kind))
+    return any(getattr(method, "__isabstractmethod__", False) for method in methods)
 
 
 def misspelt_groups() -> list[str]:

@@ -98,6 +98,10 @@ class Robot(Description):
         """Return a copy of this robot at pose (x [m], y [m], theta [rad])."""
         return self.replace(pose=(x, y, theta))
 
+    def sensor(self, key: str) -> Sensor | None:
+        """Return the sensor of a name; a loaded record's robot lacks those of the user's own."""
+        return next((sensor for sensor in self.sensors if sensor.key == key), None)
+
     @property
     def radius(self) -> float:
         """Of a disc half the diameter, else that of a circle round the shape, metres."""

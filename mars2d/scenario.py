@@ -194,6 +194,12 @@ class Scenario(Description):
 
         return scenario_file.save(self, path, control)
 
+    def _repr_svg_(self) -> str:
+        """Return a picture of the start, for a notebook."""
+        from mars2d.output.notebook import scenario_svg
+
+        return scenario_svg(self)
+
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
         xmin, xmax, ymin, ymax = self.bounds
@@ -329,6 +335,13 @@ class Scenario(Description):
     def body_index_of(self, field: str, body: str | int) -> int:
         """Return the index in `bodies` of a robot or prop that is given as in `index_of`."""
         return _index_of(field, "body", body, [rigid.name for rigid in self.bodies])
+
+    def body_name(self, body: int) -> str:
+        """Return what a body of a contact is called; -1 - k is obstacle k, or the wall."""
+        if body >= 0:
+            return self.bodies[body].name
+        walled = len(self.surfaces) > len(self.obstacles)
+        return "wall" if walled and body == -len(self.surfaces) else f"obstacle {-1 - body}"
 
     @property
     def last_iteration(self) -> int:

@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 import re
 import tomllib
@@ -22,6 +21,7 @@ from mars2d.files import law_in
 from mars2d.picture import image_file
 from mars2d.plain import Place
 from mars2d.reference import Reference, seen_from
+from mars2d.replacing import replacing
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.usercode import file_beside, name_of
@@ -59,17 +59,13 @@ def save(scenario: Scenario, path: str | Path, control: Law | str | None = None)
     if path.suffix.lower() != SUFFIX:
         raise InputError(f"{path}: a scenario is saved as {SUFFIX}, this ends in {path.suffix!r}")
     writer = _Writer(path.parent)
-    part = path.with_name(f".{path.name}.part")
     try:
-        part.write_bytes(writer.text(scenario, path.name, control).encode())
-        part.replace(path)  # at once, so that a full disk costs nothing
+        text = writer.text(scenario, path.name, control).encode()
     except UnicodeEncodeError as error:
         line = shown(error.object[: error.end].rpartition("\n")[2])
         raise InputError(f"{path}: half a character can't be written, in {line}") from None
-    except OSError as error:
-        with contextlib.suppress(OSError):
-            part.unlink(missing_ok=True)
-        raise InputError(f"{path}: can't be written: {error.strerror or error}") from error
+    with replacing(path) as file:
+        file.write(text)
     return tuple(dict.fromkeys(writer.missing))
 
 
@@ -385,7 +381,7 @@ class _Reader:
         """Return what an error points at: the file, the line if it is known, and the table."""
         place = _inside(table, field) if field else table
         while place and place not in self._lines:  # of what lies in one line, that line
-            place = re.sub(r"(^|\.)\w+$|\[\d+\]$", "", place)
+            place = place[: max(place.rfind("."), place.rfind("["), 0)]
         line = f"line {self._lines[place]}" if place else ""
         return ", ".join(filter(None, [self.path.name, line, table]))
 

@@ -5,16 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mars2d.animation import playback_speed
+from mars2d.description import wrong
+from mars2d.errors import InputError, Mars2dError, shown
 from mars2d.files import open_experiment
-from mars2d.loop import simulate
+from mars2d.loop import Interrupted, simulate
 from mars2d.record import Record
 from mars2d.scenario import Scenario
 from mars2d.streams import check_seed
 from mars2d.teleop import robot_of
 from mars2d.world import Watcher, World
+
+if TYPE_CHECKING:
+    from mars2d.formats.mcap import Log
 
 __all__ = ["run"]
 
@@ -30,6 +35,7 @@ def run(
     show: bool | None = None,
     human: str | int | None = None,
     watchers: Sequence[Watcher] = (),
+    record: str | Path | None = None,
 ) -> Record:
     """Run an experiment to its end and return the record.
 
@@ -37,10 +43,13 @@ def run(
     in place of the scenario's. speed: simulated seconds per second; "max" does not wait, 0 makes
     one step a key press. options: fields by their dotted names, as ``{"robots.*.diameter": 0.2}``,
     and parameters of a scenario function. control: the law of the team, in place of the
-    experiment's. seed: of all random streams. show: whether in a window; by default, if a speed is
-    given and there is a display. human: a robot that is driven by hand, in a window, by its name or
-    index or a game's role. watchers: functions called with the world at each control step,
-    once its sensors have been read.
+    experiment's. seed: of all random streams, and the ``seed`` of a scenario function that has such
+    a parameter. show: whether in a window; by default, if a speed is given and there is a display.
+    human: a robot that is driven by hand, in a window, by its name or index or a game's role.
+    watchers: functions called with the world at each control step, once its sensors have been read.
+    record: a file that takes the record, see `Record.save`: an
+    .mcap file each control step when it is done, so that nothing is lost where the process is
+    killed; others at the end.
 
     Raises InputError for what can't be run. When a law fails, the error carries what was recorded
     until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
@@ -48,13 +57,45 @@ def run(
     if stop_time is not None:
         options = {**(options or {}), "stop_time": stop_time}
     speed, seed = playback_speed("speed", speed), check_seed(seed)
-    opened = open_experiment(experiment, options, control)
+    opened = open_experiment(experiment, options, control, seed)
     driven = None if human is None else robot_of(opened.scenario, human)
-    if driven is not None or _wants_window(speed, show):
-        from mars2d.view.show import show_experiment
+    target, log = (None, None) if record is None else _output(record)
+    try:
+        if driven is not None or _wants_window(speed, show):
+            from mars2d.view.show import show_experiment
 
-        return show_experiment(opened, speed, seed, watchers, human=driven)
-    return simulate(opened, seed, speed, watchers).record
+            result = show_experiment(opened, speed, seed, watchers, human=driven, log=log)
+        else:
+            result = simulate(opened, seed, speed, watchers, log).record
+    except (Mars2dError, Interrupted) as error:
+        if target is not None and error.record is not None:
+            _keep(error, error.record, target)
+        raise
+    if target is not None:
+        result.save(target)
+    return result
+
+
+def _output(record: str | Path) -> tuple[Path | None, Log | None]:
+    """Return the file that a record is saved to at the end, or else what writes it at once."""
+    from mars2d import formats
+
+    if not isinstance(record, (str, Path)):
+        raise wrong("record", record, "the name of a file, as 'run.mcap'")
+    target = Path(record)
+    formats.require(target)
+    if not target.parent.is_dir():
+        raise InputError(f"record = {shown(str(target))}: there is no folder {target.parent}")
+    log = formats.log_to(target)
+    return (target if log is None else None), log
+
+
+def _keep(error: BaseException, record: Record, target: Path) -> None:
+    """Save what was recorded until an error, which is the one that counts."""
+    try:
+        record.save(target)
+    except Mars2dError as failure:
+        error.add_note(str(failure))
 
 
 def _wants_window(speed: float | str, show: bool | None) -> bool:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mars2d.addons.game import Game
+from mars2d.addons.contest import Contest
 from mars2d.bodies.base import Drive, Wheeled
 from mars2d.bodies.car import Car
 from mars2d.errors import InputError, nearest
@@ -75,7 +75,7 @@ def robot_of(scenario: Scenario, who: str | int, field: str = "human =") -> int:
     names = [str(robot.name) for robot in scenario.robots]
     roles: dict[str, int] = {}
     for game in scenario.addons:
-        if isinstance(game, Game):
+        if isinstance(game, Contest):
             first = (team[0] for team in game.teams(scenario))
             roles |= {role: index for (role, _), index in zip(game.roles, first, strict=True)}
     if isinstance(who, str) and who in names:

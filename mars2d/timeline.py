@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,11 @@ from mars2d.loop import open_world, watch_by
 from mars2d.record import Record
 from mars2d.reopening import carried, check_alike, merged
 from mars2d.scenario import Scenario
+from mars2d.storage import DiskError
 from mars2d.world import Watcher, World
+
+if TYPE_CHECKING:
+    from mars2d.formats.mcap import Log
 
 __all__ = ["Progress", "Timeline"]
 
@@ -56,15 +61,21 @@ class Timeline:
     made before somebody has gone back for the first time.
 
     experiment: what is run. seed: of all random streams. watchers: called at each control step.
+    log: what writes each row to a file when it is run; of branches, the present one.
 
     row: what is looked at. branches: the worlds of the other branches, that left longest ago first.
     remark: what has to be said of the last way back, else empty.
     """
 
     def __init__(
-        self, experiment: Experiment, seed: int = 0, watchers: Sequence[Watcher] = ()
+        self,
+        experiment: Experiment,
+        seed: int = 0,
+        watchers: Sequence[Watcher] = (),
+        log: Log | None = None,
     ) -> None:
         self._seed = seed
+        self._log = log
         self._watchers = watchers
         self._begin(experiment)
         with suppress(LawError):  # of a sensor at the start: it is kept as `error`
@@ -93,6 +104,7 @@ class Timeline:
         self._gone_back = False
         self._hopeless = False  # a way back has failed while nobody asked for it
         self._cost = self._opening = 0.0  # seconds of a control step, and to open the experiment
+        self._write()
 
     # -- where one is -------------------------------------------------------------------------
 
@@ -169,7 +181,21 @@ class Timeline:
             with self._noting():
                 self._world.step()
             self.row = self.newest
+            self._write()
             self._observe()
+
+    def _write(self, same: int = 0) -> None:
+        """Let the log write what is new. same: how many rows are those that it has already.
+
+        A DiskError ends the run.
+        """
+        if self._log is None:
+            return
+        try:
+            self._log.follow(self._world, same)
+        except DiskError as error:
+            self._world.break_off(f"Error: {error}")
+            raise
 
     def go(self, row: int) -> None:
         """Look at a row; at the nearest one that is there."""
@@ -246,6 +272,7 @@ class Timeline:
         except InputError:
             if world is not before:
                 self._world, self.branches = before, branches
+                self._write(self.row)
                 self._lines, self._errors = lines, errors
                 if world.hands.log == log and not world.hands.driven:  # it may be asked for again
                     world.watch = None
@@ -302,6 +329,7 @@ class Timeline:
         self._waiting = [each for each in self._waiting if each.iteration < row]
         world.hands.let_go()
         world.watch = watch_by(self._watchers)
+        self._write(row)
 
     def other_branch(self) -> None:
         """Go to the branch that was left longest ago, at the same row if it has it."""
@@ -312,6 +340,7 @@ class Timeline:
         common = self._lines[self._world].common(self._lines[other])
         self._waiting = [world for world in self._waiting if world.iteration < common]
         self._world = other
+        self._write(common)
         self.go(self.row)
 
     def parted(self, other: World) -> int:

@@ -34,6 +34,7 @@ from mars2d.recorder import History, Recorder
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
 from mars2d.sensing import Device, Sensing
+from mars2d.storage import Column, DiskError, Storage
 from mars2d.streams import check_seed, stream
 from mars2d.surroundings import Around
 from mars2d.usercode import called
@@ -71,7 +72,8 @@ class World:
     scenario: what is simulated. control: the law of the whole team, a function or generator of the
     world; a robot's own controller overrides its column. seed: of all random streams. filename:
     the experiment's file, for the record. watch: called with the world once a control step, between
-    sensing and control: to draw, to wait, to count.
+    sensing and control: to draw, to wait, to count. storage: what keeps the columns of the record,
+    in memory or, with `mars2d.storage.Scratch`, in files.
 
     over: whether the experiment is over, and over_message why. watch may be set anew.
     """
@@ -84,6 +86,7 @@ class World:
         *,
         filename: str = "",
         watch: Watcher | None = None,
+        storage: Storage = Column,
     ) -> None:
         if not isinstance(scenario, Scenario):
             raise wrong("World.scenario", scenario, "a Scenario")
@@ -99,8 +102,8 @@ class World:
         self._stepping = True  # until all is built
         self._observed = -1  # the iteration that add-ons and sensors were last called for
         self._engine = ENGINES[scenario.physics](scenario)
-        self._recorder = Recorder(scenario)
-        self.history = History(self._recorder)
+        self.recorder = Recorder(scenario, storage)
+        self.history = History(self.recorder)
         self.hands = Hands(self)
         self._workspace = None if scenario.workspace is None else np.array(scenario.workspace)
         n = len(scenario.robots)
@@ -174,7 +177,7 @@ class World:
         self._take_addons({})
         live = vars(self.addons).values()
         talk = next((a for a in live if isinstance(a, Communication)), None)
-        self._channel = None if talk is None else Channel(self, talk, self._recorder)
+        self._channel = None if talk is None else Channel(self, talk, self.recorder)
         self._call("on_start", self)
 
     # -- what laws, sensors and add-ons may ask ------------------------------------------------
@@ -364,7 +367,7 @@ class World:
         self._stepping = True
         try:
             yield
-        except LawError as error:
+        except (LawError, DiskError) as error:
             self.break_off(f"Error: {error}")
             error.record = self.record
             raise
@@ -448,7 +451,7 @@ class World:
 
     def _write_row(self) -> None:
         takes_effect = self.time + self.scenario.command_delay
-        self._recorder.write(
+        self.recorder.write(
             self.time,
             pose=self._pose,
             command=self._command,
@@ -481,7 +484,7 @@ class World:
             self.hands.drive(self._engine, twist, duration, time)
             time += duration
         self._contacts = _frozen(self._engine.take_contacts())
-        self._recorder.write_contacts(self._contacts)
+        self.recorder.write_contacts(self._contacts)
         self._take_state()
         self._effort = _frozen(self._engine.take_effort())
         self.iteration += 1
@@ -549,7 +552,7 @@ class World:
     @property
     def record(self) -> Record:
         """The record so far."""
-        return self._recorder.record(
+        return self.recorder.record(
             self.seed,
             self.over_message if self.over else "not over",
             self.finished,
@@ -573,14 +576,20 @@ class World:
             prop_pose=self._prop_pose,
             contacts=self._contacts,
             effort=self._effort,
-            contact_log=self._recorder.contacts,
+            contact_log=self.recorder.contacts,
             prop_path=self.history.prop_pose[: self.iteration],
             effort_path=self.history.effort[: self.iteration],
-            messages=self._recorder.in_flight(self.time),
+            messages=self.recorder.in_flight(self.time),
             command_path=self.history.command[: self.iteration],
-            message_log=self._recorder.messages,
-            reading_path=partial(self._recorder.readings, self.iteration),
+            message_log=self.recorder.messages,
+            reading_path=partial(self.recorder.readings, self.iteration),
         )
+
+    def _repr_svg_(self) -> str:
+        """Return a picture of what is seen now, for a notebook."""
+        from mars2d.output.notebook import world_svg
+
+        return world_svg(self)
 
     def _draw_addons(self, scene: Scene) -> None:
         self._call("on_draw", self, scene)

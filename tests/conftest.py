@@ -1,14 +1,17 @@
-"""What the tests share: Python in a child process, and hypothesis settings that never flicker."""
+"""What the tests share: a Python in a child process, a browser, settings that never flicker."""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from tests.browser import running_browser
 
 settings.register_profile(
     "stable",
@@ -19,6 +22,12 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("stable")
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """Return how many processes ``-n auto`` is: one more than processors, since windows wait."""
+    return (os.cpu_count() or 1) + 1
+
 
 Child = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -43,3 +52,10 @@ def child() -> Child:
         )
 
     return run
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """Chromium, started once for all tests that need it: a process can drive only one."""
+    with running_browser() as browser:
+        yield browser

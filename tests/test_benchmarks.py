@@ -37,6 +37,7 @@ def test_rays_are_timed_and_are_those_of_the_public_method(tmp_path):
     assert result["team"]["readings"] == [201, 20, 180]
 
 
+@pytest.mark.soak
 def test_drawing_and_films_are_timed(tmp_path):
     pytest.importorskip("av")
     rows = run("drawing.py", "--rounds", "1", "--steps", "4", cwd=tmp_path)["drawing"]
@@ -59,3 +60,9 @@ def test_scrubbing_and_branching_are_timed(tmp_path):
     for law in ("plain", "sensing"):
         assert 0 < result[law]["look"] < result[law]["branch from the start"][0]
         assert len(result[law]["branch from those waiting"]) == 7
+
+
+def test_studies_by_one_worker_and_by_two_are_timed(tmp_path):
+    result = run("sweeps.py", "--runs", "3", "--rounds", "1", "--stop-time", "10", cwd=tmp_path)
+    assert result["whole"][0] > 0
+    assert len(result["whole_s"]) == 2

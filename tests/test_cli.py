@@ -130,7 +130,7 @@ def test_check_says_where_a_record_departs(tmp_path, capsys):
     forged = mars2d.Record(scenario=record.scenario, pose=pose, **columns)
     forged.save(tmp_path / "a.npz")
     assert cli.main(["check", str(tmp_path / "a.npz")]) == 1
-    assert "departs at row 30, by 0.25 m" in capsys.readouterr().err
+    assert "departs at row 30, at 3 s: follower1 is off by 0.25 m" in capsys.readouterr().err
 
 
 def test_check_describes_an_experiment_and_tries_its_laws(tmp_path):
@@ -259,7 +259,7 @@ def test_a_mistake_in_the_file_is_one_line_that_names_it(tmp_path, case, capsys)
         (["run", "random_walk", "--headless", "--figure", "a.bmp"], ["a.bmp", ".png"]),
         (["run", "random_walk", "--headless", "--video", "a.avi"], ["a.avi", ".gif"]),
         (["run", "random_walk", "--headless", "--at", "1,2"], ["--at", "--figure"]),
-        (["replay", "missing.npz"], ["missing.npz", "No such file"]),
+        (["replay", "missing.npz"], ["missing.npz", "there is no such file"]),
         (["check", "plan.dwg"], ["plan.dwg", ".py"]),
         ([], ["COMMAND"]),
     ],
@@ -303,15 +303,38 @@ def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
         [sys.executable, "-m", "mars2d", "run", "long.py", "--headless", "--record", "kept.npz"],
         cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
     )  # fmt: skip
-    while not (tmp_path / "going").exists():
-        assert process.poll() is None
-        time.sleep(0.05)
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    try:
+        while not (tmp_path / "going").exists():
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    finally:
+        process.kill()  # whatever went wrong, nothing goes on for ever
     assert process.returncode == 130, errors
     record = mars2d.load(tmp_path / "kept.npz")
     assert len(record) > 10
     assert "Ctrl-C" in record.over_message
+
+
+def test_a_ctrl_c_that_got_lost_within_a_step_ends_the_run_all_the_same(child):
+    code = (
+        "import os, signal, mars2d\n"
+        "from mars2d.loop import Interrupted\n"
+        "def law(world):\n"
+        "    try:\n"
+        "        if world.iteration == 5:\n"
+        "            os.kill(os.getpid(), signal.SIGINT)\n"
+        "    except KeyboardInterrupt:\n"
+        "        pass  # as where C code calls back\n"
+        "    return 0, 0\n"
+        "before = signal.getsignal(signal.SIGINT)\n"
+        "try:\n"
+        "    mars2d.run(mars2d.Scenario(stop_time=1e6), control=law)\n"
+        "except Interrupted as error:\n"
+        "    print(len(error.record), signal.getsignal(signal.SIGINT) is before)\n"
+    )
+    assert child(code).stdout.split() == ["6", "True"]
 
 
 def test_a_long_run_shows_its_progress_on_a_terminal(tmp_path):
@@ -424,6 +447,13 @@ def test_a_laws_error_is_not_hidden_by_what_can_not_be_drawn(tmp_path):
     assert (tmp_path / "a.png").exists()
 
 
+def test_a_run_without_a_control_step_is_filmed_as_the_one_picture_that_it_is(tmp_path):
+    words = ["random_walk", "--headless", "--stop-time", "0", "--video", "still.gif"]
+    done = mars("run", *words, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "still.gif").stat().st_size > 0
+
+
 def test_a_film_of_too_many_frames_is_refused(tmp_path):
     done = mars(
         "run", "random_walk", "--headless", "--video", "a.gif", "--speed", "1e-9", cwd=tmp_path
@@ -532,11 +562,13 @@ def test_a_law_that_fails_is_one_line_also_with_checks(roll, capsys):
     assert "roll.py, line 10" in shown.err
 
 
-def test_ctrl_c_says_that_checks_were_not_made(roll, tmp_path):
-    roll.write_text(ROLL.replace("return 0.25, 0.0", "raise KeyboardInterrupt"))
+def test_ctrl_c_says_what_was_saved_and_that_checks_were_not_made(roll, tmp_path):
+    stop = "if world.iteration == 5:\n        raise KeyboardInterrupt\n    return 0.25, 0.0"
+    roll.write_text(ROLL.replace("return 0.25, 0.0", stop))
     done = mars("run", "roll.py", "--headless", "--record", "a.npz", cwd=tmp_path)
     assert done.returncode == 130
     assert done.stderr.splitlines() == [
+        "mars2d: what was recorded until 0.4 s is in a.npz",
         "mars2d: the run was cut short, so its checks were not made",
         "mars2d: interrupted",
     ]

@@ -441,11 +441,11 @@ def test_a_crowd_of_three_hundred_may_all_speak_at_each_control_step(rule, near)
     world = World(team(robots=robots, addons=[talk], neighbours=rule, physics="ideal"))
     times = []
     for _ in range(4):
-        start = time.perf_counter()
+        start = time.process_time()
         for robot in world.robots:
             robot.send({"at": [1.0, 2.0]})
         stand(world)
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     assert min(times) < 0.1
     assert len(world.robots[150].inbox) in (299, 28, 12)
 

@@ -5,7 +5,8 @@ How a document is read, from top to bottom, in a folder of its own:
 - ``python``: executed, all blocks of a document in one namespace; or, where the sentence before
   says "Save as `NAME`", written to that file.
 - ``toml``: the same for a scenario's file; one that is not saved is read, with its first line.
-- ``console``: each line is a command, run by the real command line without a display.
+- ``console``: each line is a command, run by the real command line without a display, in this
+  process: that of a shell is tried by test_entry_points.py.
 - ``text``: what the block before has printed; ``...`` stands for anything. Where it is an error,
   ``mars2d: ...`` or ``SomeError: ...``, the block before must fail with it.
 - ``matlab`` and blocks without a language are shown only.
@@ -19,11 +20,8 @@ import importlib
 import importlib.util
 import inspect
 import io
-import os
 import re
 import shlex
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass
@@ -38,6 +36,7 @@ from mars2d import addons, bodies, cli, joints, props, sensors, shapes
 from mars2d.files import examples, open_experiment
 from mars2d.registry import members, snake_case
 from mars2d.scene import Scene
+from mars2d.study import work
 from mars2d.view import keys
 from mars2d.views import PropView, RobotView
 
@@ -50,10 +49,12 @@ EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest -n auto']
 """The set-up of the README, to the letter."""
 
-PIP = {*SET_UP, 'pip install ".[video]"'}
+PIP = {*SET_UP, 'pip install ".[video,data,log,cluster]"'}
 """The only commands that are not executed, but for the part of them that is mars2d."""
 
-MEASURED = {"speed_growth.png", "paper_page.png", "window_branch.png"}
+MEASURED = {
+    "speed_growth.png", "paper_page.png", "window_branch.png", "replay.png", "league.png",
+}  # fmt: skip
 """Pictures that no block makes: `benchmarks/growth.py` takes minutes, a page needs a browser, a
 window somebody at the keys."""
 
@@ -150,38 +151,33 @@ class Reader:
         words = shlex.split(line)
         assert words[0] == "mars2d", f"{self.document.name}: what is {line!r}?"
         arguments = cli.parser().parse_args(words[1:])
-        needs_window = words[1] == "replay" or getattr(arguments, "speed", None) == 0
+        made = getattr(arguments, "video", None) or getattr(arguments, "html", None)
+        needs_window = words[1] == "replay" and not made
+        needs_window |= getattr(arguments, "speed", None) == 0
         needs_window |= bool(getattr(arguments, "human", None)) and not arguments.headless
         if words[1] in ("run", "demo") and not (needs_window or arguments.headless):
             words.append("--headless")  # where it would open a window
         if words[1] == "replay":
             assert arguments.record.is_file(), line
-        done = subprocess.run(
-            [sys.executable, "-m", "mars2d", *words[1:]],
-            capture_output=True,
-            text=True,
-            encoding="utf-8",
-            timeout=60,
-            check=False,
-            env=without_display(),
-        )
+        printed, said = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(said):
+            code = cli.main(words[1:])
+        errors = said.getvalue()
         if needs_window:  # all that can be asked of it here
-            assert (done.returncode, "display" in done.stderr) == (2, True), line + done.stderr
-            return done.stderr
-        code = 2 if re.search("^mars2d: ", expected, flags=re.M) else 0
-        assert done.returncode == code, f"{line}: exit code {done.returncode}\n{done.stderr}"
-        return done.stdout + done.stderr
-
-
-def without_display() -> dict[str, str]:
-    gone = ("DISPLAY", "WAYLAND_DISPLAY")
-    environment = {name: value for name, value in os.environ.items() if name not in gone}
-    return environment | {"SDL_VIDEODRIVER": "dummy", "PYTHONIOENCODING": "utf-8"}
+            assert (code, "display" in errors) == (2, True), line + errors
+            return errors
+        wanted = 2 if re.search("^mars2d: ", expected, flags=re.M) else 0
+        assert code == wanted, f"{line}: exit code {code}\n{errors}"
+        return printed.getvalue() + errors
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda p: str(p.relative_to(ROOT)))
 def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.setattr(work, "cores", lambda: 1)  # so few runs don't pay for a second process
     Path("docs/pictures").mkdir(parents=True)
     start = time.perf_counter()
     Reader(document).read()
@@ -295,7 +291,17 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
     assert experiment.checks is not None
 
 
-@pytest.mark.parametrize("page", EXPERIMENT_PAGES, ids=lambda path: path.stem)
+LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi"}
+"""Experiments whose model answers take seconds: `pytest -m soak`."""
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, id=page.stem, marks=[pytest.mark.soak] if page.stem in LONG else [])
+        for page in EXPERIMENT_PAGES
+    ],
+)
 def test_the_model_answer_of_an_experiment_checks_itself(page):
     answer = open_experiment(ROOT / "examples" / "solutions" / f"{page.stem}.py")
     predictions = answer.predictions(mars2d.run(answer.scenario, control=answer.control))
@@ -437,11 +443,18 @@ def test_the_columns_of_messages_and_their_states_are_those_of_a_record():
     assert stated == dict(enumerate(mars2d.message.STATUS))
 
 
+ELSEWHERE = {
+    "--version", "--host", "--no-dashboard", "--nworkers", "--nthreads", "--network",
+    "--pids-limit", "--read-only",
+}  # fmt: skip
+"""Options of `mars2d` itself, of Dask and of Docker."""
+
+
 def test_options_named_anywhere_exist():
     known = {o for sub in verbs().values() for a in sub._actions for o in a.option_strings}
     for document in DOCUMENTS:
         for option in re.findall(r"`(--[a-z-]+)", prose(document)):
-            assert option in {*known, "--version"}, f"{document.name}: {option}"
+            assert option in {*known, *ELSEWHERE}, f"{document.name}: {option}"
 
 
 def test_tests_named_in_the_documents_exist():
@@ -473,7 +486,7 @@ def test_every_module_stands_in_the_picture_of_the_design():
     parts |= {f"{path.parent.name}/" for path in package.glob("*/__init__.py")}
     parts.discard("examples/")
     folders = "bodies|sensors|addons|props|joints|commands|view|output|testing|bench|kernel"
-    folders += "|maps|paper"
+    folders += "|maps|paper|formats|study"
     named = set(re.findall(rf"\w+\.py|\b(?:{folders})/", picture))
     assert named - {"base.py"} == parts
 

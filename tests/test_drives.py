@@ -486,3 +486,26 @@ def test_a_dead_time_of_more_sampling_times_than_can_be_kept_is_refused():
     scenario = Scenario(robots=[Robot(drive=Car(dead_time=2))], sampling_time=1e-6, stop_time=1)
     with pytest.raises(InputError, match=r"Car.dead_time = 2.0: expected at most a million"):
         World(scenario)
+
+
+class Tracked(Unicycle):
+    """A drive of the user's own on two wheels."""
+
+
+class Strange(Drive):
+    """One that does not say what its command is."""
+
+
+@pytest.mark.parametrize(
+    ("drive", "names"),
+    [
+        (Tracked(), ["v [m/s]", "omega [rad/s]"]),
+        (Differential(), ["left [rad/s]", "right [rad/s]"]),
+        (Differential(command="twist"), ["v [m/s]", "omega [rad/s]"]),
+        (Car(), ["v [m/s]", "delta [rad]"]),
+        (Holonomic(), ["vx [m/s]", "vy [m/s]"]),
+        (Strange(), []),
+    ],
+)
+def test_a_drive_says_what_its_command_is(drive, names):
+    assert [f"{each.name} [{each.unit}]" for each in drive.quantities] == names

@@ -9,10 +9,12 @@ import pytest
 
 import mars2d
 from mars2d.cli import main
-from mars2d.files import examples, open_experiment
+from mars2d.errors import LawError
+from mars2d.files import examples, open_experiment, open_module
 from mars2d.session import run
 
 PLAYERS = ("pusher", "flanker", "dodger")
+PURSUERS, EVADERS = ("straight", "ahead", "inside"), ("away", "corners", "round")
 
 
 def play(name, seed=0, **options):
@@ -103,14 +105,89 @@ def test_a_player_that_is_not_there_is_named(capsys):
     assert "pusher" in capsys.readouterr().err
 
 
-def test_players_lie_beside_the_examples_and_are_none():
-    folder = examples()["sumo"].parent / "sumo_players"
-    assert {file.stem for file in folder.glob("*.py")} == set(PLAYERS)
-    assert not set(PLAYERS) & set(examples())
+@pytest.mark.parametrize(
+    ("folder", "players"),
+    [("sumo_players", PLAYERS), ("corner_pursuers", PURSUERS), ("corner_evaders", EVADERS)],
+)
+def test_players_lie_beside_the_examples_and_are_none(folder, players):
+    folder = examples()["sumo"].parent / folder
+    assert {file.stem for file in folder.glob("*.py")} == set(players)
+    assert not set(players) & set(examples())
     for file in folder.glob("*.py"):
         lines = file.read_text().splitlines()
         assert lines[0].startswith('"""')
         assert len(lines) <= 30
+
+
+# -- corner_game --------------------------------------------------------------------------------
+
+
+def hunt(pursuer, evader, mu, seed=0, **options):
+    """Let two laws play corner_game; return the outcome and the record."""
+    laws = {"pursuer": f"corner_pursuers/{pursuer}.py", "evader": f"corner_evaders/{evader}.py"}
+    record = mars2d.run("corner_game", seed=seed, options={**laws, "mu": mu, **options})
+    return record.scenario.addons[0].outcome(record), record
+
+
+def claimed():
+    """What the example says it measured: captures of 10 by pursuer, evader, at each mu."""
+    doc = (open_module(examples()["corner_game"]).__doc__ or "").splitlines()
+    rows = {
+        line.split()[0]: [int(n) for n in line.split()[1:]] for line in doc if line[-2:] == "10"
+    }
+    assert set(rows) == set(PURSUERS)
+    return {(p, e): n[5 * k : 5 * k + 5] for p, n in rows.items() for k, e in enumerate(EVADERS)}
+
+
+@pytest.mark.parametrize(
+    ("pursuer", "evader", "mu", "captures"),
+    [
+        ("straight", "away", 0.8, 10),
+        ("straight", "corners", 0.9, 0),
+        ("inside", "corners", 0.9, 10),
+        ("inside", "round", 0.95, 10),
+        ("ahead", "corners", 0.9, 10),
+        ("ahead", "round", 0.8, 0),
+    ],
+)
+def test_two_matches_of_the_corner_game_end_as_the_example_says(pursuer, evader, mu, captures):
+    """All of them, in a few minutes, are the test below."""
+    assert claimed()[pursuer, evader][[0.8, 0.85, 0.9, 0.95, 1.0].index(mu)] == captures
+    for seed in (0, 5):
+        assert len(hunt(pursuer, evader, mu, seed)[0].captures) == captures // 10
+
+
+@pytest.mark.soak
+def test_all_matches_of_the_corner_game_end_as_the_example_says():
+    for (pursuer, evader), counts in claimed().items():
+        for mu, count in zip([0.8, 0.85, 0.9, 0.95, 1.0], counts, strict=True):
+            played = [len(hunt(pursuer, evader, mu, seed)[0].captures) for seed in range(10)]
+            assert sum(played) == count, (pursuer, evader, mu)
+
+
+def test_starts_of_the_corner_game_are_drawn_from_the_seed_apart_from_each_other():
+    starts = [mars2d.run("corner_game", 0, seed=seed).pose[0, :2] for seed in (*range(30), 7)]
+    assert min(np.hypot(*(at[:, 0] - at[:, 1])) for at in starts) > 4.0
+    assert np.abs(starts).max() <= 4.0
+    assert len({at.tobytes() for at in starts}) == 30
+    assert (starts[7] == starts[-1]).all()
+
+
+def test_no_law_of_the_corner_game_goes_faster_than_the_rules_allow(tmp_path):
+    cheat = tmp_path / "cheat.py"
+    cheat.write_text("def control(robot):\n    return 1e6, 1e6\n")
+    laws = {"pursuer": str(cheat), "evader": str(cheat)}
+    record = mars2d.run("corner_game", 20, options={**laws, "mu": 0.8})
+    speed = np.hypot(*np.diff(record.pose[:, :2], axis=0).transpose(1, 0, 2)) / 0.1
+    assert speed[:20].max(axis=0) == pytest.approx([0.4, 0.5])
+    assert np.abs(record.pose[:, :2]).max() < 5.0  # the walls hold them
+
+
+def test_laws_of_the_corner_game_see_positions_only(tmp_path):
+    spy = tmp_path / "spy.py"
+    spy.write_text("def control(robot):\n    return robot.neighbours[0].pose[:2]\n")
+    with pytest.raises(LawError, match="positions only: a neighbour's pose is not available"):
+        mars2d.run("corner_game", options={"evader": str(spy)})
 
 
 def test_the_crowds_checks_see_who_overlaps_or_comes_through_a_wall():

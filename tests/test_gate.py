@@ -569,11 +569,14 @@ def test_extreme_but_sound_inputs_run_and_stay_finite(child):
         "push(Puck(pose=FAR, mass=0.1, ground_friction=100), commands=[[1], [1]])",
         (
             "push(Gate(pose=(1, 0, 1.57), stiffness=1e4, damping=1e6, limits=(0, 0)),"
-            " commands=[[1], [0]])"
+            " sampling_time=0.05, commands=[[1], [0]])"
         ),
         "push(Gate(pose=(1, 0, 1.57), limits=None, damping=0), commands=[[1], [0]])",
         "push(Solid(Compound([Disc(0.2)] * 64), pose=(1, 0)), commands=[[1], [0]])",
-        "tie(Spring(a='robot0', b='load', stiffness=1e5, damping=1e6), commands=[[1, -1], [0, 0]])",
+        (
+            "tie(Spring(a='robot0', b='load', stiffness=1e5, damping=1e6),"
+            " sampling_time=0.05, commands=[[1, -1], [0, 0]])"
+        ),
         "tie(Rod(a='robot0', b='robot1'), commands=[[1, -1], [5, 5]])",
         "tie(Rope(a='robot0', b='load', length=1e6), commands=[[1, -1], [5, 5]])",
         "tie(Rope(a='load', anchor_b=(1.5, 1.5)), commands=[[1, -1], [5, 5]])",

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import statistics
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -32,6 +34,9 @@ LAYERS = [
         "quadrature",
         "brackets",
         "reference",
+        "replacing",
+        "storage",
+        "interrupt",
     },
     {
         "registry",
@@ -77,6 +82,7 @@ LAYERS = [
         "listing",
     },
     {"engine", "recorder", "names", "velocities"},
+    {"formats"},
     {"kinematics"},
     {"hands"},
     {"world"},
@@ -85,6 +91,7 @@ LAYERS = [
     {"view"},
     {"output"},
     {"session", "doctor"},
+    {"study"},
     {"paper"},
     {"commands"},
     {"cli"},
@@ -94,13 +101,16 @@ LAYERS = [
 
 LAZY_UPWARDS = {
     ("record", "output"),
+    ("record", "formats"),
+    ("scenario", "output"),
+    ("world", "output"),
     ("scenario", "scenario_file"),
     ("files", "scenario_file"),
     ("view", "output"),
 }
-"""Imported when they are called: output.figure by Record.plot; scenario_file by Scenario.from_file,
-Scenario.save and open_experiment, since what reads a scenario loads laws as experiments are;
-output.filming by the window that is filmed.
+"""Imported when they are called: figures, films and pages by Record.plot and the like, files by
+Record.save; scenario_file by Scenario.from_file, Scenario.save and open_experiment, since what
+reads a scenario loads laws as experiments are; output.filming by the window that is filmed.
 """
 
 HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "svgelements", "yaml"}
@@ -125,13 +135,17 @@ def _imports(tree: ast.AST, *, in_function: bool = False) -> Iterator[tuple[str,
             for alias in node.names:
                 module = node.module
                 folder = PACKAGE.parent / module.replace(".", "/")
-                is_module = (folder / f"{alias.name}.py").exists()
+                is_module = any(
+                    (folder / place).exists()
+                    for place in (f"{alias.name}.py", f"{alias.name}/__init__.py")
+                )
                 yield (f"{module}.{alias.name}" if is_module else module), in_function
         else:
             inside = isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda))
             yield from _imports(node, in_function=in_function or inside)
 
 
+@cache
 def _own_imports(path: Path) -> list[tuple[str, bool]]:
     return list(_imports(ast.parse(path.read_text(encoding="utf-8"))))
 
@@ -163,13 +177,18 @@ def test_a_module_imports_only_from_layers_below(path: Path) -> None:
         assert _level(target) < _level(part), f"{relative} imports {module}, which is not below it"
 
 
+BASES = {"addons": ("base", "contest")}
+"""What siblings may import, where it is not the base alone."""
+
+
 @pytest.mark.parametrize("folder", ["bodies", "sensors", "addons", "props", "joints"])
 def test_siblings_in_a_folder_import_only_their_base(folder: str) -> None:
     for path in (PACKAGE / folder).glob("*.py"):
         if path.stem in ("__init__", "base"):
             continue
         mine = [m for m, _ in _own_imports(path) if m.startswith(f"mars2d.{folder}")]
-        assert set(mine) <= {f"mars2d.{folder}.base"}, path
+        bases = {f"mars2d.{folder}.{base}" for base in BASES.get(folder, ("base",))}
+        assert set(mine) <= bases, path
 
 
 @pytest.mark.parametrize(
@@ -263,7 +282,11 @@ def test_importing_mars2d_takes_less_than_one_and_a_half_times_numpy_and_pymunk(
         "import numpy, pymunk, pymunk.batch; middle = time.process_time()\n"
         "import mars2d; print(middle - start, time.process_time() - middle)"
     )
-    compiled = {"PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": str(tmp_path)}
-    times = [[float(each) for each in child(code, **compiled).stdout.split()] for _ in range(4)]
-    theirs, ours = map(min, zip(*times[1:], strict=True))
-    assert ours < 1.5 * theirs
+    # Other tests' libraries may leave numpy one thread, without which it starts quicker.
+    threads = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "")
+    written = {"PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": str(tmp_path)}
+    times = [
+        [float(each) for each in child(code, **threads, **written).stdout.split()] for _ in range(6)
+    ]
+    ratios = [ours / theirs for theirs, ours in times[1:]]  # one right after the other: the clock
+    assert statistics.median(ratios) < 1.5  # of a processor changes within seconds

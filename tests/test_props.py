@@ -148,7 +148,12 @@ def threshold(robots, prop: Prop, low: float, high: float) -> float:
 
 @pytest.mark.parametrize(
     ("force", "prop", "x"),
-    [(5, Box(), -0.351), (5, Box(mass=2.5), -0.351), (3, Puck(), -0.251), (4, Solid(ELL), -0.371)],
+    [
+        (5, Box(), -0.351),
+        pytest.param(5, Box(mass=2.5), -0.351, marks=pytest.mark.soak),
+        (3, Puck(), -0.251),
+        pytest.param(4, Solid(ELL), -0.371, marks=pytest.mark.soak),
+    ],
     ids=["box", "heavy box", "puck", "ell"],
 )
 def test_a_prop_moves_up_to_the_friction_that_the_force_overcomes(force, prop, x):

@@ -586,7 +586,7 @@ def test_a_record_takes_no_more_memory_than_its_first_rows_need():
     robots = [wide.at(0.4 * i, 0) for i in range(10)]
     world = World(Scenario(robots=robots, stop_time=1e4, workspace=None))
     world.step(np.zeros((2, 10)))
-    column = world._recorder._sensors["range_finder"]._rows
+    column = world.recorder._sensors["range_finder"]._rows
     assert column.nbytes <= 2**25
 
 

@@ -255,3 +255,18 @@ def test_a_law_can_be_loaded_without_an_experiment(tmp_path, monkeypatch):
     assert mars2d.run(Scenario(robots=[robot], stop_time=1)).command[-1, 0, 0] > 0
     with pytest.raises(InputError, match=r"load_law\(name\) = 3"):
         mars2d.load_law("law.py", 3)
+
+
+def test_where_the_record_of_a_failed_law_can_not_be_saved_the_laws_error_counts(tmp_path):
+    target = tmp_path / "run.npz"
+
+    def law(world):
+        if world.iteration == 3:
+            target.mkdir()
+            raise ValueError("lost")
+        return 0.1, 0.1
+
+    with pytest.raises(LawError, match="lost") as caught:
+        mars2d.run(SQUARE, control=law, record=target)
+    assert len(caught.value.record) == 3
+    assert "run.npz: can't be written" in caught.value.__notes__[0]

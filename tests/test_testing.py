@@ -950,6 +950,7 @@ ADDONS_NEED = {
     "FieldOfView": {"sensors": ["proximity"]},
     "Game": {"roles": {"hunter": ["robot0"], "hunted": ["robot1"]}},
     "Map": {"outlines": [[(0, 1.6), (0.3, 1.6)]]},
+    "Ring": {"roles": {"red": ["robot0"], "blue": ["robot1"]}},
     "Theory": {"draws": lambda scene, frame: scene.circle((0, 0), 1.0, stroke="#7b3294")},
     "Waypoints": {"routes": [[(1.0, 0.0)]]},
 }
@@ -972,7 +973,17 @@ def test_the_drives_of_mars2d_are_sound(name):
     check_drive(members("bodies")[name]())
 
 
-@pytest.mark.parametrize("name", sorted(examples()))
+LONG = {
+    "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "dead_reckoning",
+    "formation", "herding", "leader_following", "path_planning", "rendezvous",
+}  # fmt: skip
+"""Examples whose trial takes a second and more: `pytest -m soak`."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=[pytest.mark.soak] if n in LONG else []) for n in sorted(examples())],
+)
 def test_the_parts_and_laws_of_the_examples_are_sound(name):
     module = open_module(examples()[name])
     tried = list(trials(module, open_experiment(module)))

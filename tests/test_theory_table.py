@@ -25,7 +25,17 @@ def rows(section: str) -> dict[str, float]:
     return {match["what"]: float(match["predicted"]) for match in found}
 
 
-@pytest.mark.parametrize("fact", make_theory.FACTS, ids=lambda fact: fact.__name__)
+LONG = {"friction_threshold"}
+"""Facts that take seconds to measure: `pytest -m soak`."""
+
+
+@pytest.mark.parametrize(
+    "fact",
+    [
+        pytest.param(f, id=f.__name__, marks=[pytest.mark.soak] if f.__name__ in LONG else [])
+        for f in make_theory.FACTS
+    ],
+)
 def test_a_fact_of_the_page_holds(fact):
     stated = rows("The physics")
     predictions = list(fact())
@@ -35,6 +45,7 @@ def test_a_fact_of_the_page_holds(fact):
         assert stated[prediction.name] == pytest.approx(prediction.predicted, rel=1e-4, abs=1e-12)
 
 
+@pytest.mark.soak
 def test_what_examples_say_of_themselves_is_on_the_page_and_holds():
     stated = rows("The examples")
     measured = make_theory.of_examples()

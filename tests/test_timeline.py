@@ -10,7 +10,7 @@ import pytest
 import mars2d
 from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
-from mars2d.commands import run
+from mars2d.commands import outputs
 from mars2d.errors import InputError
 from mars2d.files import Experiment, examples, open_experiment
 from mars2d.loop import simulate
@@ -56,7 +56,19 @@ def simulated(path, seed=3):
 # -- every example ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", examples())
+LONG = {
+    "circular_motion", "coverage_square", "cyclic_pursuit", "dead_reckoning", "leader_following",
+    "many_push_one", "obstacle_avoidance", "path_planning", "pursuit_corners", "pursuit_voronoi",
+    "push_box", "wall_follower", "crowd", "tug_of_war", "herding", "head_on", "billiards",
+    "corner_game",
+}  # fmt: skip
+"""Examples that take seconds to go back in: `pytest -m soak`."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[pytest.mark.soak] if name in LONG else []) for name in examples()],
+)
 def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     options = {"stop_time": 4.0} if name in ("random_walk", "flocking") else {}
     expected = simulate(open_experiment(name, options), 1).record
@@ -860,9 +872,9 @@ def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path
         timeline.change(lambda w, y=y: w.hands.place(0, (-4.0, y, 0.0)))
         run_to(timeline, 25)
     record = timeline.record
-    given = argparse.Namespace(record=tmp_path / "out.npz", figure=None)
+    given = argparse.Namespace(record=tmp_path / "out.npz", figure=None, html=None)
     (tmp_path / "out_branch2.npz").write_text("mine")
-    run._save_data(given, record)
+    outputs.save_data(given, record)
     names = ["out.npz", "out_branch1.npz", "out_branch3.npz"]
     saved = [mars2d.load(tmp_path / name).digest for name in names]
     assert saved == [record.digest, *(branch.digest for branch in record.branches)]

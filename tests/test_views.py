@@ -55,8 +55,8 @@ MORE = {
     "break_off", "change", "channel", "contacts", "control", "driven", "filename", "finished",
     "follow", "frame", "geometric_center", "hands", "history", "hold", "motion",
     "neighbour_indices", "observe", "over", "over_message", "pose", "prop_pose", "prop_velocity",
-    "props", "rebuild", "record", "scenario", "seed", "step", "stream", "surroundings", "velocity",
-    "watch",
+    "props", "rebuild", "record", "recorder", "scenario", "seed", "step", "stream", "surroundings",
+    "velocity", "watch",
 }  # fmt: skip
 """What else there is, which tells more than positions."""
 

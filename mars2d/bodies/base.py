@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.description import Description, number
+from mars2d.quantity import Quantity
 
 __all__ = ["Drive", "Wheeled"]
 
@@ -76,6 +77,11 @@ class Drive(Description):
         return actuators
 
     @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """What the two numbers of a command are, for figures and tables; here nobody knows."""
+        return ()
+
+    @property
     def rates(self) -> tuple[float | None, float | None]:
         """How much each actuator may change in a second, in its own unit; None: at will."""
         return self.max_acceleration, self.max_acceleration
@@ -120,6 +126,11 @@ class Wheeled(Drive):
     wheel_semiaxis: float = number(
         default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
     )
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """V [m/s] and omega [rad/s]."""
+        return Quantity("v", "m/s"), Quantity("omega", "rad/s")
 
     @cached_property
     def _arms(self) -> Float:

@@ -6,6 +6,7 @@ import numpy as np
 
 from mars2d.bodies.base import ROUNDING, Drive, Float
 from mars2d.description import number
+from mars2d.quantity import Quantity
 
 __all__ = ["Car"]
 
@@ -32,6 +33,11 @@ class Car(Drive):
         default=None, low=1e-6, high=1e6, unit="rad/s", optional=True,
         doc="bound of how quickly the steering angle changes; None: none",
     )  # fmt: skip
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """V [m/s] and the steering angle delta [rad]."""
+        return Quantity("v", "m/s"), Quantity("delta", "rad", "angle")
 
     @property
     def rates(self) -> tuple[float | None, float | None]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mars2d.bodies.base import Float, Wheeled
 from mars2d.description import choice, number
+from mars2d.quantity import Quantity
 
 __all__ = ["Differential"]
 
@@ -29,6 +30,13 @@ class Differential(Wheeled):
     wheel_radius: float = number(
         default=0.05, low=1e-3, high=1e3, unit="m", doc="radius of the wheels"
     )
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """The speeds of the left and the right wheel [rad/s], or v [m/s] and omega [rad/s]."""
+        if self.command == "wheels":
+            return Quantity("left", "rad/s"), Quantity("right", "rad/s")
+        return super().quantities
 
     def actuators(self, command: Float) -> Float:
         """Return the speeds (2, n) of the left and the right wheel's rim, m/s."""

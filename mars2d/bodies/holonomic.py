@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from mars2d.bodies.base import ROUNDING, Drive, Float
+from mars2d.quantity import Quantity
 
 __all__ = ["Holonomic"]
 
@@ -20,6 +21,11 @@ class Holonomic(Drive):
     """
 
     frame: ClassVar[Literal["robot", "world"]] = "world"
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """Vx and vy [m/s]."""
+        return Quantity("vx", "m/s"), Quantity("vy", "m/s")
 
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) shortened to max_linear_speed where they are faster."""

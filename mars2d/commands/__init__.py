@@ -4,9 +4,37 @@ A module has the verb's `NAME`, an `add_arguments(parser)`, and an `execute(argu
 docstring is the verb's help.
 """
 
-from mars2d.commands import bench, check, compare, demo, doctor, edit, paper, parts, replay, run
+from mars2d.commands import (
+    bench,
+    check,
+    compare,
+    demo,
+    doctor,
+    edit,
+    paper,
+    parts,
+    plot,
+    replay,
+    run,
+    sweep,
+    tournament,
+)
 
 __all__ = ["VERBS"]
 
-VERBS = (demo, run, edit, compare, replay, parts, check, paper, bench, doctor)
+VERBS = (
+    demo,
+    run,
+    edit,
+    compare,
+    replay,
+    plot,
+    sweep,
+    tournament,
+    parts,
+    check,
+    paper,
+    bench,
+    doctor,
+)
 """In the order in which the help lists them."""

@@ -1,4 +1,4 @@
-"""What several sub-commands share: arguments, runs with a progress bar, pictures and films."""
+"""What several sub-commands share: arguments, runs with a progress bar, tables."""
 
 from __future__ import annotations
 
@@ -11,25 +11,21 @@ from typing import TYPE_CHECKING, Any
 from mars2d.animation import playback_speed
 from mars2d.errors import InputError
 from mars2d.files import Experiment, examples
-from mars2d.frame import Frame
 from mars2d.loop import simulate
 from mars2d.options import parse_setting
-from mars2d.output import film
 from mars2d.prediction import Prediction, table
 from mars2d.progress import Progress
 from mars2d.record import Record
 from mars2d.teleop import robot_of
+from mars2d.view import require_pygame
 from mars2d.view.preferences import Preferences
 from mars2d.world import Watcher, World
 
 if TYPE_CHECKING:
-    from mars2d.output.footage import Footage
+    from mars2d.formats.mcap import Log
 
-FILM_FPS = 25
 SPEED_BY_HAND = 4.0
 """How fast an experiment goes at most in which somebody drives, unless a speed is given."""
-SHORT_FILM = 12.0
-"""How long a film is whose speed nobody gave, seconds."""
 
 
 def add_run_arguments(parser: argparse.ArgumentParser) -> None:
@@ -79,6 +75,7 @@ def human_of(arguments: argparse.Namespace, experiment: Experiment) -> int | Non
         return None
     robot = robot_of(experiment.scenario, arguments.human, "--human")
     if arguments.headless or not has_display():
+        require_pygame("a window")
         why = "not --headless" if arguments.headless else "and there is no display"
         raise InputError(f"--human {arguments.human}: driving by hand needs a window, {why}")
     return robot
@@ -102,25 +99,12 @@ def options_of(arguments: argparse.Namespace) -> dict[str, Any]:
     return options
 
 
-def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str, ...]]) -> None:
-    """Refuse a file that can't be written before the run, not after it.
-
-    outputs: arguments that name files, and the suffixes that they may have.
-    """
-    for name, suffixes in outputs.items():
-        path: Path | None = getattr(arguments, name)
-        if path is None:
-            continue
-        if path.suffix.lower() not in suffixes:
-            wanted = " or ".join(suffixes)
-            raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
-        if not path.parent.is_dir():
-            raise InputError(f"--{name} {path}: there is no folder {path.parent}")
-        if path.is_dir():
-            raise InputError(f"--{name} {path}: this is a folder")
-    video: Path | None = getattr(arguments, "video", None)
-    if video is not None and video.suffix.lower() == ".mp4":
-        film.require_av(video)
+def times(text: str) -> list[float]:
+    """Return the times [s] that an argument lists."""
+    try:
+        return [float(item) for item in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected times, as 1,30,60") from None
 
 
 def make_folder(path: Path) -> None:
@@ -163,10 +147,12 @@ def show(
     seed: int,
     preferences: Preferences,
     human: int | None = None,
+    log: Log | None = None,
 ) -> Record:
     """Run in a window, at the experiment's own speed unless one is given.
 
     human: a robot that is driven by hand, for which the experiment's own speed may be too fast.
+    log: what writes each row while the run goes on.
     """
     from mars2d.view.show import show_experiment
 
@@ -174,14 +160,16 @@ def show(
     if human is not None and not (isinstance(own, float) and 0 < own < SPEED_BY_HAND):
         own = SPEED_BY_HAND
     pace = own if speed is None else speed
-    return show_experiment(experiment, pace, seed, preferences=preferences, human=human)
+    return show_experiment(experiment, pace, seed, preferences=preferences, human=human, log=log)
 
 
-def run_headless(experiment: Experiment, seed: int, watchers: Sequence[Watcher] = ()) -> World:
+def run_headless(
+    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = (), log: Log | None = None
+) -> World:
     """Run without a window, with a progress bar, and return the world, which is over."""
     progress = Progress(experiment.scenario.last_iteration)
     try:
-        return simulate(experiment, seed, watchers=[*watchers, progress])
+        return simulate(experiment, seed, watchers=[*watchers, progress], log=log)
     finally:
         progress.close()
 
@@ -207,32 +195,6 @@ def warn_unchecked(experiment: Experiment, what: str) -> None:
     """Say what was done to a run, if the experiment has checks that were to follow it."""
     if experiment.checks is not None:
         print(f"mars2d: the run was {what}, so its checks were not made", file=sys.stderr)
-
-
-def film_speed(experiment: Experiment, speed: float | str | None) -> float:
-    """Return a film's speed: the one given, else the animation's, else that of a short film."""
-    for choice in (speed, experiment.scenario.animation.playback_speed):
-        if isinstance(choice, float) and choice > 0:
-            return choice
-    return max(experiment.scenario.stop_time / SHORT_FILM, 1e-9)
-
-
-def save_footage(
-    footage: Footage, last: Frame, path: Path, size: tuple[int, int] = (1280, 720)
-) -> None:
-    """Make a film of a run that was watched, with a progress bar."""
-    progress = Progress(footage.count(last), "frames")
-    try:
-        film.save_film(
-            footage.frames(last),
-            path,
-            fps=FILM_FPS,
-            size=size,
-            status=f"{footage.speed:.3g}x",
-            progress=progress.update,
-        )
-    finally:
-        progress.close()
 
 
 def print_table(title: str, lines: Mapping[str, str]) -> None:

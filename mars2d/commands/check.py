@@ -10,8 +10,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mars2d import maps
-from mars2d.commands.base import check_outputs, run_headless
+from mars2d import formats, maps
+from mars2d.commands.base import run_headless
+from mars2d.commands.outputs import check_outputs
 from mars2d.errors import InputError, Mars2dError, counted, nearest
 from mars2d.files import Experiment, open_experiment, open_module
 from mars2d.joints import Joint
@@ -19,8 +20,9 @@ from mars2d.map_option import reading_options
 from mars2d.options import parse_setting
 from mars2d.output import figure
 from mars2d.output.map import save_map
-from mars2d.record import load
-from mars2d.rerun import rerun
+from mars2d.progress import Progress
+from mars2d.record import Record, load
+from mars2d.rerun import other_versions, rerun
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.testing.deadline import PATIENCE, Deadline, Late
@@ -46,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file",
         metavar="FILE",
         help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
-        "a scenario (.toml), a record (.npz), or a map",
+        f"a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map",
     )
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="how a map is read"
@@ -64,14 +66,15 @@ def execute(arguments: argparse.Namespace) -> None:
     for option in ("set", "figure"):
         if getattr(arguments, option):
             raise InputError(f"--{option} is for maps: {', '.join(maps.SUFFIXES)}")
-    if path.suffix == ".npz":
+    if path.suffix.lower() in formats.SUFFIXES:
         _check_record(path)
     elif path.suffix in ("", ".py", ".toml"):
         _check_code(arguments.file)
     else:
         raise InputError(
-            f"{path}: expected a Python file (.py), a scenario (.toml), a record (.npz) or a map "
-            f"({', '.join(maps.SUFFIXES)}){maps.advice(path)}"
+            f"{path}: expected a Python file (.py), a scenario (.toml), a record "
+            f"({', '.join(formats.SUFFIXES)}) or a map ({', '.join(maps.SUFFIXES)})"
+            f"{maps.advice(path)}"
         )
 
 
@@ -233,10 +236,22 @@ def _check_record(path: Path) -> None:
     print(f"digest      {record.digest}")
     if record.missing:
         print(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
-    departure = rerun(record)
+    if not len(record):
+        print("run again   nothing: it has no rows")
+        return
+    bar = Progress(len(record), "rows")
+    try:
+        departure = rerun(record, bar.update)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+    finally:
+        bar.close()
     if departure is not None:
-        far = departure.distance
-        what = f"by {far:.3g} m or rad" if far else "in efforts or contacts"
-        where = f"row {departure.row}, {what}"
-        raise Mars2dError(f"{path}: run again, it departs at {where}")
+        raise Mars2dError(f"{path}: run again, it departs at {departure}{_likely_reason(record)}")
     print("run again   bit-identical")
+
+
+def _likely_reason(record: Record) -> str:
+    """Return what is not as it was when a record was made, which may change its last bits."""
+    others = [f"{k} {then}, here {now}" for k, (then, now) in other_versions(record).items()]
+    return f"; it was made with {', '.join(others)}" if others else ""

@@ -13,15 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 from mars2d.animation import playback_speed
 from mars2d.commands.base import (
-    FILM_FPS,
-    SHORT_FILM,
     add_options,
-    check_outputs,
-    film_speed,
     make_folder,
     options_of,
     run_headless,
 )
+from mars2d.commands.films import FPS, SHORT, film_speed
+from mars2d.commands.outputs import check_outputs
 from mars2d.errors import InputError, Mars2dError
 from mars2d.files import Experiment, open_experiment
 from mars2d.output import figure, film
@@ -29,6 +27,7 @@ from mars2d.output.comparison import MODES, Comparison
 from mars2d.progress import Progress
 from mars2d.record import Record
 from mars2d.streams import check_seed
+from mars2d.view import require_pygame
 
 if TYPE_CHECKING:
     from mars2d.output.footage import Footage
@@ -69,7 +68,7 @@ def execute(arguments: argparse.Namespace) -> None:
     check_outputs(arguments, OUTPUTS)
     options, seed = _options(arguments), check_seed(arguments.seed)
     # Opened anew for each run: laws keep state in generators and in their module's globals.
-    experiments = {mode: open_experiment(arguments.experiment, options) for mode in MODES}
+    experiments = {m: open_experiment(arguments.experiment, options, seed=seed) for m in MODES}
     paths = _paths(arguments)
     records: dict[str, Record] = {}
     reels: dict[str, Reel] = {}
@@ -102,6 +101,7 @@ def _paths(arguments: argparse.Namespace) -> dict[str, Path]:
     wanted = {name: path for name in OUTPUTS if (path := getattr(arguments, name)) is not None}
     if wanted or arguments.json:
         return wanted
+    require_pygame("a film")
     make_folder(FOLDER)
     name = Path(arguments.experiment).stem
     return {"figure": FOLDER / f"{name}.png", "video": FOLDER / f"{name}.gif"}
@@ -122,8 +122,8 @@ def _footage(arguments: argparse.Namespace, experiment: Experiment) -> Footage:
 
     speed = arguments.speed
     if speed is None and arguments.video is None:
-        speed = experiment.scenario.stop_time / SHORT_FILM
-    return Footage(experiment.scenario, film_speed(experiment, speed), FILM_FPS)
+        speed = experiment.scenario.stop_time / SHORT
+    return Footage(experiment.scenario, film_speed(experiment.scenario, speed), FPS)
 
 
 def _save(
@@ -139,7 +139,7 @@ def _save(
 
         progress = Progress(max(footage.count(last) for footage, last in reels.values()), "frames")
         try:
-            save_triptych(comparison, reels, paths["video"], fps=FILM_FPS, progress=progress.update)
+            save_triptych(comparison, reels, paths["video"], fps=FPS, progress=progress.update)
         finally:
             progress.close()
         if say:

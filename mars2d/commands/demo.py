@@ -6,8 +6,6 @@ import argparse
 from pathlib import Path
 
 from mars2d.commands.base import (
-    FILM_FPS,
-    SHORT_FILM,
     add_human,
     add_preferences,
     add_run_arguments,
@@ -19,15 +17,17 @@ from mars2d.commands.base import (
     print_examples,
     print_predictions,
     run_headless,
-    save_footage,
     show,
     theory_of,
     warn_unchecked,
 )
+from mars2d.commands.films import FPS, SHORT, save_footage
 from mars2d.errors import InputError, nearest
 from mars2d.files import Experiment, examples, open_experiment
 from mars2d.loop import Interrupted
 from mars2d.record import Record
+from mars2d.streams import check_seed
+from mars2d.view import require_pygame
 
 NAME = "demo"
 
@@ -54,7 +54,7 @@ def execute(arguments: argparse.Namespace) -> None:
     known = examples()
     if name not in known:
         raise InputError(f"{name}: there is no such example{nearest(name, known)}")
-    experiment = open_experiment(known[name], theory_of(arguments))
+    experiment = open_experiment(known[name], theory_of(arguments), seed=check_seed(arguments.seed))
     human, look = human_of(arguments, experiment), preferences_of(arguments)
     try:
         if not arguments.headless and has_display():
@@ -69,11 +69,12 @@ def execute(arguments: argparse.Namespace) -> None:
 
 def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
     """Run, make a picture and a short film, and say where they are."""
+    require_pygame("a film")
     from mars2d.output.figure import save_figure
     from mars2d.output.footage import Footage
 
     make_folder(FOLDER)
-    footage = Footage(experiment.scenario, experiment.scenario.stop_time / SHORT_FILM, FILM_FPS)
+    footage = Footage(experiment.scenario, experiment.scenario.stop_time / SHORT, FPS)
     world = run_headless(experiment, seed, [footage])
     record = world.record
     print(f"{record.scenario.title}: {record.over_message}")

@@ -10,6 +10,7 @@ from mars2d.errors import InputError
 from mars2d.files import Experiment, examples, open_experiment
 from mars2d.options import parse_setting
 from mars2d.scenario import Scenario
+from mars2d.view import require_pygame
 
 NAME = "edit"
 
@@ -36,6 +37,7 @@ def execute(arguments: argparse.Namespace) -> None:
         raise InputError(f"{path}: there is no folder {path.parent}")
     experiment = open_experiment(Scenario() if new else arguments.scenario, options)
     if not has_display():
+        require_pygame("a window")
         raise InputError(NO_DISPLAY)
     from mars2d.view.editor import Editor, EditorWindow
     from mars2d.view.painter import Painter

@@ -6,13 +6,18 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mars2d.errors import InputError
+from mars2d.output.rows import check_rows
 
 if TYPE_CHECKING:
     from mars2d.record import Record
+    from mars2d.scenario import Scenario
 
 __all__ = ["View"]
+
+Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -24,25 +29,34 @@ class View:
     ymin: float
     ymax: float
 
+    FARTHEST = 1e100
+    """How far away bodies may be, metres: numbers as large as can be have no squares."""
+
     RATIO = 8.0
     """The longest side to the shortest: a corridor is given some room."""
 
     @classmethod
     def of(cls, record: Record, row: int) -> Self:
         """Return the view of the workspace, and of all paths until `row`, with a margin."""
-        if len(record) == 0:
-            raise InputError("the record has no rows: nothing ran, so there is nothing to draw")
-        xy = record.pose[: row + 1, :2]
+        check_rows(record)
+        paths = record.pose[: row + 1], record.prop_pose[: row + 1]
+        farthest = max(float(np.abs(path[:, :2]).max(initial=0.0)) for path in paths)
+        if farthest > cls.FARTHEST:
+            raise InputError(f"bodies are up to {farthest:.2g} m away: too far to be drawn")
+        return cls.around(record.scenario, *paths)
+
+    @classmethod
+    def around(cls, scenario: Scenario, pose: Float, prop_pose: Float) -> Self:
+        """Return the view of the workspace and of poses (T, 3, n) and (T, 3, p), with a margin."""
+        xy = pose[:, :2]
         low, high = xy.min(axis=0), xy.max(axis=0)  # (2, n)
-        reach = np.array(
-            [robot.radius + abs(robot.center_offset) for robot in record.scenario.robots]
-        )
-        if record.scenario.props:
-            props = record.prop_pose[: row + 1, :2]
+        reach = np.array([robot.radius + abs(robot.center_offset) for robot in scenario.robots])
+        if scenario.props:
+            props = prop_pose[:, :2]
             low = np.hstack([low, props.min(axis=0)])
             high = np.hstack([high, props.max(axis=0)])
-            reach = np.append(reach, [prop.shape.reach for prop in record.scenario.props])
-        xmin, xmax, ymin, ymax = record.scenario.bounds
+            reach = np.append(reach, [prop.shape.reach for prop in scenario.props])
+        xmin, xmax, ymin, ymax = scenario.bounds
         xmin = min(xmin, float((low[0] - reach).min()))
         xmax = max(xmax, float((high[0] + reach).max()))
         ymin = min(ymin, float((low[1] - reach).min()))

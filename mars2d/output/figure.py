@@ -21,6 +21,9 @@ from mars2d.geometry import grid_step
 from mars2d.links import messages
 from mars2d.output.artists import paint, points_per_metre
 from mars2d.output.extent import View
+from mars2d.output.rows import rows_at
+from mars2d.output.style import SCREEN, Style, style_of
+from mars2d.replacing import replacing
 from mars2d.scene import Line, Polygon, Scene, Shape, Text, faded
 
 if TYPE_CHECKING:
@@ -33,16 +36,22 @@ if TYPE_CHECKING:
     from mars2d.scenario import Scenario
 
 __all__ = [
+    "LEGEND_LIMIT",
     "SUFFIXES",
     "View",
+    "check_axes",
     "dress",
     "label",
+    "line_style",
     "new_figure",
     "paint_row",
+    "plain_name",
     "plot_paths",
     "plot_snapshots",
     "save_drawing",
     "save_figure",
+    "show_in_notebooks",
+    "style_ticks",
 ]
 
 Float = NDArray[np.float64]
@@ -54,12 +63,9 @@ SUFFIXES = (".png", ".pdf", ".svg")
 LEGEND_LIMIT = 8
 """With more robots than this there is no legend: base colours recur."""
 
-PANEL_LIMIT = 64
 NAME_LIMIT = 24
 
-INK = "#1f2933"
-MUTED = "#616e7c"
-GRID = "#e6e9ed"
+INK, MUTED, GRID = SCREEN.ink, SCREEN.muted, SCREEN.grid
 
 WORKSPACE = 1.0
 """Its level in matplotlib's order of drawing: the grid lies above it, at 1.5, the shapes at 2."""
@@ -67,95 +73,137 @@ WORKSPACE = 1.0
 TICK_SPACING = 28.0  # points between ticks, at least
 
 
-def plot_paths(record: Record, ax: Axes | None = None) -> Axes:
+def plot_paths(record: Record, ax: Axes | None = None, *, style: str = "screen") -> Axes:
     """Draw the paths of a record: initial poses hollow, final poses filled, obstacles and grid.
 
     ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
-    and which a notebook shows. Returns the axes. Raises InputError if the record has no rows.
+    and which a notebook shows. style: the name of one of `mars2d.output.style`. Returns the axes.
+    Raises InputError if the record has no rows.
 
     >>> import mars2d
     >>> ax = mars2d.run("random_walk", stop_time=10).plot()
     >>> ax.get_xlabel(), ax.get_title()
     ('x [m]', 'Random movements, t = 10 s')
     """
+    look = style_of(style)
     view = View.of(record, len(record) - 1)
+    record = look.restyled(record)
     own = ax is None
-    if ax is None:
-        legend_width = _legend_width(record.scenario)
-        width, height = view.inches(5.2, 4.8)
-        figure = new_figure(width + 0.8 + legend_width, height + 0.9)
-        ax = figure.add_subplot()
-    else:
-        _check_axes(ax)
-        if ax.has_data():  # a second record over a first one
-            view = view.union((*ax.get_xlim(), *ax.get_ylim()))
-    dress(ax, record.scenario, view)
-    label(ax)
-    title = f"{record.scenario.title}, {_time(float(record.time[-1]))}"
-    _set_title(ax, title)
-    _add_legend(ax, record.scenario)
-    if own:
-        ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
-        _show_in_notebooks(ax)
-    paint_row(ax, record, len(record) - 1)
+    with look.fonts():
+        if ax is None:
+            width, height = _page(look, record.scenario, view)
+            ax = new_figure(width, height).add_subplot()
+        else:
+            check_axes(ax)
+            if ax.has_data():  # a second record over a first one
+                view = view.union((*ax.get_xlim(), *ax.get_ylim()))
+        dress(ax, record.scenario, view, look)
+        label(ax, look=look)
+        _set_title(ax, f"{record.scenario.title}, {_time(float(record.time[-1]))}", look)
+        _add_legend(ax, record.scenario, look)
+        if own:
+            ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
+            show_in_notebooks(ax)
+        paint_row(ax, record, len(record) - 1, look)
     return ax
 
 
-def plot_snapshots(record: Record, times: ArrayLike, figure: Figure | None = None) -> Figure:
+def _page(look: Style, scenario: Scenario, view: View) -> tuple[float, float]:
+    """Return the size of a figure of one drawing, inches."""
+    if look.page is not None:
+        return look.page
+    beside = 0.8 * look.label / SCREEN.label + _legend_width(scenario, look)
+    if look.single is None:
+        width, height = view.inches(5.2, 4.8)
+        return width + beside, height + 0.9
+    _, height = view.inches(look.single - beside, 1.5 * look.single)
+    return look.single, height + 0.5
+
+
+def plot_snapshots(
+    record: Record, times: ArrayLike, figure: Figure | None = None, *, style: str = "screen"
+) -> Figure:
     """Draw the paths until each of some times, one panel a time.
 
     times: seconds, within the record; the panel shows the last row that is not after it. figure:
-    a matplotlib figure to draw on, by default a new one. Returns the figure. Raises InputError for
-    a time outside of the record, and if the record has no rows.
+    a matplotlib figure to draw on, by default a new one. style: as in `plot_paths`. Returns the
+    figure. Raises InputError for a time outside of the record, and if the record has no rows.
     """
-    rows = _rows_at(record, times)
+    look = style_of(style)
+    rows = rows_at(record, times)
+    with look.fonts():
+        return _snapshots(look.restyled(record), rows, figure, look)
+
+
+def _snapshots(record: Record, rows: list[int], figure: Figure | None, look: Style) -> Figure:
     scenario = record.scenario
     view = View.of(record, max(rows))
-    cols = _columns(len(rows), view.width / view.height)
+    ratio = view.width / view.height
+    cols = _columns(len(rows), ratio, look.page)
     lines = ceil(len(rows) / cols)
     own = figure is None
     if figure is None:
-        room = min(3.2, 9.6 / cols)
-        width, height = view.inches(room, room)
-        figure = new_figure(
-            cols * (width + 0.25) + 0.6 + _legend_width(scenario), lines * (height + 0.4) + 0.9
-        )
+        figure = new_figure(*_page_of_panels(look, scenario, view, cols, lines))
     panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
     for unused in panels[len(rows) :]:
         unused.remove()
     for k, (ax, row) in enumerate(zip(panels, rows, strict=False)):
-        dress(ax, scenario, view)
-        label(ax, below=k + cols >= len(rows), beside=k % cols == 0)
-        ax.set_title(_time(float(record.time[row])), fontsize=10, color=INK)
-    _add_legend(panels[min(cols, len(rows)) - 1], scenario)
-    heading = _wrapped(scenario.title, figure.bbox.width / figure.dpi)
-    figure.suptitle(heading, fontsize=12, color=INK, parse_math=False)
+        dress(ax, scenario, view, look)
+        label(ax, below=k + cols >= len(rows), beside=k % cols == 0, look=look)
+        ax.set_title(_time(float(record.time[row])), fontsize=look.label, color=look.ink)
+    _add_legend(panels[min(cols, len(rows)) - 1], scenario, look)
+    if look.title:
+        heading = _wrapped(scenario.title, figure.bbox.width / figure.dpi, look)
+        figure.suptitle(heading, fontsize=look.title, color=look.ink, parse_math=False)
     if own:
         figure.draw_without_rendering()
         figure.__dict__["_repr_png_"] = partial(_png, figure)
     for ax, row in zip(panels, rows, strict=False):
-        paint_row(ax, record, row)
+        paint_row(ax, record, row, look)
     return figure
 
 
-def save_figure(record: Record, path: str | Path, times: ArrayLike | None = None) -> Path:
+def _page_of_panels(
+    look: Style, scenario: Scenario, view: View, cols: int, lines: int
+) -> tuple[float, float]:
+    """Return the size of a figure of several drawings in columns and lines, inches."""
+    if look.page is not None:
+        return look.page
+    beside = 0.6 + _legend_width(scenario, look)
+    if look.full is None:
+        room = min(3.2, 9.6 / cols)
+        width, height = view.inches(room, room)
+        return cols * (width + 0.25) + beside, lines * (height + 0.4) + 0.9
+    _, height = view.inches((look.full - beside) / cols - 0.1, look.full)
+    return look.full, lines * (height + 0.25) + 0.4
+
+
+def save_figure(
+    record: Record, path: str | Path, times: ArrayLike | None = None, *, style: str = "screen"
+) -> Path:
     """Save a figure of a record as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
-    times: seconds; when given, snapshots at these times, else the paths of the whole run. The same
-    record gives the same bytes. Raises InputError for another suffix, a path that can't be
-    written, a record without rows, or a time outside of it.
+    times: seconds; when given, snapshots at these times, else the paths of the whole run. style: as
+    in `plot_paths`. The same record gives the same bytes. Raises InputError for another suffix, a
+    path that can't be written, a record without rows, or a time outside of it.
     """
+    look = style_of(style)
 
     def draw() -> Any:
-        return plot_paths(record).get_figure() if times is None else plot_snapshots(record, times)
+        if times is None:
+            return plot_paths(record, style=style).get_figure()
+        return plot_snapshots(record, times, style=style)
 
-    return save_drawing(draw, path)
+    return save_drawing(draw, path, trim=look.trim, dpi=look.dpi)
 
 
-def save_drawing(draw: Callable[[], Figure], path: str | Path, *, trim: bool = True) -> Path:
+def save_drawing(
+    draw: Callable[[], Figure], path: str | Path, *, trim: bool = True, dpi: int = SCREEN.dpi
+) -> Path:
     """Save the figure that `draw` returns as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
-    trim: cut off what is blank around the drawing. Raises InputError as `save_figure`.
+    trim: cut off what is blank around the drawing. dpi: pixels an inch of a .png. Fonts are
+    embedded in a .pdf. Raises InputError as `save_figure`.
     """
     import matplotlib as mpl
 
@@ -169,15 +217,12 @@ def save_drawing(draw: Callable[[], Figure], path: str | Path, *, trim: bool = T
     # Without the date, and with ids that do not depend on chance.
     dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "pdf.fonttype": 42}):
-        file = BytesIO()  # so that nothing half written stays behind
-        draw().savefig(
-            file, format=suffix[1:], dpi=200, bbox_inches="tight" if trim else None,
-            pad_inches=0.1, metadata=dates.get(suffix),
-        )  # fmt: skip
-    try:
-        path.write_bytes(file.getvalue())
-    except OSError as error:
-        raise InputError(f"{path}: can't be written: {error.strerror}") from error
+        figure = draw()
+        with replacing(path) as file:
+            figure.savefig(
+                file, format=suffix[1:], dpi=dpi, bbox_inches="tight" if trim else None,
+                pad_inches=0.1, metadata=dates.get(suffix),
+            )  # fmt: skip
     return path
 
 
@@ -191,7 +236,8 @@ def new_figure(width: float, height: float, *, layout: Layout = "constrained") -
     return figure
 
 
-def _check_axes(ax: object) -> None:
+def check_axes(ax: object) -> None:
+    """Raise InputError for what is no axes to draw on."""
     from matplotlib.axes import Axes
 
     if not isinstance(ax, Axes) or ax.name != "rectilinear":
@@ -200,78 +246,98 @@ def _check_axes(ax: object) -> None:
         )
 
 
-def dress(ax: Axes, scenario: Scenario, view: View) -> None:
+def dress(ax: Axes, scenario: Scenario, view: View, look: Style = SCREEN) -> None:
     """Set limits, grid and ticks, and paint what never moves."""
     ax.set_aspect("equal")
     ax.set_xlim(view.xmin, view.xmax)
     ax.set_ylim(view.ymin, view.ymax)
     ax.set_facecolor("white")
     ax.set_axisbelow("line")  # the grid between WORKSPACE and SHAPES
-    ax.tick_params(length=0, labelsize=9, labelcolor=MUTED)
-    _set_ticks(ax)
-    ax.callbacks.connect("xlim_changed", _set_ticks)
-    ax.callbacks.connect("ylim_changed", _set_ticks)
+    style_ticks(ax, look)
+    set_ticks = partial(_set_ticks, spacing=TICK_SPACING * look.small / SCREEN.small)
+    set_ticks(ax)
+    ax.callbacks.connect("xlim_changed", set_ticks)
+    ax.callbacks.connect("ylim_changed", set_ticks)
     if scenario.animation.grid:
-        ax.grid(visible=True, color=GRID, linewidth=0.6)
+        ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
     else:
         ax.grid(visible=False)
-    ax.spines[:].set(color=GRID, linewidth=0.8, visible=scenario.workspace is None)
+    edge = scenario.workspace is None
+    ax.spines[:].set(color=look.grid, linewidth=0.8 * look.stroke, visible=edge)
     for shape in seen.workspace(scenario).shapes:
         if isinstance(shape, Polygon):  # its outline is the frame of the grid
             paint(Scene([replace(shape, stroke=None)]), ax, level=WORKSPACE)
             for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
                 line.set_clip_path(ax.patches[-1])
-            paint(Scene([replace(shape, fill=None)]), ax, scale=0.75)
+            paint(Scene([replace(shape, fill=None)]), ax, scale=0.75 * look.stroke)
     paint(seen.floor(scenario), ax, level=WORKSPACE)
-    paint(seen.obstacles(scenario), ax, scale=0.6)
+    paint(seen.obstacles(scenario), ax, scale=0.6 * look.stroke)
 
 
-def _set_ticks(ax: Axes) -> None:
-    """Set the ticks of both axes at the same distance: 1, 2 or 5 times a power of ten metres."""
+def style_ticks(ax: Axes, look: Style) -> None:
+    """Set how the labels of ticks look, those that are made later as well."""
+    ax.tick_params(which="both", length=0, labelsize=look.small, labelcolor=look.muted)
+    if look.family:
+        ax.tick_params(which="both", labelfontfamily=list(look.family))
+
+
+def line_style(dash: str) -> Any:
+    """Return Matlab's name of a line style as matplotlib takes it, which is the same."""
+    return dash
+
+
+def _set_ticks(ax: Axes, spacing: float) -> None:
+    """Set the ticks of both axes at the same distance: 1, 2 or 5 times a power of ten metres.
+
+    spacing: between ticks at least, points.
+    """
     from matplotlib.ticker import MultipleLocator
 
-    step = grid_step(TICK_SPACING / points_per_metre(ax))
+    step = grid_step(spacing / points_per_metre(ax))
     ax.xaxis.set_major_locator(MultipleLocator(step))
     ax.yaxis.set_major_locator(MultipleLocator(step))
 
 
-def label(ax: Axes, *, below: bool = True, beside: bool = True) -> None:
+def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SCREEN) -> None:
     """Label the axes below and beside the drawing, where there is no other panel."""
     ax.tick_params(labelbottom=below, labelleft=beside)
     if below:
-        ax.set_xlabel("x [m]", color=INK, fontsize=10)
+        ax.set_xlabel("x [m]", color=look.ink, fontsize=look.label)
     if beside:
-        ax.set_ylabel("y [m]", color=INK, fontsize=10)
+        ax.set_ylabel("y [m]", color=look.ink, fontsize=look.label)
 
 
-def paint_row(ax: Axes, record: Record, row: int) -> None:
+def paint_row(ax: Axes, record: Record, row: int, look: Style = SCREEN) -> None:
     """Paint the paths until a row, the initial poses, and the robots as they are then."""
     scenario = record.scenario
     now = record.frame(row)
-    _set_ticks(ax)  # again, now that the layout is known
+    _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
     few = len(scenario.robots) <= LEGEND_LIMIT
     radius = min(robot.radius for robot in scenario.robots) * points_per_metre(ax)
     drawn = scenario.animation.show_real_shape
     scale = min(max(radius / 9, 0.1), 0.75) if drawn else 0.75 if few else 0.5
-    paint(seen.addons(now), ax, scale=0.75)
+    stroke = look.stroke
+    scale *= stroke
+    paint(seen.addons(now), ax, scale=0.75 * stroke)
     if scenario.animation.wake:
-        trails = seen.trails(now)
+        trails = _dashed(seen.trails(now), scenario, look)
         if not few:
             trails = Scene([_paler(shape) for shape in trails.shapes])
-        paint(trails, ax, scale=0.55 if few else 0.4)
+        paint(trails, ax, scale=(0.55 if few else 0.4) * stroke)
     if scenario.animation.theory:  # above the paths, as in the window: they may cover it
-        paint(seen.theory(now), ax, scale=0.75)
+        paint(seen.theory(now), ax, scale=0.75 * stroke)
     if scenario.animation.show_initial_pose:
-        paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75))
-    paint(messages(now), ax, scale=max(0.4, scale))
-    paint(seen.props(now), ax, scale=min(scale, 0.6))
+        paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75 * stroke))
+    thick = max(0.4 * stroke, scale)
+    paint(messages(now), ax, scale=thick)
+    paint(seen.props(now), ax, scale=min(scale, 0.6 * stroke))
     paint(seen.robots(now), ax, scale=scale)
-    paint(seen.joints(now), ax, scale=max(0.4, scale))
+    paint(seen.joints(now), ax, scale=thick)
     if scenario.animation.forces:
-        _paint_forces(ax, now, max(0.4, scale))
+        _paint_forces(ax, now, thick, look)
 
 
-def _paint_forces(ax: Axes, now: Frame, scale: float) -> None:
+def _paint_forces(ax: Axes, now: Frame, scale: float, look: Style) -> None:
     """Paint the forces of the last control step, and how long some round force is."""
     shapes = forces(now).shapes
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
@@ -284,7 +350,22 @@ def _paint_forces(ax: Axes, now: Frame, scale: float) -> None:
     legend.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left", halo="#ffffff")
     shapes += legend.shapes
     paint(Scene([shape for shape in shapes if not isinstance(shape, Text)]), ax, scale=scale)
-    paint(Scene([shape for shape in shapes if isinstance(shape, Text)]), ax, scale=0.65)
+    size = 0.65 * look.small / SCREEN.small
+    paint(Scene([shape for shape in shapes if isinstance(shape, Text)]), ax, scale=size)
+
+
+def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:
+    """Return the paths, the robots' with the line styles by which they are told apart."""
+    if not look.greys or scenario.animation.wake_style != "-":
+        return trails
+    first = len(trails.shapes) - len(scenario.robots)  # the props' come before
+    shapes = [
+        replace(shape, style=look.dash(k - first))
+        if k >= first and isinstance(shape, Line)
+        else shape
+        for k, shape in enumerate(trails.shapes)
+    ]
+    return Scene(shapes)
 
 
 def _paler(shape: Shape) -> Shape:
@@ -292,15 +373,18 @@ def _paler(shape: Shape) -> Shape:
     return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
 
 
-def _set_title(ax: Axes, title: str) -> None:
+def _set_title(ax: Axes, title: str, look: Style) -> None:
+    if not look.title:
+        return
     ax.apply_aspect()
     room = 1.25 * ax.get_window_extent().width / ax.get_figure().dpi  # type: ignore[union-attr]
-    ax.set_title(_wrapped(title, room), fontsize=12, color=INK, parse_math=False)
+    ax.set_title(_wrapped(title, room, look), fontsize=look.title, color=look.ink, parse_math=False)
 
 
-def _wrapped(title: str, room: float) -> str:
-    """Return a title of 12 points in lines that fit into some room, inches."""
-    return textwrap.fill(title, max(20, int(room * 10)), max_lines=3, placeholder=" …")
+def _wrapped(title: str, room: float, look: Style) -> str:
+    """Return a title in lines that fit into some room, inches."""
+    letters = max(20, int(room * 120 / look.title))
+    return textwrap.fill(title, letters, max_lines=3, placeholder=" …")
 
 
 def _time(seconds: float) -> str:
@@ -311,17 +395,22 @@ def _names(scenario: Scenario) -> list[str]:
     """Return the robots' names as they stand in a legend, or none if there are too many."""
     if len(scenario.robots) > LEGEND_LIMIT:
         return []
-    names = [" ".join(str(robot.name).split()) for robot in scenario.robots]
-    return [name if len(name) <= NAME_LIMIT else name[: NAME_LIMIT - 1] + "…" for name in names]
+    return [plain_name(str(robot.name)) for robot in scenario.robots]
 
 
-def _legend_width(scenario: Scenario) -> float:
+def plain_name(name: str) -> str:
+    """Return a name as it stands in a legend: in one line that is not too long."""
+    name = " ".join(name.split())
+    return name if len(name) <= NAME_LIMIT else name[: NAME_LIMIT - 1] + "…"
+
+
+def _legend_width(scenario: Scenario, look: Style) -> float:
     """Return about how wide the legend will be, inches."""
     names = _names(scenario)
-    return 0.3 + 0.075 * max(map(len, names)) if names else 0.0
+    return (0.3 + 0.075 * max(map(len, names))) * look.small / SCREEN.small if names else 0.0
 
 
-def _add_legend(ax: Axes, scenario: Scenario) -> None:
+def _add_legend(ax: Axes, scenario: Scenario, look: Style) -> None:
     """Name the robots beside the drawing, if they are few."""
     from matplotlib.lines import Line2D
 
@@ -329,55 +418,40 @@ def _add_legend(ax: Axes, scenario: Scenario) -> None:
     if not names:
         return
     handles: list[Artist] = [
-        Line2D([], [], linestyle="none", marker="o", markersize=6, color=color, markeredgewidth=0)
-        for color in scenario.colors
-    ]
+        Line2D(
+            [], [], linestyle=line_style(look.dash(i) if look.greys else ""),
+            linewidth=1.5 * look.stroke, marker="o", markersize=6 * look.small / SCREEN.small,
+            color=color, markeredgewidth=0,
+        )
+        for i, color in enumerate(scenario.colors)
+    ]  # fmt: skip
     legend = ax.legend(
         handles, ["robot"] * len(names), loc="upper left",
         bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
-        frameon=False, fontsize=9, labelcolor=INK, handletextpad=0.1, handlelength=1.5,
+        frameon=False, fontsize=look.small, labelcolor=look.ink,
+        handletextpad=0.6 if look.greys else 0.1, handlelength=3.0 if look.greys else 1.5,
     )  # fmt: skip
     for text, name in zip(legend.get_texts(), names, strict=True):
         text.set_parse_math(False)
         text.set_text(name)  # only now: a legend leaves out labels that begin with "_"
 
 
-def _columns(count: int, ratio: float) -> int:
-    """Return in how many columns to lay out panels whose width to height is `ratio`."""
+def _columns(count: int, ratio: float, page: tuple[float, float] | None) -> int:
+    """Return in how many columns to lay out panels whose width to height is `ratio`.
+
+    page: the size of the figure, if that is given: then the panels are as large as can be.
+    """
 
     def fault(cols: int) -> float:
         lines = ceil(count / cols)
+        if page is not None:
+            return -min(page[0] / cols - 0.4, (page[1] / lines - 1.0) * ratio)  # less the text
         return abs(log(cols * ratio / lines / 1.6)) + 0.3 * (cols * lines - count)
 
     return min(range(1, count + 1), key=fault)
 
 
-def _rows_at(record: Record, times: ArrayLike) -> list[int]:
-    """Return the last rows of a record that are not after the times [s]."""
-    if len(record) == 0:
-        raise InputError("the record has no rows: nothing ran, so there is nothing to draw")
-    expected = "expected times in seconds, as [0, 2.5, 10]"
-    try:
-        wanted = np.atleast_1d(np.asarray(times))
-    except ValueError:
-        raise InputError(f"times = {shown(times)}: {expected}") from None
-    if wanted.ndim != 1 or wanted.dtype.kind not in "iuf":
-        raise InputError(f"times = {shown(times)}: {expected}")
-    if not 1 <= len(wanted) <= PANEL_LIMIT:
-        raise InputError(f"times: {len(wanted)} of them; a figure has 1 to {PANEL_LIMIT} panels")
-    first, last = float(record.time[0]), float(record.time[-1])
-    hair = 1e-6 * record.scenario.sampling_time  # 3 * 0.1 is a little more than 0.3
-    for time in wanted.tolist():
-        if not first - hair <= time <= last + hair:  # true for NaN as well
-            raise InputError(
-                f"times: {time:.10g} s is outside of the record, "
-                f"which goes from {first:.10g} to {last:.10g} s"
-            )
-    rows = np.searchsorted(record.time, wanted.astype(float) + hair, side="right") - 1
-    return [max(0, row) for row in rows.tolist()]
-
-
-def _show_in_notebooks(ax: Axes) -> None:
+def show_in_notebooks(ax: Axes) -> None:
     """Let a notebook show the axes, or their figure: it asks for the method _repr_png_."""
     figure: Any = ax.get_figure()
     ax.__dict__["_repr_png_"] = figure.__dict__["_repr_png_"] = partial(_png, figure)

@@ -1,24 +1,38 @@
-"""What a film is made of: frames of a live run, taken as it happens."""
+"""What a film is made of: frames of a run, recorded or taken as it happens."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
 from mars2d.errors import InputError
 from mars2d.frame import Frame
+from mars2d.output.cut import Cut
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
 from mars2d.view.player import between
 from mars2d.world import World
 
-__all__ = ["Footage"]
+__all__ = ["Footage", "shots"]
 
 
-LONGEST = 100_000
-"""The most frames of a film: over an hour."""
+def shots(
+    cut: Cut, sampling_time: float, last: int, frame: Callable[[int], Frame]
+) -> Iterator[Frame]:
+    """Yield the frames of a film, between the sampling times as well.
+
+    frame: returns that of a row, from 0 to `last`; it is asked for rows in their order, once each.
+    """
+    seen: dict[int, Frame] = {}
+    for time in cut.moments.tolist():
+        row = min(int(time / sampling_time + 1e-9), last)
+        rows = (row,) if row == last else (row, row + 1)
+        # The same objects as long as they are seen: what is drawn of them is then kept.
+        seen = {each: seen.get(each) or frame(each) for each in rows}
+        on_time = row == last or time - row * sampling_time < 1e-9 * max(1.0, time)
+        yield seen[row] if on_time else between(seen[row], seen[row + 1], time)
 
 
 class Footage:
@@ -27,21 +41,21 @@ class Footage:
     Live frames hold what add-ons draw, which a record does not.
     """
 
-    def __init__(self, scenario: Scenario, speed: float, fps: float) -> None:
-        """Take simulated seconds per second of the film, and frames per second."""
+    def __init__(
+        self,
+        scenario: Scenario,
+        speed: float,
+        fps: float,
+        start: float | None = None,
+        end: float | None = None,
+    ) -> None:
+        """Take what `Cut.of` takes; the run may end earlier than the scenario lets it."""
         self.speed = speed
         self._sampling_time = scenario.sampling_time
-        self._step = speed / fps
+        last = scenario.last_iteration * scenario.sampling_time
+        self._cut = Cut.of(last, speed, fps, start, end)
         self._frames: dict[int, Frame] = {}
-        last = scenario.last_iteration
-        count = last * self._sampling_time / self._step
-        if not count <= LONGEST:
-            raise InputError(
-                f"a film at {speed:g} times real time would have {count:.3g} frames: "
-                f"expected a speed that makes at most {LONGEST:,}"
-            )
-        moments = np.arange(0, last * self._sampling_time + self._step / 2, self._step)
-        rows = np.floor(moments / self._sampling_time + 1e-9).astype(int)
+        rows = np.floor(self._cut.moments / self._sampling_time + 1e-9).astype(int)
         # Each moment lies between two rows, and both are needed.
         self._wanted = {*rows.tolist(), *(rows + 1).tolist()}
 
@@ -61,15 +75,22 @@ class Footage:
         self._frames[frame.iteration] = frame
 
     def frames(self, last: Frame) -> Iterator[Frame]:
-        """Yield the film's frames, between the sampling times as well; `last` is the end."""
+        """Yield the film's frames; `last` is the end of the run.
+
+        Raises InputError where the run ended before the film's start.
+        """
+        cut = self._until(last)
         self.take(last)
-        for k in range(self.count(last) - 1):
-            time = k * self._step
-            row = min(int(time / self._sampling_time + 1e-9), last.iteration)
-            now, then = self._frames[row], self._frames.get(row + 1)
-            yield now if then is None else between(now, then, time)
-        yield last
+        yield from shots(cut, self._sampling_time, last.iteration, self._frames.__getitem__)
 
     def count(self, last: Frame) -> int:
         """Return how many frames the film has."""
-        return int(last.time / self._step + 1e-9) + 2
+        return self._until(last).count
+
+    def _until(self, last: Frame) -> Cut:
+        """Return the part that the run has, which may have ended early."""
+        if last.time < self._cut.start:
+            raise InputError(
+                f"a film from {self._cut.start:g} s on: the run ended at {last.time:g} s"
+            )
+        return dataclasses.replace(self._cut, end=min(self._cut.end, last.time))

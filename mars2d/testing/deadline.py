@@ -31,7 +31,8 @@ class Deadline:
 
     A thread of its own watches, so it works in every thread and on every system. What waits in the
     operating system (``time.sleep``) can't be broken off; then `give_up` is called with the line
-    that hangs, from the watching thread, if it is given.
+    that hangs, from the watching thread, if it is given. Where no thread can be started, as in a
+    browser, nothing is broken off.
     """
 
     def __init__(
@@ -56,7 +57,9 @@ class Deadline:
     def __enter__(self) -> Deadline:
         self.alive()
         self.where, self._thread, self._ended = "", threading.get_ident(), threading.Event()
-        threading.Thread(target=self._watch, args=(self._ended,), daemon=True).start()
+        watch = threading.Thread(target=self._watch, args=(self._ended,), daemon=True)
+        with contextlib.suppress(RuntimeError):  # "can't start new thread"
+            watch.start()
         return self
 
     def __exit__(

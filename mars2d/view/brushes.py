@@ -29,6 +29,7 @@ __all__ = [
     "edged",
     "extent_of",
     "filled",
+    "hairline",
     "in_sight",
     "layer",
     "mark",
@@ -190,6 +191,21 @@ def stroke(surface: pygame.Surface, color: Rgba, pieces: list[Float], width: flo
         large = extent.width * extent.height > LARGE
         draw = drawn_finely(pieces, width) if large else stroked(pieces, width)
         cover(surface, color, extent, draw, factor=1 if large else 0)
+
+
+def hairline(
+    surface: pygame.Surface, color: Rgba, x0: float, y0: float, x1: float, y1: float
+) -> None:
+    """Draw a straight line a pixel wide, with opacity, as `stroke` does but quickly."""
+    left, top = floor(min(x0, x1)) - 2, floor(min(y0, y1)) - 2
+    box = pygame.Rect(left, top, ceil(max(x0, x1)) + 2 - left, ceil(max(y0, y1)) + 2 - top)
+    box = box.clip(surface.get_clip())
+    if box.width > 0 and box.height > 0:
+        patch = pygame.Surface(box.size, pygame.SRCALPHA, 32)
+        patch.fill((*color[:3], 0))
+        dx, dy = box.left + 0.5, box.top + 0.5
+        pygame.draw.aaline(patch, color, (x0 - dx, y0 - dy), (x1 - dx, y1 - dy))
+        surface.blit(patch, box)
 
 
 def stroked(pieces: list[Float], width: float) -> Draw:

@@ -74,8 +74,7 @@ class Director:
             self._notes.say("there is no other branch: change something in the past to make one")
             return
         timeline.other_branch()
-        for robot in timeline.world.hands.driven:
-            timeline.world.hands.steer(robot, None)
+        timeline.world.hands.let_go()
         self._player.error = timeline.error
         self._player.settle()
         end = timeline.newest * timeline.scenario.sampling_time

@@ -7,11 +7,13 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-
-import pygame
+from typing import TYPE_CHECKING
 
 from mars2d.errors import InputError
-from mars2d.view.desktop import be_sharp
+from mars2d.view import has_pygame
+
+if TYPE_CHECKING:
+    import pygame
 
 __all__ = [
     "NO_DISPLAY",
@@ -42,6 +44,10 @@ def display_available() -> bool:
     wanted = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER") or ""
     if wanted.lower() in NOT_REAL:
         return False
+    if not has_pygame():
+        return False
+    import pygame
+
     if pygame.display.get_init():
         return pygame.display.get_driver() not in NOT_REAL
     if sys.platform in ("win32", "darwin", "cygwin", "emscripten"):
@@ -59,6 +65,10 @@ def display_available() -> bool:
 
 def open_display() -> None:
     """Start pygame's display. Raises InputError where there is none that a person sees."""
+    import pygame
+
+    from mars2d.view.desktop import be_sharp
+
     if pygame.display.get_init():
         if pygame.display.get_driver() in NOT_REAL:
             raise InputError(NO_DISPLAY)
@@ -86,6 +96,8 @@ def started_display() -> Iterator[None]:
 
     Raises InputError where there is none that a person sees.
     """
+    import pygame
+
     ours = not pygame.display.get_init()
     open_display()
     try:
@@ -100,6 +112,8 @@ def open_window(size: tuple[int, int], icon: pygame.Surface) -> pygame.Surface:
 
     Raises InputError where it can't be opened.
     """
+    import pygame
+
     pygame.display.set_icon(icon)
     try:
         surface = pygame.display.set_mode(size, pygame.RESIZABLE)

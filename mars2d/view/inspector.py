@@ -12,11 +12,11 @@ import numpy as np
 import pygame
 
 from mars2d.addons.communication import Communication
-from mars2d.bodies import Car, Differential, Holonomic
 from mars2d.bodies.base import Drive, Wheeled
 from mars2d.forces import SLIP, SLIPPING, in_newtons, mean_forces
 from mars2d.frame import Frame
 from mars2d.looks import prop_colors
+from mars2d.quantity import UNKNOWN
 from mars2d.registry import snake_case
 from mars2d.view.forceplot import draw_force
 from mars2d.view.meter import Meter
@@ -352,17 +352,14 @@ def state_of(frame: Frame, body: int) -> list[Row]:
 
 
 def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
-    """Return the names and values of a command (2,)."""
-    first, second = np.asarray(command).tolist()
-    if isinstance(drive, Car):
-        return [("v", _number(first, "m/s")), ("δ", _degrees(second))]
-    if isinstance(drive, Holonomic):
-        return [("vx", _number(first)), ("vy", _number(second, "m/s"))]
-    if isinstance(drive, Differential) and drive.command == "wheels":
-        return [("left", _number(first)), ("right", _number(second, "rad/s"))]
-    if isinstance(drive, Wheeled):
-        return [("v", _number(first, "m/s")), ("ω", _number(second, "rad/s"))]
-    return [("u₁", _number(first)), ("u₂", _number(second))]
+    """Return the names and values of a command (2,); a unit of both stands once, at the end."""
+    first, second = drive.quantities or UNKNOWN
+    units = "" if first.unit == second.unit else first.unit, second.unit
+    pairs = zip((first, second), np.asarray(command).tolist(), units, strict=True)
+    return [
+        (each.symbol, _degrees(value) if each.kind == "angle" else _number(value, unit))
+        for each, value, unit in pairs
+    ]
 
 
 def _number(value: float, unit: str = "") -> str:
@@ -386,8 +383,7 @@ def contacts_of(frame: Frame, body: int) -> list[str]:
     for k in np.argsort(-size, kind="stable").tolist():
         a, b = int(mine["a"][k]), int(mine["b"][k])
         other = b if a == body else a
-        name = f"obstacle {-1 - other}" if other < 0 else frame.scenario.bodies[other].name
-        lines.append(f"{name}  {in_newtons(float(size[k]))}")
+        lines.append(f"{frame.scenario.body_name(other)}  {in_newtons(float(size[k]))}")
     return lines
 
 

@@ -67,8 +67,8 @@ def keep_python(
 
     control: the law of the team.
     """
-    path = free_name(folder, stem, ".py")
     text = as_python(scenario, control, folder)
+    path = free_name(folder, stem, ".py")
     with _gone_if_not_written(path):
         try:
             path.write_text(text, encoding="utf-8", newline="\n", errors="replace")

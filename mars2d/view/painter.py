@@ -44,13 +44,15 @@ PHASES = 4
 BROAD = 20.0
 """The radius in pixels from which a ring is drawn of hair lines."""
 LARGEST_SPRITE = 160.0
+FAR = 10_000.0
+"""The pixels up to which a hair line need not be cut before it is drawn."""
 EDGE = 0.4
 """The width of the edge round an arrow, in widths of its shaft."""
 SMALL = 10_000
 """The area in pixels up to which fill and edge of a polygon are drawn at once."""
 FAINT = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
-WIDE = 10_000
+WIDE = 2_500
 """The area in pixels beyond which it is."""
 UNSEEN = 0.3
 """The pixels by which such an edge may be drawn beside where it is."""
@@ -221,6 +223,10 @@ class Painter:
         width = min(shape.width * self.ui, max(1.0, (abs(dx) + abs(dy)) / 3.5))
         width = round(8 * width) / 8
         color = rgba(self._shade(shape.stroke))
+        if width <= 1.0 and color[3] < 255 and max(map(abs, (x, y, dx, dy))) < FAR:
+            ink = (*color[:3], round(width * color[3]))  # thinner is fainter
+            brushes.hairline(surface, ink, x, y, x + dx, y + dy)
+            return
         if max(abs(dx), abs(dy)) > LARGEST_SPRITE / 2:
             brushes.stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
             return
@@ -270,12 +276,16 @@ class Painter:
         width *= self.ui
         quarters = np.rint(points.T * PHASES).astype(int)
         x, y = quarters % PHASES
-        phases = (PHASES * x + y).tolist()
-        stamps = {k: self._mark(marker, color, width, k) for k in set(phases)}
-        surface.fblits(
-            (stamps[k][0], (x + stamps[k][1], y + stamps[k][2]))
-            for k, x, y in zip(phases, *(quarters // PHASES).tolist(), strict=True)
-        )
+        phases = PHASES * x + y
+        listed = phases.tolist()
+        stamps = {k: self._mark(marker, color, width, k) for k in set(listed)}
+        corners = np.zeros((2, PHASES * PHASES), dtype=int)
+        for k, stamp in stamps.items():
+            corners[:, k] = stamp[1:]
+        # Put together without a step of Python's for each mark: there may be thousands.
+        images = {k: stamp[0] for k, stamp in stamps.items()}
+        places = (quarters // PHASES + corners[:, phases]).tolist()
+        surface.fblits(zip(map(images.__getitem__, listed), zip(*places, strict=True), strict=True))
 
     def _mark(self, marker: str, color: str, width: float, phase: int) -> Sprite:
         """Return a mark's sprite; phase: of the quarters of a pixel across and down."""

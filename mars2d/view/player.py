@@ -58,6 +58,7 @@ class Player:
         self._present = source.frame
         self._previous: Frame | None = None
         self._time = self._present.time
+        self._seen: tuple[Frame, float, Frame] | None = None  # between two: the second, when, what
         self._pace: deque[tuple[float, float]] = deque()
 
     @property
@@ -91,7 +92,9 @@ class Player:
         present, previous = self._present, self._previous
         if previous is None or self._time >= present.time or present.time <= previous.time:
             return present
-        return between(previous, present, self._time)
+        if self._seen is None or self._seen[0] is not present or self._seen[1] != self._time:
+            self._seen = present, self._time, between(previous, present, self._time)
+        return self._seen[2]
 
     @property
     def factor(self) -> float | None:
@@ -173,15 +176,13 @@ class Player:
     def faster(self) -> None:
         """Go one rung up; from manual mode to the lowest."""
         higher = [rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)]
-        self.speed = higher[0] if higher else float("inf")
-        self._pace.clear()
+        self.set_speed(higher[0] if higher else float("inf"))
 
     def slower(self) -> None:
         """Go one rung down, at most to the lowest."""
         lower = [rung for rung in SPEEDS if rung < self.speed * (1 - 1e-9)]
         if lower:
-            self.speed = lower[-1]
-            self._pace.clear()
+            self.set_speed(lower[-1])
 
     def restart(self) -> None:
         """Go back to the start; a law that failed gets another chance."""

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
+from typing import TYPE_CHECKING
 
 from mars2d.errors import InputError, Mars2dError
 from mars2d.files import Experiment
 from mars2d.loop import Interrupted
 from mars2d.record import Record
 from mars2d.timeline import Timeline
+from mars2d.view import require_pygame
 from mars2d.view.preferences import Preferences
 from mars2d.view.source import Playback
-from mars2d.view.window import Window
 from mars2d.world import Watcher
+
+if TYPE_CHECKING:
+    from mars2d.formats.mcap import Log
 
 __all__ = ["show_experiment", "show_record"]
 
@@ -24,24 +29,33 @@ def show_experiment(
     watchers: Sequence[Watcher] = (),
     preferences: Preferences | None = None,
     human: int | None = None,
+    log: Log | None = None,
 ) -> Record:
     """Run an experiment in a window until it is closed, and return what was recorded until then.
 
     speed: simulated seconds per second, "max", or 0 for one step a key press. preferences: how the
     window looks. human: a robot that is driven by hand; then it waits until somebody starts it.
-    Raises InputError without a display, and what a law raised, once the window is closed.
+    log: what writes each control step to a file when it is done, and is closed at the end. Raises
+    InputError without a display, and what a law raised, once the window is closed.
     """
-    source = Timeline(experiment, seed, watchers)
-    window = Window(source, speed, preferences=preferences)
-    if human is not None:
-        window.wait_for(human)
-    try:
-        window.run()
-    except Mars2dError as error:
-        error.record = source.record
-        raise
-    except KeyboardInterrupt:
-        raise Interrupted(source.record) from None
+    require_pygame("a window")
+    from mars2d.view.window import Window
+
+    with log or nullcontext():
+        source = Timeline(experiment, seed, watchers, log)
+        window = Window(source, speed, preferences=preferences)
+        if human is not None:
+            window.wait_for(human)
+        try:
+            window.run()
+        except Mars2dError as error:
+            error.record = source.record
+            raise
+        except KeyboardInterrupt:
+            raise Interrupted(source.record) from None
+        finally:
+            if log is not None:
+                log.close(source.record)
     return source.record
 
 
@@ -49,4 +63,7 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
     """Play a record in a window until it is closed."""
     if not len(record):
         raise InputError("this record has no rows: the run ended before its first step")
+    require_pygame("a window")
+    from mars2d.view.window import Window
+
     Window(Playback(record), speed, preferences=preferences).run()

@@ -62,6 +62,7 @@ class Stage:
         self._scenario: Scenario | None = None
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
+        self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
         self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._numbers_of: tuple[Hashable, ...] = ()
         self._names, self._links = Labels(), Links()
@@ -188,10 +189,12 @@ class Stage:
         if layers.trails:
             picture = canvas.with_paths(frame)
         assert picture is not None
+        read: Sequence[Shape] = ()
         if layers.sensors:
-            picture = self._with_sensors(picture, frame, canvas)
+            picture, read = self._with_sensors(picture, frame, canvas)
         dx, dy = canvas.shift(camera)
         surface.blit(picture, plot, plot.move(-dx, -dy))
+        self.painter.paint(surface, read, camera)
         if layers.trails and canvas.wakes is not None:
             poses = frame.prop_pose, frame.pose
             for trails, pose in zip(canvas.wakes.trails, poses, strict=True):
@@ -241,22 +244,30 @@ class Stage:
 
     def _with_sensors(
         self, picture: pygame.Surface, frame: Frame, canvas: Canvas
-    ) -> pygame.Surface:
-        """Return a copy of a picture with what the sensors have read on it, drawn if it is new."""
+    ) -> tuple[pygame.Surface, Sequence[Shape]]:
+        """Return a picture with what the sensors have read on it, and what is still to be drawn.
+
+        What is seen more than once is drawn on a copy and kept. Where the last was seen only once,
+        as in a film of each control step, the next will be as well: that needs no copy.
+        """
         sensors = (sensor for robot in frame.scenario.robots for sensor in robot.sensors)
         stays = all(sensor.stays for sensor in sensors)
         sensed = frame.pose if frame.sensed is None else frame.sensed
         read = [reading for readings in frame.readings.values() for _, reading in readings]
         made_of = picture, frame.path, sensed, None if stays else frame.pose, *read
-        same = len(made_of) == len(self._sensed_of) and all(map(is_, made_of, self._sensed_of))
-        if self._sensed is None or not same:
-            shapes = scenes.sensors(frame).shapes
-            if not shapes:
-                return picture
-            if self._sensed is None or self._sensed.get_size() != picture.get_size():
-                self._sensed = picture.copy()
-            self._sensed.set_clip(canvas.area)
-            self._sensed.blit(picture, canvas.area, canvas.area)
-            self.painter.paint(self._sensed, shapes, canvas.camera)
-            self._sensed_of = made_of
-        return self._sensed
+        if len(made_of) != len(self._sensed_of) or not all(map(is_, made_of, self._sensed_of)):
+            self._sensed_stays = self._times_seen > 1
+            self._sensed_of, self._times_seen, self._is_kept = made_of, 0, False
+        self._times_seen += 1
+        if self._is_kept and self._sensed is not None:
+            return self._sensed, ()
+        shapes = scenes.sensors(frame).shapes
+        if not shapes or not (self._sensed_stays or self._times_seen > 1):
+            return picture, shapes
+        if self._sensed is None or self._sensed.get_size() != picture.get_size():
+            self._sensed = picture.copy()
+        self._sensed.set_clip(canvas.area)
+        self._sensed.blit(picture, canvas.area, canvas.area)
+        self.painter.paint(self._sensed, shapes, canvas.camera)
+        self._is_kept = True
+        return self._sensed, ()

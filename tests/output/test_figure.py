@@ -25,6 +25,7 @@ from mars2d.joints import Rope
 from mars2d.looks import NEUTRAL
 from mars2d.output.artists import paint
 from mars2d.output.figure import plot_paths, plot_snapshots, save_figure
+from mars2d.output.html import page
 from mars2d.props import Box, Puck
 from mars2d.scene import Scene
 
@@ -582,3 +583,13 @@ def test_snapshots_show_forces_too(tmp_path):
     assert len(after.texts) == 2
     target = save_figure(pushed(forces=True), tmp_path / "forces.pdf", [4.0])
     assert target.stat().st_size > 5000
+
+
+def test_what_is_too_far_away_to_be_drawn_is_refused():
+    record = mars2d.run(Scenario(robots=1, stop_time=0.2), control=lambda world: np.zeros((2, 1)))
+    pose = record.pose.copy()
+    pose[1:, 0, 0] = 1e308, -1e308
+    far = dataclasses.replace(record, pose=pose)
+    for draw in (far.plot, lambda: far.plot_snapshots([0.1]), lambda: page(far)):
+        with pytest.raises(InputError, match=r"1e\+308 m away: too far to be drawn"):
+            draw()

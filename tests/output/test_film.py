@@ -10,8 +10,14 @@ import pygame
 import pytest
 from PIL import Image
 
+import mars2d
+from mars2d import Robot, Scenario
 from mars2d.errors import InputError, MissingExtraError
-from mars2d.output.film import film_rows, save_film, save_pictures
+from mars2d.files import Experiment
+from mars2d.loop import simulate
+from mars2d.output.cut import Cut
+from mars2d.output.film import cut_of, film_record, film_rows, save_film, save_pictures, size_of
+from mars2d.output.footage import Footage, shots
 from tests.view.circling import Circling
 
 SIZE = (320, 240)
@@ -178,6 +184,30 @@ def test_a_film_that_fails_leaves_the_old_one_alone(tmp_path, suffix):
     assert list(tmp_path.iterdir()) == [target]
 
 
+@pytest.mark.parametrize("suffix", ["gif", "mp4"])
+def test_a_film_that_may_not_grow_is_one_error_and_nothing_more_is_printed(tmp_path, suffix, child):
+    pytest.importorskip("resource")
+    if suffix == "mp4":
+        pytest.importorskip("av")
+    target = tmp_path / f"film.{suffix}"
+    target.write_bytes(b"the old film")
+    code = (
+        "import resource, mars2d, numpy as np\n"
+        "from mars2d import Scenario\n"
+        "record = mars2d.run(Scenario(stop_time=2), control=lambda w: np.array([[1.0], [2.0]]))\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))\n"
+        "try:\n"
+        f"    record.film({str(target)!r}, size=(320, 240))\n"
+        "except mars2d.InputError as error:\n"
+        "    print(error)\n"
+    )
+    result = child(code)
+    assert result.stdout == f"{target}: can't be written: File too large\n"
+    assert result.stderr == ""
+    assert target.read_bytes() == b"the old film"
+    assert list(tmp_path.iterdir()) == [target]
+
+
 @pytest.mark.parametrize("speed", [0.5, 1, 10])
 @pytest.mark.parametrize("sampling_time", [0.01, 0.1, 1.0])
 def test_a_film_lasts_its_time_over_its_speed(speed, sampling_time):
@@ -204,3 +234,176 @@ def test_rates_must_be_positive_numbers(speed, fps):
 def test_the_film_module_is_imported_without_pygame():
     code = "import sys, mars2d.output.film; assert not {'pygame', 'av', 'PIL'} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+# -- films of records -----------------------------------------------------------------------------
+
+
+def turning(world):
+    return np.array([[0.5], [0.8]])
+
+
+SCENARIO = Scenario(robots=[Robot(pose=(0, 0, 0))], sampling_time=0.5, stop_time=4.0)
+
+
+@pytest.fixture(scope="module")
+def record():
+    return mars2d.run(SCENARIO, control=turning)
+
+
+def seen(record, **part):
+    """Return the frames of a film of a record."""
+    cut = cut_of(record, **part)
+    return list(shots(cut, 0.5, len(record) - 1, record.frame))
+
+
+def test_slow_motion_shows_what_lies_between_the_sampling_times(record):
+    frames = seen(record, speed=0.1, fps=25, start=1.0, end=1.5)
+    assert len(frames) == 127  # 5 s of film, and the end once more
+    times = np.array([frame.time for frame in frames])
+    assert times[:-1] == pytest.approx(1.0 + 0.004 * np.arange(126))
+    x = np.array([frame.pose[0, 0] for frame in frames])
+    assert (np.diff(x[:-1]) > 0).all()
+    assert np.ptp(np.diff(x[:-1])) < 1e-12
+    assert x[0] == record.pose[2, 0, 0]
+    assert x[-1] == record.pose[3, 0, 0]
+
+
+def test_a_film_shows_the_part_that_is_asked_for_and_the_last_frame_is_its_end(record):
+    frames = seen(record, speed=2.0, fps=10, start=0.7, end=2.9)
+    assert frames[0].time == pytest.approx(0.7)
+    assert frames[-1].time == pytest.approx(2.9)
+    assert seen(record)[-1].over_message == record.over_message
+    assert seen(record, end=2.0)[-1].over_message == ""
+
+
+def test_at_a_sampling_time_a_frame_is_that_of_the_record(record):
+    frames = seen(record, speed=12.5, fps=25)
+    assert [frame.iteration for frame in frames] == [*range(9), 8]
+    for frame, row in zip(frames, range(9), strict=False):
+        assert np.array_equal(frame.pose, record.pose[row])
+        assert frame.sensed is None
+
+
+def test_a_live_run_and_its_record_make_the_same_film():
+    for part in ({}, {"start": 0.7, "end": 2.9}, {"end": 1.0}):
+        footage = Footage(SCENARIO, 0.4, 10, **part)
+        world = simulate(Experiment(SCENARIO, turning), watchers=[footage])
+        live = list(footage.frames(world.frame))
+        assert len(live) == footage.count(world.frame)
+        recorded = seen(world.record, speed=0.4, fps=10, **part)
+        assert [frame.time for frame in live] == [frame.time for frame in recorded]
+        assert all(np.array_equal(a.pose, b.pose) for a, b in zip(live, recorded, strict=True))
+
+
+def test_a_run_that_ended_before_the_part_that_is_filmed_says_so():
+    footage = Footage(SCENARIO, 1.0, 25, 3.0)
+    world = simulate(Experiment(SCENARIO.replace(stop_time=1.0), turning), watchers=[footage])
+    with pytest.raises(InputError, match=r"film from 3 s on: the run ended at 1 s"):
+        next(footage.frames(world.frame))
+
+
+@pytest.mark.parametrize("suffix", ["gif", "mp4"])
+def test_a_record_films_itself(record, tmp_path, suffix):
+    if suffix == "mp4":
+        pytest.importorskip("av")
+    path = record.film(tmp_path / f"a.{suffix}", speed=4.0, size=(128, 96), start=1, end=3)
+    with Image.open(path) if suffix == "gif" else av_open(path) as film:
+        if suffix == "gif":
+            assert film.size == (128, 96)
+        else:
+            assert film.streams.video[0].frames == 14
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def av_open(path):
+    import av
+
+    return av.open(str(path))
+
+
+def test_progress_counts_up_to_the_frames_of_the_cut(record, tmp_path):
+    counts = []
+    film_record(record, tmp_path / "a.gif", size=(64, 64), end=1.0, progress=counts.append)
+    assert counts == list(range(1, cut_of(record, end=1.0).count + 1))
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "told"),
+    [
+        ("a.gif", {"start": 5}, "a film from 5 s on: the record goes from 0 to 4 s"),
+        ("a.gif", {"start": -1}, "a film from -1 s on: the record goes from 0 to 4 s"),
+        ("a.gif", {"start": 1, "end": 9}, "a film from 1 to 9 s: the record goes from 0 to 4 s"),
+        ("a.gif", {"start": 3, "end": 2}, "a film from 3 to 2 s: expected an end after its start"),
+        ("a.gif", {"start": 3, "end": 3}, "a film from 3 to 3 s: expected an end after its start"),
+        ("a.gif", {"start": "soon"}, "start = 'soon': expected seconds"),
+        ("a.gif", {"end": float("nan")}, "end = nan: expected seconds, and finite"),
+        ("a.gif", {"speed": 0}, "speed = 0: expected a number > 0"),
+        ("a.gif", {"speed": "max"}, "speed = 'max': expected a number > 0"),
+        ("a.gif", {"speed": 1e-9}, "at most 100,000"),
+        ("a.gif", {"fps": 60}, "fps = 60: expected at most 50, more a GIF can't show"),
+        ("a.mp4", {"fps": 1000}, "fps = 1000: expected at most 240 in an MP4"),
+        ("a.gif", {"fps": 1e-3}, "fps = 0.001: expected at least 0.1"),
+        ("a.gif", {"size": (63, 64)}, "size = (63, 64): expected (width, height) in pixels, 64 x"),
+        ("a.gif", {"size": (4000, 64)}, "64 x 64 to 3840 x 2160"),
+        ("a.gif", {"size": (64.5, 64)}, "size = (64.5, 64)"),
+        ("a.gif", {"size": 64}, "size = 64: expected (width, height)"),
+        ("a.mp4", {"size": (641, 360)}, "expected even numbers of pixels for .mp4, as 642 x 360"),
+        ("a.avi", {}, "a.avi: expected a film's name to end in .gif or .mp4"),
+    ],
+)
+def test_what_can_not_be_filmed_is_said_and_leaves_nothing(record, tmp_path, name, options, told):
+    if name.endswith("mp4"):
+        pytest.importorskip("av")
+    with pytest.raises(InputError) as error:
+        film_record(record, tmp_path / name, **options)
+    assert told in str(error.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_record_without_rows_is_no_film(record, tmp_path):
+    from dataclasses import replace
+
+    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort")
+    empty = replace(record, **{name: getattr(record, name)[:0] for name in columns})
+    with pytest.raises(InputError, match="no rows"):
+        film_record(empty, tmp_path / "a.gif")
+
+
+def test_a_record_of_one_row_is_a_film_that_stands_still(tmp_path):
+    cut = Cut.of(0.0, 1.0, 25)
+    assert cut.moments.tolist() == [0.0, 0.0]
+
+
+def test_sizes_are_read_from_text():
+    assert size_of("1280x720") == (1280, 720)
+    assert size_of(" 640 X 360 ") == (640, 360)
+    for text in ("1280", "x720", "1280x", "12.5x7", "-1x5", "axb", ""):
+        with pytest.raises(InputError, match="as 1280x720"):
+            size_of(text)
+
+
+def test_an_mp4_says_that_its_colours_are_those_of_hd(tmp_path):
+    pytest.importorskip("av")
+    save_film(frames(2), tmp_path / "film.mp4", size=SIZE)
+    with av_open(tmp_path / "film.mp4") as film:
+        context = film.streams.video[0].codec_context
+        assert (context.colorspace, context.color_primaries, context.color_range) == (1, 1, 1)
+
+
+def test_the_colours_of_an_mp4_are_those_of_the_picture(tmp_path):
+    pytest.importorskip("av")
+
+    colors = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#ffffff", "#000000"]
+
+    def painted():
+        picture = pygame.Surface(SIZE, 0, 32)
+        for k, color in enumerate(colors):
+            picture.fill(color, (50 * k, 0, 50, 240))
+        yield picture
+
+    save_pictures(painted(), tmp_path / "film.mp4")
+    with av_open(tmp_path / "film.mp4") as film:
+        shown = next(film.decode(video=0)).to_ndarray(format="rgb24").astype(int)
+    for k, color in enumerate(colors):
+        assert np.abs(shown[120, 50 * k + 25] - np.array(pygame.Color(color)[:3])).max() <= 3

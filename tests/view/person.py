@@ -94,11 +94,15 @@ class Driver:
     """
 
     def __init__(self, screen, speed, folder=None, **options):
+        self._sit(screen, "observed_window", speed, json.dumps(options), folder=folder)
+
+    def _sit(self, screen, module, *arguments, folder=None, shows="time"):
+        """Sit down before the window of a module, and wait until it tells what `shows` names."""
         self.environment = bare_environment(
             DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=str(ROOT)
         )
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.view.observed_window", str(speed), json.dumps(options)],
+            [sys.executable, "-m", f"tests.view.{module}", *map(str, arguments)],
             env=self.environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -108,7 +112,7 @@ class Driver:
         self.lines = queue.Queue()
         self.state = {}
         threading.Thread(target=self._read, daemon=True).start()
-        self.until(lambda s: "time" in s, 30)
+        self.until(lambda s: shows in s, 30)
         time.sleep(0.1)  # until the server has mapped it and given it the keyboard
 
     def _read(self):

@@ -1,10 +1,8 @@
 """The editor, driven by real mouse moves and key presses on a screen of its own."""
 
 import json
-import queue
 import subprocess
 import sys
-import threading
 import time
 from functools import partial
 from math import degrees, pi
@@ -18,29 +16,16 @@ from mars2d.props import Box
 from mars2d.robot import Robot
 from mars2d.scenario import Scenario
 from mars2d.view.editor import keys
-from tests.view.person import ROOT, Driver, bare_environment, compare, differing, needs_screen
+from tests.view.person import Driver, bare_environment, compare, differing, needs_screen
 
 
 class Hands(Driver):
     """The editor in a process of its own, and the hands and eyes of the person before it."""
 
     def __init__(self, screen, folder, source="-", **options):
-        self.environment = bare_environment(
-            DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=str(ROOT)
+        self._sit(
+            screen, "observed_editor", source, json.dumps(options), folder=folder, shows="tool"
         )
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.view.observed_editor", str(source), json.dumps(options)],
-            env=self.environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            cwd=folder,
-        )
-        self.lines = queue.Queue()
-        self.state = {}
-        threading.Thread(target=self._read, daemon=True).start()
-        self.until(lambda s: "tool" in s, 30)
-        time.sleep(0.1)  # until the server has mapped it and given it the keyboard
 
     def pixel(self, x, y):
         """Return the pixel of a point in metres."""

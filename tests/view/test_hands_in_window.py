@@ -1,97 +1,26 @@
 """Hands on a running world, with a real mouse and real keys in the real window."""
 
-import json
-import os
-import queue
-import shutil
-import subprocess
-import sys
-import threading
 import time
 from itertools import pairwise
 from math import atan2, hypot
 
 import pytest
 
-TOOLS = ("Xvfb", "xdotool")
-missing = [tool for tool in TOOLS if shutil.which(tool) is None]
-pytestmark = pytest.mark.skipif(bool(missing), reason=f"{', '.join(missing)} not installed")
+from tests.view.person import Driver, needs_screen
 
-HIDDEN = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER")
+pytestmark = needs_screen
 
 
-@pytest.fixture(scope="module")
-def screen():
-    """Start an X server on a free display and return its name."""
-    read, write = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-noreset"],
-        pass_fds=[write],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        number = pipe.readline().strip()
-    assert number, "Xvfb did not start"
-    yield f":{number}"
-    server.terminate()
-    server.wait(10)
-
-
-class Person:
+class Person(Driver):
     """Somebody before a window that tells where everything is."""
 
     def __init__(self, screen, *arguments):
-        bare = {key: value for key, value in os.environ.items() if key not in HIDDEN}
-        self.environment = bare | {"DISPLAY": screen, "SDL_VIDEO_WINDOW_POS": "0,0"}
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "tests.view.observed_hands", *map(str, arguments)],
-            env=self.environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        self.lines, self.state = queue.Queue(), {}
-        self.reader = threading.Thread(target=self._read, daemon=True)
-        self.reader.start()
-        self.until(lambda s: "time" in s, 20)
-        time.sleep(0.3)  # until the server has mapped it and given it the keyboard
-
-    def _read(self):
-        for line in self.process.stdout:
-            if line.startswith("{"):
-                self.lines.put(json.loads(line))
-
-    def until(self, holds, seconds=6.0):
-        """Wait until what the window tells of itself satisfies `holds`."""
-        end = time.monotonic() + seconds
-        while not (self.state and holds(self.state)):
-            try:
-                self.state = self.lines.get(timeout=max(end - time.monotonic(), 0.001))
-            except queue.Empty:
-                errors = "" if self.process.poll() is None else self.process.stderr.read()
-                pytest.fail(f"not within {seconds} s; the last state: {self.state} {errors}")
-        return self.state
+        self._sit(screen, "observed_hands", *arguments)
 
     def leave(self):
         """Let go of the mouse, and close the window."""
         self.do("mouseup", 1, "mouseup", 3)
-        self.process.kill()
-        self.process.wait(10)
-        self.reader.join(10)
-        self.process.stdout.close()
-        self.process.stderr.close()
-
-    def settle(self):
-        """Read all that has been told up to now."""
-        time.sleep(0.25)
-        while not self.lines.empty():
-            self.state = self.lines.get()
-        return self.state
-
-    def do(self, *arguments):
-        subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True)
+        self.close()
 
     def to(self, x, y):
         """Move the pointer to a point of the world."""

@@ -1,0 +1,94 @@
+"""Numbers over time as few bytes: rounded, as changes of changes, deflated."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["MISSING", "Columns", "Int", "fitted", "rounded"]
+
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+
+LARGEST = 2**28
+"""Whole numbers are this large at most: then second differences fit into 32 bits."""
+
+MISSING = -LARGEST
+"""What stands for a number that is none, or without end."""
+
+
+class Columns:
+    """Columns packed one after the other; `index` says where each lies and how it is read."""
+
+    def __init__(self) -> None:
+        """Start with none."""
+        self.index: dict[str, dict[str, Any]] = {}
+        self._parts: list[bytes] = []
+        self.size = 0
+
+    def add(self, name: str, values: NDArray[Any], order: int = 0, **more: Any) -> None:
+        """Pack whole numbers (T, ...), each series by its differences in time of an order 0 to 2.
+
+        more: what else the reader has to know, as a step.
+        """
+        shape = np.shape(values)
+        width = int(np.prod(shape[1:]))
+        series = np.asarray(values, dtype=np.int64).reshape(shape[0], width).T
+        for _ in range(order):
+            series = np.diff(series, axis=1, prepend=0)
+        # Small numbers of either sign as small numbers without: 0, -1, 1, -2 ...
+        signless = ((series << 1) ^ (series >> 63)).astype("<u4")
+        planes = signless.ravel().view(np.uint8).reshape(-1, 4).T
+        used = max((k + 1 for k in range(4) if planes[k].any()), default=0)
+        packed = zlib.compress(np.ascontiguousarray(planes[:used]).tobytes(), 6)
+        self._put(name, packed, {"shape": list(shape), "order": order, "planes": used, **more})
+
+    def add_bytes(self, name: str, values: NDArray[np.uint8], **more: Any) -> None:
+        """Pack bytes (T, ...) as what changes from row to row, modulo 256."""
+        changes = values.copy()
+        changes[1:] -= values[:-1]
+        packed = zlib.compress(changes.tobytes(), 6)
+        self._put(name, packed, {"shape": list(values.shape), **more})
+
+    def _put(self, name: str, packed: bytes, entry: dict[str, Any]) -> None:
+        self.index[name] = {"at": self.size, "bytes": len(packed), **entry}
+        self._parts.append(packed)
+        self.size += len(packed)
+
+    def take(self, other: Columns) -> None:
+        """Take over the columns of another."""
+        for name, entry in other.index.items():
+            self.index[name] = {**entry, "at": entry["at"] + self.size}
+        self._parts += other._parts
+        self.size += other.size
+
+    def packed(self) -> bytes:
+        """Return the bytes of all columns."""
+        return b"".join(self._parts)
+
+
+def rounded(values: NDArray[Any], step: float) -> Int:
+    """Return numbers in whole steps; what is not finite as `MISSING`."""
+    finite = np.isfinite(values)
+    steps = np.rint(np.where(finite, values, 0.0) / step)
+    kept = np.clip(steps, 1 - LARGEST, LARGEST)
+    return np.where(finite, kept, MISSING).astype(np.int64)
+
+
+def fitted(
+    room: int, pack: Callable[[int], tuple[Columns, int]], every: int = 1
+) -> tuple[Columns, int]:
+    """Return columns that take at most `room` bytes, and how they were thinned to do so.
+
+    pack: returns the columns of each so-manieth row, and how many rows these are. every: the first
+    try; it is doubled until they fit, or until there is one row.
+    """
+    while True:
+        columns, rows = pack(every)
+        if columns.size <= room or rows <= 1:
+            return columns, every
+        every *= 2

@@ -1,0 +1,126 @@
+// What is known of the body that is picked, in words.
+
+const MINUS = "\u2212";
+
+function inWords(value, unit = "", kind = "number") {
+  if (Number.isNaN(value)) return kind === "flag" ? "no" : "nothing";
+  if (kind === "flag") return value > 0.5 ? "yes" : "no";
+  if (kind === "angle") {
+    const turned = ((value * 180 / Math.PI + 180) % 360 + 360) % 360 - 180;
+    return `${Math.round(turned) + 0}°`.replace("-", MINUS);
+  }
+  const text = Math.abs(value) < 1000 ? value.toFixed(2) : value.toPrecision(3);
+  return `${text === "-0.00" ? "0.00" : text} ${unit}`.trim().replace("-", MINUS);
+}
+
+class Panel {
+  constructor(element, picture) {
+    this.element = element;
+    this.picture = picture;
+    this.rows = [];
+    this.picked = -1;
+  }
+
+  // Show another body, or none.
+  pick(body) {
+    this.picked = body;
+    this.element.hidden = body < 0;
+    if (body < 0) return;
+    const { picture } = this, { record } = picture, about = picture.bodies[body];
+    this.element.querySelector("h2").textContent = about.name;
+    this.element.querySelector(".kind").textContent = about.kind;
+    const list = this.element.querySelector("dl");
+    list.replaceChildren();
+    this.rows = [];
+    const row = (name, say) => {
+      const term = document.createElement("dt"), words = document.createElement("dd");
+      term.textContent = name;
+      list.append(term, words);
+      this.rows.push([words, say]);
+    };
+    row("pose", () => [
+      `x ${inWords(picture.x[body], "m")}`, `y ${inWords(picture.y[body], "m")}`,
+      `θ ${inWords(picture.theta[body], "", "angle")}`,
+    ]);
+    row("moves", () => {
+      const [speed, spin] = picture.velocity(body);
+      return [`v ${inWords(speed, "m/s")}`, `ω ${inWords(spin, "rad/s")}`];
+    });
+    if (about.robot) {
+      const { command } = record.columns, n = picture.robots;
+      row("command", () => about.commands.map(([name, unit, kind], k) =>
+        `${name} ${inWords(command.at(picture.row, k * n + body), unit, kind)}`));
+      row("effort", () => {
+        const effort = picture.effort(body);
+        return [effort >= SLIPPING ? "slips" : `${Math.round(100 * effort)} %`];
+      });
+      for (const reading of record.readings.filter((each) => each.robot === body)) {
+        const column = record.columns[reading.column];
+        row(reading.name, () => this.reading(reading.parts, (k) => column.at(picture.row, k)));
+      }
+      let first = 0;
+      for (const fan of record.fans) {
+        const begin = first;
+        first += fan.beams;
+        if (fan.robot === body) row(fan.name, () => this.nearest(fan, begin));
+      }
+    }
+    if (record.columns["contacts:row"]) row("contacts", () => this.contacts(body));
+  }
+
+  // What a sensor reads; of things seen at a distance in a direction, those that are seen.
+  reading(parts, value) {
+    const say = ([, unit, kind], k) => inWords(value(k), unit || (kind === "distance" ? "m" : ""), kind);
+    if (parts.length > 1 && parts[0][2] === "distance" && parts[1][2] === "angle") {
+      const seen = parts.map((_, k) => k).filter((k) => k % 2 === 0 && Number.isFinite(value(k)));
+      return seen.length ? seen.map((k) => `${say(parts[k], k)} at ${say(parts[k + 1], k + 1)}`) : ["nothing"];
+    }
+    if (parts.length === 1) return [say(parts[0], 0)];
+    return parts.map((part, k) => `${part[0]} ${say(part, k)}`);
+  }
+
+  nearest(fan, first) {
+    const { far } = this.picture.distances(fan, first);
+    const best = far.reduce((least, each, k) => (each < far[least] ? k : least), 0);
+    if (!Number.isFinite(far[best])) return ["nothing within range"];
+    const bearing = fan.mount[2] + fan.first + best * fan.apart;
+    return [`nearest ${inWords(far[best], "m")}`, `at ${inWords(bearing, "", "angle")}`];
+  }
+
+  contacts(body) {
+    const mine = this.picture.contacts().filter(({ a, b }) => a === body || b === body);
+    if (!mine.length) return ["none"];
+    const name = (other) => (other < 0 ? `obstacle ${-1 - other}` : this.picture.bodies[other].name);
+    return mine.map(({ a, b, size }) => `${name(a === body ? b : a)} ${inNewtons(size)}`);
+  }
+
+  // Go to the other side where it hides the body, unless it would do so there as well.
+  stepAside() {
+    if (this.picked < 0) return;
+    const { picture, element } = this, { camera } = picture;
+    const [x, y, radius] = picture.bound(this.picked), near = picture.ui * (camera.scale * radius + 16);
+    const px = picture.ui * (camera.x + camera.scale * x), py = picture.ui * (camera.y - camera.scale * y);
+    const hides = () => {
+      const { offsetLeft: left, offsetTop: top, offsetWidth: width, offsetHeight: height } = element;
+      return px > left - near && px < left + width + near && py > top - near && py < top + height + near;
+    };
+    if (!hides()) return;
+    element.classList.toggle("aside");
+    if (hides()) element.classList.toggle("aside");
+  }
+
+  // Say it as it is now.
+  write(dark) {
+    if (this.picked < 0) return;
+    const color = shade(this.picture.bodies[this.picked].color, dark);
+    this.element.querySelector(".dot").style.background = color;
+    for (const [words, say] of this.rows) {
+      const parts = say();
+      while (words.children.length > parts.length) words.lastChild.remove();
+      while (words.children.length < parts.length) words.append(document.createElement("span"));
+      parts.forEach((part, k) => {
+        if (words.children[k].textContent !== part) words.children[k].textContent = part;
+      });
+    }
+  }
+}

@@ -1,0 +1,466 @@
+// The page: its controls, its keys, and the loop that shows one moment after the other.
+
+const LAYERS = [
+  ["trails", "Trails", "T"], ["sensors", "Sensors", "S"], ["contacts", "Contacts", "X"],
+  ["messages", "Messages", "M"], ["addons", "Add-ons", "O"], ["theory", "Theory", "Y"],
+  ["names", "Names", "I"], ["grid", "Grid", "G"],
+];
+
+const KEYS = [
+  [["Space"], "play, pause"],
+  [["←", "→"], "one step back, on"],
+  [["PgUp", "PgDn"], "ten steps back, on"],
+  [["Home", "End"], "to the start, to the end"],
+  [["+", "\u2212"], "faster, slower"],
+  [["R"], "loop"],
+  [["Z", "Shift+Z"], "zoom in, out"],
+  [["Shift+arrows"], "move the picture"],
+  [["F"], "fit all into the view"],
+  [["N", "Shift+N"], "pick the next, the last robot or prop"],
+  [["L"], "follow what is picked"],
+  [["D"], "dark or light"],
+  [["Esc"], "pick nothing"],
+  [["F1", "?"], "this help"],
+];
+
+const find = (id) => document.getElementById(id);
+const NEAR = { mouse: 8, touch: 24, pen: 16 }; // pixels within which a body is met
+
+class Replay {
+  constructor(record) {
+    this.record = record;
+    this.clock = new Clock(record);
+    this.canvas = find("picture");
+    this.picture = new Picture(this.canvas, record);
+    this.panel = new Panel(find("panel"), this.picture);
+    this.look = { ...record.layers, sensors: true, messages: true, addons: true, names: false };
+    this.look.picked = -1;
+    this.follow = false;
+    this.drawn = "";
+    this.said = 0;
+    this.layers = LAYERS.filter(([name]) => this.has(name));
+    this.prepare();
+    this.listen();
+    this.setDark(matchMedia("(prefers-color-scheme: dark)").matches);
+    this.resize();
+    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (!calm && window.parent === window) this.clock.play();
+    this.before = performance.now();
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  has(layer) {
+    const { record } = this;
+    const there = {
+      sensors: record.sensors || record.fans.length,
+      contacts: record.columns["contacts:row"],
+      messages: record.columns["messages:time"],
+      addons: record.addons,
+      theory: record.theory,
+    };
+    return !(layer in there) || Boolean(there[layer]);
+  }
+
+  // -- what stands there from the start ---------------------------------------------------------
+
+  prepare() {
+    const { record } = this, { bodies } = record;
+    const parts = [record.file, `seed ${record.seed}`].filter(Boolean);
+    find("subtitle").append(parts.join(" · "));
+    const badge = (text) => {
+      const mark = document.createElement("b");
+      mark.textContent = text;
+      find("subtitle").append(" ", mark);
+    };
+    if (!record.finished) badge("not finished");
+    if (record.changed) badge("changed by hand");
+    const option = (select, value, text) => {
+      const made = document.createElement("option");
+      [made.value, made.textContent] = [value, text];
+      select.append(made);
+    };
+    option(find("bodies"), -1, "Pick a robot");
+    bodies.forEach((body, i) => option(find("bodies"), i, body.name));
+    for (const speed of SPEEDS) option(find("speed"), speed, `${speed}×`);
+    find("slider").max = this.clock.last;
+    for (const [name, words, key] of this.layers) {
+      const button = document.createElement("button");
+      Object.assign(button, { id: `layer-${name}`, textContent: words, title: `${words} (${key})` });
+      button.addEventListener("click", () => this.toggle(name));
+      find("layers").append(button);
+    }
+    const keyed = [...KEYS, ...this.layers.map(([, words, key]) => [[key], `${words.toLowerCase()} on and off`])];
+    for (const [names, does] of keyed) {
+      const row = find("keys").insertRow(), cell = row.insertCell();
+      names.forEach((name) => {
+        const cap = document.createElement("kbd");
+        cap.textContent = name;
+        cell.append(cap, " ");
+      });
+      row.insertCell().textContent = does;
+    }
+    this.tell();
+  }
+
+  // Fill the page on where the run comes from, and what of it is not in the file.
+  tell() {
+    const { record, clock } = this, { picture } = this;
+    const versions = Object.entries(record.versions).map(([name, version]) => `${name} ${version}`);
+    const robots = picture.robots, props = record.bodies.length - robots;
+    const counted = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
+    const facts = [
+      ["experiment", record.file || record.title],
+      ["seed", record.seed],
+      ["bodies", [counted(robots, "robot"), ...(props ? [counted(props, "prop")] : [])].join(", ")],
+      ["time", `${this.seconds(clock.end)} s in ${record.rows - 1} steps of ${record.step} s`],
+      ["end", this.ending()],
+      ["versions", versions.join(", ")],
+      ["digest", record.digest],
+    ];
+    for (const [name, value] of facts) {
+      const term = document.createElement("dt"), words = document.createElement("dd");
+      [term.textContent, words.textContent] = [name, value];
+      find("facts").append(term, words);
+    }
+    const millimetres = record.columns.places.step * 500;
+    const lines = [
+      `positions are rounded by at most ${Number(millimetres.toPrecision(2))} mm; between two rows all moves evenly`,
+      ...record.notes,
+    ];
+    if (record.changed) lines.push("bodies or parts were moved or changed by hand as it ran");
+    const heading = document.createElement("h3"), list = document.createElement("ul");
+    heading.textContent = "What this file holds";
+    for (const line of lines) {
+      const item = document.createElement("li");
+      item.textContent = line;
+      list.append(item);
+    }
+    find("notes").append(heading, list);
+  }
+
+  ending() {
+    const { over, finished } = this.record;
+    if (!finished) return `not finished${over ? `: ${over}` : ""}`;
+    return over || "the run is over";
+  }
+
+  seconds(time) {
+    const digits = Math.min(Math.max(0, -Math.floor(Math.log10(this.record.step) + 1e-9)), 3);
+    return time.toFixed(digits);
+  }
+
+  // -- what one can do --------------------------------------------------------------------------
+
+  listen() {
+    const { clock } = this, on = (id, act) => find(id).addEventListener("click", act);
+    on("play", () => this.playOrPause());
+    on("first", () => this.goTo(0));
+    on("last", () => this.goTo(clock.last));
+    on("back", () => this.step(-1));
+    on("ahead", () => this.step(1));
+    on("loop", () => this.setLoop(!clock.loop));
+    on("nearer", () => this.zoom(1.4));
+    on("farther", () => this.zoom(1 / 1.4));
+    on("fit", () => this.fit());
+    on("dark", () => this.setDark(!this.look.dark));
+    on("follow", () => this.setFollow(!this.follow));
+    on("unpick", () => this.pick(-1));
+    on("help", () => find("helping").showModal());
+    on("about", () => find("telling").showModal());
+    on("show", () => this.openLayers(!find("layers").classList.contains("open")));
+    find("slider").addEventListener("input", (event) => {
+      clock.playing = false;
+      this.goTo(Number(event.target.value));
+    });
+    find("speed").addEventListener("change", (event) => {
+      clock.speed = Number(event.target.value);
+    });
+    find("bodies").addEventListener("change", (event) => this.pick(Number(event.target.value)));
+    for (const dialog of document.querySelectorAll("dialog")) {
+      dialog.querySelector(".close").addEventListener("click", () => dialog.close());
+      dialog.addEventListener("click", (event) => {
+        if (event.target === dialog) dialog.close();
+      });
+    }
+    document.addEventListener("pointerdown", (event) => {
+      if (!event.target.closest("#layers, #show")) this.openLayers(false);
+    });
+    document.addEventListener("keydown", (event) => this.key(event));
+    this.leaveAfterClicks();
+    const scheme = matchMedia("(prefers-color-scheme: dark)");
+    scheme.addEventListener("change", (event) => this.setDark(event.matches));
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    this.listenToPointers();
+  }
+
+  // What was clicked or chosen with a pointer gives the keys back: Space plays again.
+  leaveAfterClicks() {
+    let pointed = false;
+    document.addEventListener("pointerdown", () => (pointed = true), true);
+    document.addEventListener("keydown", () => (pointed = false), true);
+    for (const kind of ["click", "change"]) {
+      document.addEventListener(kind, ({ target }) => {
+        const left = kind === "click" ? target.closest("button") : target.closest("select");
+        if (pointed && left) left.blur();
+      });
+    }
+  }
+
+  // Drag, pinch, wheel and click on the picture.
+  listenToPointers() {
+    const { canvas, picture } = this, held = new Map();
+    let moved = 0;
+    const spread = () => {
+      const [a, b] = [...held.values()];
+      return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, far: Math.hypot(a.x - b.x, a.y - b.y) };
+    };
+    const at = (event) => ({ x: event.offsetX / picture.ui, y: event.offsetY / picture.ui });
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      if (held.size === 0) moved = 0;
+      held.set(event.pointerId, at(event));
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const here = at(event), before = held.get(event.pointerId);
+      if (!before) {
+        canvas.classList.toggle("over", picture.bodyAt(here.x, here.y, NEAR.mouse) >= 0);
+        return;
+      }
+      moved += Math.hypot(here.x - before.x, here.y - before.y);
+      if (held.size === 2) {
+        const old = spread();
+        held.set(event.pointerId, here);
+        const now = spread();
+        picture.camera.pan(now.x - old.x, now.y - old.y);
+        if (old.far > 0) picture.camera.zoom(now.far / old.far, now.x, now.y);
+        this.setFollow(false);
+      } else {
+        held.set(event.pointerId, here);
+        if (moved > (event.pointerType === "mouse" ? 3 : 8)) {
+          canvas.classList.add("dragged");
+          picture.camera.pan(here.x - before.x, here.y - before.y);
+          this.setFollow(false);
+        }
+      }
+    });
+    const release = (event) => {
+      const clicked = held.size === 1 && held.has(event.pointerId) && event.type === "pointerup";
+      held.delete(event.pointerId);
+      if (held.size === 0) canvas.classList.remove("dragged");
+      if (clicked && moved <= (event.pointerType === "mouse" ? 3 : 8)) {
+        const { x, y } = at(event);
+        this.pick(picture.bodyAt(x, y, NEAR[event.pointerType] ?? 8));
+      }
+      if (held.size > 0) moved = Infinity; // what is left of a pinch picks nothing
+    };
+    canvas.addEventListener("pointerup", release);
+    canvas.addEventListener("pointercancel", release);
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      const lines = event.deltaMode === 0 ? event.deltaY / 100 : event.deltaY / 3;
+      const { x, y } = at(event);
+      this.zoom(1.2 ** -Math.min(Math.max(lines, -3), 3), x, y);
+    }, { passive: false });
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented) return;
+    if (document.querySelector("dialog[open]")) return; // which has its own
+    const { target } = event;
+    const control = target.closest?.("button, select, input")?.tagName;
+    const slides = target.id === "slider", moves = /^(Arrow|Home|End|Page)/.test(event.key);
+    if (control === "SELECT" && event.key !== "Escape" && event.key !== "F1") return;
+    if (control === "BUTTON" && (event.key === " " || event.key === "Enter")) return;
+    if (slides && moves && !event.shiftKey && event.key !== "PageUp" && event.key !== "PageDown") return;
+    if (event.key.length === 1 && event.key !== " " && !find("letters").checked) return;
+    const act = this.action(event.key.length === 1 ? event.key.toLowerCase() : event.key, event.shiftKey);
+    if (!act) return;
+    event.preventDefault();
+    act();
+  }
+
+  // What a key does.
+  action(key, shift) {
+    const { clock } = this, n = this.record.bodies.length;
+    const pan = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] }[key];
+    if (shift && pan) {
+      return () => {
+        this.picture.camera.pan(...pan);
+        this.setFollow(false);
+      };
+    }
+    const layer = this.layers.find(([, , letter]) => letter.toLowerCase() === key);
+    if (layer) return () => this.toggle(layer[0]);
+    return {
+      " ": () => this.playOrPause(),
+      ArrowRight: () => this.step(1),
+      ArrowLeft: () => this.step(-1),
+      PageDown: () => this.step(10),
+      PageUp: () => this.step(-10),
+      Home: () => this.goTo(0),
+      End: () => this.goTo(clock.last),
+      "+": () => this.faster(1),
+      "=": () => this.faster(1),
+      "-": () => this.faster(-1),
+      "\u2212": () => this.faster(-1),
+      r: () => this.setLoop(!clock.loop),
+      z: () => this.zoom(shift ? 1 / 1.4 : 1.4),
+      f: () => this.fit(),
+      n: () => this.pick((this.look.picked + 1 + (shift ? n : 1)) % (n + 1) - 1),
+      l: () => this.look.picked >= 0 && this.setFollow(!this.follow),
+      d: () => this.setDark(!this.look.dark),
+      Escape: () => (find("layers").classList.contains("open") ? this.openLayers(false) : this.pick(-1)),
+      F1: () => find("helping").showModal(),
+      "?": () => find("helping").showModal(),
+    }[key];
+  }
+
+  playOrPause() {
+    const { clock } = this;
+    if (clock.playing) clock.playing = false;
+    else clock.play();
+    this.say(clock.playing ? "Playing" : `Paused at ${this.seconds(clock.time)} s`);
+  }
+
+  goTo(position) {
+    this.clock.playing = false;
+    this.clock.go(position);
+  }
+
+  step(rows) {
+    this.clock.step(rows);
+  }
+
+  faster(steps) {
+    this.clock.faster(steps);
+    find("speed").value = this.clock.speed;
+    this.say(`Speed ${this.clock.speed}`);
+  }
+
+  setLoop(loop) {
+    this.clock.loop = loop;
+    find("loop").setAttribute("aria-pressed", loop);
+  }
+
+  zoom(factor, px, py) {
+    this.picture.camera.zoom(factor, px, py);
+  }
+
+  fit() {
+    this.setFollow(false);
+    this.picture.camera.fit();
+  }
+
+  setDark(dark) {
+    document.documentElement.classList.toggle("dark", dark);
+    find("dark").setAttribute("aria-pressed", dark);
+    const style = getComputedStyle(document.documentElement);
+    const names = ["page", "paper", "grid", "axis", "muted", "accent"];
+    this.look.colors = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+    this.look.dark = dark;
+  }
+
+  toggle(layer) {
+    this.look[layer] = !this.look[layer];
+    if (layer === "grid") this.resize();
+  }
+
+  openLayers(open) {
+    find("layers").classList.toggle("open", open);
+    find("show").setAttribute("aria-expanded", open);
+  }
+
+  pick(body) {
+    if (body === this.look.picked) return;
+    this.look.picked = body;
+    if (body < 0) this.setFollow(false);
+    find("bodies").value = body;
+    this.panel.pick(body);
+    this.say(body < 0 ? "Nothing is picked" : `${this.record.bodies[body].name} is picked`);
+  }
+
+  setFollow(follow) {
+    this.follow = follow;
+    find("follow").setAttribute("aria-pressed", follow);
+  }
+
+  // Tell a screen reader.
+  say(words) {
+    find("live").textContent = words;
+  }
+
+  resize() {
+    const root = document.documentElement, header = document.querySelector("header");
+    root.classList.remove("tight");
+    if (window.innerWidth <= 640 || header.scrollWidth > header.clientWidth) root.classList.add("tight");
+    const { width, height } = this.canvas.getBoundingClientRect();
+    const ui = window.innerWidth >= 2400 ? 1.6 : 1; // on a wall all is larger
+    const ratio = Math.min(window.devicePixelRatio || 1, 3) * ui;
+    this.picture.ui = ui;
+    this.picture.resize(width / ui, height / ui, ratio, this.look.grid);
+    this.drawn = "";
+  }
+
+  // -- one moment after the other ---------------------------------------------------------------
+
+  tick(now) {
+    const { clock } = this, played = clock.playing;
+    clock.pass(Math.min((now - this.before) / 1000, 0.5)); // no leap after the page was hidden
+    this.before = now;
+    if (played && !clock.playing) this.say(`The end: ${this.ending()}`);
+    this.show(now);
+    requestAnimationFrame((next) => this.tick(next));
+  }
+
+  show(now) {
+    const { clock, picture, look } = this, { camera } = picture;
+    const state = () => JSON.stringify([clock.position, clock.playing, camera.key, look, this.follow]);
+    if (this.drawn === state()) return;
+    picture.move(clock.position);
+    if (this.follow && look.picked >= 0) {
+      camera.centerOn(picture.x[look.picked], picture.y[look.picked]);
+      camera.moved = true;
+    }
+    picture.draw(look);
+    this.drawn = state();
+    this.panel.write(look.dark);
+    this.panel.stepAside();
+    const row = Math.floor(clock.position + 1e-9), time = `${this.seconds(clock.time)} / ${this.seconds(clock.end)} s`;
+    find("slider").value = row;
+    if (find("time").textContent !== time) find("time").textContent = time;
+    if (document.body.classList.toggle("playing", clock.playing)) find("play").setAttribute("aria-label", "Pause");
+    else find("play").setAttribute("aria-label", "Play");
+    find("speed").value = clock.speed;
+    for (const [name] of this.layers) find(`layer-${name}`).setAttribute("aria-pressed", Boolean(look[name]));
+    if (!clock.playing || now - this.said > 500) {
+      this.said = now;
+      const at = `${this.seconds(clock.time)} s of ${this.seconds(clock.end)} s`;
+      find("slider").setAttribute("aria-valuetext", at);
+      this.canvas.setAttribute("aria-label", this.description());
+    }
+    const over = clock.atEnd && !clock.playing;
+    find("banner").hidden = !over;
+    find("banner").classList.toggle("broken", !this.record.finished);
+    if (over) find("banner").textContent = this.ending();
+  }
+
+  description() {
+    const { robots } = this.picture, props = this.record.bodies.length - robots;
+    const what = `${robots} robot${robots === 1 ? "" : "s"}${props ? ` and ${props} prop${props === 1 ? "" : "s"}` : ""}`;
+    return `${this.record.title}: ${what}, seen from above at ${this.seconds(this.clock.time)} s`;
+  }
+}
+
+function trouble(words) {
+  find("trouble").textContent = words;
+  find("trouble").hidden = false;
+}
+
+if (!("DecompressionStream" in window)) {
+  trouble("This browser is too old to unpack the replay: it needs one from 2023 or later.");
+} else {
+  readRecord(find("record").textContent).then(
+    (record) => new Replay(record),
+    () => trouble("This file is damaged: what it holds of the run can't be unpacked."),
+  );
+}

@@ -1,0 +1,143 @@
+"""Figures of contacts show who touched whom from when to when, and how hard."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+
+import mars2d
+from mars2d import InputError, Robot, Scenario
+from mars2d.addons import Map
+from mars2d.output.contacts import normal_force, pair_name
+
+
+def meet(**changes):
+    """Two that meet at t = 2 s and press on with 5 N each."""
+    robots = [Robot(pose=(-0.55, 0, 0), name="ann"), Robot(pose=(0.55, 0, np.pi), name="bob")]
+    scenario = Scenario(**({"title": "They meet", "robots": robots, "stop_time": 5} | changes))
+    speed = [0.2] * len(scenario.robots)
+    return mars2d.run(scenario, control=lambda world: [speed, [0.0] * len(speed)])
+
+
+def bars(ax):
+    (found,) = [c for c in ax.collections if isinstance(c, PolyCollection)]
+    return found
+
+
+def spans(ax):
+    """From when to when there are bars on each line, from the top."""
+    vertices = [path.vertices for path in bars(ax).get_paths()]
+    lines = {}
+    for v in vertices:
+        begin, end = lines.get(round(v[0, 1], 3), (np.inf, -np.inf))
+        lines[round(v[0, 1], 3)] = min(begin, v[:, 0].min()), max(end, v[:, 0].max())
+    return [lines[key] for key in sorted(lines, reverse=True)]
+
+
+def names(ax):
+    return [text.get_text() for text in ax.get_yticklabels()][::-1]
+
+
+def test_a_bar_lasts_as_long_as_the_touch():
+    upper, lower = meet().plot_contacts()
+    assert names(upper) == ["ann \N{EN DASH} bob"]
+    ((begin, end),) = spans(upper)
+    assert begin == pytest.approx(2.0, abs=0.01)
+    assert end == pytest.approx(5.0, abs=0.03)
+    assert (upper.get_xlabel(), lower.get_xlabel()) == ("", "time [s]")
+    assert upper.get_title(loc="left") == "They meet"
+
+
+def test_the_colour_is_the_mean_normal_force_in_newtons():
+    record = meet()
+    upper, _ = record.plot_contacts()
+    forces = bars(upper).get_array()
+    assert forces[-1] == pytest.approx(5.0, rel=1e-6), "the drives' bound"
+    assert forces.max() == pytest.approx(record.contacts["normal_impulse"].max() / 0.1)
+    assert upper.child_axes[0].get_ylabel() == "normal force [N]"
+
+
+def test_the_sum_is_that_of_all_pairs_over_each_control_step():
+    robots = [Robot(pose=(x, y, 0 if x < 0 else np.pi)) for y in (-1, 0, 1) for x in (-0.55, 0.55)]
+    record = meet(robots=robots)
+    force = normal_force(record)
+    assert force[:20].max() == 0
+    assert force[-1] == pytest.approx(3 * 5.0)
+    assert force.sum() * 0.1 == pytest.approx(record.contacts["normal_impulse"].sum())
+    _, lower = record.plot_contacts()
+    np.testing.assert_array_equal(lower.lines[0].get_ydata(), force)
+    assert lower.lines[0].get_drawstyle() == "steps-pre"
+
+
+def test_obstacles_and_walls_are_named():
+    robots = [Robot(pose=(-4.5, 0, np.pi), name="a"), Robot(pose=(0, 0, 0), name="b")]
+    record = meet(robots=robots, on_exit="wall", addons=[Map([[(0.4, -1), (0.4, 1)]])])
+    upper, _ = record.plot_contacts()
+    assert set(names(upper)) == {"a \N{EN DASH} wall", "b \N{EN DASH} obstacle 0"}
+    assert record.scenario.body_name(-2) == "wall"
+
+
+def test_of_many_pairs_the_most_important_are_shown_and_the_others_counted():
+    crowd = mars2d.run("crowd", stop_time=5)
+    pairs = len({(a, b) for a, b in zip(crowd.contacts["a"], crowd.contacts["b"], strict=True)})
+    assert pairs > 40
+    for style, shown in (("screen", 16), ("projector", 8)):
+        upper, _ = crowd.plot_contacts(style=style)
+        assert len(names(upper)) == shown
+        assert f"and {pairs - shown} more pairs" in [text.get_text() for text in upper.texts]
+        begins = [begin for begin, _ in spans(upper)]
+        assert begins == sorted(begins), "in the order in which they met"
+    impulse = {}
+    for row in crowd.contacts:
+        key = pair_name(crowd.scenario, row["a"], row["b"])
+        impulse[key] = impulse.get(key, 0) + row["normal_impulse"]
+    assert set(names(upper)) == set(sorted(impulse, key=impulse.get, reverse=True)[:8])
+
+
+def test_the_shortest_touch_in_a_long_run_is_wide_enough_to_be_seen():
+    record = meet()
+    contacts = record.contacts[:1].copy()
+    contacts["duration"] = 0
+    time = np.arange(len(record)) * 1000.0
+    long = dataclasses.replace(record, contacts=contacts, time=time)
+    ((begin, end),) = spans(long.plot_contacts()[0])
+    assert end - begin > time[-1] / 500
+
+
+def test_without_contacts_the_figure_says_so():
+    (ax,) = meet(stop_time=1).plot_contacts()
+    assert "no contacts: nothing touched in 1 s" in [text.get_text() for text in ax.texts]
+    assert not ax.axison
+    ax.figure.canvas.draw()
+
+
+@pytest.mark.parametrize("physics", ["stop", "ideal"])
+def test_without_forces_the_bars_stand_alone(physics):
+    axes = meet(physics=physics).plot_contacts()
+    assert len(axes) == 1
+    assert axes[0].child_axes == []
+    assert spans(axes[0])[0][0] == pytest.approx(2.0, abs=0.1)
+
+
+def test_axes_given_are_drawn_on_one_or_both():
+    figure = Figure()
+    upper, lower, other = figure.subplots(3, 1)
+    record = meet()
+    assert record.plot_contacts([upper, lower]) == [upper, lower]
+    assert record.plot_contacts(other) == [other]
+    assert figure.axes == [upper, lower, other]
+    with pytest.raises(InputError, match="axes: 3 of them, for 2 panels"):
+        record.plot_contacts([upper, lower, other])
+
+
+def test_a_record_without_rows_is_refused_and_one_of_one_row_drawn():
+    record = meet()
+    none = dataclasses.replace(record, time=record.time[:0], contacts=record.contacts[:0])
+    with pytest.raises(InputError, match="no rows"):
+        none.plot_contacts()
+    one = dataclasses.replace(record, time=record.time[:1], contacts=record.contacts[:0])
+    one.plot_contacts()[0].figure.canvas.draw()

@@ -1,0 +1,189 @@
+"""Clearances are the distances between surfaces: checked where one can work them out by hand."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import mars2d
+from mars2d import InputError, Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.interventions import Change
+from mars2d.joints import Hinge
+from mars2d.output import distances
+from mars2d.output.distances import clearances, nearest_body
+from mars2d.props import Box, Puck
+from mars2d.shapes import rectangle
+
+
+def still(world):
+    return 0 * world.command
+
+
+def ahead(world):
+    n = world.command.shape[1]
+    return [[0.2] * n, [0.0] * n]
+
+
+def run(law=still, **fields):
+    return mars2d.run(Scenario(**({"stop_time": 1, "workspace": None} | fields)), control=law)
+
+
+def test_the_clearance_of_two_discs_is_the_distance_less_both_radii():
+    robots = [Robot(pose=(0, 0, 0)), Robot(pose=(3, 4, 0), diameter=1.0)]
+    found = clearances(run(robots=robots))
+    assert found.pairs.tolist() == [[0, 1]]
+    np.testing.assert_allclose(found.pair, 5 - 0.15 - 0.5)
+    assert found.obstacle is None
+
+
+def test_two_that_drive_at_each_other_close_in_with_twice_their_speed():
+    robots = [Robot(pose=(-1, 0, 0)), Robot(pose=(1, 0, np.pi))]
+    record = run(ahead, robots=robots, stop_time=4)
+    expected = 2 - 0.3 - 0.4 * record.time
+    np.testing.assert_allclose(clearances(record).pair[:, 0], expected, atol=1e-9)
+
+
+def test_a_disc_off_the_centre_of_rotation_is_measured_where_it_is():
+    robots = [Robot(pose=(0, 0, np.pi / 2), center_offset=0.1), Robot(pose=(0, -1, 0))]
+    (gap,) = clearances(run(robots=robots)).pair[0]
+    assert gap == pytest.approx(1 - 0.1 - 0.3)
+
+
+def test_boxes_are_measured_from_side_to_side_and_from_corner_to_disc():
+    car = rectangle(0.4, 0.2)
+    robots = [Robot(pose=(0, 0, 0), shape=car), Robot(pose=(1, 0, np.pi / 2), shape=car)]
+    props = [
+        Box(pose=(0, 1, np.pi / 4), length=0.2, width=0.2, name="b"),
+        Puck(pose=(0.5, -0.5, 0)),
+    ]
+    found = clearances(run(robots=robots, props=props))
+    gap = dict(zip(map(tuple, found.pairs.tolist()), found.pair[0].tolist(), strict=True))
+    assert gap[0, 1] == pytest.approx(1 - 0.2 - 0.1)
+    assert gap[0, 2] == pytest.approx(1 - 0.1 - 0.1 * np.sqrt(2)), "a corner points down"
+    radius = record_radius(props[1])
+    assert gap[0, 3] == pytest.approx(np.hypot(0.5 - 0.2, 0.5 - 0.1) - radius)
+    assert (2, 3) not in gap, "no robot is among them"
+
+
+def record_radius(prop):
+    return prop.shape.bound[1]
+
+
+def test_the_clearance_to_obstacles_is_that_of_the_nearest_one():
+    square = [(2, -1), (4, -1), (4, 1), (2, 1)]
+    robots = [Robot(pose=(0, 0, 0)), Robot(pose=(0, 2, 0))]
+    found = clearances(run(robots=robots, addons=[Map([square, [(-9, 3), (9, 3)]])]))
+    np.testing.assert_allclose(found.obstacle[0], [2 - 0.15, 1 - 0.15])
+
+
+def test_the_workspace_is_a_wall_only_where_it_is_one():
+    fields = {"robots": [Robot(pose=(4, 0, 0))], "workspace": rectangle_points(5)}
+    assert clearances(run(**fields)).obstacle is None
+    np.testing.assert_allclose(clearances(run(on_exit="wall", **fields)).obstacle, 1 - 0.15)
+
+
+def rectangle_points(half):
+    return [(-half, -half), (half, -half), (half, half), (-half, half)]
+
+
+def test_in_an_obstacle_the_clearance_is_negative():
+    fields = {"robots": [Robot(pose=(0, 0, 0))], "physics": "ideal", "stop_time": 10}
+    record = run(ahead, addons=[Map([[(1, -1), (3, -1), (3, 1), (1, 1)]])], **fields)
+    obstacle = clearances(record).obstacle[:, 0]
+    assert obstacle[0] == pytest.approx(1 - 0.15)
+    assert obstacle[-1] == pytest.approx(-0.15), "its centre is within"
+
+
+def test_the_clearance_is_zero_while_there_are_contacts_and_more_otherwise():
+    record = mars2d.run("head_on", stop_time=3)
+    found = clearances(record)
+    pair = found.pairs.tolist().index([0, 1])
+    rows = record.contacts[(record.contacts["a"] == 0) & (record.contacts["b"] == 1)]
+    end = np.round((rows["time"] + rows["duration"]) / record.scenario.sampling_time).astype(int)
+    touching = np.zeros(len(record), dtype=bool)
+    touching[end[~rows["ended"]]] = True
+    assert touching.sum() > 20
+    assert np.abs(found.pair[touching, pair]).max() <= record.scenario.max_overlap
+    assert found.pair[~touching, pair].min() > 1e-3
+
+
+def test_what_a_hinge_joins_has_no_clearance():
+    robots = [Robot(pose=(0, 0, 0), name="a"), Robot(pose=(0.4, 0, 0), name="b")]
+    joints = [Hinge(a="a", b="b", anchor_a=(0.2, 0), anchor_b=(-0.2, 0))]
+    assert clearances(run(robots=robots, joints=joints)).pairs.tolist() == []
+
+
+def test_obstacles_that_were_changed_count_from_then_on():
+    record = run(robots=[Robot(pose=(0, 0, 0))], addons=[Map([[(1, -1), (1, 1)]])])
+    later = record.scenario.replace(addons=[Map([[(2, -1), (2, 1)]])])
+    changed = dataclasses.replace(record, interventions=(Change(5, later),))
+    obstacle = clearances(changed).obstacle[:, 0]
+    np.testing.assert_allclose(obstacle[:5], 1 - 0.15)
+    np.testing.assert_allclose(obstacle[5:], 2 - 0.15)
+
+
+def test_few_pairs_have_a_curve_each_and_the_nearest_obstacle_one():
+    robots = [Robot(pose=(x, 0, 0), name=name) for x, name in enumerate("abc")]
+    record = run(robots=robots, addons=[Map([[(-1, -1), (3, -1)]])])
+    ax = record.plot_distances()
+    legend = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert legend == [
+        "a \N{EN DASH} b",
+        "a \N{EN DASH} c",
+        "b \N{EN DASH} c",
+        "nearest robot to an obstacle",
+    ]
+    curves = [line for line in ax.lines if len(line.get_xdata()) == len(record)]
+    np.testing.assert_allclose([line.get_ydata()[0] for line in curves], [0.7, 1.7, 0.7, 0.85])
+    assert ax.get_ylabel() == "clearance\n[m]"
+    assert ax.get_ylim()[0] < 0 < 1.7 < ax.get_ylim()[1]
+
+
+def test_of_many_there_is_a_band_from_the_least_to_the_most():
+    robots = [Robot(pose=(x * x, 0, 0)) for x in range(1, 6)]  # gaps 3, 5, 7, 9 less 0.3
+    record = run(robots=robots)
+    nearest = nearest_body(clearances(record), 5)
+    np.testing.assert_allclose(nearest[0], np.array([3, 3, 5, 7, 9]) - 0.3)
+    ax = record.plot_distances()
+    least, mean = ax.lines[:2]
+    np.testing.assert_allclose([least.get_ydata()[0], mean.get_ydata()[0]], [2.7, 5.1])
+    (band,) = ax.collections
+    assert band.get_paths()[0].vertices[:, 1].max() == pytest.approx(8.7)
+
+
+def test_one_alone_has_no_distances_and_the_figure_says_so():
+    ax = run(robots=[Robot()]).plot_distances()
+    assert any("no distances" in text.get_text() for text in ax.texts)
+
+
+def test_of_a_run_that_is_too_long_some_rows_are_left_out_and_it_is_said(monkeypatch):
+    monkeypatch.setattr(distances, "MOST_DISCS", 20)
+    robots = [Robot(pose=(-1, 0, 0)), Robot(pose=(1, 0, np.pi))]
+    record = run(ahead, robots=robots, stop_time=5)
+    assert clearances(record).rows.tolist() == [*range(0, 51, 3)][:17] + [50] * (50 % 3 > 0)
+    assert "every 3rd row" in record.plot_distances().get_title(loc="left")
+
+
+def test_axes_given_are_drawn_on():
+    figure = Figure()
+    ax, other = figure.subplots(1, 2)
+    record = run(robots=[Robot(pose=(0, 0, 0)), Robot(pose=(1, 0, 0))])
+    assert record.plot_distances(ax) is ax
+    assert not other.has_data()
+    with pytest.raises(InputError, match="expected plain axes"):
+        record.plot_distances("here")
+
+
+def test_a_record_without_rows_is_refused_and_one_of_one_row_drawn():
+    record = World(Scenario(robots=2), still).record
+    with pytest.raises(InputError, match="no rows"):
+        record.plot_distances()
+    whole = run(robots=2, workspace=rectangle_points(5))
+    one = dataclasses.replace(
+        whole, time=whole.time[:1], pose=whole.pose[:1], prop_pose=whole.prop_pose[:1]
+    )
+    one.plot_distances().figure.canvas.draw()

@@ -1,0 +1,296 @@
+"""What a replay holds of a record: how precisely, how much at most, and what it says it lacks."""
+
+import base64
+import json
+import zlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Robot, Scenario
+from mars2d.addons import Communication
+from mars2d.errors import InputError, LawError
+from mars2d.output.html import page, save_html
+from mars2d.props import Box
+from mars2d.scene import Scene
+from mars2d.sensors import Proximity, RangeFinder
+from mars2d.sensors.base import Sensor
+
+ROOM = [(-6, -6), (6, -6), (6, 6), (-6, 6)]
+
+
+def circles(world):
+    t, i = world.time, np.arange(len(world.robots))
+    return np.array([0.3 + 0.1 * np.sin(t + i), 0.5 + 0.2 * np.sin(0.3 * t * (1 + i % 5) + i)])
+
+
+def held(text):
+    """Return what a page holds: its plain data, and its columns as they are decoded by the book."""
+    data = text.partition('type="text/plain">')[2].partition("</script>")[0]
+    head, body = (base64.b64decode(part) for part in data.split(" "))
+    content = json.loads(zlib.decompress(head))
+    columns = {}
+    for name, entry in content["columns"].items():
+        raw = zlib.decompress(body[entry["at"] : entry["at"] + entry["bytes"]])
+        columns[name] = decoded(entry, np.frombuffer(raw, dtype=np.uint8))
+    return content, columns
+
+
+def decoded(entry, raw):
+    shape = entry["shape"]
+    if "order" not in entry:
+        return np.cumsum(raw.reshape(shape), axis=0, dtype=np.uint8)
+    count = int(np.prod(shape))
+    if count == 0:
+        return np.empty(shape)
+    planes = np.zeros((4, count), dtype=np.uint8)
+    planes[: entry["planes"]] = raw.reshape(entry["planes"], count)
+    signless = planes.T.copy().view("<u4").ravel().astype(np.int64)
+    series = ((signless >> 1) ^ -(signless & 1)).reshape(-1, shape[0])
+    for _ in range(entry["order"]):
+        series = np.cumsum(series, axis=1)
+    return series.T.reshape(shape) * entry.get("step", 1)
+
+
+@pytest.fixture(scope="module")
+def crowded():
+    """Ten robots that scan and talk among boxes, for 2000 control steps."""
+    robots = [
+        Robot(pose=(2 * (k % 5) - 4, 3 * (k // 5) - 1.5, 0.3 * k), sensors=[RangeFinder()])
+        for k in range(10)
+    ]
+    boxes = [Box(pose=(-3 + 2 * k, 0, 0.3)) for k in range(4)]
+    scenario = Scenario(
+        robots=robots, props=boxes, workspace=ROOM, on_exit="wall", stop_time=199.9,
+        addons=[Communication()],
+    )  # fmt: skip
+
+    def law(world):
+        world.robots[0].send({"x": float(world.robots[0].position[0])})
+        return circles(world)
+
+    return mars2d.run(scenario, control=law)
+
+
+@pytest.fixture(scope="module")
+def crowded_page(crowded):
+    return page(crowded)
+
+
+def test_ten_robots_with_scanners_fit_into_two_megabytes_after_2000_steps(crowded, crowded_page):
+    assert len(crowded) == 2000
+    assert crowded.sensors["range_finder"].shape == (2000, 10, 180)
+    assert len(crowded_page.encode()) < 2_000_000
+    content, columns = held(crowded_page)
+    assert content["stride"] == 1
+    assert len(columns["messages:time"]) > 0
+
+
+def test_positions_are_within_micrometres_and_headings_within_a_hundredth_of_a_degree(
+    crowded, crowded_page
+):
+    content, columns = held(crowded_page)
+    poses = np.concatenate([crowded.pose, crowded.prop_pose], axis=2)
+    low = np.array(content["columns"]["places"]["low"])[:, None]
+    assert np.abs(columns["places"] + low - poses[:, :2]).max() < 7e-6
+    assert np.degrees(np.abs(columns["headings"] - poses[:, 2]).max()) < 0.01
+
+
+def test_distances_are_within_half_a_level(crowded, crowded_page):
+    content, columns = held(crowded_page)
+    every = content["columns"]["fans"]["every"]
+    read = crowded.sensors["range_finder"][::every].reshape(len(columns["fans"]), -1)
+    near = np.isfinite(read)
+    assert (columns["fans"][~near] == 255).all()
+    assert np.abs(columns["fans"][near] / 254 * 5.0 - read[near]).max() <= 0.5 * 5.0 / 254 + 1e-9
+
+
+def test_more_scans_than_there_is_room_for_are_thinned_and_it_says_so(crowded):
+    rng = np.random.default_rng(0)
+    noise = np.minimum(5.0, rng.uniform(0, 5, (2000, 10, 180)))
+    record = replace(crowded, sensors={"range_finder": noise})
+    text = page(record)
+    assert len(text.encode()) < 2_000_000
+    content, columns = held(text)
+    every = content["columns"]["fans"]["every"]
+    assert every > 1
+    assert f"distances of scanners: one row in {every} of this file" in content["notes"]
+    assert len(columns["fans"]) == -(-2000 // every)
+
+
+def test_a_long_run_is_thinned_to_20_000_rows_with_its_first_and_last():
+    short = mars2d.run(Scenario(robots=1, stop_time=0.1), control=lambda w: np.zeros((2, 1)))
+    rows = 70_001
+    time = np.arange(rows) * 0.1
+    pose = np.zeros((rows, 3, 1))
+    pose[:, 0, 0] = np.sin(time / 40)
+    record = replace(
+        short, time=time, pose=pose, command=np.zeros((rows, 2, 1)), command_time=time,
+        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, 1)),
+    )  # fmt: skip
+    text = page(record)
+    assert len(text.encode()) < 2_000_000
+    content, columns = held(text)
+    x = columns["places"][:, 0, 0] + content["columns"]["places"]["low"][0]
+    assert content["stride"] == 4
+    assert len(x) == 17_501
+    assert x[[0, 1, -1]] == pytest.approx(pose[[0, 4, -1], 0, 0], abs=1e-5)
+    assert any("every 4th row of 70001" in note for note in content["notes"])
+
+
+def test_a_replay_of_the_same_record_is_the_same_text(crowded, crowded_page):
+    assert page(crowded) == crowded_page
+
+
+def test_words_of_an_experiment_cannot_become_code():
+    evil = "</script><img src=x onerror=alert(1)><!--"
+    scenario = Scenario(robots=[Robot(pose=(0, 0, 0), name=evil)], title=evil, stop_time=0.2)
+    text = page(mars2d.run(scenario, control=circles))
+    assert "onerror" not in text.replace("&lt;img src=x onerror=alert(1)&gt;", "")
+    content, _ = held(text)
+    assert content["bodies"][0]["name"] == content["title"] == evil
+
+
+def test_a_page_may_run_its_own_script_only_and_load_nothing():
+    text = page(mars2d.run(Scenario(robots=1, stop_time=0.1), control=circles))
+    policy = text.partition('Content-Security-Policy" content="')[2].partition('"')[0]
+    assert policy.startswith("default-src 'none'; script-src 'sha256-")
+    assert "://" not in text.partition('type="text/plain">')[0]
+
+
+class Whisker(Sensor):
+    """Draws a line ahead."""
+
+    def read(self, robot, world, rng):
+        return float(robot.position[0])
+
+    def draw(self, scene: Scene, pose, reading, color):
+        x, y, theta = pose
+        scene.line([(x, y), (x + np.cos(theta), y + np.sin(theta))], stroke=color)
+
+
+class Mark(Sensor):
+    """Draws where it was read, whatever the robot's pose."""
+
+    def read(self, robot, world, rng):
+        return np.array(robot.position)
+
+    def draw(self, scene: Scene, pose, reading, color):
+        scene.circle(reading, 0.1, fill=color)
+
+
+class Broken(Sensor):
+    """Can't draw."""
+
+    def read(self, robot, world, rng):
+        return 1.0
+
+    def draw(self, scene: Scene, pose, reading, color):
+        raise ValueError("no pencil")
+
+
+def run_with(*sensors):
+    robots = [Robot(pose=(1, 2, 0.5), sensors=sensors)]
+    return mars2d.run(Scenario(robots=robots, stop_time=2), control=circles)
+
+
+def test_a_sensor_of_ones_own_is_drawn_in_the_frame_in_which_it_draws():
+    content, columns = held(page(run_with(Whisker(), Mark())))
+    whisker, mark = content["sensors"]["drawings"]
+    assert whisker == {"scenes": 1, "body": 0, "stays": False}  # the same in the robot's frame
+    assert mark["body"] is None
+    assert mark["scenes"] == 21
+    drawn = columns["sensors:numbers"][:4] * content["sensors"]["step"]
+    assert drawn == pytest.approx([0, 0, 1, 0], abs=1e-4)
+
+
+class Dial(Sensor):
+    """Reads something else at each control step, and draws one line of it."""
+
+    def read(self, robot, world, rng):
+        return world.time
+
+    def draw(self, scene: Scene, pose, reading, color):
+        scene.line([(0, 0), (np.cos(reading), np.sin(reading))], stroke=color)
+
+
+def test_readings_that_are_too_many_to_be_drawn_are_thinned_and_it_says_so():
+    robots = [Robot(pose=(k, 0, 0), sensors=[Dial()]) for k in range(4)]
+    record = mars2d.run(Scenario(robots=robots, stop_time=150, workspace=None), control=circles)
+    content, _ = held(page(record))
+    assert len(record) == 1501  # 6004 readings: more than sensors are asked to draw
+    assert content["sensors"]["drawings"][0]["scenes"] == 751
+    assert content["notes"] == ["what sensors draw: one row in 2 of this file"]
+
+
+def test_beams_that_are_left_out_are_named():
+    robots = [Robot(sensors=[RangeFinder(beams=500), RangeFinder(name="front", beams=300)])]
+    record = mars2d.run(Scenario(robots=robots, stop_time=0.5), control=circles)
+    content, _ = held(page(record))
+    assert [fan["beams"] for fan in content["fans"]] == [250, 300]
+    assert content["notes"] == ["beams of range_finder: one in 2"]
+
+
+def test_a_sensor_whose_code_is_not_in_a_file_is_named(tmp_path):
+    record = mars2d.load(run_with(Whisker(), Proximity(range=1)).save(tmp_path / "run.npz"))
+    content, _ = held(page(record))
+    assert "not drawn, since their code is not in the record: sensor Whisker" in content["notes"]
+    assert [drawing["body"] for drawing in content["sensors"]["drawings"]] == [0]
+
+
+def test_distances_of_another_shape_than_the_scanner_has_are_an_error_that_names_it():
+    record = run_with(RangeFinder())
+    for shape in ((21, 1, 0), (21, 1, 7), (21, 1, 180, 2)):
+        with pytest.raises(LawError, match=r"sensor 'range_finder' raised"):
+            page(replace(record, sensors={"range_finder": np.ones(shape)}))
+    single, _ = held(page(replace(record, sensors={"range_finder": np.ones((21, 1))})))
+    assert single["fans"] == []
+
+
+def test_an_error_in_a_sensors_drawing_says_which():
+    with pytest.raises(LawError, match=r"broken.*no pencil"):
+        page(run_with(Broken()))
+
+
+def test_a_thousand_robots_fit_too():
+    rows, n = 1501, 1000
+    time = np.arange(rows) * 0.1
+    grid = np.array([(x, y) for x in range(40) for y in range(25)], dtype=float)
+    robots = [Robot(pose=(*place, 0.0)) for place in grid.tolist()]
+    record = mars2d.run(Scenario(robots=robots, workspace=None, stop_time=0.1), control=circles)
+    pose = np.zeros((rows, 3, n))
+    pose[:, 0] = grid[:, 0] + 0.3 * np.sin(np.outer(time, 1 + np.arange(n) / n))
+    pose[:, 1] = grid[:, 1] + 0.3 * np.cos(np.outer(time, 2 - np.arange(n) / n))
+    record = replace(
+        record, time=time, pose=pose, command=np.zeros((rows, 2, n)), command_time=time,
+        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, n)),
+    )  # fmt: skip
+    text = page(record)
+    assert len(text.encode()) < 2_000_000
+    content, columns = held(text)
+    assert content["stride"] > 1
+    assert columns["places"].shape[1:] == (2, n)
+
+
+def test_a_record_of_one_row_has_a_replay():
+    record = mars2d.run(Scenario(robots=1, stop_time=0.1), control=circles)
+    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort")
+    content, columns = held(page(replace(record, **{c: getattr(record, c)[:1] for c in columns})))
+    assert len(columns["places"]) == content["rows"] == 1
+
+
+def test_a_record_without_rows_has_no_replay():
+    record = mars2d.run(Scenario(robots=1, stop_time=0.1), control=circles)
+    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort")
+    empty = replace(record, **{name: getattr(record, name)[:0] for name in columns})
+    with pytest.raises(InputError, match="no rows"):
+        page(empty)
+
+
+def test_a_replay_that_cannot_be_written_is_one_clear_error(tmp_path):
+    record = mars2d.run(Scenario(robots=1, stop_time=0.1), control=circles)
+    assert save_html(record, tmp_path / "run.html").read_text(encoding="utf-8") == page(record)
+    with pytest.raises(InputError, match=r"run\.html: can't be written: No such file"):
+        record.save_html(tmp_path / "nowhere" / "run.html")

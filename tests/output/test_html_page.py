@@ -1,0 +1,573 @@
+"""A replay in a browser, driven by real clicks, keys and fingers: what is seen."""
+
+import html
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Robot, Scenario
+from mars2d.addons import Communication, Map, Voronoi
+from mars2d.interventions import Steer
+from mars2d.output.html import page
+from mars2d.props import Box
+from mars2d.sensors import Proximity, RangeFinder
+from mars2d.view import shades
+from mars2d.view.theme import DARK, contrast
+from tests.browser import Tab, differing
+
+REFERENCES = Path(__file__).parent / "references"
+SCRIPTS = Path(mars2d.__file__).parent / "output" / "html"
+EVIL = "<img src=x onerror=alert(1)>"
+GREEN, ORANGE, FORCE = "#009e73", "#d55e00", "#a3003c"
+
+
+def law(world):
+    """Robot 0 pushes a box, robot 1 circles, robot 2 turns on the spot; 0 and 1 talk."""
+    if world.iteration % 5 == 0:
+        world.robots[0].send({"time": world.time}, to=1)
+    return np.array([[0.3, 0.4, 0.0], [0.0, 0.4, 0.6]])
+
+
+@pytest.fixture(scope="session")
+def record():
+    scenario = Scenario(
+        robots=[
+            Robot(pose=(-2.5, 0, 0), sensors=[Proximity(range=0.8)]),
+            Robot(pose=(0.5, -2, 0), name=EVIL),
+            Robot(pose=(-1.5, 1.8, 0), sensors=[RangeFinder(beams=60, range=2.0)]),
+        ],
+        props=[Box(pose=(-1.6, 0, 0.1), name="crate")],
+        addons=[
+            Communication(delay=0.2),
+            Voronoi(),
+            Map(outlines=[[(1.5, 1.2), (2.3, 1.2), (1.9, 2.2)]]),
+        ],
+        workspace=[(-3, -3), (3, -3), (3, 3), (-3, 3)],
+        title=f"Push & {EVIL}",
+        stop_time=12,
+    )
+    return mars2d.run(scenario, control=law, seed=7)
+
+
+@pytest.fixture(scope="session")
+def replay(record, tmp_path_factory):
+    return record.save_html(tmp_path_factory.mktemp("replay") / "replay.html")
+
+
+@pytest.fixture
+def open_tab(browser):
+    """Return what opens a page; at the end, none has asked for anything or complained."""
+    tabs = []
+
+    def open_page(path, size=(900, 640), **how):
+        tab = Tab(browser, size, **how)
+        tabs.append((tab, path))
+        tab.open(path)
+        return tab
+
+    yield open_page
+    for tab, path in tabs:
+        tab.close()
+        assert tab.asked == [path.as_uri()]
+        assert tab.complaints == []
+
+
+@pytest.fixture
+def tab(open_tab, replay):
+    return open_tab(replay)
+
+
+def show_only(tab, *layers):
+    """Switch off all layers but some, by their keys."""
+    keys = {
+        "trails": "t", "sensors": "s", "contacts": "x", "messages": "m", "addons": "o",
+        "theory": "y", "names": "i", "grid": "g",
+    }  # fmt: skip
+    for layer, key in keys.items():
+        if tab.is_on(f"#layer-{layer}") != (layer in layers):
+            tab.press(key)
+
+
+# -- time -----------------------------------------------------------------------------------------
+
+
+def test_buttons_move_the_time(tab):
+    assert (tab.row(), tab.text("#time")) == (0, "0.0 / 12.0 s")
+    steps = {
+        "One step on": 1, "To the end": 120, "One step back": 119, "To the start": 0,
+    }  # fmt: skip
+    for button, row in steps.items():
+        before = tab.picture()
+        tab.click(button)
+        assert tab.row() == row
+        assert differing(tab.picture(), before) > 0 or row == 1
+    assert tab.page.locator("#slider").get_attribute("aria-valuetext") == "0.0 s of 12.0 s"
+
+
+def test_keys_move_the_time_as_in_the_window(tab):
+    keys = {"ArrowRight": 1, "PageDown": 11, "ArrowLeft": 10, "PageUp": 0, "End": 120, "Home": 0}
+    for key, row in keys.items():
+        tab.press(key)
+        assert tab.row() == row, key
+
+
+def test_it_plays_to_its_end_and_says_why_it_ended(tab, record):
+    assert tab.page.locator("#banner").is_hidden()
+    tab.page.select_option("#speed", "5")
+    tab.press("Space")
+    assert tab.page.get_by_role("button", name="Pause").is_visible()
+    tab.page.wait_for_selector("#banner:visible")
+    assert tab.row() == 120
+    assert tab.text("#banner") == record.over_message
+    assert record.over_message in tab.page.locator("#live").text_content()
+    tab.page.select_option("#speed", "0.1")
+    tab.click("Play")  # from the start again
+    tab.click("Pause")
+    assert tab.row() <= 1
+    assert tab.page.locator("#banner").is_hidden()
+    assert "Paused at 0.0 s" in tab.page.locator("#live").text_content()
+
+
+def test_it_plays_at_the_speed_that_is_chosen(tab):
+    rate = """() => new Promise(done => {
+        const time = () => parseFloat(document.getElementById("time").textContent);
+        const begin = (start) => {
+            const before = time();
+            const look = (now) => {
+                if (now - start < 500) requestAnimationFrame(look);
+                else done((time() - before) / (now - start) * 1000);
+            };
+            requestAnimationFrame(look);
+        };
+        requestAnimationFrame(() => requestAnimationFrame(begin));
+    })"""
+    for speed in (2, 5):
+        tab.page.select_option("#speed", str(speed))
+        tab.press("Home", "Space")
+        assert tab.page.evaluate(rate) == pytest.approx(speed, rel=0.15)
+        tab.press("Space")
+    tab.press("+", "+", "-")  # to 10, 20, 10
+    assert tab.page.locator("#speed").input_value() == "10"
+
+
+def test_a_loop_begins_again(tab):
+    tab.press("r")
+    assert tab.is_on("#loop")
+    tab.page.select_option("#speed", "100")
+    tab.press("End", "ArrowLeft", "Space")
+    tab.until(lambda: tab.row() < 60)
+    assert tab.page.locator("body.playing").count() == 1
+    tab.click("Loop")
+    tab.page.wait_for_selector("#banner:visible")
+
+
+def test_the_slider_goes_where_it_is_dragged_and_by_its_keys(tab):
+    box = tab.page.locator("#slider").bounding_box()
+    middle = box["y"] + box["height"] / 2
+    tab.page.mouse.move(box["x"] + 8, middle)
+    tab.page.mouse.down()
+    tab.page.mouse.move(box["x"] + box["width"] / 2, middle, steps=4)
+    tab.page.mouse.up()
+    tab.settle()
+    row = tab.row()
+    assert 55 < row < 65
+    tab.page.locator("#slider").focus()
+    tab.press("ArrowRight")
+    assert tab.row() == row + 1
+    assert tab.text("#time") == f"{(row + 1) / 10:.1f} / 12.0 s"
+
+
+# -- what is shown --------------------------------------------------------------------------------
+
+
+def test_layers_are_switched_by_buttons_and_keys(tab):
+    tab.page.set_viewport_size({"width": 1500, "height": 640})  # room for the buttons
+    tab.settle()
+    tab.press(*["PageDown"] * 3, "ArrowRight")  # while a message is under way
+    keys = {
+        "Trails": "t", "Sensors": "s", "Contacts": "x", "Messages": "m", "Add-ons": "o",
+        "Names": "i", "Grid": "g",
+    }  # fmt: skip
+    before = tab.picture()
+    for layer, key in keys.items():
+        switch = f"#layer-{layer.lower().replace('-', '')}"
+        was = tab.is_on(switch)
+        tab.click(layer)
+        assert tab.is_on(switch) is not was
+        assert differing(tab.picture(), before) > 1e-4, layer
+        tab.press(key)
+        assert tab.is_on(switch) is was
+        assert differing(tab.picture(), before) < 1e-5, layer
+
+
+def test_a_contact_has_arrows_of_its_force(tab, record):
+    tab.press(*["PageDown"] * 3)
+    show_only(tab, "contacts")
+    (contact,) = record.frame(30).contacts
+    x, y = tab.middle_of(FORCE)  # of two arrows of the same length
+    tab.page.mouse.click(x - 12, y)
+    tab.settle()
+    force = np.hypot(contact["normal_impulse"], contact["tangential_impulse"]) / 0.1
+    assert f"crate {force:.1f} N" in tab.text("#panel")
+
+
+def test_it_zooms_and_moves_by_buttons_keys_wheel_and_mouse(tab):
+    show_only(tab)
+    fitted = tab.picture()
+    x, y = tab.middle_of(GREEN)
+    tab.page.mouse.move(x, y)
+    tab.page.mouse.wheel(0, -300)
+    tab.settle()
+    assert differing(tab.picture(), fitted) > 0.01
+    assert tab.middle_of(GREEN) == pytest.approx((x, y), abs=4)  # what is under the pointer stays
+    for button in ("Fit", "Zoom in", "Fit", "Zoom out"):
+        before = tab.picture()
+        tab.click(button)
+        assert differing(tab.picture(), before) > 0.01
+        assert (differing(tab.picture(), fitted) == 0) is (button == "Fit")
+    tab.press("f", "z", "Shift+Z")
+    assert differing(tab.picture(), fitted) < 1e-3
+    tab.press("f", "Shift+ArrowRight")
+    assert tab.middle_of(GREEN) == pytest.approx((x - 40, y), abs=1)
+    tab.page.mouse.move(x + 100, y + 150)
+    tab.page.mouse.down()
+    tab.page.mouse.move(x + 190, y + 210, steps=5)
+    tab.page.mouse.up()
+    tab.settle()
+    assert tab.middle_of(GREEN) == pytest.approx((x + 50, y + 60), abs=1)
+    assert tab.page.locator("#panel").is_hidden()  # a drag picks nothing
+
+
+def test_a_robot_is_picked_where_it_is_drawn_and_its_numbers_are_those_of_the_record(tab, record):
+    show_only(tab)
+    tab.press(*["PageDown"] * 4)
+    x, y = tab.middle_of(ORANGE)
+    tab.page.mouse.click(x, y)
+    tab.settle()
+    assert tab.text("#panel h2") == EVIL
+    assert tab.page.locator("#bodies").input_value() == "1"
+    assert f"{EVIL} is picked" in tab.page.locator("#live").text_content()
+    px, py, theta = record.pose[40, :, 1]
+    said = tab.text("#panel").replace("\N{MINUS SIGN}", "-")
+    turned = round((np.degrees(theta) + 180) % 360 - 180)
+    v, omega = record.command[40, :, 1]
+    pose = f"x {px:.2f} m", f"y {py:.2f} m", f"θ {turned}°"
+    for words in (*pose, f"v {v:.2f} m/s", f"ω {omega:.2f} rad/s"):
+        assert words in said
+    tab.page.mouse.click(x, y - 90)  # beside it
+    tab.settle()
+    assert tab.page.locator("#panel").is_hidden()
+
+
+def test_a_body_is_picked_by_list_and_keys_and_followed(tab):
+    tab.page.select_option("#bodies", label="crate")
+    assert tab.text("#panel .kind") == "box"
+    tab.page.locator("#picture").click(position={"x": 20, "y": 20})
+    tab.press("n", "n")
+    assert tab.text("#panel h2") == EVIL
+    show_only(tab)
+    tab.press("l", "PageDown")
+    assert tab.is_on("#follow")
+    box = tab.page.locator("#picture").bounding_box()
+    center = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    assert tab.middle_of(ORANGE) == pytest.approx(center, abs=6)
+    tab.press("Shift+N")
+    assert tab.text("#panel h2") == "robot0"
+    tab.press("Escape")
+    assert tab.page.locator("#panel").is_hidden()
+    assert not tab.is_on("#follow")
+
+
+def test_the_panel_says_what_sensors_read(tab, record):
+    tab.page.select_option("#bodies", label="robot2")
+    tab.settle()
+    scan = record.sensors["range_finder"][0, 0]
+    assert f"nearest {scan.min():.2f} m" in tab.text("#panel")
+    tab.page.select_option("#bodies", label="robot0")
+    tab.settle()
+    near = "yes" if record.sensors["proximity"][0, 0] else "no"
+    assert f"proximity\n{near}" in tab.text("#panel").replace("\n\n", "\n")
+
+
+def test_the_panel_does_not_hide_what_is_picked(tab):
+    show_only(tab)
+    tab.page.select_option("#bodies", label=EVIL)
+    tab.settle()
+    before = tab.page.locator("#panel").bounding_box()
+    x, y = tab.middle_of(ORANGE)
+    over = before["x"] + before["width"] / 2, before["y"] + before["height"] / 2
+    tab.page.mouse.move(300, 400)
+    tab.page.mouse.down()
+    tab.page.mouse.move(300 + over[0] - x, 400 + over[1] - y, steps=5)
+    tab.page.mouse.up()
+    tab.settle()
+    assert tab.middle_of(ORANGE) == pytest.approx(over, abs=8)
+    after = tab.page.locator("#panel").bounding_box()
+    assert after["x"] + after["width"] < over[0] - 20
+
+
+# -- looks ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_looks_as_it_did(open_tab, replay, scheme):
+    tab = open_tab(replay, (700, 560), color_scheme=scheme)
+    tab.press(*["PageDown"] * 6)
+    show_only(tab, "trails", "sensors", "contacts", "addons")  # all but letters
+    reference = REFERENCES / f"replay_{scheme}.png"
+    seen = tab.picture()
+    from PIL import Image
+
+    if os.environ.get("MARS2D_REFERENCES"):
+        reference.parent.mkdir(exist_ok=True)
+        Image.fromarray(seen).quantize(128).save(reference, optimize=True)
+    with Image.open(reference) as image:
+        assert differing(seen, np.asarray(image.convert("RGB"))) < 0.004
+
+
+def test_dark_is_switched_by_button_and_key(tab):
+    paper = tuple(int(DARK.paper[k : k + 2], 16) for k in (1, 3, 5))
+    dark = lambda: (tab.picture() == paper).all(axis=2).mean()  # noqa: E731
+    show_only(tab)
+    light = tab.picture()
+    assert dark() == 0
+    tab.click("Dark")
+    assert tab.is_on("#dark")
+    assert dark() > 0.3
+    tab.press("d")
+    assert differing(tab.picture(), light) == 0
+
+
+def test_colours_on_dark_paper_are_those_of_the_window(tab):
+    rng = np.random.default_rng(3)
+    colors = [f"#{value:06x}" for value in rng.integers(0, 2**24, 200).tolist()]
+    colors += ["#000000", "#ffffff", "#808080", GREEN, ORANGE, FORCE]
+    script = (SCRIPTS / "shades.js").read_text(encoding="utf-8")
+    turned = tab.page.evaluate(
+        f"(colors) => {{ const PAPER = '{DARK.paper}'; {script}; "
+        "return colors.map(c => shade(c, true)); }",
+        colors,
+    )
+    for color, got in zip(colors, turned, strict=True):
+        wanted = shades.on_dark(color, DARK.paper)
+        assert (
+            max(abs(int(got[k : k + 2], 16) - int(wanted[k : k + 2], 16)) for k in (1, 3, 5)) <= 1
+        )
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_words_can_be_read(open_tab, replay, scheme):
+    tab = open_tab(replay, (1300, 640), color_scheme=scheme)
+    tab.page.select_option("#bodies", label="robot0")
+    tab.press("End")
+    pairs = tab.page.evaluate("""() => {
+        const solid = (e) => {
+            for (; e; e = e.parentElement) {
+                const color = getComputedStyle(e).backgroundColor;
+                if (!/, 0\\)|transparent/.test(color)) return color;
+            }
+        };
+        const words = "h1, #subtitle, button, select, #time, dt, dd, #banner, .kind";
+        const seen = [...document.querySelectorAll(words)];
+        return seen.map(e => [e.id || e.tagName, getComputedStyle(e).color, solid(e)]);
+    }""")
+    assert len(pairs) > 30
+    for name, ink, ground in pairs:
+        one, other = (
+            "#" + "".join(f"{int(v):02x}" for v in c[4:-1].split(",")) for c in (ink, ground)
+        )
+        assert contrast(one, other) >= 4.5, name
+
+
+# -- phones, frames -------------------------------------------------------------------------------
+
+
+def test_on_a_phone_all_is_in_reach_of_a_thumb(open_tab, replay):
+    tab = open_tab(replay, (360, 640), has_touch=True, is_mobile=True, device_scale_factor=2)
+    assert tab.page.evaluate("document.documentElement.scrollWidth") == 360
+    for control in tab.page.locator("button:visible, select:visible, input:visible").all():
+        box = control.bounding_box()
+        assert box["width"] >= 44, control
+        assert box["height"] >= 44, control
+        assert box["x"] >= 0, control
+        assert box["x"] + box["width"] <= 360, control
+        assert box["y"] + box["height"] <= 640, control
+    tab.page.get_by_role("button", name="Show").tap()
+    tab.page.get_by_role("button", name="Trails").tap()
+    tab.settle()
+    assert not tab.is_on("#layer-trails")
+    tab.page.get_by_role("button", name="Show").tap()
+    show_only(tab)
+    x, y = tab.middle_of(ORANGE)
+    tab.page.touchscreen.tap(x, y)
+    tab.settle()
+    assert tab.text("#panel h2") == EVIL
+
+
+def test_two_fingers_zoom_about_their_middle(open_tab, replay):
+    tab = open_tab(replay, (360, 640), has_touch=True, is_mobile=True)
+    show_only(tab)
+    x, y = tab.middle_of(ORANGE)
+    before = np.hypot(*np.subtract(tab.middle_of(GREEN), (x, y)))
+    tab.pinch((x, y), 60, 84)
+    after = np.hypot(*np.subtract(tab.middle_of(GREEN), tab.middle_of(ORANGE)))
+    assert tab.middle_of(ORANGE) == pytest.approx((x, y), abs=4)
+    assert after / before == pytest.approx(84 / 60, rel=0.05)
+    assert tab.page.locator("#panel").is_hidden()  # a pinch picks nothing
+
+
+@pytest.mark.parametrize("width", [1500, 1100, 700, 360])
+def test_no_control_covers_another(open_tab, replay, width):
+    tab = open_tab(replay, (width, 560))
+    controls = tab.page.locator(
+        "header :is(button, select):visible, footer *:is(button, select, input, output):visible"
+    )
+    boxes = [control.bounding_box() for control in controls.all()]
+    for k, one in enumerate(boxes):
+        assert one["x"] >= 0
+        assert one["x"] + one["width"] <= width
+        for other in boxes[:k]:
+            beside = (
+                one["x"] >= other["x"] + other["width"] or other["x"] >= one["x"] + one["width"]
+            )
+            below = (
+                one["y"] >= other["y"] + other["height"] or other["y"] >= one["y"] + one["height"]
+            )
+            assert beside or below
+
+
+def test_in_a_frame_of_a_notebook_it_waits_and_all_of_it_is_seen(browser, record, tmp_path):
+    text = f'<iframe srcdoc="{html.escape(page(record))}" width="800" height="480"></iframe>'
+    (tmp_path / "frame.html").write_text(text, encoding="utf-8")
+    tab = Tab(browser, (900, 600), reduced_motion="no-preference")
+    tab.page.goto((tmp_path / "frame.html").as_uri())
+    frame = tab.page.frame_locator("iframe")
+    frame.locator("#time", has_text="0.0 / 12.0 s").wait_for()
+    assert frame.get_by_role("button", name="Play").is_visible()
+    inside = frame.locator("#play").bounding_box()
+    around = tab.page.locator("iframe").bounding_box()
+    assert inside["y"] + inside["height"] <= around["y"] + 480
+    frame.get_by_role("button", name="One step on").click()
+    frame.locator("#time", has_text="0.1 / 12.0 s").wait_for()
+    tab.close()
+    assert tab.complaints == []
+
+
+@pytest.mark.parametrize(("motion", "plays"), [("reduce", 0), ("no-preference", 1)])
+def test_it_begins_to_play_unless_motion_is_unwanted(open_tab, replay, motion, plays):
+    tab = open_tab(replay, reduced_motion=motion)
+    tab.settle()
+    assert tab.page.locator("body.playing").count() == plays
+
+
+# -- words ----------------------------------------------------------------------------------------
+
+
+def test_a_screen_reader_finds_the_controls(tab):
+    tab.page.select_option("#bodies", label="robot0")
+    tab.settle()
+    tree = tab.page.locator("body").aria_snapshot()
+    for line in (
+        "heading", 'slider "Time"', 'button "Play"', 'button "One step on"', 'button "Zoom in"',
+        'combobox "Speed"', 'combobox "Pick a robot or prop"', 'button "Help"', "status",
+        'complementary "What is picked"', 'button "Follow"', 'img "Push & ',
+    ):  # fmt: skip
+        assert line in tree, line
+    assert "3 robots and 1 prop, seen from above at 0.0 s" in tree
+
+
+def test_tab_goes_from_control_to_control_and_shows_where_it_is(tab):
+    visited = []
+    for _ in range(14):
+        tab.page.keyboard.press("Tab")
+        visited.append(tab.page.evaluate("document.activeElement.id"))
+        outline = "getComputedStyle(document.activeElement).outlineStyle"
+        assert tab.page.evaluate(outline) != "none" or not visited[-1]
+    wanted = ["bodies", "show", "dark", "about", "help", "nearer", "farther", "fit", "slider"]
+    assert visited[: len(wanted)] == wanted
+    tab.page.locator("#ahead").focus()
+    tab.press("Space")  # presses the button, and does not play
+    assert tab.row() == 1
+    assert tab.page.locator("body.playing").count() == 0
+
+
+def test_space_plays_after_a_click_on_another_button(tab):
+    tab.click("Zoom in")
+    tab.press("Space")
+    assert tab.page.get_by_role("button", name="Pause").is_visible()
+    tab.press("Space")
+    assert tab.page.get_by_role("button", name="Play").is_visible()
+
+
+def test_help_lists_the_keys_and_letters_can_be_switched_off(tab):
+    tab.press("F1")
+    for words in ("play, pause", "trails on and off", "pick nothing"):
+        assert words in tab.text("#helping")
+    tab.page.get_by_label("Single letters are keys").uncheck()
+    tab.press("Escape")
+    assert tab.page.locator("#helping").is_hidden()
+    tab.press("d")
+    assert not tab.is_on("#dark")
+    tab.press("ArrowRight")
+    assert tab.row() == 1
+
+
+def test_about_tells_where_the_run_comes_from(tab, record):
+    tab.click("About this run")
+    said = tab.text("#telling")
+    words = [
+        "seed",
+        "7",
+        record.digest,
+        record.versions["pymunk"],
+        record.over_message,
+        "rounded by at most",
+    ]
+    for each in words:
+        assert each in said
+    tab.click("Close")
+    assert tab.page.locator("#telling").is_hidden()
+
+
+def test_a_run_that_was_broken_off_or_changed_by_hand_says_so(open_tab, record, tmp_path):
+    told = Steer(row=1, robot=0, driven=True)
+    stopped = replace(record, finished=False, over_message="Interrupted.", interventions=(told,))
+    tab = open_tab(stopped.save_html(tmp_path / "stopped.html"))
+    assert tab.text("#subtitle").split() == [
+        "seed",
+        "7",
+        "not",
+        "finished",
+        "changed",
+        "by",
+        "hand",
+    ]
+    tab.press("End")
+    assert tab.text("#banner") == "not finished: Interrupted."
+
+
+def test_names_are_text(tab):
+    assert tab.page.title() == f"Push & {EVIL}"
+    assert tab.text("h1") == f"Push & {EVIL}"
+    assert tab.page.locator("img").count() == 0
+
+
+def test_a_damaged_file_or_an_old_browser_is_told_in_words(browser, replay, tmp_path):
+    text = replay.read_text(encoding="utf-8")
+    head, mark, rest = text.partition('type="text/plain">')
+    (tmp_path / "cut.html").write_text(head + mark + rest[:400] + rest[800:], encoding="utf-8")
+    for path, script, words in (
+        (tmp_path / "cut.html", "", "This file is damaged"),
+        (replay, "delete window.DecompressionStream", "This browser is too old"),
+    ):
+        tab = Tab(browser, (900, 640))
+        tab.page.add_init_script(script)
+        tab.page.goto(path.as_uri())
+        tab.page.wait_for_selector("#trouble:visible")
+        assert words in tab.text("#trouble")
+        tab.close()
+        assert tab.complaints == []

@@ -1,0 +1,307 @@
+"""Figures of columns over time show the columns, and say what they are."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from io import BytesIO
+
+import numpy as np
+import pytest
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+
+import mars2d
+from mars2d import Car, Holonomic, InputError, Record, Robot, Scenario, World
+from mars2d.props import Puck
+from mars2d.sensors import Bumper, Ground, Imu, LineCamera, Proximity, RangeFinder
+
+
+def law(world):
+    return [[0.3, 0.2], [0.2 * np.sin(world.time), 0.5]]
+
+
+@pytest.fixture(scope="module")
+def record() -> Record:
+    sensors = [Proximity(range=1.0), Imu(), Bumper(sectors=4)]
+    scenario = Scenario(
+        title="Ann and Bob",
+        robots=[
+            Robot(pose=(-3, 0, 0), name="ann", sensors=[*sensors, RangeFinder(beams=36, range=6)]),
+            Robot(pose=(1, 0, 0), name="bob", sensors=[*sensors, LineCamera(pixels=16), Ground()]),
+        ],
+        props=[Puck(pose=(-2.5, 0, 0), name="puck")],
+        stop_time=8,
+        on_exit="wall",
+    )
+    return mars2d.run(scenario, control=law)
+
+
+def data(ax):
+    return [line.get_xydata() for line in ax.lines]
+
+
+def test_by_default_there_are_the_pose_and_the_command(record):
+    axes = record.plot_signals()
+    labels = [" ".join(ax.get_ylabel().split()) for ax in axes]
+    assert labels == ["x [m]", "y [m]", "theta [rad]", "command v [m/s]", "command omega [rad/s]"]
+    for k, ax in enumerate(axes[:3]):
+        for i, points in enumerate(data(ax)):
+            np.testing.assert_array_equal(points.T, [record.time, record.pose[:, k, i]])
+    assert [ax.get_xlabel() for ax in axes] == ["", "", "", "", "time [s]"]
+    assert len({ax.get_xlim() for ax in axes}) == 1
+
+
+def test_robots_have_their_colours_and_names(record):
+    (ax,) = record.plot_signals("x")
+    assert [to_hex(line.get_color()) for line in ax.lines] == list(record.scenario.colors)
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["ann", "bob"]
+    assert ax.get_title(loc="left") == "Ann and Bob"
+
+
+def test_a_command_holds_until_the_next_and_an_effort_since_the_last(record):
+    command, effort = record.plot_signals("command.omega", "effort", robots=["bob"])
+    np.testing.assert_array_equal(data(command)[0][:, 1], record.command[:, 1, 1])
+    np.testing.assert_array_equal(data(effort)[0][:, 1], record.effort[:, 1])
+    assert command.lines[0].get_drawstyle() == "steps-post"
+    assert effort.lines[0].get_drawstyle() == "steps-pre"
+    assert effort.get_ylim()[1] > 1
+
+
+def test_the_speed_is_the_way_since_the_row_before_over_the_sampling_time():
+    scenario = Scenario(robots=[Robot(drive=Holonomic())], stop_time=1)
+    run = mars2d.run(scenario, control=lambda world: [[0.3], [-0.4]])
+    (ax,) = run.plot_signals("speed")
+    speed = data(ax)[0][:, 1]
+    assert np.isnan(speed[0])
+    np.testing.assert_allclose(speed[1:], 0.5)
+
+
+@pytest.mark.parametrize(
+    ("drives", "names"),
+    [
+        ([Holonomic(), Holonomic()], ["command vx [m/s]", "command vy [m/s]"]),
+        ([Car(), Car()], ["command v [m/s]", "command delta [rad]"]),
+        ([Car(), Holonomic()], ["command.0 [unit of the drive]", "command.1 [unit of the drive]"]),
+    ],
+)
+def test_commands_have_the_names_on_which_all_drives_agree(drives, names):
+    robots = [Robot(pose=(x, 0, 0), drive=drive) for x, drive in enumerate(drives)]
+    run = mars2d.run(Scenario(robots=robots, stop_time=1), control=lambda world: 0 * world.command)
+    assert [" ".join(ax.get_ylabel().split()) for ax in run.plot_signals("command")] == names
+
+
+def test_robots_are_chosen_by_name_or_index_in_the_order_given(record):
+    (ax,) = record.plot_signals("y", robots=["bob", 0, 1])
+    np.testing.assert_array_equal(data(ax)[0][:, 1], record.pose[:, 1, 1])
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["bob", "ann"]
+
+
+def test_props_have_columns_too(record):
+    x, speed = record.plot_signals("prop.x", "prop.speed")
+    np.testing.assert_array_equal(data(x)[0][:, 1], record.prop_pose[:, 0, 0])
+    assert [text.get_text() for text in x.get_legend().get_texts()] == ["puck"]
+    assert np.nanmax(data(speed)[0][:, 1]) > 0.1
+
+
+def test_quantities_of_a_sensor_have_a_panel_each_or_are_chosen_by_name(record):
+    axes = record.plot_signals("imu")
+    labels = [" ".join(ax.get_ylabel().split()) for ax in axes]
+    assert labels == ["imu ax [m/s^2]", "imu ay [m/s^2]", "imu omega [rad/s]"]
+    (one,) = record.plot_signals("imu.omega", robots=["bob"])
+    np.testing.assert_array_equal(data(one)[0][:, 1], record.sensors["imu"][:, 1, 2])
+
+
+def test_flags_are_bars_where_they_are_true(record):
+    (ax,) = record.plot_signals("proximity")
+    bars = [c for c in ax.collections if isinstance(c, PolyCollection)]
+    assert len(bars) == 2
+    for k, (bar, color) in enumerate(zip(bars, record.scenario.colors, strict=True)):
+        flags = record.sensors["proximity"][:, k]
+        length = sum(np.ptp(path.vertices[:, 0]) for path in bar.get_paths())
+        assert length == pytest.approx(0.1 * flags.sum(), abs=0.1)
+        assert to_hex(bar.get_facecolor()[0]) == color if flags.any() else not bar.get_paths()
+    assert [text.get_text() for text in ax.get_yticklabels()] == ["bob", "ann"]
+    (ring,) = record.plot_signals("bumper", robots=["ann"])
+    assert [t.get_text() for t in ring.get_yticklabels()] == ["ann 3", "ann 2", "ann 1", "ann 0"]
+
+
+def test_a_scan_is_an_image_over_time_and_bearing_with_a_scale(record):
+    (ax,) = record.plot_signals("range_finder")
+    (image,) = ax.images
+    shown = image.get_array()
+    np.testing.assert_array_equal(shown.filled(np.inf), record.sensors["range_finder"][:, 0].T)
+    assert image.get_extent()[:2] == pytest.approx([0, 8.1])
+    assert image.get_extent()[2:] == pytest.approx([-185, 175])
+    assert "ann" in ax.get_ylabel()
+    assert ax.child_axes[0].get_ylabel() == "[m]"
+
+
+def test_one_beam_of_a_scan_is_a_curve_with_its_bearing(record):
+    (ax,) = record.plot_signals("range_finder.18")
+    beam = record.sensors["range_finder"][:, 0, 18]
+    np.testing.assert_array_equal(data(ax)[0][:, 1], np.where(np.isfinite(beam), beam, np.nan))
+    assert " ".join(ax.get_ylabel().split()) == "range_finder .18 (0°) [m]"
+
+
+def test_a_camera_is_an_image_in_its_own_colours(record):
+    (ax,) = record.plot_signals("line_camera")
+    (image,) = ax.images
+    assert image.get_array().shape == (16, len(record), 3)
+    (floor,) = record.plot_signals("ground")
+    assert (floor.images[0].get_array() == 1).all(), "the floor is white"
+
+
+def with_effort(record, effort):
+    effort = np.asarray(effort, dtype=float)
+    rows = np.zeros(len(effort))
+    return dataclasses.replace(
+        record,
+        scenario=Scenario(robots=1),
+        time=0.1 * np.arange(len(effort)),
+        pose=np.zeros((len(effort), 3, 1)),
+        command=np.zeros((len(effort), 2, 1)),
+        prop_pose=np.zeros((len(effort), 3, 0)),
+        command_time=rows,
+        effort=effort[:, None],
+        sensors={},
+        sensor_robots={},
+        contacts=record.contacts[:0],
+    )
+
+
+def test_gaps_stay_gaps_and_what_stands_alone_in_them_is_a_dot(record):
+    run = with_effort(record, [0.1, 0.2, np.nan, 0.3, np.inf, 0.4, 0.5])
+    (ax,) = run.plot_signals("effort")
+    line, dots = ax.lines
+    np.testing.assert_array_equal(line.get_ydata(), [0.1, 0.2, np.nan, 0.3, np.nan, 0.4, 0.5])
+    np.testing.assert_allclose(dots.get_xydata(), [[0.3, 0.3]])
+    assert dots.get_marker() == "o"
+
+
+def test_from_pi_to_minus_pi_there_is_no_line(record):
+    angles = np.array([[3.1], [-3.1], [-3.0]])
+    run = with_effort(record, [0, 0, 0])
+    scenario = Scenario(robots=[Robot(sensors=[mars2d.sensors.RangeBearing(name="seen")])])
+    values = np.stack([np.ones((3, 1)), angles], axis=2)[:, :, None]  # (T, 1, 1, 2)
+    run = dataclasses.replace(
+        run, scenario=scenario, sensors={"seen": values}, sensor_robots={"seen": (0,)}
+    )
+    (ax,) = run.plot_signals("seen.bearing")
+    np.testing.assert_array_equal(ax.lines[0].get_ydata(), [3.1, np.nan, -3.1, -3.0])
+
+
+def test_a_million_rows_are_drawn_quickly_small_and_without_losing_a_peak(record):
+    effort = np.random.default_rng(1).uniform(0, 0.5, 1_000_000)
+    effort[123_457] = 1.0
+    run = with_effort(record, effort)
+    begin = time.perf_counter()
+    (ax,) = run.plot_signals("effort")
+    file = BytesIO()
+    ax.figure.savefig(file, format="pdf")
+    assert time.perf_counter() - begin < 8  # it takes 0.4 s
+    assert len(file.getvalue()) < 200_000
+    points = data(ax)[0]
+    assert len(points) < 6000
+    np.testing.assert_allclose(points[points[:, 1].argmax()], [12345.7, 1.0])
+
+
+def test_where_somebody_interfered_there_is_a_line_and_no_speed():
+    world = World(Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=2), lambda w: [[0.1], [0]])
+    for _ in range(5):
+        world.step()
+    world.hands.place("robot0", (3.0, 1.0, 0.0))
+    for _ in range(5):
+        world.step()
+    run = world.record
+    jump = np.abs(np.diff(run.pose[:, 0, 0])).argmax() + 1
+    (ax,) = run.plot_signals("speed")
+    assert np.nanmax(data(ax)[0][:, 1]) == pytest.approx(0.1)
+    (mark,) = [line for line in ax.lines if line.get_linestyle() == ":"]
+    assert mark.get_xdata()[0] == pytest.approx(run.time[jump])
+    assert "by hand" in [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_axes_given_are_drawn_on_and_nothing_else(record):
+    figure = Figure()
+    left, right, other = figure.subplots(1, 3)
+    assert record.plot_signals("x", "effort", axes=[left, right]) == [left, right]
+    assert (left.get_xlabel(), right.get_xlabel()) == ("time [s]", "time [s]")
+    assert not other.has_data()
+    assert figure.axes == [left, right, other]
+    with pytest.raises(InputError, match=r"axes: 2 of them, for 1 panel \(x\)"):
+        record.plot_signals("x", axes=[left, right])
+    with pytest.raises(InputError, match="expected plain axes of matplotlib"):
+        record.plot_signals("x", axes=["here"])
+
+
+@pytest.mark.parametrize(
+    ("columns", "robots", "message"),
+    [
+        (["efort"], None, r"columns: there is no 'efort'; did you mean 'effort'\?"),
+        (["prop.x", "prop.speed"], ["ann"], r"robots: all columns that were chosen are of props"),
+        (["prop.z"], None, r"columns: there is no 'prop.z': expected one of 'prop.x'"),
+        ([3], None, "columns = 3: expected names of columns"),
+        (["x.y"], None, "x has no parts"),
+        (["command.vy"], None, "'command.vy': command has no 'vy'; did you mean 'v'"),
+        (["imu.omga"], None, r"'imu.omga': 'omga': expected an index from 0 to 2 or ax or ay"),
+        (["range_finder.36"], None, "'36': expected an index from 0 to 35"),
+        (["proximity.0"], None, "expected 'proximity' alone"),
+        (["range_finder"], ["bob"], "none of the robots chosen has it; ann do"),
+        (["x"], ["bub"], r"robots: there is no robot 'bub'; did you mean 'bob'\?"),
+        (["x"], [2], "robots: there is no robot 2; they are 0 to 1"),
+        (["x"], [], "robots = .*: expected names or indices"),
+        (["x"], [True], "robots = True: expected the name of a robot or its index"),
+        (["x"] * 17, None, "they need 17 panels, and a figure has at most 16"),
+    ],
+)
+def test_what_is_not_there_is_said_with_the_nearest_that_is(record, columns, robots, message):
+    with pytest.raises(InputError, match=message):
+        record.plot_signals(*columns, robots=robots)
+
+
+def test_a_part_of_the_run_is_drawn_to_its_own_limits(record):
+    columns = ["x", "effort", "proximity", "range_finder", "speed"]
+    axes = record.plot_signals(*columns, robots=["ann"], start=0.5, end=2)
+    axes[0].figure.canvas.draw()
+    assert {ax.get_xlim() for ax in axes} == {(0.5, 2.0)}
+    part = record.pose[5:21, 0, 0]
+    np.testing.assert_array_equal(data(axes[0])[0], np.transpose([record.time[5:21], part]))
+    low, high = axes[0].get_ylim()
+    assert part.min() - 0.2 < low <= part.min() < part.max() <= high < part.max() + 0.2
+    assert axes[3].images[0].get_extent()[0] == 0.5
+    whole = record.plot_signals("speed", robots=["ann"])[0]
+    np.testing.assert_array_equal(data(axes[4])[0], data(whole)[0][5:21])
+
+
+@pytest.mark.parametrize(("start", "end"), [(9, None), (None, 8.2), (3, 2), (-1, 2), (0.01, 0.02)])
+def test_a_part_that_the_run_does_not_have_is_refused(record, start, end):
+    with pytest.raises(InputError, match="expected a part of the run, which goes from 0 to 8 s"):
+        record.plot_signals("x", start=start, end=end)
+
+
+def test_records_of_one_row_are_drawn_and_of_none_are_refused(record):
+    run = with_effort(record, [0.5])
+    for ax in run.plot_signals("x", "effort", "speed", "command"):
+        ax.figure.canvas.draw()
+    with pytest.raises(InputError, match="no rows"):
+        with_effort(record, []).plot_signals("x")
+
+
+def test_a_record_that_lacks_own_sensors_shows_their_readings(tmp_path):
+    run = mars2d.run("own_sensor_and_addon", stop_time=2)
+    again = mars2d.load(run.save(tmp_path / "own.npz"))
+    assert again.missing
+    (ax,) = again.plot_signals("eyes")
+    assert len(ax.lines) == 6
+    (one,) = again.plot_signals("eyes.1", robots=[2])
+    np.testing.assert_array_equal(data(one)[0][:, 1], run.sensors["eyes"][:, 2, 1])
+
+
+def test_names_are_shown_as_they_are_written():
+    scenario = Scenario(title=r"$\nor$", robots=[Robot(name=r"_$\a$")], stop_time=1)
+    run = mars2d.run(scenario, control=lambda world: [[0.1], [0.0]])
+    (ax,) = run.plot_signals("x")
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == [r"_$\a$"]
+    ax.figure.canvas.draw()  # raises where it is taken for mathematics
