@@ -11,6 +11,9 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from mars2d import beginning  # noqa: F401 - first, for Ctrl-C while the others are imported
+
+# isort: split
 from mars2d.addons import Addon
 from mars2d.animation import Animation
 from mars2d.bodies import Car, Differential, Drive, Holonomic, Unicycle

@@ -10,12 +10,14 @@ from collections.abc import Collection, Sequence
 from typing import NoReturn
 
 from mars2d import __version__
+from mars2d.beginning import INTERRUPTED
 from mars2d.commands import VERBS
 from mars2d.errors import InputError, Mars2dError, likely
+from mars2d.interrupt import raised_once
 
 __all__ = ["main", "parser"]
 
-OK, FAULT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+OK, FAULT, BAD_INPUT = 0, 1, 2
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -23,6 +25,16 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     0 when all was done, 2 for bad input, 1 for a fault of MARS2D's, 130 after Ctrl-C.
     """
+    try:
+        with raised_once():
+            return _outcome(argv)
+    except KeyboardInterrupt as interrupt:
+        print(f"mars2d: {str(interrupt) or 'interrupted'}", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _outcome(argv: Sequence[str] | None) -> int:
+    """Do what is asked for; say what went wrong, and return the exit code."""
     try:
         arguments, unknown = parser().parse_known_args(argv)
         if unknown:
@@ -36,9 +48,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     except Mars2dError as error:
         print(f"mars2d: {error}", file=sys.stderr)
         return FAULT
-    except KeyboardInterrupt as interrupt:
-        print(f"mars2d: {str(interrupt) or 'interrupted'}", file=sys.stderr)
-        return INTERRUPTED
     except BrokenPipeError:
         sys.stderr.close()  # whoever read our output has seen enough
     except Exception:

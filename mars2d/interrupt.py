@@ -1,41 +1,184 @@
-"""Ctrl-C that is not lost."""
+"""Ctrl-C that is not lost, that tidies up once, and that waits for what is being saved."""
 
 from __future__ import annotations
 
+import os
 import signal
+import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from types import FrameType
+from math import inf
+from types import FrameType, TracebackType
 
-__all__ = ["noted_interrupts"]
+from mars2d.beginning import leave
+
+__all__ = ["held_back", "interrupts_blocked", "noted_interrupts", "raised_once"]
+
+GRACE = 2.0
+"""For so long after a Ctrl-C another one is the same wish: meanwhile all is tidied up, seconds."""
+
+AGAIN = 0.01
+"""How soon a Ctrl-C comes again that Python has dropped, seconds."""
+
+_raised = -inf
+"""When KeyboardInterrupt was raised last."""
 
 
-@contextmanager
-def noted_interrupts() -> Iterator[Callable[[], None]]:
+class _Handling:
+    """A block in which Ctrl-C does something of its own; the innermost of such blocks counts.
+
+    Does nothing outside of the main thread, or where somebody else handles the signal. A generator
+    would not do: interrupted as its block ends, it would go back to what was before much later.
+    """
+
+    def __init__(self) -> None:
+        self._before = signal.getsignal(signal.SIGINT)
+        ours = isinstance(self._before, _Handling) or self._before is leave
+        if not ours and self._before is not signal.default_int_handler:
+            self._before = None
+        if threading.current_thread() is not threading.main_thread():
+            self._before = None
+        self._outermost = not isinstance(self._before, _Handling)
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:  # noqa: ARG002
+        """Do what Ctrl-C does here: the handler of the signal."""
+        self._act()
+
+    def _act(self) -> None:
+        raise NotImplementedError
+
+    def _begin(self) -> None:
+        if self._before is None:
+            return
+        if self._outermost:
+            global _raised  # noqa: PLW0603 - a process has one Ctrl-C
+            _raised = -inf
+        signal.signal(signal.SIGINT, self)
+
+    def _end(self) -> None:
+        if self._before is not None:
+            signal.signal(signal.SIGINT, self._before)
+
+
+class noted_interrupts(_Handling):  # noqa: N801 - it is used as a function
     """Note each Ctrl-C; yield what raises KeyboardInterrupt if there has been one.
 
     Python raises it wherever it is just then, and drops it where nobody is called who could pass it
     on: in what C code calls back, or in what is done while memory is tidied up. So whoever goes
-    on for long asks again. Does nothing outside of the main thread, or where somebody else handles
-    the signal.
+    on for long asks again. Several within `GRACE` are one.
     """
-    pressed: list[int] = []
 
-    def note(number: int, frame: FrameType | None) -> None:
-        pressed.append(number)
-        signal.default_int_handler(number, frame)
+    def __init__(self) -> None:
+        super().__init__()
+        self._pressed = False
 
-    def check() -> None:
-        if pressed:
-            raise KeyboardInterrupt
+    def _act(self) -> None:
+        self._pressed = True
+        _raise_once()
 
-    ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if not ours or threading.current_thread() is not threading.main_thread():
-        yield check
+    def _check(self) -> None:
+        if self._pressed:
+            _raise()
+
+    def __enter__(self) -> Callable[[], None]:
+        self._begin()
+        return self._check
+
+    def __exit__(self, *_: object) -> None:
+        self._end()
+
+
+class held_back(_Handling):  # noqa: N801 - it is used as a function
+    """Let Ctrl-C wait for the end of the block, and raise KeyboardInterrupt then.
+
+    what: for what it waits, which is said on stderr. Within, `noted_interrupts` lets it through.
+    Where the block ends with an error, that is the one that counts.
+    """
+
+    def __init__(self, what: str = "") -> None:
+        super().__init__()
+        self._what = what
+        self._pressed = False
+
+    def _act(self) -> None:
+        if self._what and not self._pressed:
+            os.write(2, f"mars2d: one moment: {self._what}\n".encode(errors="replace"))
+        self._pressed = True
+
+    def __enter__(self) -> held_back:
+        self._begin()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._end()
+        if self._pressed and error is None:
+            _raise()
+
+
+class raised_once(_Handling):  # noqa: N801 - it is used as a function
+    """Raise KeyboardInterrupt at Ctrl-C, but not again while all is tidied up after it.
+
+    One that Python would drop, with a traceback on stderr, as in what is done while memory is
+    tidied up or a module is imported, comes again.
+    """
+
+    def _act(self) -> None:
+        _raise_once()
+
+    def __enter__(self) -> None:
+        self._hook = sys.unraisablehook
+        if self._before is not None:
+            sys.unraisablehook = self._dropped
+        self._begin()
+
+    def __exit__(self, *_: object) -> None:
+        self._end()
+        sys.unraisablehook = self._hook
+
+    def _dropped(self, what: sys.UnraisableHookArgs) -> None:
+        if not isinstance(what.exc_value, KeyboardInterrupt):
+            self._hook(what)
+            return
+        global _raised  # noqa: PLW0603
+        _raised = -inf
+        again = threading.Timer(AGAIN, signal.raise_signal, [signal.SIGINT])
+        again.daemon = True
+        again.start()
+
+
+def _raise_once() -> None:
+    if time.monotonic() - _raised >= GRACE:
+        _raise()
+
+
+def _raise() -> None:
+    global _raised  # noqa: PLW0603
+    _raised = time.monotonic()
+    raise KeyboardInterrupt
+
+
+@contextmanager
+def interrupts_blocked() -> Iterator[None]:
+    """Start processes that Ctrl-C does not reach, from their first moment.
+
+    They start with those signals blocked that are blocked here. Ours come as soon as they no longer
+    are. Windows has no such thing.
+    """
+    if sys.platform == "win32":
+        yield
         return
-    signal.signal(signal.SIGINT, note)
+    from multiprocessing.resource_tracker import ensure_running
+
+    ensure_running()  # which would let them through
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
-        yield check
+        yield
     finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

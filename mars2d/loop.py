@@ -46,22 +46,27 @@ def simulate(
     every: list[Watcher] = [*watchers]
     if speed != "max":
         every.append(RealTime(float(speed)))
-    with log or nullcontext():
-        world = open_world(experiment, seed, every, Column if log is None else log.storage)
-        try:
-            with noted_interrupts() as check:
+    world: World | None = None
+    try:
+        with noted_interrupts() as check, log or nullcontext():
+            world = open_world(experiment, seed, every, Column if log is None else log.storage)
+            try:
                 while not world.over:
                     world.step()
                     if log is not None:
                         log.follow(world)
                     check()
-        except KeyboardInterrupt:
-            world.break_off("Interrupted by Ctrl-C")
-            raise Interrupted(world.record) from None
-        except DiskError as error:
-            world.break_off(f"Error: {error}")
-            error.record = world.record
+            except KeyboardInterrupt:
+                world.break_off("Interrupted by Ctrl-C")
+                raise
+            except DiskError as error:
+                world.break_off(f"Error: {error}")
+                error.record = world.record
+                raise
+    except KeyboardInterrupt:
+        if world is None:
             raise
+        raise Interrupted(world.record) from None
     return world
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,6 +22,8 @@ def replacing(target: Path) -> Iterator[BinaryIO]:
     """
     if target.is_dir():
         raise InputError(f"{target}: can't be written: this is a folder")
+    if target.exists() and not os.access(target, os.W_OK):
+        raise InputError(f"{target}: can't be written: it may only be read")
     part = target.with_name(f".{target.name}.part")
     try:
         try:

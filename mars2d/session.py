@@ -11,6 +11,7 @@ from mars2d.animation import playback_speed
 from mars2d.description import wrong
 from mars2d.errors import InputError, Mars2dError, shown
 from mars2d.files import open_experiment
+from mars2d.interrupt import held_back
 from mars2d.loop import Interrupted, simulate
 from mars2d.record import Record
 from mars2d.scenario import Scenario
@@ -60,24 +61,27 @@ def run(
     opened = open_experiment(experiment, options, control, seed)
     driven = None if human is None else robot_of(opened.scenario, human)
     target, log = (None, None) if record is None else _output(record)
-    try:
-        if driven is not None or _wants_window(speed, show):
-            from mars2d.view.show import show_experiment
+    with held_back():  # Ctrl-C ends a run, and not that it is saved
+        try:
+            if driven is not None or _wants_window(speed, show):
+                from mars2d.view.show import show_experiment
 
-            result = show_experiment(opened, speed, seed, watchers, human=driven, log=log)
-        else:
-            result = simulate(opened, seed, speed, watchers, log).record
-    except (Mars2dError, Interrupted) as error:
-        if target is not None and error.record is not None:
-            _keep(error, error.record, target)
-        raise
-    if target is not None:
-        result.save(target)
+                result = show_experiment(opened, speed, seed, watchers, human=driven, log=log)
+            else:
+                result = simulate(opened, seed, speed, watchers, log).record
+        except (Mars2dError, Interrupted) as error:
+            if target is not None and error.record is not None:
+                _keep(error, error.record, target, log)
+            raise
+        if target is not None and log is None:
+            from mars2d.formats.rescue import save_or_rescue
+
+            save_or_rescue(result, target)
     return result
 
 
-def _output(record: str | Path) -> tuple[Path | None, Log | None]:
-    """Return the file that a record is saved to at the end, or else what writes it at once."""
+def _output(record: str | Path) -> tuple[Path, Log | None]:
+    """Return the file that a record is saved to, and what writes it at once, if that is so."""
     from mars2d import formats
 
     if not isinstance(record, (str, Path)):
@@ -87,15 +91,20 @@ def _output(record: str | Path) -> tuple[Path | None, Log | None]:
     if not target.parent.is_dir():
         raise InputError(f"record = {shown(str(target))}: there is no folder {target.parent}")
     log = formats.log_to(target)
-    return (target if log is None else None), log
+    return target, log
 
 
-def _keep(error: BaseException, record: Record, target: Path) -> None:
+def _keep(error: BaseException, record: Record, target: Path, log: Log | None) -> None:
     """Save what was recorded until an error, which is the one that counts."""
-    try:
-        record.save(target)
-    except Mars2dError as failure:
-        error.add_note(str(failure))
+    from mars2d.formats.rescue import rescued, save_or_rescue
+
+    if log is None:
+        try:
+            save_or_rescue(record, target)
+        except Mars2dError as failure:
+            error.add_note(str(failure))
+    elif not target.exists() and (place := rescued(record, target)) is not None:
+        error.add_note(f"the record is kept as {place}")
 
 
 def _wants_window(speed: float | str, show: bool | None) -> bool:

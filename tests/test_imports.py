@@ -15,7 +15,7 @@ import mars2d
 PACKAGE = Path(mars2d.__file__).parent
 
 LAYERS = [
-    {"errors"},
+    {"errors", "beginning"},
     {"geometry", "description"},
     {
         "contact",

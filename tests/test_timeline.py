@@ -874,7 +874,7 @@ def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path
     record = timeline.record
     given = argparse.Namespace(record=tmp_path / "out.npz", figure=None, html=None)
     (tmp_path / "out_branch2.npz").write_text("mine")
-    outputs.save_data(given, record)
+    outputs.save_record(given, record)
     names = ["out.npz", "out_branch1.npz", "out_branch3.npz"]
     saved = [mars2d.load(tmp_path / name).digest for name in names]
     assert saved == [record.digest, *(branch.digest for branch in record.branches)]

@@ -17,6 +17,7 @@ import numpy as np
 from mars2d.errors import InputError
 from mars2d.kernel import reason_without
 from mars2d.recorder import versions
+from mars2d.replacing import replacing
 
 __all__ = ["ALIKE", "FORMAT", "Change", "Figures", "Report", "Row", "load_report"]
 
@@ -141,10 +142,8 @@ class Report:
 
     def save(self, path: Path) -> None:
         """Write it to a JSON file; InputError if it can't be."""
-        try:
-            path.write_text(json.dumps(self.as_data(), indent=1) + "\n", encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{path}: can't be written: {error.strerror}") from error
+        with replacing(path) as file:
+            file.write((json.dumps(self.as_data(), indent=1) + "\n").encode())
 
 
 def load_report(path: Path) -> Report:

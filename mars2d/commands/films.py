@@ -22,12 +22,16 @@ __all__ = [
     "FPS",
     "SHORT",
     "SIZE",
+    "Film",
     "add_film",
     "check_film",
     "film_speed",
     "save_film_of",
     "save_footage",
 ]
+
+Film = Callable[[], object]
+"""What makes a film, or another file, when it is called."""
 
 FPS = 25
 

@@ -7,20 +7,31 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
 
 from mars2d import formats
-from mars2d.commands.films import save_film_of
+from mars2d.commands.films import Film, save_film_of
 from mars2d.errors import InputError, Mars2dError
+from mars2d.formats.rescue import rescued, save_or_rescue
+from mars2d.interrupt import held_back
+from mars2d.loop import Interrupted
 from mars2d.output import figure, film
 from mars2d.record import Record
 from mars2d.view import require_pygame
 
-__all__ = ["OUTPUTS", "add_html", "check_outputs", "keep", "naming_lost_letters", "save_all",
-           "save_data"]  # fmt: skip
+__all__ = [
+    "OUTPUTS",
+    "add_html",
+    "check_outputs",
+    "naming_lost_letters",
+    "run_and_save",
+    "save_record",
+    "say",
+]
+
 
 OUTPUTS = {
     "record": formats.SUFFIXES,
@@ -64,42 +75,88 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
             formats.require(path)
 
 
-def keep(arguments: argparse.Namespace, record: Record) -> None:
-    """Save what was recorded until an error, which is the one that counts, and say so."""
-    try:
-        save_all(arguments, record)
-    except Mars2dError as error:
-        print(f"mars2d: {error}", file=sys.stderr)
-    else:
-        made = [str(path) for name in OUTPUTS if (path := getattr(arguments, name)) is not None]
-        if made:
-            what = f"what was recorded until {record.time[-1]:g} s is in {', '.join(made)}"
-            print(f"mars2d: {what}", file=sys.stderr)
+def run_and_save(
+    arguments: argparse.Namespace, run: Callable[[], tuple[Record, Film | None]]
+) -> tuple[Record, list[Mars2dError]]:
+    """Run, and save what is asked for, whatever ends the run; return what could not be saved.
 
-
-def save_all(arguments: argparse.Namespace, record: Record) -> None:
-    """Save what is asked for, the film made of the record."""
-    save_data(arguments, record)
-    if arguments.video is not None:
-        save_film_of(record, arguments)
-
-
-def save_data(arguments: argparse.Namespace, record: Record) -> None:
-    """Save the record, those of branches beside it, the figure and the page, where asked for."""
+    run: returns the record, and what makes the film of it, if it is not to be made of the record.
+    Ctrl-C ends the run, but not that its data are saved; then it ends the rest. Raises what has
+    ended the run, once what was recorded until then is saved, and said where it is.
+    """
+    ended: Mars2dError | Interrupted | None = None
+    film: Film | None = None
     target: Path | None = arguments.record
-    if target is not None:
-        if target.suffix.lower() != formats.STREAMED:
-            record.save(target)
-        for branch in record.branches:
-            saved = branch.save(_free_beside(target))
-            end = f"left at {branch.time[-1]:g} s" if len(branch) else "empty"
-            print(f"mars2d: another branch, {end}, is in {saved}", file=sys.stderr)
-    if arguments.figure is not None:
-        times = _times_within(arguments.at, record)
-        with naming_lost_letters():
-            figure.save_figure(record, arguments.figure, times)
-    if arguments.html is not None:
-        record.save_html(arguments.html)
+    with held_back("" if target is None else f"the run is being saved in {target}"):
+        try:
+            record, film = run()
+        except (Mars2dError, Interrupted) as error:
+            if error.record is None or not len(error.record):
+                raise
+            ended, record = error, error.record
+        made, troubles = _tried(arguments, {"record": lambda: save_record(arguments, record)})
+    makers: dict[str, Film] = {
+        "figure": lambda: _save_figure(arguments, record),
+        "html": lambda: record.save_html(arguments.html),
+        "video": film or (lambda: save_film_of(record, arguments)),
+    }
+    others, more = _tried(arguments, makers)
+    made, troubles = made + others, troubles + more
+    if ended is None:
+        return record, troubles
+    say(troubles)
+    if made:
+        what = f"what was recorded until {record.time[-1]:g} s is in {', '.join(map(str, made))}"
+        print(f"mars2d: {what}", file=sys.stderr)
+    raise ended
+
+
+def _tried(
+    arguments: argparse.Namespace, makers: Mapping[str, Film]
+) -> tuple[list[Path], list[Mars2dError]]:
+    """Make what is asked for, each thing whatever becomes of the others: what was, what not."""
+    made, troubles = [], []
+    for name, make in makers.items():
+        path: Path | None = getattr(arguments, name)
+        if path is None:
+            continue
+        try:
+            make()
+        except Mars2dError as error:
+            troubles.append(error)
+        else:
+            made.append(path)
+    return made, troubles
+
+
+def say(troubles: Iterable[Mars2dError]) -> None:
+    """Say what could not be saved, where that is not what the command ends with."""
+    for trouble in troubles:
+        print(f"mars2d: {trouble}", file=sys.stderr)
+
+
+def save_record(arguments: argparse.Namespace, record: Record) -> None:
+    """Save the record, and those of branches beside it; a log is there, unless it was taken away.
+
+    Raises InputError, which says where the record is, where it could not be saved there.
+    """
+    target: Path = arguments.record
+    if target.suffix.lower() != formats.STREAMED:
+        save_or_rescue(record, target)
+    elif not target.exists():
+        place = rescued(record, target)
+        kept = "lost" if place is None else f"kept as {place}"
+        raise InputError(f"{target}: is not there any more; the record is {kept}")
+    for branch in record.branches:
+        saved = branch.save(_free_beside(target))
+        end = f"left at {branch.time[-1]:g} s" if len(branch) else "empty"
+        print(f"mars2d: another branch, {end}, is in {saved}", file=sys.stderr)
+
+
+def _save_figure(arguments: argparse.Namespace, record: Record) -> None:
+    times = _times_within(arguments.at, record)
+    with naming_lost_letters():
+        figure.save_figure(record, arguments.figure, times)
 
 
 @contextmanager

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.commands.base import has_display, preferences_of, run_headless, show
-from mars2d.commands.outputs import keep, save_data
-from mars2d.errors import InputError, Mars2dError, shown
-from mars2d.files import examples, open_experiment
-from mars2d.loop import Interrupted
+from mars2d.commands.outputs import run_and_save, say
+from mars2d.errors import InputError, shown
+from mars2d.files import Experiment, examples, open_experiment
+from mars2d.formats import log_to
 from mars2d.record import Record
 from mars2d.study.code import code_of
 from mars2d.study.measures import measure_named, measured
@@ -35,16 +35,22 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
     if then.code and code_of(experiment, then.code) != then.code:
         print(f"mars2d: {table.experiment}, what it reads, or MARS2D has changed", file=sys.stderr)
     arguments.video = arguments.at = None
-    try:
+
+    def run() -> tuple[Record, None]:
         if arguments.view and _has_window():
-            record = show(experiment, None, then.seed, preferences_of(arguments))
-        else:
-            record = run_headless(experiment, then.seed).record
-        save_data(arguments, record)
-    except (Mars2dError, Interrupted) as error:
-        if error.record is not None and len(error.record):
-            keep(arguments, error.record)
-        raise
+            return show(experiment, None, then.seed, preferences_of(arguments), log=log), None
+        return run_headless(experiment, then.seed, log=log).record, None
+
+    log = log_to(arguments.record)
+    record, troubles = run_and_save(arguments, run)
+    _report(record, table, then, experiment)
+    if troubles:
+        say(troubles[:-1])
+        raise troubles[-1]
+
+
+def _report(record: Record, table: Table, then: Result, experiment: Experiment) -> None:
+    """Print how a run compares with a row."""
     if not record.finished or record.interventions:
         what = "changed by hand" if record.interventions else "cut short"
         print(f"the run was {what}, so there is nothing to compare")

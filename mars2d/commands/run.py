@@ -29,16 +29,15 @@ from mars2d.commands.base import (
     times,
     warn_unchecked,
 )
-from mars2d.commands.films import FPS, add_film, check_film, film_speed, save_footage
+from mars2d.commands.films import FPS, Film, add_film, check_film, film_speed, save_footage
 from mars2d.commands.outputs import (
     OUTPUTS,
     add_html,
     check_outputs,
-    keep,
-    save_all,
-    save_data,
+    run_and_save,
+    say,
 )
-from mars2d.errors import InputError, Mars2dError, counted
+from mars2d.errors import InputError, counted
 from mars2d.files import Experiment, open_experiment
 from mars2d.loop import Interrupted
 from mars2d.prediction import Prediction
@@ -84,14 +83,11 @@ def execute(arguments: argparse.Namespace) -> None:
     check_film(arguments, scenario, scenario.last_iteration * scenario.sampling_time)
     human_of(arguments, experiment)
     start = time.perf_counter()
+    run = _run_in_window if _wants_window(arguments) else _run_headless
     try:
-        run = _run_in_window if _wants_window(arguments) else _run_headless
-        record = run(arguments, experiment)
-    except (Mars2dError, Interrupted) as error:
-        if error.record is not None and len(error.record):
-            keep(arguments, error.record)
-        if isinstance(error, Interrupted):
-            warn_unchecked(experiment, "cut short")
+        record, troubles = run_and_save(arguments, lambda: run(arguments, experiment))
+    except Interrupted:
+        warn_unchecked(experiment, "cut short")
         raise
     lawless = experiment.control is None and not any(
         robot.controller for robot in experiment.scenario.robots
@@ -104,6 +100,9 @@ def execute(arguments: argparse.Namespace) -> None:
     else:
         print(_as_text(record), flush=True)
         print_predictions(experiment, record)
+    if troubles:
+        say(troubles[:-1])
+        raise troubles[-1]
 
 
 def _check_times(arguments: argparse.Namespace, experiment: Experiment) -> None:
@@ -125,30 +124,28 @@ def _wants_window(arguments: argparse.Namespace) -> bool:
     return False
 
 
-def _run_in_window(arguments: argparse.Namespace, experiment: Experiment) -> Record:
+def _run_in_window(
+    arguments: argparse.Namespace, experiment: Experiment
+) -> tuple[Record, Film | None]:
     human, look = human_of(arguments, experiment), preferences_of(arguments)
     log = formats.log_to(arguments.record)
-    record = show(experiment, arguments.speed, arguments.seed, look, human, log)
-    save_all(arguments, record)
-    return record
+    return show(experiment, arguments.speed, arguments.seed, look, human, log), None
 
 
-def _run_headless(arguments: argparse.Namespace, experiment: Experiment) -> Record:
+def _run_headless(
+    arguments: argparse.Namespace, experiment: Experiment
+) -> tuple[Record, Film | None]:
     """Run as quick as can be: without a window, a speed is that of the film."""
     log = formats.log_to(arguments.record)
     if arguments.video is None:
-        record = run_headless(experiment, arguments.seed, log=log).record
-        save_data(arguments, record)
-        return record
+        return run_headless(experiment, arguments.seed, log=log).record, None
     from mars2d.output.footage import Footage
 
     speed = film_speed(experiment.scenario, arguments.speed)
     footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
     world = run_headless(experiment, arguments.seed, [footage], log)
-    record = world.record
-    save_data(arguments, record)
-    save_footage(footage, world.frame, arguments.video, arguments.size)
-    return record
+    last, path, size = world.frame, arguments.video, arguments.size
+    return world.record, lambda: save_footage(footage, last, path, size)
 
 
 def _as_text(record: Record) -> str:

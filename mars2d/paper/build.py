@@ -11,12 +11,14 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
-from mars2d.errors import InputError, Mars2dError
+from mars2d.errors import Mars2dError
+from mars2d.interrupt import interrupts_blocked
 from mars2d.paper.figure import Figure
 from mars2d.paper.folder import NUMBERS, PAGE
 from mars2d.paper.make import make
 from mars2d.paper.page import page
 from mars2d.paper.result import Result
+from mars2d.replacing import replacing
 
 __all__ = ["make_all", "processors", "write_page"]
 
@@ -71,7 +73,9 @@ def _share(
     while waiting or active:
         while waiting and len(active) < count:
             figure = waiting.pop(0)
-            active[pool.submit(make, figure, folder, seed)] = figure.number
+            with interrupts_blocked():  # a process may be started for it
+                future = pool.submit(make, figure, folder, seed)
+            active[future] = figure.number
         watch(len(done), sorted(active.values()))
         for future in wait(active, timeout=0.2, return_when=FIRST_COMPLETED).done:
             number = active.pop(future)
@@ -103,8 +107,6 @@ def write_page(folder: Path, figures: Sequence[Figure], done: dict[int, Result],
         PAGE: page(figures, done, seed),
     }
     for name, text in texts.items():
-        try:
-            (folder / name).write_text(text, encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{folder / name}: can't be written: {error.strerror}") from error
+        with replacing(folder / name) as file:
+            file.write(text.encode())
     return folder / PAGE

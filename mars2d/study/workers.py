@@ -17,6 +17,7 @@ from types import FrameType
 from typing import TypeVar
 
 from mars2d.errors import InputError
+from mars2d.interrupt import interrupts_blocked
 from mars2d.study.attempt import Failure, attempt_packed, packed, unpacked
 
 __all__ = ["done_by_processes", "leave_if_imported_again"]
@@ -105,7 +106,7 @@ class _Worker:
         self.connection, theirs = SPAWN.Pipe()
         self.process = SPAWN.Process(target=_serve, args=(theirs,))
         try:
-            with _interrupts_held_back(), _one_thread():
+            with interrupts_blocked(), _one_thread():
                 self.process.start()
         finally:
             theirs.close()
@@ -223,26 +224,6 @@ class _Crew:
                 )
         self._workers[place] = _Worker()
         return how
-
-
-@contextmanager
-def _interrupts_held_back() -> Iterator[None]:
-    """Start a process that Ctrl-C does not reach, from its first moment: it is ended by its parent.
-
-    It starts with those signals blocked that are blocked here. Ours come as soon as they no longer
-    are. Windows has no such thing.
-    """
-    if sys.platform == "win32":
-        yield
-        return
-    from multiprocessing.resource_tracker import ensure_running
-
-    ensure_running()  # which would let them through
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

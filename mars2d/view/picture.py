@@ -9,6 +9,7 @@ import pygame
 
 from mars2d.errors import InputError
 from mars2d.frame import Frame
+from mars2d.replacing import replacing
 from mars2d.view.bars import Banner, Status, draw_footer, draw_header
 from mars2d.view.camera import Camera
 from mars2d.view.layers import Layers
@@ -113,8 +114,5 @@ def save_png(surface: pygame.Surface, path: str | os.PathLike[str]) -> None:
     target = Path(path)
     if target.suffix.lower() != ".png":
         raise InputError(f"{target}: expected a name that ends in .png")
-    try:
-        with target.open("wb") as file:
-            pygame.image.save(surface, file, "x.png")
-    except OSError as error:
-        raise InputError(f"{target}: can't be written, {error.strerror or error}") from None
+    with replacing(target) as file:
+        pygame.image.save(surface, file, "x.png")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from mars2d.errors import InputError, Mars2dError
 from mars2d.files import Experiment
+from mars2d.interrupt import noted_interrupts
 from mars2d.loop import Interrupted
 from mars2d.record import Record
 from mars2d.timeline import Timeline
@@ -41,7 +42,7 @@ def show_experiment(
     require_pygame("a window")
     from mars2d.view.window import Window
 
-    with log or nullcontext():
+    with noted_interrupts(), log or nullcontext():
         source = Timeline(experiment, seed, watchers, log)
         window = Window(source, speed, preferences=preferences)
         if human is not None:
