@@ -38,6 +38,12 @@ LARGEST = 5_000_000
 MOST = 10_000
 """Parts in one list."""
 
+DEEP = re.compile(r"""(?:\.[ \t]*+(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')[ \t]*+){20}""")
+"""A name within a name, and so on: the time to read one grows with the square of its depth."""
+
+LONG = re.compile(r"[=\[,][ \t]*+[+-]?(?:0[xob])?[\da-fA-F_]{1000}")
+"""A number whose digits would fill the memory while they are read."""
+
 NONE = "none"
 """What stands for None."""
 
@@ -196,6 +202,7 @@ def read(path: str | Path) -> tuple[Scenario, Law | None]:
     if path.suffix.lower() != SUFFIX:
         raise InputError(f"{path}: expected a scenario, a file that ends in {SUFFIX}")
     text = _text(path)
+    _check_names_and_numbers(path, text)
     try:
         return _Reader(path, text).scenario(_parsed(path, text))
     except RecursionError:
@@ -216,6 +223,19 @@ def _text(path: Path) -> str:
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         raise _at(f"{path.name}, line {line}", "expected text in UTF-8; save it so") from None
+
+
+def _check_names_and_numbers(path: Path, text: str) -> None:
+    """Refuse what the parser would read for hours, or with all memory there is."""
+    problems = (
+        (DEEP, "tables lie in each other too deeply"),
+        (LONG, "a number has too many digits"),
+    )
+    for pattern, problem in problems:
+        found = pattern.search(text)
+        if found is not None:
+            line = text.count("\n", 0, found.start() + 1) + 1
+            raise _at(f"{path.name}, line {line}", problem)
 
 
 def _parsed(path: Path, text: str) -> dict[str, Any]:

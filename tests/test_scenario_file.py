@@ -316,7 +316,7 @@ WRONG = [
     ("\ngrid = True", "line 2: Invalid value: grid = True; TOML writes true, false"),
     ("\npose = (1, 2)", "line 2: Invalid value: pose = (1, 2); TOML writes true, false and [1, 2]"),
     ("\ntitle = 'a'\ntitle = 'b'", "scene.toml, line 3: Cannot overwrite a value: title = 'b'"),
-    ("\nstop_time = 1" + "0" * 5000, "scene.toml: a number has too many digits"),
+    ("\nstop_time = 1" + "0" * 5000, "scene.toml, line 2: a number has too many digits"),
     ("\na = " + "[" * 5000, "lists and tables lie in each other too deeply"),
     ("\ntitel = 'x'", "line 2: Scenario has no field 'titel'; did you mean 'title'?"),
     ("\ncontroll = 'x'", "did you mean 'control'?"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -42,6 +43,12 @@ LINES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
 AREAS = ("SOLID", "TRACE")
 """The kinds of entities that are read, besides INSERT."""
 
+ENTITY = re.compile(rb"\n[ \t]*+0[ \t]*+\r?\n[A-Z]|\0\0[A-Z]")
+"""Where an entity begins, or a table's entry, in text and in binary: the code 0, and its name."""
+
+MOST_ENTITIES = 200_000
+"""In the whole file; the library makes an object of each before anything can be chosen."""
+
 DEEPEST = 16
 MOST_CURVES = 1_000
 """Blocks in blocks, and control points of one spline, go up to this."""
@@ -73,6 +80,8 @@ def read_dxf(path: Path, unit: Unit | None) -> Drawing:
         import ezdxf
 
         _quiet()
+        if sum(1 for _ in ENTITY.finditer(path.read_bytes())) > MOST_ENTITIES:
+            raise InputError(f"{name}: more than {MOST_ENTITIES} entities; save a part of it")
         document = ezdxf.filemanagement.readfile(path)
         reader = _Reader(name, document)
         shapes = reader.layout()

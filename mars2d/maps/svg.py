@@ -42,6 +42,9 @@ DEEPEST = 64
 MOST_WORK = 50_000_000
 """Elements with all that `use` repeats, groups in groups, and characters that are looked at."""
 
+MOST_DIGITS = 100
+"""Of a number; patterns of colours and fonts take the square of it."""
+
 ASIDE = ("symbol", "marker", "mask", "pattern", "clipPath", "filter", "metadata", "foreignObject")
 """Elements that draw nothing where they stand."""
 
@@ -78,8 +81,7 @@ def read_svg(path: Path, unit: Unit | None) -> Drawing:
         pieces = []
         tally = Tally(name)
         for layer, shape in _drawn(document, NO_LAYER, skipped):
-            rings = _rings(shape)
-            tally.add(sum(map(len, rings)), len(rings))
+            rings = _rings(shape, tally)
             for points in rings:
                 check_finite(name, points)
                 points[:, 1] = height - points[:, 1]
@@ -122,6 +124,8 @@ def _parsed(name: str, data: bytes) -> ET.Element:
     if root.tag not in ("svg", f"{SVG}svg"):
         raise InputError(f"{name}: expected an SVG drawing; its root is <{shown(root.tag, 40)}>")
     _check_size(name, root)
+    if re.search(rf"\d{{{MOST_DIGITS + 1}}}", text):
+        raise InputError(f"{name}: a number of more than {MOST_DIGITS} digits")
     numbers = sum(
         len(re.findall(r"[\d.]+", e.get("d", "") + e.get("points", ""))) for e in root.iter()
     )
@@ -146,7 +150,13 @@ class _Size(NamedTuple):
 def _check_size(name: str, root: ET.Element) -> None:
     """Refuse elements that use themselves, or that repeat others without end."""
     by_id = {e.get("id"): e for e in root.iter() if e.get("id")}
-    style = sum(len(e.text or "") for e in root.iter() if e.tag in ("style", f"{SVG}style"))
+    styles = [e for e in root.iter() if e.tag in ("style", f"{SVG}style")]
+    for each in styles:
+        each.text = re.sub(r"/\*.*?(?:\*/|\Z)", "", each.text or "", flags=re.DOTALL)
+    style = sum(len(each.text or "") for each in styles)
+    work = sum(_work_of_style(each.text or "") for each in styles)
+    if work > MOST_WORK:
+        raise InputError(f"{name}: too many attributes and styles; simplify it")
     sizes: dict[ET.Element, _Size] = {}
     begun: set[ET.Element] = set()
 
@@ -166,7 +176,8 @@ def _check_size(name: str, root: ET.Element) -> None:
         begun.discard(element)
         count = 1 + sum(part.elements for part in parts)
         depth = 1 + max((part.depth for part in parts), default=0)
-        work = sum(map(len, element.attrib.values())) * count
+        work = sum(map(_work_of, element.attrib.values())) * count
+        work += _work_of_path(element.get("d", "")) * count
         work += style * (3 + element.get("class", "").count(" "))
         size = _Size(count, depth, work + sum(part.work for part in parts))
         if size.elements > MOST_ELEMENTS:
@@ -179,6 +190,27 @@ def _check_size(name: str, root: ET.Element) -> None:
         return size
 
     measure(root)
+
+
+def _work_of(value: str) -> int:
+    """Return how many characters are looked at to read an attribute: more where ( is not closed."""
+    return len(value) + sum(
+        len(piece) * (piece.count("(") - 1) for piece in value.split(")") if piece.count("(") > 1
+    )
+
+
+def _work_of_path(data: str) -> int:
+    """Return how many segments are looked at, as characters, to close a path's parts again."""
+    parts = re.split("[Mm]", data)
+    closed = [len(re.findall("[Zz]", part)) for part in parts]
+    pairs = zip(parts, closed, strict=True)
+    return sum(10 * len(part) * (count - 1) for part, count in pairs if count > 1)
+
+
+def _work_of_style(text: str) -> int:
+    """Return how many characters are looked at to read a <style>: more where { is not closed."""
+    before = sum(len(piece) ** 2 for piece in text.split("{"))
+    return before + sum(len(piece) * piece.count("{") for piece in text.split("}"))
 
 
 def _set_aside(root: ET.Element) -> None:
@@ -286,14 +318,15 @@ def _is_seen(color: Any, opacity: Any) -> bool:
     return bool(there and not clear)
 
 
-def _rings(shape: Any) -> list[Float]:
-    """Return the points (k, 2) of each part of a shape, in user units, y down."""
+def _rings(shape: Any, tally: Tally) -> list[Float]:
+    """Return the points (k, 2) of each part of a shape, in user units, y down; all are counted."""
     import svgelements
 
     found: list[list[tuple[float, float]]] = []
     for segment in abs(svgelements.Path(shape)):  # abs: its transforms done
         if isinstance(segment, svgelements.Move):
             found.append([(segment.end.x, segment.end.y)])
+            tally.add(1)
             continue
         if segment.start is None or segment.end is None:
             continue
@@ -305,6 +338,7 @@ def _rings(shape: Any) -> list[Float]:
             count = ROUND // 4
         else:
             count = 1
+        tally.add(count, 0)
         if count == 1:
             found[-1].append((segment.end.x, segment.end.y))
         else:

@@ -305,6 +305,10 @@ def a_drawing_of_no_known_version(folder: Path) -> Path:
 
 text("bad.dxf", "0\nSECTION\n" * 1000, "can't be read as a DXF drawing", "DXF of open sections")
 text("bad.dxf", "0\n" * 100_000, "can't be read as a DXF drawing", "DXF of zeros as text")
+text("bad.dxf", "0\nSECTION\n2\nENTITIES\n" + "0\nPOINT\n" * 1_000_000 + "0\nENDSEC\n0\nEOF\n",
+     "more than 200000 entities", "a DXF of a million entities")  # fmt: skip
+text("bad.dxf", b"AutoCAD Binary DXF\r\n\x1a\0" + b"\0\0POINT\0" * 1_000_000,
+     "more than 200000 entities", "a binary DXF of a million entities")  # fmt: skip
 text("bad.dxf", "x" * 10_100_000, "expected at most 10 MB", "too large a DXF")
 
 
@@ -363,6 +367,17 @@ svg(f'<path d="M{TANGLE}z"/>',
     "cross each other too many times", "a tangle")  # fmt: skip
 svg("<style>" + ".a{fill:none}" * 700_000 + '</style><rect width="5" height="5"/>',
     "too many attributes", "a style of megabytes")  # fmt: skip
+# What the patterns of the library that reads SVG would look at again and again:
+PLAIN = '<rect width="5" height="5"/>'
+MANY = 300_000
+svg(f"<style>{'a' * MANY}</style>{PLAIN}", "too many attributes", "a style of letters")
+svg(f"<style>{'a{' * MANY}</style>{PLAIN}", "too many attributes", "a style of opened braces")
+svg(f'<g transform="{"rotate(" * MANY}"/>{PLAIN}', "too many attributes", "turns never closed")
+svg(f'<rect fill="rgb({"1" * MANY}" width="5" height="5"/>', "100 digits", "a colour of digits")
+svg(f'<text style="font:{"1" * MANY}">a</text>{PLAIN}', "100 digits", "a font of digits")
+svg(f'<path d="M0 0{"z" * MANY}"/>', "too many attributes", "a path closed without end")
+svg(f'<path d="M0 0{"l1 1z" * 40_000}"/>', "too many attributes", "a path closed and gone on with")
+svg(f'<path d="M0 0{"T5 5" * 10_000}"/>', "more than 100000 points", "curves without end")
 svg('<rect width="5" height="5"/>', "viewBox", "a viewBox of words", ' viewBox="a b c d">')
 svg('<rect width="5" height="5"/>', "viewBox", "a viewBox without area", ' viewBox="0 0 0 0">')
 svg('<rect width="5" height="5"/>', "viewBox", "a viewBox of nan", ' viewBox="0 0 nan 1">')
