@@ -1,4 +1,4 @@
-"""Ctrl-C while the command line begins: it ends at once, in one line.
+"""Ctrl-C while the command line begins, and ends: it ends at once, in one line.
 
 Importing this module sees to it, in a process that is the command line and in no other. Until the
 libraries are imported there is nothing to be kept, and what they make of an exception is their own.
@@ -13,7 +13,7 @@ import threading
 from itertools import pairwise
 from types import FrameType
 
-__all__ = ["INTERRUPTED", "leave"]
+__all__ = ["INTERRUPTED", "ending", "leave"]
 
 INTERRUPTED = 130
 """How the command line ends after Ctrl-C, as shells have it."""
@@ -23,6 +23,12 @@ def leave(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
     """End the process, when nothing can be lost: a handler of signals."""
     os.write(2, b"mars2d: interrupted\n")
     os._exit(INTERRUPTED)
+
+
+def ending() -> None:
+    """Ignore Ctrl-C from now on, in the command line: all is done, and the exit code is known."""
+    if signal.getsignal(signal.SIGINT) is leave:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _is_command_line() -> bool:

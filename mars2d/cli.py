@@ -10,9 +10,9 @@ from collections.abc import Collection, Sequence
 from typing import NoReturn
 
 from mars2d import __version__
-from mars2d.beginning import INTERRUPTED
+from mars2d.beginning import INTERRUPTED, ending
 from mars2d.commands import VERBS
-from mars2d.errors import InputError, Mars2dError, likely
+from mars2d.errors import InputError, Mars2dError, likely, one_line
 from mars2d.interrupt import raised_once
 
 __all__ = ["main", "parser"]
@@ -31,6 +31,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt as interrupt:
         print(f"mars2d: {str(interrupt) or 'interrupted'}", file=sys.stderr)
         return INTERRUPTED
+    finally:
+        ending()
 
 
 def _outcome(argv: Sequence[str] | None) -> int:
@@ -43,10 +45,10 @@ def _outcome(argv: Sequence[str] | None) -> int:
         if sys.stdout is not None:  # it is None where it was closed
             sys.stdout.flush()
     except InputError as error:
-        print(f"mars2d: {error}", file=sys.stderr)
+        print(f"mars2d: {one_line(error)}", file=sys.stderr)
         return BAD_INPUT
     except Mars2dError as error:
-        print(f"mars2d: {error}", file=sys.stderr)
+        print(f"mars2d: {one_line(error)}", file=sys.stderr)
         return FAULT
     except BrokenPipeError:
         sys.stderr.close()  # whoever read our output has seen enough
@@ -94,6 +96,8 @@ class _Parser(argparse.ArgumentParser):
                 known += [o for sub in action.choices.values() for o in sub._option_string_actions]
         right = {*known, *self.elsewhere}
         words = [word for word in re.split(r"[\s'=:]+", message) if word not in right]
+        if message.startswith("the following arguments are required"):
+            words = []  # none of these was typed
         hint = next(filter(None, (likely(word, known) for word in words)), "")
         message = message.partition(" (choose from")[0]
         raise InputError(f"{message}{hint} (see {self.prog} --help)")

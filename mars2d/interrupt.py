@@ -14,7 +14,7 @@ from types import FrameType, TracebackType
 
 from mars2d.beginning import leave
 
-__all__ = ["held_back", "interrupts_blocked", "noted_interrupts", "raised_once"]
+__all__ = ["held_back", "interrupts_blocked", "noted_interrupts", "raised_once", "unbroken"]
 
 GRACE = 2.0
 """For so long after a Ctrl-C another one is the same wish: meanwhile all is tidied up, seconds."""
@@ -148,13 +148,52 @@ class raised_once(_Handling):  # noqa: N801 - it is used as a function
             return
         global _raised  # noqa: PLW0603
         _raised = -inf
-        again = threading.Timer(AGAIN, signal.raise_signal, [signal.SIGINT])
+        again = threading.Timer(AGAIN, _press)
         again.daemon = True
         again.start()
 
 
+class _Unbroken:
+    """A short block that Ctrl-C does not break off: KeyboardInterrupt is raised at its end.
+
+    It costs less than a microsecond, and needs one of the other blocks around it, which handles the
+    signal. Only in the main thread, where Python raises it.
+    """
+
+    def __init__(self) -> None:
+        self.depth = 0
+        self.late = False
+
+    def __enter__(self) -> None:
+        if threading.current_thread() is threading.main_thread():
+            self.depth += 1
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if threading.current_thread() is not threading.main_thread():
+            return
+        self.depth -= 1
+        if self.late and not self.depth:
+            self.late = False
+            if kind is None:
+                _raise()
+
+
+unbroken = _Unbroken()
+
+
+def _press() -> None:
+    """Send Ctrl-C to the main thread, also while it waits for the system."""
+    main = threading.main_thread().ident
+    if sys.platform == "win32" or main is None:
+        signal.raise_signal(signal.SIGINT)
+    else:
+        signal.pthread_kill(main, signal.SIGINT)
+
+
 def _raise_once() -> None:
-    if time.monotonic() - _raised >= GRACE:
+    if unbroken.depth:
+        unbroken.late = True
+    elif time.monotonic() - _raised >= GRACE:
         _raise()
 
 

@@ -19,6 +19,7 @@ from mars2d.formats.mcap.packing import pack
 from mars2d.formats.mcap.row import Row
 from mars2d.formats.mcap.tape import Tape, require
 from mars2d.formats.mcap.topics import nanoseconds
+from mars2d.interrupt import noted_interrupts, unbroken
 from mars2d.message import MESSAGE as MESSAGES
 from mars2d.record import Record
 from mars2d.recorder import Recorder
@@ -90,6 +91,10 @@ class Log:
         same: of another world than before, how many rows are the same: it goes on from there.
         Raises DiskError.
         """
+        with unbroken:
+            self._follow(world, same)
+
+    def _follow(self, world: World, same: int = 0) -> None:
         if not self._open:
             raise DiskError(f"{self.path}: this log is closed")
         other = world is not self._world
@@ -150,15 +155,16 @@ class Log:
         """
         if not self._open:
             return
-        try:
-            if self._world is not None:
-                self.follow(self._world)
-                self._tape.end(self._world.record if record is None else record)
-            self._writer.finish()
-            self._do(self._file.take)
-            self._do(self._file.check)
-        finally:
-            self._shut()
+        with unbroken:  # but packing may take long, and what is not packed is complete
+            try:
+                if self._world is not None:
+                    self._follow(self._world)
+                    self._tape.end(self._world.record if record is None else record)
+                self._writer.finish()
+                self._do(self._file.take)
+                self._do(self._file.check)
+            finally:
+                self._shut()
         if self._world is not None:
             self._do(lambda: pack(self.path, self._header, self._begun))
 
@@ -177,6 +183,8 @@ class Log:
             self._file.close()
 
     def __enter__(self) -> Log:
+        self._interrupts = noted_interrupts()
+        self._interrupts.__enter__()
         return self
 
     def __exit__(
@@ -185,4 +193,7 @@ class Log:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self.close()
+        try:
+            self.close()
+        finally:
+            self._interrupts.__exit__()
