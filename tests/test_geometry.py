@@ -53,3 +53,63 @@ def test_an_outline_of_two_is_a_wall_and_of_more_a_ring():
     a, b, c = (0.0, 0.0), (1.0, 0.0), (0.0, 1.0)
     assert geometry.edges_of((a, b)) == [(a, b)]
     assert geometry.edges_of((a, b, c)) == [(a, b), (b, c), (c, a)]
+
+
+@given(st.floats(1e-6, 1e6))
+def test_a_grid_step_is_the_next_of_1_2_and_5_times_a_power_of_ten(wanted):
+    steps = [k * 10.0**power for power in range(-7, 8) for k in (1, 2, 5)]
+    assert geometry.grid_step(wanted) == pytest.approx(
+        min(step for step in steps if step >= wanted * (1 - 1e-9)), rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("wanted", [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 1e-3, 2e-5])
+def test_a_grid_step_of_1_2_or_5_stays(wanted):
+    assert geometry.grid_step(wanted) == pytest.approx(wanted, rel=1e-12)
+    assert geometry.grid_step(wanted * (1 + 1e-10)) == pytest.approx(wanted, rel=1e-12)  # rounded
+    assert geometry.grid_step(wanted * (1 + 1e-8)) > wanted * 1.5
+
+
+segments = st.tuples(coordinates, coordinates, coordinates, coordinates)
+
+
+@given(st.lists(points, min_size=1, max_size=4), st.lists(segments, min_size=1, max_size=4))
+def test_the_distance_to_a_segment_is_what_shapely_says(probes, pieces):
+    assume(all(np.hypot(c - a, d - b) > 1e-3 for a, b, c, d in pieces))
+    x, y = np.array(probes).T[:, :, None]
+    distance = geometry.point_segment_distance(x, y, np.array(pieces))
+    lines = [shapely.LineString([piece[:2], piece[2:]]) for piece in pieces]
+    expected = [[line.distance(shapely.Point(probe)) for line in lines] for probe in probes]
+    assert distance == pytest.approx(np.array(expected), abs=1e-9)
+
+
+L_SHAPE = np.array([(0, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4)], dtype=float)
+
+
+def test_the_distance_to_a_ring_counts_all_its_edges_from_both_sides():
+    x, y = np.array([[5, 1], [3, 3], [1, 3.5], [-1, 2], [0.25, 1], [3, 1.75]]).T
+    distances = geometry.distance_to_ring(x, y, L_SHAPE)
+    assert distances.tolist() == [1, 1, 0.5, 1, 0.25, 0.25]
+
+
+def test_outside_a_polygon_is_neither_in_it_nor_on_its_boundary():
+    x, y = np.array([[1, 1], [4, 1], [4 + 5e-10, 1], [4 + 2e-9, 1], [3, 3], [0, 4]]).T
+    outside = geometry.outside_polygon(x, y, L_SHAPE)
+    assert outside.tolist() == [False, False, False, True, True, False]
+    assert geometry.outside_polygon(x[:3], y[:3], L_SHAPE).tolist() == [False, False, False]
+
+
+def test_a_rectangle_goes_counter_clockwise_from_its_lower_left():
+    assert geometry.rectangle(1, 2, 3, 5) == ((1, 3), (2, 3), (2, 5), (1, 5))
+
+
+def test_two_vertices_are_a_line_to_shapely_and_more_an_area():
+    line, area = geometry.lines_and_areas([((0, 0), (3, 4)), ((0, 0), (2, 0), (0, 2))])
+    assert (line.geom_type, line.length) == ("LineString", 5)
+    assert (area.geom_type, area.area) == ("Polygon", 2)
+
+
+def test_lengths_and_products_of_vectors_are_those_of_numpy():
+    a, b = np.array([3 + 4j, 1 - 2j]), np.array([2 - 1j, 5 + 3j])
+    assert geometry.length(a) == pytest.approx(np.abs(a))
+    assert geometry.dot(a, b) == pytest.approx((a * b.conj()).real)

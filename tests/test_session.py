@@ -1,5 +1,6 @@
 """mars2d.run: one call from an experiment to its record."""
 
+import signal
 import sys
 import time
 import types
@@ -9,8 +10,10 @@ import pytest
 
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario
-from mars2d.files import Experiment
-from mars2d.loop import simulate
+from mars2d.files import Experiment, open_experiment
+from mars2d.formats.mcap import Log
+from mars2d.loop import Interrupted, simulate, watch_by
+from mars2d.storage import DiskError
 
 SQUARE = Scenario(robots=[Robot()], sampling_time=0.1, stop_time=1.0)
 
@@ -87,6 +90,60 @@ def test_watchers_see_every_step_after_sensing():
     seen = []
     simulate(Experiment(SQUARE), watchers=[lambda world: seen.append(world.time)])
     assert seen == pytest.approx(np.arange(11) * 0.1)
+
+
+def test_a_world_that_nobody_watches_calls_nobody():
+    assert watch_by([]) is None
+
+
+def test_without_a_seed_a_run_is_that_of_seed_0():
+    assert simulate(open_experiment(SQUARE)).record.seed == 0
+
+
+def test_ctrl_c_within_a_step_keeps_what_was_recorded_until_then():
+    def press(world):
+        if world.iteration == 3:
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(Interrupted, match=r"^interrupted$") as caught:
+        mars2d.run(SQUARE, watchers=[press])
+    assert caught.value.record.over_message == "Interrupted by Ctrl-C"
+    assert len(caught.value.record) == 3
+
+
+class AfterThreeSteps(Log):
+    """A log that does something of its own once it has followed the third step."""
+
+    def __init__(self, path, then):
+        super().__init__(path)
+        self._then = then
+
+    def follow(self, world):
+        super().follow(world)
+        if world.iteration == 3:
+            self._then()
+
+
+def test_ctrl_c_between_two_steps_keeps_them(tmp_path):
+    def press():
+        signal.raise_signal(signal.SIGINT)
+
+    log = AfterThreeSteps(tmp_path / "run.mcap", press)
+    with pytest.raises(Interrupted) as caught:
+        simulate(open_experiment(SQUARE), log=log)
+    assert caught.value.record.over_message == "Interrupted by Ctrl-C"
+    assert len(caught.value.record) == len(mars2d.load(tmp_path / "run.mcap")) == 3
+
+
+def test_a_disk_that_fails_between_two_steps_is_said_and_they_are_kept(tmp_path):
+    def fail():
+        raise DiskError("run.mcap: gone")
+
+    log = AfterThreeSteps(tmp_path / "run.mcap", fail)
+    with pytest.raises(DiskError) as caught:
+        simulate(open_experiment(SQUARE), log=log)
+    assert caught.value.record.over_message == "Error: run.mcap: gone"
+    assert len(caught.value.record) == 3
 
 
 def test_seeds_make_runs_that_differ_and_repeat():
