@@ -30,6 +30,16 @@ def test_the_start_is_timed(tmp_path):
     assert result["import mars2d"] > result["bare python"]
 
 
+def test_crowds_are_watched_and_a_run_does_not_depend_on_the_workers(tmp_path):
+    result = run("crowds.py", "--robot-runs", "30", "--seed", "3", "--workers", "2", cwd=tmp_path)
+    assert result["all"]["robot_runs"] >= 30
+    assert result["all"]["escapes"] == 0
+    worst = result["all"]["worst of two bodies"]
+    assert 0 < worst["m"] <= 1e-3
+    alone = run("crowds.py", "--seed", "3", "--run", str(worst["run"]), cwd=tmp_path)
+    assert alone["deepest"]["bodies"] == worst["m"]
+
+
 def test_rays_are_timed_and_are_those_of_the_public_method(tmp_path):
     result = run("rays.py", "--sizes", "20", "200", "--rounds", "1", cwd=tmp_path)
     assert [row["segments"] for row in result["rays"]] == [20, 200] * 2
