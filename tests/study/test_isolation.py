@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import socket
 import subprocess
 import sys
 import threading
@@ -24,6 +25,8 @@ from mars2d.props import Puck
 from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
 from mars2d.study.isolation import Guard, Limits, Verdict, nursery
 from mars2d.world import World
+
+needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
 LIMITS = Limits(tick=4.0, match=20.0, memory=200, output=0.1, start=20.0)
 
@@ -279,6 +282,15 @@ def control(robot):
 
 FOREVER = "import time\ndef control(robot):\n    robot.memory.x = 1\n    {}\n    return 0, 0\n"
 
+FORGING = """import gc, threading
+        from mars2d.study.isolation.frames import *
+        def forge(kind, body):
+            host = next(each for each in gc.get_objects() if type(each).__name__ == "Host")
+            host._channel.sendall(framed(kind, body))
+            threading.Event().wait()
+        def control(robot):"""
+"""A law that speaks to the match in place of its process, and then no more."""
+
 NASTY = {
     "an endless loop": ("slow", "line 4: no command after 0.5 s", FOREVER.format("while 1: pass")),
     "a long sleep": ("slow", "line 4: no command after 0.5 s", FOREVER.format("time.sleep(1e9)")),
@@ -402,7 +414,107 @@ NASTY = {
         def control(a, b): return 0, 0"""),
     "os._exit while it is loaded": ("exit", "its process has ended itself, with code 0", """
         import os; os._exit(0)"""),
+    "an alarm that nobody hears": ("exit", "its process was ended by the signal SIGALRM", """
+        import signal, time
+        def control(robot): signal.setitimer(signal.ITIMER_REAL, 0.01); time.sleep(1)"""),
+    "it forges an answer with what is no message": ("exit", "what it says to the match is no", f"""
+        {FORGING}
+            forge(COMMANDS, ANSWER.pack(0) + bytes(16) + b'[[0, "[[[", null]]')"""),
+    "it forges a message to nobody": ("exit", "what it says to the match is no answer", f"""
+        {FORGING}
+            forge(COMMANDS, ANSWER.pack(0) + bytes(16) + b'[[0, "1", "nobody"]]')"""),
+    "it forges a verdict of its own": ("exit", "what it says to the match is no answer", f"""
+        {FORGING}
+            forge(FAULT, b'{{"kind": "<b>won</b>", "where": null, "text": "a"}}')"""),
 }  # fmt: skip
+
+
+BEYOND = {
+    "writes files": ("20 MB are written beside it, as large as the disk lets it", """
+        from pathlib import Path
+        def control(robot):
+            if not robot.time:
+                (Path(__file__).parent / "filled").write_bytes(bytes(20_000_000))
+                print("done")
+            return 0, 0"""),
+    "reads the other law's file": ("it knows the other's law", """
+        from pathlib import Path
+        def control(robot):
+            if not robot.time:
+                other = Path(__file__).with_name("good.py")
+                assert "return 0.1, 0.2" in other.read_text()
+                print("done")
+            return 0, 0"""),
+    "reads the environment of the match": ("it is read, with what is secret in it", """
+        import os
+        def control(robot):
+            if not robot.time:
+                nursery = open(f"/proc/{os.getppid()}/stat").read()
+                match = int(nursery.rpartition(")")[2].split()[1])
+                assert "PATH=" in open(f"/proc/{match}/environ").read()
+                print("done")
+            return 0, 0"""),
+    "uses the network": ("it is connected", """
+        import socket
+        from pathlib import Path
+        def control(robot):
+            if not robot.time:
+                port = int(Path(__file__).with_name("port").read_text())
+                socket.create_connection(("localhost", port)).close()
+                print("done")
+            return 0, 0"""),
+    "starts a program in a session of its own": ("the program goes on after the match", """
+        import subprocess, sys
+        def control(robot):
+            if not robot.time:
+                code = "import time; time.sleep(100)"
+                print(subprocess.Popen([sys.executable, "-c", code], start_new_session=True).pid)
+                print("done")
+            return 0, 0"""),
+    "forks thirty processes": ("their number is not limited; they end with the match", """
+        import os, time
+        def control(robot):
+            if not robot.time:
+                if not all(os.fork() for _ in range(30)): time.sleep(100)
+                print("done")
+            return 0, 0"""),
+    "eases its limit of memory": ("it takes 230 MB where 200 are allowed", """
+        import resource
+        def control(robot):
+            if not robot.time:
+                _, most = resource.getrlimit(resource.RLIMIT_AS)
+                resource.setrlimit(resource.RLIMIT_AS, (most, most))
+                assert len(bytearray(230_000_000))
+                print("done")
+            return 0, 0"""),
+    "deletes its file and changes its folder": ("the match goes on; it can't be played again", """
+        import os
+        def control(robot):
+            if not robot.time:
+                os.remove(__file__); os.chdir("/")
+                print("done")
+            return 0, 0"""),
+    "changes the simulator in its process": ("nothing: the match has its own", """
+        import mars2d
+        def control(robot):
+            if not robot.time:
+                mars2d.World.step = mars2d.Robot.pose = None
+                print("done")
+            return 0, 0"""),
+    "sleeps as its process ends": ("nothing: it is not waited for", """
+        import atexit, time
+        atexit.register(time.sleep, 1000)
+        class Sleepy:
+            def __del__(self): time.sleep(1000)
+        sleepy = Sleepy()
+        def control(robot):
+            if not robot.time: print("done")
+            return 0, 0"""),
+}  # fmt: skip
+"""What isolation does not stop, or need not: the match goes on, and nobody has failed."""
+
+DOC = Path(__file__).parents[2] / "docs" / "isolation.md"
+ATTACKS = DOC.read_text(encoding="utf-8").partition("## Attacked by")[2].partition("\n## ")[0]
 
 
 def undented(text: str) -> str:
@@ -434,6 +546,59 @@ def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_p
     assert guard.verdicts == {}  # nobody else is to blame
     assert record.over_message == f"Error: {error}"
     assert took < 15.0
+    again, *_ = played(scenario.replace(stop_time=0.2), {"good": (good, [1])})
+    assert again.finished
+    cells = fault, f"`{verdict.kind}`", "no verdict", "kept, says why", "played"
+    assert f"| {' | '.join(cells)} |" in ATTACKS
+
+
+@needs_proc
+@pytest.mark.parametrize("attack", BEYOND)
+def test_what_isolation_does_not_stop_is_told(attack, tmp_path) -> None:
+    happens, text = BEYOND[attack]
+    law(tmp_path, GOOD, "good.py")
+    nasty = law(tmp_path, undented(text))
+    laws = {"bad": (nasty, [0]), "good": (tmp_path / "good.py", [1])}
+    with socket.create_server(("localhost", 0)) as server:
+        (tmp_path / "port").write_text(str(server.getsockname()[1]))
+        record, guard, error = played(pair(), laws)
+    left = guard.output["bad"].splitlines()
+    assert error is None, error
+    assert record.finished
+    assert guard.verdicts == {}
+    assert left[-1] == "done"
+    assert f"| {attack} | {happens} |" in ATTACKS
+    for number in left[:-1]:  # of a process that is left over
+        os.kill(int(number), 9)
+
+
+@needs_proc
+def test_a_law_can_kill_the_match(tmp_path) -> None:
+    text = """
+import os
+from pathlib import Path
+def control(robot):
+    nursery = Path(f"/proc/{os.getppid()}/stat").read_text()
+    os.kill(int(nursery.rpartition(")")[2].split()[1]), 9)
+    while True: pass
+"""
+    code = f"""
+from pathlib import Path
+from mars2d import Robot, Scenario, World
+from mars2d.study.isolation import Guard
+laws = {{"a": (Path({str(law(tmp_path, text))!r}), [0])}}
+with Guard(Scenario(robots=[Robot()]), laws, 1) as guard:
+    World(guard.scenario).step()
+"""
+    done = subprocess.run([sys.executable, "-P", "-c", code], timeout=60, check=False)
+    assert done.returncode == -9
+    assert "| kills the process of the match | it is gone, without a word |" in ATTACKS
+
+
+def test_the_tables_of_attacks_have_no_other_rows() -> None:
+    rows = [line for line in ATTACKS.splitlines() if line.startswith("| ")]
+    assert len(rows) == len(NASTY) + len(BEYOND) + 1 + 2  # the last two are headings
+    assert len(NASTY) >= 25
 
 
 def test_a_law_that_fails_later_has_its_time_and_the_rows_until_then(tmp_path) -> None:
@@ -508,9 +673,6 @@ def descendants() -> set[int]:
 
 def held() -> tuple[int, int]:
     return len([*Path("/proc/self/fd").iterdir()]), threading.active_count()
-
-
-needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
 
 @needs_proc

@@ -111,7 +111,11 @@ class Guard:
             world = view._world
             if world.iteration != self._iteration or world is not self._world:
                 self._ask_all(world)
-            return self._processes[self._drivers[robot]].command(world, robot)
+            process = self._processes[self._drivers[robot]]
+            command = process.command(world, robot)
+            if process.fault is not None:
+                self._judge(world.time)
+            return command
 
         return control
 

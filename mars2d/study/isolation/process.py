@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mars2d.control import LARGEST
+from mars2d.errors import Mars2dError
 from mars2d.study.isolation.briefing import Briefing
 from mars2d.study.isolation.frames import (
     ANSWER,
@@ -46,6 +47,11 @@ GRACE = 0.5
 """How long a process that says no more has to end by itself, seconds."""
 
 PIECE = 1 << 16
+
+TELLS = ("start", "memory", "error", "command", "output")
+"""The kinds of faults that a law's process tells of itself."""
+
+NO_ANSWER = "what it says to the match is no answer"
 
 
 class Fault(NamedTuple):
@@ -145,7 +151,7 @@ class LawProcess:
             for kind, body in self._frames.read(piece):
                 self._take(kind, body)
         except (ValueError, TypeError, KeyError, struct.error, RecursionError):
-            self._fail("exit", "", "what it says to the match is no answer")
+            self._fail("exit", "", NO_ANSWER)
         return self.fault is None
 
     def _is_plain_answer(self, piece: bytes) -> bool:
@@ -160,11 +166,13 @@ class LawProcess:
     def _take(self, kind: bytes, body: bytes) -> None:
         """Take a frame. Raises ValueError and the like for what no law's process says."""
         if kind == LINE:
-            self._late = str(json.loads(body))[:200]
+            self._late = _one_line(json.loads(body), 200)
         elif kind == FAULT:
             told = json.loads(body)
-            where = None if told["where"] is None else str(told["where"])[:200]
-            self._fail(str(told["kind"]), where, str(told["text"]))
+            if told["kind"] not in TELLS:
+                raise ValueError(told["kind"])
+            where = None if told["where"] is None else _one_line(told["where"], 200)
+            self._fail(told["kind"], where, _one_line(told["text"], 2000))
         elif kind == READY and self._iteration < 0:
             self.asked = False
         elif kind == COMMANDS and self.asked:
@@ -193,10 +201,17 @@ class LawProcess:
             self._too_long()
 
     def command(self, world: World, robot: int) -> tuple[float, float]:
-        """Return the command of one of its robots, whose messages go their way."""
-        for sender, text, receivers in self._letters:
-            if sender == robot:
-                world.channel.send(robot, json.loads(text), receivers)
+        """Return the command of one of its robots, whose messages go their way.
+
+        There is a fault afterwards where these are no messages: its process has checked what its
+        law sends, so somebody else has written them.
+        """
+        try:
+            for sender, text, receivers in self._letters:
+                if sender == robot:
+                    world.channel.send(robot, json.loads(text), receivers)
+        except (Mars2dError, ValueError, TypeError, RecursionError):
+            self._fail("exit", "", NO_ANSWER)
         place = self._places[robot]
         return self._commands[place], self._commands[place + 1]
 
@@ -300,3 +315,7 @@ class LawProcess:
         finally:
             self.channel.close()
             self.output.close()
+
+
+def _one_line(told: object, longest: int) -> str:
+    return " ".join(str(told)[:longest].split())
