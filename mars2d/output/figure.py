@@ -217,12 +217,13 @@ def save_drawing(
     # Without the date, and with ids that do not depend on chance.
     dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "pdf.fonttype": 42}):
-        figure = draw()
-        with replacing(path) as file:
-            figure.savefig(
-                file, format=suffix[1:], dpi=dpi, bbox_inches="tight" if trim else None,
-                pad_inches=0.1, metadata=dates.get(suffix),
-            )  # fmt: skip
+        figure, made = draw(), BytesIO()  # on a full disk its own errors would hide the disk's
+        figure.savefig(
+            made, format=suffix[1:], dpi=dpi, bbox_inches="tight" if trim else None,
+            pad_inches=0.1, metadata=dates.get(suffix),
+        )  # fmt: skip
+    with replacing(path) as file:
+        file.write(made.getbuffer())
     return path
 
 
