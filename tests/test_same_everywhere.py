@@ -245,7 +245,7 @@ def test_the_workers_of_a_sweep(digest, discs):
 
 
 def test_a_match_of_a_tournament_whose_laws_are_isolated(digest, tmp_path):
-    result = mars2d.tournament(
+    mars2d.tournament(
         BUSTLE,
         {"hunter": "hunter.py", "prey": "prey.py"},
         seeds=[SEED],
@@ -254,7 +254,6 @@ def test_a_match_of_a_tournament_whose_laws_are_isolated(digest, tmp_path):
         out=tmp_path,
         show_progress=False,
     )
-    assert [played.message for played in result.matches] != []
     with (tmp_path / "matches.csv").open(newline="", encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
     assert (row["verdict"], row["digest"]) == ("", digest)
