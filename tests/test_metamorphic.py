@@ -16,7 +16,6 @@ import pytest
 
 from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, World, sensors
 from mars2d.addons import Beacon, Floor, Map
-from mars2d.geometry import wrap
 from mars2d.joints import Hinge, Rope, Spring
 from mars2d.props import Ball, Bar, Box, Prop, Puck, Solid
 from mars2d.registry import members
@@ -187,9 +186,7 @@ class Image(NamedTuple):
     def reading(self, name: str, values: np.ndarray) -> np.ndarray:
         """The readings (T, m, ...) of a sensor: those on the left are on the right in a mirror."""
         if name == "pose":
-            poses = np.array([[self.pose(pose) for pose in row] for row in values.tolist()])
-            poses[..., 2] = wrap(poses[..., 2])
-            return poses
+            return np.array([[self.pose(pose) for pose in row] for row in values.tolist()])
         if not self.mirror or name in ("proximity", "ground"):
             return values
         if name == "line_camera":
