@@ -29,6 +29,16 @@ def pytest_xdist_auto_num_workers() -> int:
     return (os.cpu_count() or 1) + 1
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_cmdline_main(config: pytest.Config) -> None:
+    """Let a process that has nothing left to do take tests from others, if none says otherwise.
+
+    Each begins with neighbours, which share what a module or the session has set up.
+    """
+    if config.getoption("numprocesses", None) and config.getoption("dist") == "no":
+        config.option.dist = "worksteal"
+
+
 Child = Callable[..., subprocess.CompletedProcess[str]]
 
 

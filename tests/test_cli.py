@@ -1,5 +1,6 @@
 """The command line as a student types it: real processes, their output and exit codes."""
 
+import functools
 import json
 import os
 import shutil
@@ -11,17 +12,23 @@ import pytest
 
 import mars2d
 from mars2d import cli
+from tests.forking import Nursery
 
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
+
+
+@functools.cache
+def nursery():
+    """Start the process that command lines are forked from."""
+    return Nursery(dict(os.environ), "mars2d.cli", "matplotlib.figure")
 
 
 def mars(*arguments, cwd, **environment):
     """Run the command line without a display and return the finished process."""
     env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    return subprocess.run(
-        [sys.executable, "-m", "mars2d", *map(str, arguments)],
-        cwd=cwd, env=env | environment, capture_output=True, text=True, timeout=120, check=False,
-    )  # fmt: skip
+    process = nursery().fork("mars2d.cli", [*map(str, arguments)], env | environment, cwd)
+    out, errors = process.communicate()
+    return subprocess.CompletedProcess(arguments, process.wait(120), out, errors)
 
 
 def test_demo_without_a_name_lists_the_examples(tmp_path):

@@ -11,6 +11,7 @@ import json
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -36,33 +37,43 @@ del signal.setitimer, signal.alarm
 PIP = "which is not installed: pip install pygame-ce"
 
 
+def run_in_browser(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run code as a browser would; return what it prints."""
+    return subprocess.run(
+        [sys.executable, "-P", "-c", BLOCKED + code],
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+        cwd=folder,
+        env=os.environ | {"MARS2D_PLAIN": "1", "MPLBACKEND": "agg"},
+    )
+
+
 @pytest.fixture
 def browser(tmp_path):
     """Run code as a browser would, in a folder of its own; return what it prints."""
-
-    def run(code: str, *arguments: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [sys.executable, "-P", "-c", BLOCKED + code, *arguments],
-            capture_output=True,
-            text=True,
-            timeout=100,
-            check=False,
-            cwd=tmp_path,
-            env=os.environ | {"MARS2D_PLAIN": "1", "MPLBACKEND": "agg"},
-        )
-
-    return run
+    return lambda code: run_in_browser(code, tmp_path)
 
 
-@pytest.fixture
-def command(browser):
-    """Run the command line as a browser would."""
+COMMANDS = """
+import contextlib, io, json
+from mars2d.cli import main
+said = []
+for words in {words}:
+    out, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+        code = main(words)
+    said.append((code, errors.getvalue()))
+print(json.dumps(said))
+"""
 
-    def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-        code = "from mars2d.cli import main; sys.exit(main(sys.argv[1:]))"
-        return browser(code, *arguments)
 
-    return run
+def commands(words: list[list[str]], folder: Path) -> list[tuple[int, str]]:
+    """Run command lines as a browser would, one after the other; return codes and errors."""
+    done = run_in_browser(COMMANDS.format(words=words), folder)
+    assert done.returncode == 0, done.stderr
+    return [tuple(each) for each in json.loads(done.stdout)]
 
 
 def test_the_child_has_neither_pygame_nor_threads(browser):
@@ -126,57 +137,55 @@ def test_a_world_is_stepped_by_hand_and_shows_itself(browser):
     assert done.returncode == 0, done.stderr
 
 
-def test_the_command_line_runs_saves_draws_and_checks(command, tmp_path):
-    saved = ("--record", "run.npz", "--figure", "paths.pdf", "--html", "run.html")
-    done = command("run", "random_walk", "--headless", "--stop-time", "5", *saved)
-    assert done.returncode == 0, done.stderr
-    assert {"run.npz", "paths.pdf", "run.html"} == {path.name for path in tmp_path.iterdir()}
-    for words in (
+def test_the_command_line_runs_saves_draws_and_checks(tmp_path):
+    saved = ["--record", "run.npz", "--figure", "paths.pdf", "--html", "run.html"]
+    every = [
+        ["run", "random_walk", "--headless", "--stop-time", "5", *saved],
         ["list"],
         ["check", "run.npz"],
         ["check", "random_walk"],
         ["demo"],
-        ["--version"],
-    ):
-        done = command(*words)
-        assert done.returncode == 0, done.stderr
-    done = command("run", "random_walk", "--stop-time", "2")
-    assert done.returncode == 0, done.stderr
-    assert "this runs without a window" in done.stderr
+        ["run", "random_walk", "--stop-time", "2"],
+    ]
+    said = commands(every, tmp_path)
+    assert [code for code, _ in said] == [0] * len(every), said
+    assert {"run.npz", "paths.pdf", "run.html"} == {path.name for path in tmp_path.iterdir()}
+    assert "this runs without a window" in said[-1][1]
 
 
-@pytest.mark.parametrize(
-    ("words", "what"),
-    [
-        (["run", "random_walk", "--headless", "--stop-time", "2", "--video", "a.gif"], "a film"),
-        (["demo", "random_walk", "--headless"], "a film"),
-        (["replay", "run.npz"], "a window"),
-        (["run", "random_walk", "--speed", "0"], "a window"),
-        (["run", "random_walk", "--human", "0"], "a window"),
-        (["edit"], "a window"),
-    ],
-)
-def test_a_command_that_needs_pygame_says_so_in_one_line(command, tmp_path, words, what):
-    if words[0] == "replay":
-        mars2d.run("random_walk", stop_time=1.0).save(tmp_path / "run.npz")
-    done = command(*words)
-    assert done.returncode == 2, done.stderr
-    assert done.stderr.strip().splitlines()[-1] == f"mars2d: {what} needs pygame, {PIP}"
-    assert "Traceback" not in done.stderr
+WINDOWS_AND_FILMS = [
+    (["run", "random_walk", "--headless", "--stop-time", "2", "--video", "a.gif"], "a film"),
+    (["demo", "random_walk", "--headless"], "a film"),
+    (["replay", "run.npz"], "a window"),
+    (["run", "random_walk", "--speed", "0"], "a window"),
+    (["run", "random_walk", "--human", "0"], "a window"),
+    (["edit"], "a window"),
+]
 
 
-@pytest.mark.parametrize(
-    "call",
-    [
-        "mars2d.run('random_walk', show=True)",
-        "mars2d.run('random_walk', speed=0)",
-        "mars2d.run('random_walk', human=0)",
-        "mars2d.run('random_walk', stop_time=1).film('a.gif')",
-        "mars2d.run('random_walk', stop_time=1).film('a.mp4')",
-    ],
-)
-def test_a_call_that_needs_pygame_raises_what_is_missing(browser, call):
+def test_a_command_that_needs_pygame_says_so_in_one_line(tmp_path):
+    mars2d.run("random_walk", stop_time=1.0).save(tmp_path / "run.npz")
+    said = commands([words for words, _ in WINDOWS_AND_FILMS], tmp_path)
+    for (words, what), (code, errors) in zip(WINDOWS_AND_FILMS, said, strict=True):
+        assert code == 2, (words, errors)
+        assert errors.strip().splitlines()[-1] == f"mars2d: {what} needs pygame, {PIP}", words
+        assert "Traceback" not in errors
+
+
+CALLS = [
+    "mars2d.run('random_walk', show=True)",
+    "mars2d.run('random_walk', speed=0)",
+    "mars2d.run('random_walk', human=0)",
+    "mars2d.run('random_walk', stop_time=1).film('a.gif')",
+    "mars2d.run('random_walk', stop_time=1).film('a.mp4')",
+]
+
+
+def test_a_call_that_needs_pygame_raises_what_is_missing(browser):
     missing = "mars2d.errors.MissingExtraError"
-    done = browser(f"import mars2d\ntry: {call}\nexcept {missing} as error: print(error)")
+    tried = "".join(f"try: {call}\nexcept {missing} as error: print(error)\n" for call in CALLS)
+    done = browser("import mars2d\n" + tried)
     assert done.stderr == ""
-    assert done.stdout.strip().endswith(PIP)
+    lines = done.stdout.splitlines()
+    assert len(lines) == len(CALLS)
+    assert [line for line in lines if not line.endswith(PIP)] == []

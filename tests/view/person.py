@@ -3,12 +3,12 @@
 import contextlib
 import ctypes
 import ctypes.util
+import functools
 import json
 import os
 import queue
 import shutil
 import subprocess
-import sys
 import threading
 import time
 from pathlib import Path
@@ -16,6 +16,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image, ImageGrab, features
+
+from tests.forking import Nursery
 
 missing = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
 missing += [] if features.check("xcb") else ["Pillow with xcb"]
@@ -87,6 +89,13 @@ class ClientMessage(ctypes.Structure):
     )  # fmt: skip
 
 
+@functools.cache
+def nursery():
+    """Start the process that windows are forked from, once in a session."""
+    windows = ("observed_window", "observed_editor", "observed_hands")
+    return Nursery(bare_environment(), *(f"tests.view.{name}" for name in windows))
+
+
 class Driver:
     """A window in a process of its own, and the hands and eyes of the person before it.
 
@@ -101,14 +110,8 @@ class Driver:
         self.environment = bare_environment(
             DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=str(ROOT)
         )
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", f"tests.view.{module}", *map(str, arguments)],
-            env=self.environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            cwd=folder,
-        )
+        words = [str(argument) for argument in arguments]
+        self.process = nursery().fork(f"tests.view.{module}", words, self.environment, folder)
         self.lines = queue.Queue()
         self.state = {}
         threading.Thread(target=self._read, daemon=True).start()
