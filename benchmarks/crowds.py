@@ -303,7 +303,6 @@ def after_each_step(look: Callable[[], None]) -> Iterator[None]:
     errors: list[Exception] = []
     functions, step = chipmunk.functions, pymunk.Space.step
 
-    @ffi.callback("void(cpSpace *, double)")
     def stepped(space: Any, h: float) -> None:
         lib.cpSpaceStep(space, h)
         try:
@@ -311,9 +310,11 @@ def after_each_step(look: Callable[[], None]) -> Iterator[None]:
         except Exception as error:  # the engine would swallow it
             errors.append(error)
 
+    address = ffi.callback("void(cpSpace *, double)", stepped)
+
     def with_ours(kernel: Any) -> Any:
         made = functions(kernel)
-        made.step = kernel.cast("void(*)(void *, double)", int(ffi.cast("uintptr_t", stepped)))
+        made.step = kernel.cast("void(*)(void *, double)", int(ffi.cast("uintptr_t", address)))
         return made
 
     def step_and_look(space: pymunk.Space, h: float) -> None:
