@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import re
 import sys
 import traceback
@@ -13,11 +14,14 @@ from mars2d import __version__
 from mars2d.beginning import INTERRUPTED, ending
 from mars2d.commands import VERBS
 from mars2d.errors import InputError, Mars2dError, likely, one_line
-from mars2d.interrupt import raised_once
+from mars2d.interrupt import raised_once, unwrapped, was_interrupted
 
 __all__ = ["main", "parser"]
 
 OK, FAULT, BAD_INPUT = 0, 1, 2
+
+UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
+"""What a path may be that was typed; not even whether it is there can be asked."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -26,7 +30,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     0 when all was done, 2 for bad input, 1 for a fault of MARS2D's, 130 after Ctrl-C.
     """
     try:
-        with raised_once():
+        with raised_once(), unwrapped():
             return _outcome(argv)
     except KeyboardInterrupt as interrupt:
         print(f"mars2d: {str(interrupt) or 'interrupted'}", file=sys.stderr)
@@ -52,7 +56,12 @@ def _outcome(argv: Sequence[str] | None) -> int:
         return FAULT
     except BrokenPipeError:
         sys.stderr.close()  # whoever read our output has seen enough
-    except Exception:
+    except Exception as error:
+        if was_interrupted(error):
+            raise
+        if isinstance(error, OSError) and error.errno in UNUSABLE and error.filename:
+            print(f"mars2d: {one_line(error.filename)}: {error.strerror}", file=sys.stderr)
+            return BAD_INPUT
         traceback.print_exc()
         print("mars2d: this is a fault of MARS2D's; please report it as above", file=sys.stderr)
         return FAULT

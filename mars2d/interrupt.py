@@ -14,7 +14,15 @@ from types import FrameType, TracebackType
 
 from mars2d.beginning import leave
 
-__all__ = ["held_back", "interrupts_blocked", "noted_interrupts", "raised_once", "unbroken"]
+__all__ = [
+    "held_back",
+    "interrupts_blocked",
+    "noted_interrupts",
+    "raised_once",
+    "unbroken",
+    "unwrapped",
+    "was_interrupted",
+]
 
 GRACE = 2.0
 """For so long after a Ctrl-C another one is the same wish: meanwhile all is tidied up, seconds."""
@@ -201,6 +209,31 @@ def _raise() -> None:
     global _raised  # noqa: PLW0603
     _raised = time.monotonic()
     raise KeyboardInterrupt
+
+
+def was_interrupted(error: BaseException | None) -> bool:
+    """Return whether an error is what others have made of a KeyboardInterrupt.
+
+    Libraries in C do, as "ImportError: initialization failed" where they are imported just then.
+    """
+    seen: set[int] = set()
+    while error is not None and id(error) not in seen:
+        if isinstance(error, KeyboardInterrupt):
+            return True
+        seen.add(id(error))
+        error = error.__cause__ or error.__context__
+    return False
+
+
+@contextmanager
+def unwrapped() -> Iterator[None]:
+    """Raise KeyboardInterrupt in place of an error that others have made of it."""
+    try:
+        yield
+    except Exception as error:
+        if was_interrupted(error):
+            raise KeyboardInterrupt from error
+        raise
 
 
 @contextmanager

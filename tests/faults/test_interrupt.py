@@ -110,7 +110,12 @@ def is_whole(path: Path, whole: mars2d.Record) -> None:
     data = path.read_bytes()
     assert data
     if path.suffix in SUFFIXES and not data.startswith(b"row,experiment"):
-        record = mars2d.load(path)
+        try:
+            record = mars2d.load(path)
+        except mars2d.InputError as error:  # of a log
+            if "the run ended before its first" in str(error):
+                return
+            raise
         n = len(record)
         for mine, other in ((record.pose, whole.pose), (record.command, whole.command)):
             np.testing.assert_array_equal(mine, other[:n])
@@ -307,3 +312,18 @@ def test_ctrl_c_while_a_row_is_logged_comes_when_it_is_written(tmp_path, child) 
         "    print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)\n"
     )
     assert child(code).stdout.split() == ["1", "1", "True"]
+
+
+def test_a_ctrl_c_of_which_a_library_makes_another_error_is_one_line(child) -> None:
+    code = (
+        "import os, signal, sys, mars2d.cli, mars2d.commands.doctor as doctor\n"
+        "def execute(arguments):\n"
+        "    try:\n"
+        "        os.kill(os.getpid(), signal.SIGINT)\n"
+        "    except KeyboardInterrupt as error:\n"
+        "        raise ImportError('initialization failed') from error\n"
+        "doctor.execute = execute\n"
+        "sys.exit(mars2d.cli.main(['doctor']))\n"
+    )
+    done = child(code)
+    assert (done.returncode, done.stderr) == (130, "mars2d: interrupted\n")

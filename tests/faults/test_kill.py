@@ -8,11 +8,12 @@ import pytest
 
 import mars2d
 
+pytest.importorskip("xarray")
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 
 DYING = """
 import os, signal, sys
-import mars2d, mars2d.replacing
+import mars2d, scipy.io, xarray
 from pathlib import Path
 
 record = mars2d.load("run.npz")
@@ -34,8 +35,8 @@ class Dying:
         return len(data)
 
 opened = Path.open
-def dying(self, mode="r", *more):
-    file = opened(self, mode, *more)
+def dying(self, *words, **more):
+    file = opened(self, *words, **more)
     return Dying(file, MOST) if self.name.endswith(".part") else file
 Path.open = dying
 
