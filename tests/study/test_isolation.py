@@ -676,13 +676,14 @@ def held() -> tuple[int, int]:
 
 
 @needs_proc
-def test_fifty_matches_leave_no_process_thread_or_file_behind(tmp_path) -> None:
+@pytest.mark.parametrize("matches", [10, pytest.param(50, marks=pytest.mark.soak)])
+def test_matches_leave_no_process_thread_or_file_behind(matches, tmp_path) -> None:
     bad = "def control(robot):\n    return 0, 1 / (robot.index + robot.time - 0.1)\n"
     laws = {"a": (law(tmp_path, bad), [0]), "b": (law(tmp_path, GOOD, "good.py"), [1])}
     scenario = pair().replace(stop_time=0.2)
     played(scenario, laws)
     before, others = held(), descendants()
-    for k in range(50):
+    for k in range(matches):
         if k % 2:
             _, guard, _ = played(scenario, laws)
             assert guard.verdicts["a"].kind == "error"

@@ -229,8 +229,8 @@ class Driver:
 
     def close(self):
         if self.process.poll() is None:
-            self.process.kill()
-        self.process.wait(5)
+            self.process.terminate()
+        self.process.wait(20)
         self.process.stdout.close()
         self.process.stderr.close()
 

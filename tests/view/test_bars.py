@@ -165,7 +165,13 @@ def helped(size, text=1.0, groups=None, page=0):
 
 
 @SIZES
-@TEXTS
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param(text, marks=[] if text in (1.0, max(TEXT_SIZES)) else [pytest.mark.soak])
+        for text in TEXT_SIZES
+    ],
+)
 def test_all_keys_stand_on_the_pages_of_help(size, text):
     found = []
     pages = helped(size, text)[2]
