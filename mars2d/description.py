@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 
-from mars2d.errors import InputError, likely, nearest, shown
+from mars2d.errors import CONTROLS, InputError, likely, nearest, shown
 
 __all__ = ["Description", "choice", "entry", "flag", "integer", "number", "text"]
 
@@ -122,12 +122,15 @@ def flag(*, default: Any = dataclasses.MISSING, doc: str = "") -> Any:
 
 
 def text(*, default: Any = dataclasses.MISSING, optional: bool = False, doc: str = "") -> Any:
-    """Declare a field that is text."""
+    """Declare a field that is text in one line, as names and titles are."""
 
     def check(name: str, value: object) -> str | None:
         if optional and value is None:
             return None
-        return _check_str(name, value)
+        found = _check_str(name, value)
+        if CONTROLS.search(found):
+            raise wrong(name, value, "text in one line, without codes of a terminal")
+        return found
 
     return entry(default=default, check=check, doc=doc)
 

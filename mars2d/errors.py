@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import difflib
+import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,10 @@ __all__ = [
     "UnknownNameError",
     "nearest",
 ]
+
+
+CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
+"""Line breaks, and what tells a terminal to do something."""
 
 
 class Mars2dError(Exception):
@@ -104,6 +109,15 @@ def ordinal(number: int) -> str:
     """
     teens = 10 < number % 100 < 20
     return f"{number}{'th' if teens else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"
+
+
+def one_line(text: object) -> str:
+    r"""Return what a text says in one line that a terminal shows: what it can't is escaped.
+
+    >>> one_line("two\nlines")
+    'two\\nlines'
+    """
+    return CONTROLS.sub(lambda found: ascii(found[0])[1:-1], str(text))
 
 
 def shown(value: Any, limit: int = 60) -> str:

@@ -39,6 +39,9 @@ __all__ = [
 
 _counter = itertools.count()
 
+LONGEST = 100
+"""Characters of a line of code that an error shows."""
+
 
 @dataclass(frozen=True)
 class Experiment:
@@ -283,7 +286,9 @@ def _load(path: Path, what: str = "an experiment") -> ModuleType:
     try:
         spec.loader.exec_module(module)
     except SyntaxError as error:
-        problem = InputError(": ".join(filter(None, [error.msg, (error.text or "").strip()])))
+        line = (error.text or "").strip()
+        line = line if len(line) <= LONGEST else line[: LONGEST - 3] + "..."
+        problem = InputError(": ".join(filter(None, [error.msg, line])))
         note_file(Path(error.filename or path))
         place = Path(error.filename or path).name
         problem.where = f"{place}, line {error.lineno}" if error.lineno else place
@@ -331,6 +336,9 @@ def _scenario_of(
         )
     scenario = module.scenario
     chart = MapOption.popped(options, path)
+    if isinstance(scenario, type):
+        kind = scenario.__name__
+        raise InputError(f"scenario = {kind}: expected an object; write {kind}(...)")
     if callable(scenario) and not isinstance(scenario, Scenario):
         parameters = inspect.signature(scenario).parameters
         if chart is not None and "map" in parameters:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
+from mars2d.errors import InputError
 from mars2d.files import Experiment
 from mars2d.interrupt import noted_interrupts
 from mars2d.pace import RealTime
@@ -75,16 +76,20 @@ def open_world(
 ) -> World:
     """Return the world of an experiment, which calls the watchers at each control step.
 
-    storage: what keeps the columns of its record.
+    storage: what keeps the columns of its record. Raises InputError, which names the file.
     """
-    return World(
-        experiment.scenario,
-        experiment.control,
-        seed,
-        filename=experiment.filename,
-        watch=watch_by(watchers),
-        storage=storage,
-    )
+    try:
+        return World(
+            experiment.scenario,
+            experiment.control,
+            seed,
+            filename=experiment.filename,
+            watch=watch_by(watchers),
+            storage=storage,
+        )
+    except InputError as error:
+        error.where = error.where or experiment.filename or None
+        raise
 
 
 def watch_by(watchers: Sequence[Watcher]) -> Watcher | None:

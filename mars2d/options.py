@@ -45,6 +45,9 @@ def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
     if isinstance(target, tuple):
         items = list(target)
         for part, branch in tree.items():
+            if part == "*" and not items:
+                option = ".".join((*path, part))
+                raise InputError(f"there is no option {option!r}: this scenario has no {path[-1]}")
             chosen = range(len(items)) if part == "*" else [_index(part, len(items), path)]
             for i in chosen:
                 items[i] = _replaced(items[i], branch, (*path, part))

@@ -70,7 +70,8 @@ def users_line(stack: traceback.StackSummary) -> str | None:
 
 
 def _is_users(path: Path) -> bool:
-    others = _is_ours(path) or path.is_relative_to(_STANDARD_LIBRARY)
+    compiled = path.suffix == ".pyx"  # numpy's random generators, say
+    others = compiled or _is_ours(path) or path.is_relative_to(_STANDARD_LIBRARY)
     return not (others or "site-packages" in path.parts or str(path).startswith("<"))
 
 

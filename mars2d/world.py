@@ -368,6 +368,8 @@ class World:
         try:
             yield
         except (LawError, DiskError) as error:
+            if isinstance(error, LawError):
+                error.where = error.where or self.filename or None
             self.break_off(f"Error: {error}")
             error.record = self.record
             raise

@@ -20,6 +20,7 @@ from mars2d.study.tournament.match import Match, Played, replayed
 from mars2d.study.tournament.playing import TournamentInterrupted, play_schedule
 from mars2d.study.tournament.schedule import Schedule, schedule
 from mars2d.study.tournament.tournament import LIMITS, PAGE, Tournament
+from mars2d.study.work import worker_count
 from mars2d.view import require_pygame
 
 NAME = "tournament"
@@ -93,6 +94,7 @@ def _check(arguments: argparse.Namespace) -> None:
         if getattr(arguments, name) and arguments.match is None:
             raise InputError(f"--{name} needs --match N")
     check_outputs(arguments, {"record": formats.SUFFIXES})
+    worker_count(arguments.workers)
     if arguments.view and not has_display():
         require_pygame("a window")
         raise InputError("--view: there is no display; save the match with --record OUT.npz")
