@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 from mars2d.commands.base import add_preferences, has_display, preferences_of
@@ -51,7 +52,13 @@ def execute(arguments: argparse.Namespace) -> None:
         empty=new and not robots_wanted,
         changed=bool(options),
     )
-    EditorWindow(editor, preferences=preferences_of(arguments)).run()
+    try:
+        EditorWindow(editor, preferences=preferences_of(arguments)).run()
+    except BaseException:  # Ctrl-C, a display that goes away, a fault: nobody can be asked
+        kept = editor.rescue()
+        if kept is not None:
+            print(f"mars2d: what was drawn and not saved is in {kept}", file=sys.stderr)
+        raise
 
 
 def _kept_in(source: str, experiment: Experiment) -> Path:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -22,6 +23,7 @@ __all__ = [
     "display_available",
     "open_display",
     "open_window",
+    "show_drawn",
     "started_display",
 ]
 
@@ -67,8 +69,10 @@ def open_display() -> None:
     """Start pygame's display. Raises InputError where there is none that a person sees."""
     import pygame
 
+    from mars2d.view import lost
     from mars2d.view.desktop import be_sharp
 
+    lost.check()
     if pygame.display.get_init():
         if pygame.display.get_driver() in NOT_REAL:
             raise InputError(NO_DISPLAY)
@@ -98,13 +102,15 @@ def started_display() -> Iterator[None]:
     """
     import pygame
 
+    from mars2d.view import lost
+
     ours = not pygame.display.get_init()
     open_display()
     try:
         yield
     finally:
         if ours:
-            pygame.display.quit()
+            lost.close()
 
 
 def open_window(size: tuple[int, int], icon: pygame.Surface) -> pygame.Surface:
@@ -114,13 +120,29 @@ def open_window(size: tuple[int, int], icon: pygame.Surface) -> pygame.Surface:
     """
     import pygame
 
+    from mars2d.view import lost
+
+    lost.check()
     pygame.display.set_icon(icon)
     try:
-        surface = pygame.display.set_mode(size, pygame.RESIZABLE)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # desktops may choose another size
+            surface = pygame.display.set_mode(size, pygame.RESIZABLE)
     except pygame.error as error:
         raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
+    lost.watch()
     pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
     return surface
+
+
+def show_drawn() -> None:
+    """Put what was drawn on the screen. Raises DisplayError where that has gone away."""
+    import pygame
+
+    from mars2d.view import lost
+
+    pygame.display.flip()
+    lost.check()
 
 
 def be_quick() -> None:

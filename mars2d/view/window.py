@@ -20,7 +20,7 @@ from mars2d.view.bars import Banner, Status, draw_footer, draw_header, footer_he
 from mars2d.view.camera import Camera
 from mars2d.view.desktop import desktop_scale, opening_size
 from mars2d.view.director import Director
-from mars2d.view.display import PICTURES_A_SECOND, open_window, started_display
+from mars2d.view.display import PICTURES_A_SECOND, open_window, show_drawn, started_display
 from mars2d.view.editor import Editor
 from mars2d.view.ghosts import Marks, ghosts
 from mars2d.view.hand import CLICK, Hand
@@ -154,7 +154,8 @@ class Window:
     def run(self) -> None:
         """Open the window and play until it is closed; then raise the error of a law that failed.
 
-        Ctrl+C in the terminal closes it, and KeyboardInterrupt is raised.
+        Ctrl+C in the terminal closes it, and KeyboardInterrupt is raised; DisplayError where the
+        display goes away.
         """
         with started_display():
             try:
@@ -186,7 +187,7 @@ class Window:
             self.keeper.film(screen, self.layout.plot, self._painter)
             if self.keeper.filming and self.editor is None:  # what is said is not in the film
                 self.notes.draw(screen, self.layout.plot, self._painter, time.monotonic())
-            pygame.display.flip()
+            show_drawn()
             self.player.drawing = time.perf_counter() - start
             self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - IDLE)
             if self.player.speed < inf or not self.player.playing:
@@ -510,7 +511,7 @@ class Window:
         surface = pygame.display.get_surface()
         if surface is not None:
             self.draw(surface)
-            pygame.display.flip()
+            show_drawn()
         self._way_back = None
         leaving = pygame.event.get(pygame.QUIT)
         self._open = self._open and not leaving

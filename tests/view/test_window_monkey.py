@@ -13,7 +13,8 @@ from mars2d.view import keys
 from mars2d.view.editor import keys as editor_keys
 from mars2d.view.source import Playback
 from mars2d.view.window import Window
-from tests.view.person import ROOM
+from tests.view.monkey import COMMANDS, run
+from tests.view.person import ROOM, needs_screen
 
 SCANCODES = {
     code: getattr(pygame, f"KSCAN_{name[2:].upper()}")
@@ -176,3 +177,11 @@ def test_whatever_is_pressed_the_window_goes_on(no_screen, tmp_path, kind):
 @pytest.mark.parametrize("kind", ["live", "recording", "editor", "failing", "manual"])
 def test_whatever_is_pressed_for_long_the_window_goes_on(no_screen, tmp_path, kind, seed):
     play(kind, seed, tmp_path / "room.py", seconds=15)
+
+
+@needs_screen
+@pytest.mark.soak
+def test_real_windows_bear_real_keys_and_clicks():
+    told = run([*COMMANDS], minutes=1, seed=2)["windows"]
+    assert [window["errors"] for window in told.values()] == [[], [], []]
+    assert all(window["left by a key, and opened again"] for window in told.values())

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from mars2d import scenario_file
 from mars2d.errors import InputError
 from mars2d.scenario import Scenario
+from mars2d.view.keep import free_name
 
 __all__ = ["Document"]
 
@@ -63,6 +66,16 @@ class Document:
         """Return whether a path is a file that is there and is not the one opened."""
         mine = self.path is not None and path.absolute() == self.path.absolute()
         return path.exists() and (self.new or not mine)
+
+    def rescue(self, scenario: Scenario) -> Path | None:
+        """Write a scenario to a new file, beside its own or where there is room; return which."""
+        wanted = self.path or self._wanted
+        for folder in (wanted.parent, Path(tempfile.gettempdir())):
+            with suppress(InputError):
+                path = free_name(folder, f"{wanted.stem}_unsaved", scenario_file.SUFFIX)
+                scenario_file.save(scenario, path, self.control)
+                return path
+        return None
 
     def save(self, scenario: Scenario, path: Path) -> str:
         """Write a scenario to a file, which is open from now on; return what to say of it."""

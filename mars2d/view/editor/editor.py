@@ -380,6 +380,21 @@ class Editor:
         if then is not None:
             then()
 
+    def rescue(self) -> Path | None:
+        """Keep what is not saved yet, as far as it is a scenario, in a new file beside its own.
+
+        Return that file; None if nothing would be lost, or nothing can be kept. For where there is
+        nobody any more who could be asked.
+        """
+        history = self.desk.history
+        if self.live or not history.changed:
+            return None
+        self.desk.drop()
+        while (scenario := self.judge.of(history.draft).scenario) is None:
+            if not history.undo():
+                return None
+        return self.document.rescue(scenario)
+
     def _run(self) -> None:
         """Ask for a run of the file, saved first if need be."""
         if self.desk.history.changed or self.document.new:

@@ -7,7 +7,7 @@ import pygame
 from mars2d.errors import Mars2dError
 from mars2d.files import open_experiment
 from mars2d.view.desktop import desktop_scale, opening_size
-from mars2d.view.display import PICTURES_A_SECOND, open_window, started_display
+from mars2d.view.display import PICTURES_A_SECOND, open_window, show_drawn, started_display
 from mars2d.view.editor.editor import Editor
 from mars2d.view.icon import icon
 from mars2d.view.preferences import Preferences
@@ -55,7 +55,7 @@ class EditorWindow:
             surface = pygame.display.get_surface()
             assert surface is not None
             self.draw(surface)
-            pygame.display.flip()
+            show_drawn()
             clock.tick(PICTURES_A_SECOND)
             for event in (pygame.event.wait(REST), *pygame.event.get()):
                 if event.type == pygame.QUIT:
