@@ -44,7 +44,10 @@ def scenario(hunter: str = "hunter.py", prey: str = "prey.py", seed: int = 0, di
     slider = Robot(
         drive=Holonomic(noise=0.05),
         controller=slide,
-        sensors=[RangeBearing(range=3, noise=0.05), BeaconSensor(names=["lamp"], noise=0.1, latency=0.2)],
+        sensors=[
+            RangeBearing(range=3, noise=0.05),
+            BeaconSensor(names=["lamp"], noise=0.1, latency=0.2),
+        ],
     )
     robots = [
         Robot(name="red", sensors=eyes, controller=load_law(hunter)),
