@@ -28,6 +28,8 @@ __all__ = [
     "seeds_of",
     "settings_of",
     "value_in",
+    "word_cell",
+    "word_in",
 ]
 
 MOST = 1_000_000
@@ -35,6 +37,9 @@ MOST = 1_000_000
 
 NUMBER = r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*"
 RANGE = re.compile(f"({NUMBER}):({NUMBER}):({NUMBER})")
+FORMULA = re.compile("'*[=+@-]")
+"""How words begin that a spreadsheet takes for a formula, or that have a quote against that."""
+
 BRACKETS = {"(": ")", "[": "]", "{": "}"}
 
 
@@ -240,6 +245,20 @@ def cell(value: Any) -> str:
 def value_in(text: str) -> Any:
     """Return the value that a cell holds: a Python literal, or else a word."""
     return parse_setting(f"_={text}")[1]
+
+
+def word_cell(text: str) -> str:
+    """Return words as the text of a cell: a quote before what a spreadsheet takes for a formula.
+
+    >>> [word_cell(text) for text in ("blue", "=1+1", "'=1+1", "-")]
+    ['blue', "'=1+1", "''=1+1", "'-"]
+    """
+    return f"'{text}" if FORMULA.match(text) else text
+
+
+def word_in(text: str) -> str:
+    """Return the words that `word_cell` has made the text of a cell."""
+    return text[1:] if text[:1] == "'" and FORMULA.match(text) else text
 
 
 def cells_of(options: Mapping[str, Any]) -> tuple[str, ...]:

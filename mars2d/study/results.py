@@ -19,7 +19,7 @@ from typing import BinaryIO
 
 from mars2d.errors import InputError, shown
 from mars2d.replacing import replacing
-from mars2d.study.plan import cell, value_in
+from mars2d.study.plan import cell, value_in, word_cell, word_in
 from mars2d.study.table import Result, Table
 
 __all__ = [
@@ -209,7 +209,7 @@ def _result(
         {name: value_in(text) for name, text in zip(settings, values, strict=True)},
         seed,
         {name: _measured(text) for name, text in zip(measures, found, strict=True)},
-        error,
+        word_in(error),
         digest,
         code,
     )
@@ -229,7 +229,7 @@ def _measured(text: str) -> float | str | None:
             return kind(text)
         except ValueError:
             continue
-    return text
+    return word_in(text)
 
 
 # -- lines -----------------------------------------------------------------------------------------
@@ -246,11 +246,17 @@ def _cells(table: Table, result: Result) -> list[str]:
         table.experiment,
         *(cell(result.options[name]) for name in table.settings),
         str(result.seed),
-        *("" if value is None else str(value) for value in measured),
+        *(_measure(value) for value in measured),
         result.digest,
         result.code,
-        " ".join(result.error.split()),
+        word_cell(" ".join(result.error.split())),
     ]
+
+
+def _measure(value: float | str | None) -> str:
+    if isinstance(value, str):
+        return word_cell(value)
+    return "" if value is None else str(value)
 
 
 def _line(cells: Iterable[str]) -> str:

@@ -44,6 +44,18 @@ def test_the_file_is_as_rfc_4180_has_it(path):
     ]
 
 
+def test_words_that_a_spreadsheet_would_run_have_a_quote_and_come_back_as_they_were(path):
+    """Words of measures and errors may come from laws."""
+    words = ("=1+1", "+1", "-", "@a", "'=1", "'", "''@", "a=1", "'a")
+    results = [
+        Result(k, {"n": 1, "red": "a"}, k, {"time": word, "won": word}, error=word)
+        for k, word in enumerate(words, 1)
+    ]
+    assert load_table(save_table(of(*results), path)) == of(*results)
+    rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
+    assert not any(row[k][:1] in ("=", "+", "-", "@") for row in rows for k in (5, 6, -1))
+
+
 def test_pandas_reads_the_file_without_options(path):
     pandas = pytest.importorskip("pandas")
     frame = pandas.read_csv(save_table(TABLE, path))

@@ -224,12 +224,11 @@ def _shown(value: Any) -> str:
 
 def _cell(value: Any) -> str:
     """Return a value as a cell of a table; what a spreadsheet would take for a formula is text."""
-    from mars2d.study.plan import cell
+    from mars2d.study.plan import cell, word_cell
 
     if value is None or value != value:  # noqa: PLR0124 - nan
         return ""
-    text = cell(value) if not isinstance(value, str) else " ".join(value.split())
-    return f"'{text}" if isinstance(value, str) and text[:1] in ("=", "+", "@") else text
+    return word_cell(" ".join(value.split())) if isinstance(value, str) else cell(value)
 
 
 def _write(path: Path, text: str) -> Path:
