@@ -85,7 +85,7 @@ class Forked:
 
     def communicate(self):
         """Return all that it prints and all that it says of errors, until both are closed."""
-        with ThreadPoolExecutor(1) as reader:
+        with self.stdout, self.stderr, ThreadPoolExecutor(1) as reader:
             errors = reader.submit(self.stderr.read)
             return self.stdout.read(), errors.result()
 
