@@ -15,6 +15,7 @@ from mars2d.beginning import INTERRUPTED, ending
 from mars2d.commands import VERBS
 from mars2d.errors import InputError, Mars2dError, likely, one_line
 from mars2d.interrupt import raised_once, unwrapped, was_interrupted
+from mars2d.terminal import hang_up_as_interrupt
 
 __all__ = ["main", "parser"]
 
@@ -27,10 +28,11 @@ UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit code.
 
-    0 when all was done, 2 for bad input, 1 for a fault of MARS2D's, 130 after Ctrl-C.
+    0 when all was done, 2 for bad input, 1 for a fault of MARS2D's, 130 after Ctrl-C, or
+    the end of the terminal.
     """
     try:
-        with raised_once(), unwrapped():
+        with raised_once(), unwrapped(), hang_up_as_interrupt():
             return _outcome(argv)
     except KeyboardInterrupt as interrupt:
         print(f"mars2d: {str(interrupt) or 'interrupted'}", file=sys.stderr)

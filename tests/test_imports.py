@@ -37,6 +37,7 @@ LAYERS = [
         "replacing",
         "storage",
         "interrupt",
+        "terminal",
     },
     {
         "registry",

@@ -149,6 +149,26 @@ def test_a_display_that_is_not_there_is_said_in_one_line(folder):
     assert [part.count("\n") for part in (replay, edit, run)] == [0, 0, 0]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no such terminals")
+def test_a_run_whose_terminal_is_closed_is_saved(folder):
+    ours, theirs = os.openpty()
+    environment = bare_environment(PYTHONPATH=str(ROOT))
+    take = "import os, sys; os.setsid(); os.close(os.open(os.ttyname(0), os.O_RDWR))"
+    run = "sys.exit(__import__('mars2d.cli').cli.main(sys.argv[1:]))"
+    long = ["run", "room.py", "--headless", "--stop-time", "1e5", "--record", "closed.npz"]
+    process = subprocess.Popen(
+        [sys.executable, "-c", f"{take}\n{run}", *long],
+        cwd=folder, env=environment, stdin=theirs, stdout=theirs, stderr=theirs,
+    )  # fmt: skip
+    os.close(theirs)
+    said = b""
+    while b"steps/s" not in said:
+        said += os.read(ours, 1000)
+    os.close(ours)
+    assert process.wait(60) == 130
+    assert len(load(folder / "closed.npz")) > 1
+
+
 @pytest.mark.parametrize("command", ["list", "run room.py --headless --json --stop-time 1"])
 def test_whoever_reads_may_stop_reading(folder, command):
     process = mars(folder, *command.split())
