@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf, nan, pi
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.description import wrong
+from mars2d.errors import likely
 from mars2d.geometry import wrap
 
 __all__ = ["ANGLE", "COLOR", "DISTANCE", "FLAG", "NUMBER", "UNKNOWN", "Quantity"]
@@ -17,6 +19,9 @@ Values = NDArray[np.float64] | NDArray[np.bool_]
 
 GROSS = 10.0
 """An outlier of a number without bounds is so many times further off than its noise."""
+
+Kind = Literal["distance", "angle", "color", "flag", "number"]
+KINDS: tuple[str, ...] = get_args(Kind)
 
 SYMBOLS = {"omega": "ω", "delta": "δ"}
 
@@ -27,12 +32,17 @@ class Quantity:
 
     kind: "distance" (>= 0, inf when nothing is there), "angle" (in (-pi, pi]), "color" (0 to 1),
     "flag" (True or False) or "number". Of all but distances and flags, nan says that nothing is
-    there; of a flag, False.
+    there; of a flag, False. Raises InputError for any other kind.
     """
 
     name: str
     unit: str = ""
-    kind: Literal["distance", "angle", "color", "flag", "number"] = "number"
+    kind: Kind = "number"
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            expected = "one of " + ", ".join(map(repr, KINDS)) + likely(self.kind, KINDS)
+            raise wrong(f"Quantity.kind of {self.name}", self.kind, expected)
 
     @property
     def symbol(self) -> str:

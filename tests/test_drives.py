@@ -10,7 +10,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mars2d
-from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scenario, Unicycle, World
+from mars2d import (
+    Car,
+    Differential,
+    Drive,
+    Holonomic,
+    InputError,
+    LawError,
+    Robot,
+    Scenario,
+    Unicycle,
+    World,
+)
 from mars2d.addons import Map
 from mars2d.rerun import rerun
 
@@ -509,3 +520,21 @@ class Strange(Drive):
 )
 def test_a_drive_says_what_its_command_is(drive, names):
     assert [f"{each.name} [{each.unit}]" for each in drive.quantities] == names
+
+
+def test_of_all_commands_only_the_steering_is_an_angle():
+    drives = (Tracked(), Differential(), Differential(command="twist"), Car(), Holonomic())
+    kinds = {each.name: each.kind for drive in drives for each in drive.quantities}
+    assert kinds.pop("delta") == "angle"
+    assert set(kinds.values()) == {"number"}
+
+
+@pytest.mark.parametrize("method", ["saturate", "accelerate", "twist"])
+def test_what_fails_in_a_drive_of_ones_own_is_said_with_its_name(method):
+    def fail(self, *arguments):
+        raise ZeroDivisionError("no wheels")
+
+    broken = type("Broken", (Unicycle,), {method: fail})
+    world = World(Scenario(robots=[Robot(drive=broken(max_acceleration=1.0))]))
+    with pytest.raises(LawError, match=r", line \d+: drive Broken raised ZeroDivisionError: no"):
+        world.step([[0.1], [0.0]])

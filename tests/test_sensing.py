@@ -379,6 +379,14 @@ def test_a_latency_of_very_many_steps_is_refused():
         Scenario(robots=[robot], sampling_time=1e-3, stop_time=1)
 
 
+@pytest.mark.parametrize("kind", ["ditsance", "Distance", "", None, ["angle"]])
+def test_a_quantity_of_a_misspelt_kind_is_refused(kind):
+    with pytest.raises(InputError, match=r"^Quantity.kind of gap = .*: expected one of 'distance'"):
+        Quantity("gap", "m", kind)
+    with pytest.raises(InputError, match="did you mean 'distance'"):
+        Quantity("gap", "m", "ditsance")
+
+
 def test_a_reading_without_its_quantities_is_refused():
     class Flat(Sensor):
         quantities: ClassVar = (DISTANCE, NUMBER)

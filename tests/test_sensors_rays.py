@@ -16,6 +16,7 @@ from mars2d.addons import Map
 from mars2d.props import Box
 from mars2d.scene import Line, Polygon, Scene
 from mars2d.sensors import Bumper, LineCamera, Proximity, RangeFinder, Sensor, SonarRing
+from mars2d.sensors.bumper import _bearing
 from mars2d.shapes import Polygon as PolygonShape
 
 
@@ -209,6 +210,31 @@ def test_a_bumper_over_the_front_does_not_feel_the_back():
     assert bumps(0.3, **front).record.sensors["bumper"][-1, 0].tolist() == [False, True]
     assert bumps(-0.3, **front).record.sensors["bumper"][-1, 0].tolist() == [True, False]
     assert not bumps(pi, **front).record.sensors["bumper"].any()
+
+
+def test_the_sectors_of_a_bumper_share_its_field_of_view():
+    assert Bumper(sectors=2, field_of_view=3.0).angles.tolist() == [-0.75, 0.75]
+    assert Bumper(sectors=4).angles == pytest.approx(np.array([-pi, -pi / 2, 0, pi / 2]))
+
+
+@pytest.mark.parametrize(("bearing", "sector"), [(1.0, 1), (-1.0, 0)])
+def test_a_bumper_feels_a_touch_at_the_very_end_of_its_field_of_view(bearing, sector):
+    class Touched:
+        """A robot that is touched in a given direction."""
+
+        pose = np.zeros(3)
+        contacts = np.array(
+            [(1.0, (cos(bearing), sin(bearing)))], dtype=[("time", float), ("point", float, 2)]
+        )
+
+    class Now:
+        time, sampling_time = 1.0, 0.1
+
+    end = abs(_bearing([cos(bearing), sin(bearing)], [0.0, 0.0, 0.0]))  # as it is rounded
+    bumper = Bumper(sectors=2, field_of_view=2 * end).live()
+    bumper.on_start(Touched, Now, None)
+    bumper.on_step(Touched, Now, None)
+    assert bumper.read(Touched, Now, None).tolist() == [k == sector for k in range(2)]
 
 
 def test_a_slow_bumper_keeps_what_it_felt_until_it_is_read():
