@@ -1,8 +1,8 @@
 """A display that is lost while a window is open: its server dies, or the way to it is cut.
 
-Windows, macOS and Wayland tell a program of that as if its window had been closed. Xlib ends the
-process at once, wherever it is just then, by exit(1): what was recorded would be gone. So it is
-asked to go on, and whoever shows pictures asks `check` after each. Xlib before 1.7 can't be asked.
+Xlib then ends the process at once, wherever it is just then, by exit(1): what was recorded would be
+gone. So it is asked to go on, and whoever shows pictures asks `check` after each. Xlib before 1.7
+can't be asked; where windows are not those of an X server, nothing is done here.
 What SDL would do to close its window never ends on a display that is lost: so it is left as it is.
 """
 
