@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon, Color
+from mars2d.errors import InputError
 from mars2d.fans import Fans
 from mars2d.geometry import Point
 from mars2d.looks import OBSTACLE, prop_colors
@@ -72,14 +74,18 @@ class Around:
 
     def distance(self, point: Point, limit: float, ignore: int) -> float:
         """Return the distance to the nearest surface, metres; inf beyond `limit`."""
+        _check_look("point", point, "limit", limit)
         return self._space.distance(point, limit, ignore)
 
     def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
         """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
+        _check_look("point", point, "limit", limit)
         return self._space.nearby(point, limit, ignore)
 
     def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
         """Return how far a ray goes until the first surface, metres; inf if none is hit."""
+        _check_look("start", start, "length", length)
+        _check_all("angle", angle)
         return float(self._space.rays.distances(start, np.array([angle]), length, ignore)[0])
 
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
@@ -95,12 +101,14 @@ class Around:
 
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
         """Return how far rays from poses (3, m) at bearings (k,) go, (m, k) metres."""
+        _check_fans(poses, bearings, length)
         return self._fans_now.distances(poses, bearings, length, ignore)
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
         """Return how far rays from poses (3, m) at bearings (k,) go, and what each hits."""
+        _check_fans(poses, bearings, length)
         return self._fans_now.sight(poses, bearings, length, ignore, NOTHING)
 
     @cached_property
@@ -169,3 +177,24 @@ class Around:
 def _upright(start: Point) -> Float:
     """Return the pose (3, 1) of a fan that starts in a point, and whose bearings are angles."""
     return np.array([[start[0]], [start[1]], [0.0]])
+
+
+def _check_look(what: str, point: Point, how_far: str, limit: float) -> None:
+    """Refuse what a sensor can't ask with: a look from nowhere would find nothing, and say so."""
+    if not (isfinite(point[0]) and isfinite(point[1])):
+        raise InputError(f"{what} = {point}: expected finite numbers")
+    if not limit >= 0:  # nor is NaN
+        raise InputError(f"{how_far} = {limit}: expected at least 0 m")
+
+
+def _check_fans(poses: Float, bearings: Float, length: ArrayLike) -> None:
+    """Refuse rays from nowhere, to nowhere, or of no length."""
+    _check_all("poses", poses)
+    _check_all("bearings", bearings)
+    if not np.greater_equal(length, 0).all():
+        raise InputError(f"length = {length}: expected at least 0 m")
+
+
+def _check_all(name: str, values: ArrayLike) -> None:
+    if not np.isfinite(values).all():
+        raise InputError(f"{name} = {values}: expected finite numbers")

@@ -11,6 +11,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mars2d.errors import InputError
 from mars2d.output.html.content import content_of
 from mars2d.output.html.template import colors, filled, policy
 from mars2d.replacing import replacing
@@ -31,6 +32,8 @@ def save_html(record: Record, path: str | Path) -> Path:
     Raises InputError where it can't be written, or for a record without rows.
     """
     target = Path(path)
+    if target.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"{target}: expected a name that ends in .html")
     text = page(record)
     with replacing(target) as file:
         file.write(text.encode())
