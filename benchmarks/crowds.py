@@ -398,6 +398,9 @@ def summary(rows: list[dict[str, Any]], seed: int) -> dict[str, Any]:
             "runs": len(rows),
             "robot_runs": sum(row["robots"] for row in rows),
             "escapes": sum(len(row["escapes"]) for row in rows),
+            "runs deeper than allowed": sum(
+                max(row["deepest"].values()) > row["allowed"] for row in rows
+            ),
             "worst of two bodies": worst(rows, "bodies"),
             "worst of body and wall": worst(rows, "walls"),
         }
@@ -431,7 +434,8 @@ def as_lines(result: dict[str, Any]) -> Iterator[str]:
             f"{depths[0]:>22}{depths[1]:>25}"
         )
     steps = f"{result['control_steps']:,} control steps, {result['engine_steps']:,} engine steps"
-    yield f"{steps}; overlaps after each engine step"
+    deeper = result["all"]["runs deeper than allowed"]
+    yield f"{steps}; overlaps after each engine step, in {deeper} runs deeper than max_overlap"
     for escaped in result["escaped"]:
         yield f"run {escaped['run']}: {escaped['what'][0]}"
 
