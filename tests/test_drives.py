@@ -538,3 +538,53 @@ def test_what_fails_in_a_drive_of_ones_own_is_said_with_its_name(method):
     world = World(Scenario(robots=[Robot(drive=broken(max_acceleration=1.0))]))
     with pytest.raises(LawError, match=r", line \d+: drive Broken raised ZeroDivisionError: no"):
         world.step([[0.1], [0.0]])
+
+
+def test_a_drive_that_asks_for_more_than_can_be_reckoned_with_is_told_so():
+    class Wild(Unicycle):
+        def twist(self, command):
+            return np.full((3, command.shape[1]), 1e7)
+
+    world = World(Scenario(robots=[Robot(drive=Wild())]))
+    with pytest.raises(LawError, match=r"a drive asks for \[\[10000000.0\].*, more than 1e\+06"):
+        world.step([[0.1], [0.0]])
+
+
+LIMITED = [
+    Unicycle(max_acceleration=0.7, noise=0.1),
+    Differential(max_acceleration=0.7, noise=0.1),
+    Car(max_acceleration=0.7, max_steering_rate=0.9, noise=0.1),
+    Holonomic(max_acceleration=0.7, noise=0.1),
+]
+
+
+@pytest.mark.parametrize("drive", LIMITED, ids=lambda drive: type(drive).__name__)
+def test_many_robots_are_driven_as_each_of_them_by_itself(drive):
+    rng = np.random.default_rng(1)
+    command, last, normal = (drive.command_for(rng.uniform(-1, 1, (2, 40))) for _ in range(3))
+    command[:, :5] = last[:, 5:10] = 0.0
+    kept = (drive.saturate(command) == command).all(axis=0)
+    assert 8 < kept.sum() < 32
+    for done in (
+        lambda columns: drive.saturate(command[:, columns]),
+        lambda columns: drive.accelerate(command[:, columns], last[:, columns], 0.3),
+        lambda columns: drive.disturb(command[:, columns], normal[:, columns]),
+        lambda columns: drive.twist(command[:, columns]),
+    ):
+        each = np.hstack([done(slice(k, k + 1)) for k in range(40)])
+        assert np.array_equal(done(slice(None)), each)
+
+
+@pytest.mark.parametrize(
+    ("drive", "command", "expected"),
+    [
+        (Unicycle(noise=0.1, wheel_semiaxis=0.1), (0.3, 1.0), (0.33, 1.5)),  # rims 0.2, 0.4
+        (Differential(noise=0.1), (2.0, 4.0), (1.8, 4.8)),
+        (Car(noise=0.1, max_steering=0.5), (0.3, 0.2), (0.27, 0.3)),
+        (Holonomic(noise=0.1), (0.3, 0.4), (0.25, 0.5)),
+    ],
+)
+def test_noise_is_added_to_what_each_actuator_does(drive, command, expected):
+    normal = np.array([[-1.0], [2.0]])
+    disturbed = drive.disturb(np.array(command)[:, None], normal)
+    assert disturbed[:, 0] == pytest.approx(expected)

@@ -55,6 +55,17 @@ def test_a_file_leaves_no_module_behind(tmp_path):
     assert not [name for name in set(sys.modules) - before if "mine" in name]
 
 
+def test_what_no_world_can_be_made_of_is_said_with_its_file(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(
+        "from mars2d import Car, Robot, Scenario\n"
+        "scenario = Scenario(robots=[Robot(drive=Car(dead_time=2))], sampling_time=1e-6)\n"
+    )
+    with pytest.raises(InputError, match=r"Car\.dead_time") as caught:
+        mars2d.run(path)
+    assert caught.value.where == "mine.py"
+
+
 def test_two_files_of_one_name_do_not_meet(tmp_path):
     for k in (1, 2):
         (tmp_path / str(k)).mkdir()
