@@ -366,6 +366,14 @@ def test_a_holonomic_robot_feels_its_turn_of_direction_at_once():
     assert world.robots[0].sense.imu == pytest.approx([-3, 3, 0], abs=1e-9)
 
 
+def test_the_errors_of_an_imu_walk_each_by_itself():
+    imu = Imu(bias_walk=(1.0, 1.0, 1.0))
+    robots = [Robot(sensors=[imu])]
+    errors = mars2d.run(Scenario(robots=robots, stop_time=50)).sensors["imu"][:, 0]
+    steps = np.diff(errors, axis=0)
+    assert np.abs(np.corrcoef(steps.T) - np.eye(3)).max() < 0.2
+
+
 def test_the_bias_is_constant_and_its_walk_grows_with_the_root_of_time():
     robots = [
         Robot(pose=(0, y, 0), sensors=[Imu(bias=(0.1, -0.2, 0.3), bias_walk=(0.02, 0, 0.01))])

@@ -217,24 +217,39 @@ def test_the_sectors_of_a_bumper_share_its_field_of_view():
     assert Bumper(sectors=4).angles == pytest.approx(np.array([-pi, -pi / 2, 0, pi / 2]))
 
 
+class Touched:
+    """A robot that turns by half a radian in a control step, and is touched within it."""
+
+    def __init__(self, point, time=1.0):
+        self.pose = np.zeros(3)
+        kind = [("time", float), ("point", float, 2)]
+        self.contacts = np.array([(time, point)], dtype=kind)
+
+    def felt(self, **fields):
+        class Now:
+            time, sampling_time = 1.0, 0.1
+
+        bumper = Bumper(**fields).live()
+        bumper.on_start(self, Now, None)
+        self.pose = np.array([0.0, 0.0, 0.5])
+        bumper.on_step(self, Now, None)
+        return bumper.read(self, Now, None).tolist()
+
+
 @pytest.mark.parametrize(("bearing", "sector"), [(1.0, 1), (-1.0, 0)])
 def test_a_bumper_feels_a_touch_at_the_very_end_of_its_field_of_view(bearing, sector):
-    class Touched:
-        """A robot that is touched in a given direction."""
+    point = [cos(bearing + 0.5), sin(bearing + 0.5)]
+    end = abs(_bearing(point, [0.0, 0.0, 0.5]))  # as it is rounded
+    felt = Touched(point).felt(sectors=2, field_of_view=2 * end)
+    assert felt == [k == sector for k in range(2)]
 
-        pose = np.zeros(3)
-        contacts = np.array(
-            [(1.0, (cos(bearing), sin(bearing)))], dtype=[("time", float), ("point", float, 2)]
-        )
 
-    class Now:
-        time, sampling_time = 1.0, 0.1
-
-    end = abs(_bearing([cos(bearing), sin(bearing)], [0.0, 0.0, 0.0]))  # as it is rounded
-    bumper = Bumper(sectors=2, field_of_view=2 * end).live()
-    bumper.on_start(Touched, Now, None)
-    bumper.on_step(Touched, Now, None)
-    assert bumper.read(Touched, Now, None).tolist() == [k == sector for k in range(2)]
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_a_bumper_feels_a_touch_where_the_robot_was_then(share):
+    for bearing, sector in ((0.01, 1), (-0.01, 0)):
+        angle = 0.5 * share + bearing
+        touched = Touched([cos(angle), sin(angle)], time=0.9 + 0.1 * share)
+        assert touched.felt(sectors=2, field_of_view=1.0) == [k == sector for k in range(2)]
 
 
 def test_a_slow_bumper_keeps_what_it_felt_until_it_is_read():
