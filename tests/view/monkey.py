@@ -140,11 +140,12 @@ class Monkey:
         self._down.clear()
 
     def close(self) -> None:
-        """Put the hands down."""
+        """Put the hands down, whatever they were still to do."""
         assert self._hands.stdin is not None
+        self._hands.kill()
+        self._hands.wait()
         with contextlib.suppress(OSError):
             self._hands.stdin.close()
-        self._hands.wait(10)
 
     def _do(self, lines: str) -> None:
         """Do what lines of xdotool's language say."""
@@ -153,7 +154,7 @@ class Monkey:
             self._hands.stdin.write(lines)
             self._hands.stdin.flush()
         except BrokenPipeError:  # a window was gone that it looked for
-            self._hands.wait(10)
+            self.close()
             self._hands = self._new_hands()
 
     def _new_hands(self) -> subprocess.Popen[str]:
@@ -257,8 +258,12 @@ class Window:
             stderr=subprocess.PIPE,
             text=True,
         )
-        for read in (self._read_exits, self._read_errors):
-            threading.Thread(target=read, args=(self._process,), daemon=True).start()
+        self._readers = [
+            threading.Thread(target=read, args=(self._process,), daemon=True)
+            for read in (self._read_exits, self._read_errors)
+        ]
+        for reader in self._readers:
+            reader.start()
 
     def _read_exits(self, process: subprocess.Popen[str]) -> None:
         assert process.stdout is not None
@@ -299,7 +304,12 @@ class Window:
         if self._process.poll() is not None:
             self._error(f"the process ended with {self._process.returncode}")
         self._process.kill()
-        self._process.wait(10)
+        self._process.wait()
+        for reader in self._readers:
+            reader.join()
+        for stream in (self._process.stdout, self._process.stderr):
+            assert stream is not None
+            stream.close()
 
 
 def _memory(pid: int) -> int:
