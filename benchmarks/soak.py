@@ -48,7 +48,10 @@ def scenario_of(ticks: int) -> Scenario:
         )
         for k, name in enumerate(names)
     ]
-    obstacles = [[(4, 4), (5, 4), (4.5, 5)], [(7, 1), (9, 1), (9, 1.2), (7, 1.2)]]
+    obstacles = [
+        [(4.0, 4.0), (5.0, 4.0), (4.5, 5.0)],
+        [(7.0, 1.0), (9.0, 1.0), (9.0, 1.2), (7.0, 1.2)],
+    ]
     return Scenario(
         title="A long run",
         robots=robots,

@@ -192,9 +192,9 @@ def _check_fans(poses: Float, bearings: Float, length: ArrayLike) -> None:
     _check_all("poses", poses)
     _check_all("bearings", bearings)
     if not np.greater_equal(length, 0).all():
-        raise InputError(f"length = {length}: expected at least 0 m")
+        raise InputError(f"length = {np.asarray(length)}: expected at least 0 m")
 
 
 def _check_all(name: str, values: ArrayLike) -> None:
     if not np.isfinite(values).all():
-        raise InputError(f"{name} = {values}: expected finite numbers")
+        raise InputError(f"{name} = {np.asarray(values)}: expected finite numbers")

@@ -24,7 +24,7 @@ READINGS = [
     ("a ray from nowhere", "world.ray((np.nan, 0), 0, 1, 0)", "start = (nan, 0)", "finite"),
     ("a ray to nowhere", "world.ray((0, 0), np.inf, 1, 0)", "angle = inf", "finite"),
     ("a ray of a length below 0", "world.ray((0, 0), 0, -1, 0)", "length = -1", "at least 0 m"),
-    ("rays to nowhere", "world.rays((0, 0), [0, np.nan], 1, 0)", "bearings = [0, nan]", "finite"),
+    ("rays to nowhere", "world.rays((0, 0), [0, np.nan], 1, 0)", "bearings = [ 0. nan]", "finite"),
     ("a point nowhere", "world.distance((0, np.nan), 1, 0)", "point = (0, nan)", "finite"),
     ("a limit of NaN", "world.distance((0, 0), np.nan, 0)", "limit = nan", "at least 0 m"),
     ("a colour of nobody", "world.color(99)", "IndexError"),
