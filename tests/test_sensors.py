@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 import shapely
@@ -11,7 +13,7 @@ from hypothesis import strategies as st
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Map
-from mars2d.sensors import Proximity, Sensor
+from mars2d.sensors import Ground, Proximity, Sensor
 
 
 def reading(sensor: Sensor, robots: list[Robot], outlines=(), pose=(0, 0, 0)):
@@ -283,3 +285,30 @@ def test_rays_and_distances_of_the_world_are_those_of_geometry():
     assert around.distance((0.05, 0), 5.0, 1) == pytest.approx(-0.1)
     points = sorted(around.nearby((0, 0), 9.0, 0))
     assert points == [pytest.approx((0, 3)), pytest.approx((1.75, 0))]
+
+
+class Carpet(mars2d.Addon):
+    """A floor that is of one colour, whatever that is."""
+
+    color: object = None
+
+    def ground(self, point):
+        return self.color
+
+
+@pytest.mark.parametrize("color", [(0, 0, 0), (1, 1, 1), (0, 0.5, 1)])
+def test_a_floor_may_be_black_and_white_and_all_between(color):
+    scenario = Scenario(robots=[Robot(sensors=[Ground()])], addons=[Carpet(color=color)])
+    world = World(scenario)
+    world.observe()
+    assert world.robots[0].sense.ground.tolist() == list(color)
+
+
+@pytest.mark.parametrize("color", [(0, 0, 1.01), (-0.01, 0, 0), (0.5,), 0.5, "red"])
+def test_what_is_no_colour_of_a_floor_is_said_with_its_place(color):
+    robot = Robot(pose=(1, 2, 0), sensors=[Ground()])
+    world = World(Scenario(robots=[robot], addons=[Carpet(color=color)]))
+    words = f"the floor at (1, 2) is {color!r}: expected of ground(point) of an add-on: red, "
+    words += "green and blue from 0 to 1, or None"
+    with pytest.raises(LawError, match=re.escape(words)):
+        world.observe()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 import time
 from math import atan2, hypot, inf, isnan, nan, pi
 
@@ -318,8 +319,20 @@ def test_beacons_of_an_own_addon_must_be_points(place):
         def beacons(self):
             return {"sun": place}
 
-    with pytest.raises(LawError, match=r"beacon 'sun' is at .*: expected of beacons\(\)"):
+    words = (
+        f"beacon 'sun' is at {place!r}: expected of beacons() of an add-on points (x, y) by name"
+    )
+    with pytest.raises(LawError, match=re.escape(words)):
         seen(sensors.Beacon(), extra=[Stars()])
+
+
+def test_noise_and_outliers_make_no_beacon_of_one_that_is_not_seen():
+    sensor = sensors.Beacon(noise=(0.1, 0.02), outliers=0.3, range=1.5)
+    scenario = Scenario(robots=[Robot(sensors=[sensor])], addons=list(LAMPS), stop_time=20)
+    door, lamp = np.moveaxis(mars2d.run(scenario).sensors["beacon"][:, 0], 1, 0)
+    assert not np.isfinite(lamp).any()
+    assert np.median(door, axis=0) == pytest.approx([1, -pi / 2], abs=0.05)
+    assert np.isfinite(door).all(axis=1).mean() > 0.8
 
 
 def test_a_beacon_that_goes_out_is_not_seen_any_more():
@@ -339,7 +352,8 @@ def test_a_beacon_that_goes_out_is_not_seen_any_more():
 
 @pytest.mark.parametrize("names", ["lamp", [], [3], ["a", "a"]])
 def test_names_are_a_list_of_different_texts(names):
-    with pytest.raises(InputError, match=r"Beacon\.names"):
+    words = r"stands there twice|expected a list of beacons' names, as \['lamp'\], or None"
+    with pytest.raises(InputError, match=rf"Beacon\.names.*: .*({words})$"):
         sensors.Beacon(names=names)
 
 
