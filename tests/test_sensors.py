@@ -248,6 +248,16 @@ def test_readings_of_one_name_have_one_shape_on_all_robots():
     assert record.sensor_robots == {"beams": (0,), "wide": (1,)}
 
 
+def test_a_sensor_that_reads_alone_reads_many_one_by_one():
+    class Echo(Sensor):
+        def read(self, robot, world, rng):
+            return robot, world, rng
+
+    assert Echo().read_all("ab", "world", [1, 2]) == [("a", "world", 1), ("b", "world", 2)]
+    with pytest.raises(ValueError, match="shorter"):
+        Echo().read_all("ab", "world", [1])
+
+
 def test_a_sensor_without_read_says_what_is_missing():
     class Empty(Sensor):
         pass

@@ -301,6 +301,13 @@ def test_odometry_that_can_not_be_is_an_error(fields, message):
 # -- inertial measurements ---------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("scales", [(0, 1), (1, 0), (10.1, 1), (1, 10.1), (-1, 1)])
+def test_a_wheel_has_a_size(scales):
+    assert Odometry(wheel_scale=(10, 1e-3)).wheel_scale == (10, 1e-3)
+    with pytest.raises(InputError, match=r"Odometry.wheel_scale = .*: expected two scales"):
+        Odometry(wheel_scale=scales)
+
+
 def test_on_a_circle_it_feels_the_centripetal_acceleration():
     for sampling_time in (0.01, 0.1, 1.0):
         robot = Robot(pose=(0, 0, 1), sensors=[Imu()])
