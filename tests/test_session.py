@@ -146,6 +146,14 @@ def test_ctrl_c_between_two_steps_keeps_them(tmp_path):
     assert len(caught.value.record) == len(mars2d.load(tmp_path / "run.mcap")) == 3
 
 
+def test_columns_of_a_run_that_is_logged_are_kept_beside_its_file(tmp_path):
+    log, made = Log(tmp_path / "run.mcap"), []
+    beside = log.storage
+    log.storage = lambda *shape: made.append(beside(*shape)) or made[-1]
+    simulate(open_experiment(SQUARE), log=log)
+    assert made
+
+
 def test_a_disk_that_fails_between_two_steps_is_said_and_they_are_kept(tmp_path):
     def fail():
         raise DiskError("run.mcap: gone")

@@ -36,6 +36,7 @@ TESTS = (
     "test_sensors_motion", "test_sensors_rays", "test_floor_addon", "test_world",
     "test_session", "formats/test_mcap",
 )  # fmt: skip
+QUIET = ("-q", "-p", "no:cacheprovider", "-k", "not in_no_time")  # a busy machine kills nobody
 ASLEEP = 600
 """After so long a mutant that waits for something is out of time, seconds."""
 SURVIVED, KILLED, OUT_OF_TIME, UNTESTED = "survived", "killed", "timeout", "untested"
@@ -68,7 +69,7 @@ class Mutants:
         shutil.copy(Path(__file__).with_name("trampoline.py"), folder / package)
         self.file: dict[str, Path] = {}
         self._source: dict[str, list[str]] = {}
-        for path in sorted(path for target in TARGETS for path in package.glob(target)):
+        for path in _targets():
             made = file_mutation.mutate_file_contents(str(path), path.read_text())
             code = made.code.replace("from mutmut.mutation.", "from mars2d.")
             (folder / path).write_text(code)
@@ -145,24 +146,26 @@ class Trial:
 
         In a fork, as what tests leave behind may hide what a mutant does.
         """
-        known: dict[str, Any] = json.loads(self.calm.read_text()) if self.calm.exists() else {}
-        items = [item for item in items if item.nodeid not in known]
-        if items:
+        if not _newer(self.calm, [Path(__file__), *_targets(), *map(Path, _files())]):
             if (child := os.fork()) == 0:
-                for item, following in zip(items, [*items[1:], None], strict=True):
-                    self._trampoline.called.clear()
-                    start = time.process_time()
-                    if _fails(item, following):
-                        known[item.nodeid] = 0.0, []  # it looks at the code itself
-                        continue
-                    seconds = time.process_time() - start
-                    known[item.nodeid] = seconds, sorted(self._trampoline.called)
-                self.calm.write_text(json.dumps(known))
+                self._calmly(items)
                 os._exit(0)
             os.waitpid(child, 0)
-            known = json.loads(self.calm.read_text())
+        known: dict[str, Any] = json.loads(self.calm.read_text())
         took = {test: seconds for test, (seconds, _) in known.items()}
-        return took, {test: set(calls) for test, (_, calls) in known.items()}
+        self._unfit = [test for test, (_, calls) in known.items() if calls is None]
+        return took, {test: set(calls or ()) for test, (_, calls) in known.items()}
+
+    def _calmly(self, items: list[pytest.Item]) -> None:
+        """Run the tests and write how long each takes and what it calls; None where it fails."""
+        known = {}
+        for item, following in zip(items, [*items[1:], None], strict=True):
+            self._trampoline.called.clear()
+            start = time.process_time()
+            fails = _fails(item, following)  # as it looks at the code itself, say
+            calls = None if fails else sorted(self._trampoline.called)
+            known[item.nodeid] = time.process_time() - start, calls
+        self.calm.write_text(json.dumps(known))
 
     def _fork(self, name: str, items: list[pytest.Item], limit: float) -> int:
         """Start a process that tries a mutant, and return its id."""
@@ -176,7 +179,8 @@ class Trial:
 
     def _fresh(self, name: str) -> int:
         """Start a process that tries a mutant from the import on, and return its id."""
-        run = [sys.executable, "-m", "pytest", "-qx", "-p", "no:cacheprovider", *_files()]
+        run = [sys.executable, "-P", "-m", "pytest", *QUIET, "-x", *_files()]
+        run += [f"--deselect={test}" for test in self._unfit]
         path = os.pathsep.join(sys.path[:2])
         quiet = [(os.POSIX_SPAWN_OPEN, out, os.devnull, os.O_WRONLY, 0) for out in (1, 2)]
         environment = {**os.environ, "MUTANT": name, "PYTHONPATH": path}
@@ -200,6 +204,16 @@ def _fails(item: pytest.Item, following: pytest.Item | None) -> bool:
     return any(report.failed for report in runtestprotocol(item, log=False, nextitem=following))
 
 
+def _targets() -> list[Path]:
+    return sorted(path for target in TARGETS for path in Path("mars2d").glob(target))
+
+
+def _newer(file: Path, than: list[Path]) -> bool:
+    """Return whether a file is there and was written after all others."""
+    changed = max(path.stat().st_mtime for path in than)
+    return file.exists() and file.stat().st_mtime > changed
+
+
 def _files() -> Iterator[str]:
     return (f"tests/{name}.py" for name in TESTS)
 
@@ -214,7 +228,8 @@ def main() -> None:
     parser.add_argument("--verdicts", type=Path, required=True, help="where they are kept; those "
                         "killed there are not tried again")  # fmt: skip
     options: Any = parser.parse_args()
-    options.verdicts.touch()
+    if not _newer(options.verdicts, _targets()):  # else its names may be those of other mutants
+        options.verdicts.write_text("")
     kept = dict(line.rsplit(" ", 1) for line in options.verdicts.read_text().splitlines())
     with tempfile.TemporaryDirectory() as folder:
         mutants = Mutants(Path(folder))
@@ -222,7 +237,7 @@ def main() -> None:
         names = [n for n in names if any(fnmatch(n, each) for each in options.names)]
         sys.path.insert(0, folder)
         trial = Trial(names, options.seconds, options.processes, options.verdicts)
-        if pytest.main(["-q", "-p", "no:cacheprovider", *_files()], plugins=[trial]) not in (0, 5):
+        if pytest.main([*QUIET, *_files()], plugins=[trial]) not in (0, 5):
             sys.exit("the tests can't be run")
     verdict = {**kept, **trial.verdict}
     for name, said in sorted(verdict.items()):
