@@ -222,7 +222,7 @@ def main() -> None:
     """Try mutants, print the survivors and the score of each file."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutants", description=__doc__)
     parser.add_argument("names", nargs="*", default=["*"], help="patterns of mutants' names")
-    parser.add_argument("--seconds", type=float, default=5.0, help="of tests for one mutant")
+    parser.add_argument("--seconds", type=float, default=60.0, help="of tests for one mutant")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--sample", type=int, help="so many of each file, by a fixed seed")
     parser.add_argument("--verdicts", type=Path, required=True, help="where they are kept; those "
