@@ -550,6 +550,14 @@ def test_a_drive_that_asks_for_more_than_can_be_reckoned_with_is_told_so():
         world.step([[0.1], [0.0]])
 
 
+def test_a_drive_may_ask_for_as_much_as_can_be_reckoned_with():
+    class Fast(Unicycle):
+        def twist(self, command):
+            return np.array([[0.0], [0.0], [1e6]])
+
+    World(Scenario(robots=[Robot(drive=Fast())], physics="ideal")).step([[0.1], [0.0]])
+
+
 LIMITED = [
     Unicycle(max_acceleration=0.7, noise=0.1),
     Differential(max_acceleration=0.7, noise=0.1),

@@ -398,6 +398,17 @@ def test_a_reading_without_its_quantities_is_refused():
         measured(Flat(noise=0.1))
 
 
+@pytest.mark.parametrize("given", [(), DISTANCE, [DISTANCE], ("m",), (DISTANCE, "rad"), None])
+def test_quantities_that_are_no_tuple_of_quantities_are_refused(given):
+    class Vague(Sensor):
+        quantities: ClassVar = given
+
+    with pytest.raises(
+        InputError, match=r"^Vague\.quantities = .*: expected a tuple of quantities"
+    ):
+        Vague()
+
+
 # -- what a review has found ---------------------------------------------------------------------
 
 

@@ -110,8 +110,9 @@ def test_the_field_of_view_ends_half_its_angle_to_either_side(angle, side):
     assert not sees(side * (angle / 2 + 0.005))
 
 
-def test_a_long_wall_whose_nearest_point_is_out_of_view_is_seen_where_it_enters():
-    wall = [[(-0.2, 0.3), (5, 0.3)]]  # its nearest point is straight to the left
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_long_wall_whose_nearest_point_is_out_of_view_is_seen_where_it_enters(side):
+    wall = [[(-0.2, 0.3 * side), (5, 0.3 * side)]]  # its nearest point is straight to one side
     assert reading(Proximity(range=1, field_of_view=1.0), [], wall) is True
     assert reading(Proximity(range=0.5, field_of_view=1.0), [], wall) is False
 
