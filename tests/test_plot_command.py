@@ -106,7 +106,7 @@ def test_a_folder_where_nothing_can_be_written_is_refused(plot, tmp_path):
 
 
 def test_characters_that_no_font_has_are_named_in_one_line(plot, tmp_path):
-    scenario = Scenario(title="中文 🤖 \x07", robots=1, stop_time=1)
+    scenario = Scenario(title="中文 🤖 \ue123", robots=1, stop_time=1)
     record = mars2d.run(scenario, control=lambda world: [[0.3], [0.3]])
     path = record.save(tmp_path / "odd.npz")
     code, said = plot(record=path)
@@ -114,7 +114,7 @@ def test_characters_that_no_font_has_are_named_in_one_line(plot, tmp_path):
     printed, told = said.splitlines()
     assert printed == "odd_paths.png"
     assert told.startswith("mars2d: no font has '")
-    assert told.endswith("'\\x07': boxes stand for them") or "'\\x07', " in told
+    assert told.endswith("'\\ue123': boxes stand for them") or "'\\ue123', " in told
 
 
 def test_an_experiment_is_to_be_run_first(plot):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import pickle
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import (
     BrokenExecutor,
     CancelledError,
@@ -82,14 +82,40 @@ def cores() -> int:
 def _done_by(
     executor: Executor, function: Callable[[T], R], tasks: Sequence[T]
 ) -> Iterator[tuple[int, R | Failure]]:
-    """Do what `each_done` does by another's executor."""
+    """Do what `each_done` does by another's executor.
+
+    Where a worker has ended, what it was about to tell of other tasks is lost as well. So those
+    that are blamed for it are done again when all others are, each alone.
+    """
+    blamed: list[int] = []
+    for index, outcome in _sent(executor, function, tasks, range(len(tasks)), IN_FLIGHT):
+        if isinstance(outcome, _Ended):
+            blamed.append(index)
+        else:
+            yield index, outcome
+    for index, outcome in _sent(executor, function, tasks, blamed, 1):
+        yield index, Failure(outcome) if isinstance(outcome, _Ended) else outcome
+
+
+class _Ended(str):
+    """What is said of a task whose process has ended."""
+
+
+def _sent(
+    executor: Executor,
+    function: Callable[[T], R],
+    tasks: Sequence[T],
+    which: Iterable[int],
+    most: int,
+) -> Iterator[tuple[int, R | Failure | _Ended]]:
+    """Send tasks to an executor, so many at once, and yield what came of each."""
     send, read = _ways(executor, function)
     running: dict[Future[Any], int] = {}
     done: SimpleQueue[Future[Any]] = SimpleQueue()
-    indices = iter(range(len(tasks)))
+    indices = iter(which)
     try:
-        for _ in range(len(tasks)):
-            while len(running) < IN_FLIGHT and (index := next(indices, None)) is not None:
+        while True:
+            while len(running) < most and (index := next(indices, None)) is not None:
                 task = tasks[index]
                 try:
                     future = send(task)
@@ -97,9 +123,10 @@ def _done_by(
                     raise InputError(f"{LOST} ({one_line(error)}): {INSTEAD}") from error
                 running[future] = index
                 future.add_done_callback(done.put)
+            if not running:
+                return
             future = _next(done)
-            index = running.pop(future)
-            yield index, _outcome(future, read)
+            yield running.pop(future), _outcome(future, read)
     finally:
         for future in running:
             future.cancel()
@@ -148,6 +175,6 @@ def _outcome(future: Future[Any], read: Callable[[Any], Any]) -> Any:
     except Exception as error:
         if type(error).__name__ == "KilledWorker":  # Dask's, which need not be installed
             times = counted(getattr(error, "allowed_failures", 0) + 1, "worker")
-            return Failure(f"the process that ran it ended, on {times} in turn")
+            return _Ended(f"the process that ran it ended, on {times} in turn")
         return Failure(one_line(error))
     return read(value)

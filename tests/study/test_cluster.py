@@ -72,6 +72,7 @@ def tasks(local):
 
 @pytest.fixture
 def executor(local):
+    local.wait_for_workers(2)  # one that was killed takes a moment to come back
     with cluster(local.scheduler_address) as executor:
         yield executor
 
