@@ -718,9 +718,17 @@ def control(robot):
     assert error is None
     assert (record.command[:, 0, 0] == 0.1).all()
     assert descendants() <= others
-    assert not Path(f"/proc/{guard.output['a'].split()[0]}/cmdline").is_file() or (
-        Path(f"/proc/{guard.output['a'].split()[0]}/stat").read_text().split()[2] == "Z"
-    )
+    child, end = guard.output["a"].split()[0], time.monotonic() + 10
+    while is_alive(child) and time.monotonic() < end:  # it is killed, which takes a moment
+        time.sleep(0.01)
+    assert not is_alive(child)
+
+
+def is_alive(process: str) -> bool:
+    try:
+        return Path(f"/proc/{process}/stat").read_text().split()[2] != "Z"
+    except OSError:
+        return False
 
 
 @needs_proc

@@ -30,7 +30,7 @@ def chase(mu):
     """Blue flees to the right, red follows mu times as quickly."""
     red = Robot(name="red", pose=(-1, 0, 0))
     scenario = Scenario(
-        robots=[red, Robot(name="blue " + EVIL.split("\u2028")[0], pose=(1, 0, 0))],
+        robots=[red, Robot(name="blue " + EVIL.split("\u2028", maxsplit=1)[0], pose=(1, 0, 0))],
         addons=[Game({"pursuer": [0], "evader": [1]})],
         title="Chase",
         stop_time=8,
