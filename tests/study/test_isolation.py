@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from math import pi
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -692,7 +693,7 @@ def test_matches_leave_no_process_thread_or_file_behind(matches, tmp_path) -> No
                 World(guard.scenario, seed=1).step()
                 raise RuntimeError
     assert held() == before
-    assert descendants() <= others
+    assert soon(lambda: descendants() <= others)
 
 
 @needs_proc
@@ -717,11 +718,17 @@ def control(robot):
     record, guard, error = played(pair(), {"a": (file, [0])})
     assert error is None
     assert (record.command[:, 0, 0] == 0.1).all()
-    assert descendants() <= others
-    child, end = guard.output["a"].split()[0], time.monotonic() + 10
-    while is_alive(child) and time.monotonic() < end:  # it is killed, which takes a moment
+    assert soon(lambda: descendants() <= others)
+    child = guard.output["a"].split()[0]
+    assert soon(lambda: not is_alive(child))
+
+
+def soon(condition: Callable[[], bool]) -> bool:
+    """Return whether something is so within ten seconds: what is killed takes a moment to go."""
+    end = time.monotonic() + 10
+    while not (met := condition()) and time.monotonic() < end:
         time.sleep(0.01)
-    assert not is_alive(child)
+    return met
 
 
 def is_alive(process: str) -> bool:
@@ -781,7 +788,7 @@ def test_ctrl_c_ends_the_match_and_its_laws(tmp_path) -> None:
         simulate(Experiment(guard.scenario), 1)
     presser.join()
     assert held() == before
-    assert descendants() <= others
+    assert soon(lambda: descendants() <= others)
     assert guard.verdicts == {}
 
 
