@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -14,7 +13,6 @@ from mars2d.description import whole
 from mars2d.errors import LawError, shown
 from mars2d.imperfection import as_numbers
 from mars2d.interventions import Intervention
-from mars2d.kernel import reason_without
 from mars2d.message import MESSAGE, as_of, in_flight
 from mars2d.record import Record
 from mars2d.scenario import Scenario
@@ -74,11 +72,18 @@ class Recorder:
     carry each sensor that is recorded.
     """
 
-    def __init__(self, scenario: Scenario, storage: Storage = Column) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        storage: Storage = Column,
+        versions: Callable[[], Mapping[str, str]] = dict,
+    ) -> None:
         """Take the scenario, which says how many robots and sensors there are.
 
-        storage: what makes the columns, in memory or in files.
+        storage: makes the columns, in memory or in files. versions: returns the versions of the
+        software that the numbers depend on, for the record.
         """
+        self.versions = versions
         n, props = len(scenario.robots), len(scenario.props)
         capacity = min(scenario.last_iteration + 1, 4096)
         self._columns = {
@@ -224,7 +229,7 @@ class Recorder:
             over_message=whole(over_message),
             finished=finished,
             filename=whole(filename),
-            versions=versions(),
+            versions=self.versions(),
             drawn=drawn,
             interventions=tuple(each for each in interventions if each.row < self.rows),
         )
@@ -271,19 +276,3 @@ def _is_flag(value: Any) -> bool:
 def _kind(dtype: np.dtype[Any], shape: tuple[int, ...]) -> str:
     what = "True or False" if dtype.kind == "b" else "numbers"
     return f"{what} of shape {shape[1:]}" if len(shape) > 1 else what
-
-
-def versions() -> dict[str, str]:
-    """Return the versions of what a run's numbers depend on."""
-    from importlib.metadata import version
-
-    from mars2d import __version__
-
-    return {
-        "mars2d": __version__,
-        "kernel": "no" if reason_without() else "yes",
-        "pymunk": version("pymunk"),
-        "numpy": np.__version__,
-        "python": platform.python_version(),
-        "platform": f"{platform.system()} {platform.machine()}",
-    }

@@ -15,7 +15,7 @@ from mars2d.errors import InputError, counted
 from mars2d.interventions import Change, Intervention
 from mars2d.plain import MOVING
 from mars2d.record import Record
-from mars2d.recorder import versions
+from mars2d.versions import versions
 from mars2d.scenario import Scenario
 from mars2d.world import World
 

@@ -38,6 +38,7 @@ from mars2d.storage import Column, DiskError, Storage
 from mars2d.streams import check_seed, stream
 from mars2d.surroundings import Around
 from mars2d.usercode import called
+from mars2d.versions import versions
 from mars2d.views import VIEWS, Mind, PropView, RobotView, TeamPositionsView
 
 __all__ = ["World"]
@@ -102,7 +103,7 @@ class World:
         self._stepping = True  # until all is built
         self._observed = -1  # the iteration that add-ons and sensors were last called for
         self._engine = ENGINES[scenario.physics](scenario)
-        self.recorder = Recorder(scenario, storage)
+        self.recorder = Recorder(scenario, storage, versions)
         self.history = History(self.recorder)
         self.hands = Hands(self)
         self._workspace = None if scenario.workspace is None else np.array(scenario.workspace)

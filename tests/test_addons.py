@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, LawError, Robot, Scenario, Sensor, World, frame
+from mars2d import InputError, LawError, Robot, Scenario, Sensor, World, parts
 from mars2d.addons import HOOKS, Addon, Beacon, Map
 from mars2d.scene import Circle, Text
 
@@ -193,7 +193,7 @@ def test_what_an_add_on_draws_of_its_fields_and_the_time_is_in_a_replay(tmp_path
     ferry = Beacon(path=[(1, 0), (2, 0)], speed=0.5, name="ferry")
     record = mars2d.run(Scenario(addons=[ferry], stop_time=2))
     loaded = mars2d.load(record.save(tmp_path / "ferry.npz"))
-    scene = frame.addons(loaded.frame(10))
+    scene = parts.addons(loaded.frame(10))
     lamps = [shape for shape in scene.shapes if isinstance(shape, Circle)]
     assert lamps[-1].center == pytest.approx((1.5, 0))
     assert "ferry" in [s.text.strip() for s in scene.shapes if isinstance(s, Text)]
@@ -230,7 +230,7 @@ def test_an_own_addon_may_paint_the_floor():
         def paint(self, scene, area):
             scene.polygon(area, fill="#ff0000")
 
-    (shape,) = frame.floor(Scenario(addons=[Carpet()], workspace=None)).shapes
+    (shape,) = parts.floor(Scenario(addons=[Carpet()], workspace=None)).shapes
     assert np.ptp(shape.points, axis=0).tolist() == [2.0, 2.0]  # a metre round the only robot
 
     class Torn(Carpet):
@@ -238,4 +238,4 @@ def test_an_own_addon_may_paint_the_floor():
             raise ValueError("torn")
 
     with pytest.raises(LawError, match=r"add-on 'torn' raised ValueError: torn"):
-        frame.floor(Scenario(addons=[Torn()]))
+        parts.floor(Scenario(addons=[Torn()]))

@@ -11,7 +11,7 @@ from PIL import Image
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Density, Voronoi
-from mars2d.frame import floor
+from mars2d.parts import floor
 from mars2d.scene import Image as Pixels
 from mars2d.scene import Scene, Text
 from mars2d.view.camera import Camera

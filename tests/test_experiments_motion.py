@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import mars2d
-from mars2d import InputError, Robot, Scenario, World, frame
+from mars2d import InputError, Robot, Scenario, World, parts
 from mars2d.addons import FieldOfView
 from mars2d.files import open_experiment, open_module
 from mars2d.scene import Circle, Line, Polygon, Scene
@@ -30,7 +30,7 @@ def about(record, middle=None):
 
 
 def theory_of(record, row=-1):
-    return frame.theory(record.frame(row)).shapes
+    return parts.theory(record.frame(row)).shapes
 
 
 # -- cyclic pursuit -----------------------------------------------------------------------------

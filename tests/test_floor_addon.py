@@ -15,7 +15,7 @@ from PIL import Image
 import mars2d
 from mars2d import Addon, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Floor
-from mars2d.frame import floor as floor_of
+from mars2d.parts import floor as floor_of
 from mars2d.output.artists import paint
 from mars2d.scene import Circle, Polygon, Scene, Text
 from mars2d.sensors import Ground

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mars2d import Robot, Scenario, World
-from mars2d.frame import initial_poses, joints, props, robots, trails
+from mars2d.parts import initial_poses, joints, props, robots, trails
 from mars2d.joints import Rod, Rope, Spring
 from mars2d.looks import MATERIAL_COLORS, draw_prop, draw_robot, prop_colors
 from mars2d.materials import MATERIALS

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, LawError, Robot, Scenario, World, addons, frame, sensors
+from mars2d import InputError, LawError, Robot, Scenario, World, addons, parts, sensors
 from mars2d.addons import Map
 from mars2d.bearings import hold_missing, sighted
 from mars2d.geometry import wrap
@@ -444,7 +444,7 @@ def test_the_path_of_a_beacon_is_drawn_open_where_it_ends():
     corners = [(1, 0), (2, 0), (2, 1)]
     for closed, drawn in ((True, [*corners, corners[0]]), (False, corners)):
         world = World(Scenario(addons=[addons.Beacon(path=corners, speed=1, closed=closed)]))
-        scene = frame.addons(world.frame)
+        scene = parts.addons(world.frame)
         (line,) = [shape for shape in scene.shapes if isinstance(shape, Line)]
         assert line.points.tolist() == [list(corner) for corner in drawn]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Animation, InputError, Robot, Scenario, World, frame
+from mars2d import Animation, InputError, Robot, Scenario, World, parts
 from mars2d.addons import Trails
 from mars2d.scene import Line, rgb
 
@@ -32,7 +32,7 @@ def record_of(*addons, robots=2, sampling_time=0.1, stop_time=6.0):
 
 
 def lines(seen):
-    return [shape for shape in frame.addons(seen).shapes if isinstance(shape, Line)]
+    return [shape for shape in parts.addons(seen).shapes if isinstance(shape, Line)]
 
 
 def strength(line):

@@ -16,7 +16,7 @@ import numpy as np
 
 from mars2d.errors import InputError
 from mars2d.kernel import reason_without
-from mars2d.recorder import versions
+from mars2d.versions import versions
 from mars2d.replacing import replacing
 
 __all__ = ["ALIKE", "FORMAT", "Change", "Figures", "Report", "Row", "load_report"]

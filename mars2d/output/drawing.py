@@ -11,7 +11,7 @@ from math import ceil, floor, log10
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import frame as seen
+from mars2d import parts as seen
 from mars2d.errors import described
 from mars2d.forces import forces
 from mars2d.frame import Frame

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d import frame as seen
+from mars2d import parts as seen
 from mars2d.errors import InputError, shown
 from mars2d.forces import FORCE, LABEL_SIZE, force_scale, forces, in_newtons, round_force
 from mars2d.geometry import grid_step

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mars2d.errors import InputError
-from mars2d.frame import Frame
+from mars2d.frame import Frame, between
 from mars2d.output.cut import Cut
 from mars2d.scenario import Scenario
 from mars2d.scene import Scene
-from mars2d.view.player import between
-from mars2d.world import World
+
+if TYPE_CHECKING:
+    from mars2d.world import World
 
 __all__ = ["Footage", "shots"]
 

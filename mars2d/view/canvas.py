@@ -7,7 +7,7 @@ from time import perf_counter
 
 import pygame
 
-from mars2d import frame as scenes
+from mars2d import parts as scenes
 from mars2d.frame import Frame
 from mars2d.scenario import Scenario
 from mars2d.scene import Polygon

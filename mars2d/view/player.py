@@ -10,7 +10,7 @@ from typing import Literal
 
 from mars2d.animation import playback_speed
 from mars2d.errors import Mars2dError
-from mars2d.frame import Frame
+from mars2d.frame import Frame, between
 from mars2d.view.slider import BEHIND, times
 from mars2d.view.source import Source
 
@@ -256,30 +256,3 @@ class Player:
         except Mars2dError as error:
             self.error = error
         return not self.failed
-
-
-def between(first: Frame, second: Frame, time: float) -> Frame:
-    """Return what is seen at a time [s] between two frames: poses linear, all else of the first.
-
-    Only contacts, efforts and messages are the second's: those of the control step that leads
-    there. A time before or after both is taken as the first's or the second's.
-    """
-    span = second.time - first.time
-    if span <= 0 or time >= second.time:
-        return second
-    share = max(0.0, (time - first.time) / span)
-    return replace(
-        first,
-        time=max(time, first.time),
-        pose=first.pose + share * (second.pose - first.pose),
-        sensed=first.pose,
-        path=second.path,
-        prop_pose=first.prop_pose + share * (second.prop_pose - first.prop_pose),
-        prop_path=second.prop_path,
-        contacts=second.contacts,
-        effort=second.effort,
-        contact_log=second.contact_log,
-        effort_path=second.effort_path,
-        command_path=second.command_path,
-        messages=second.messages,
-    )

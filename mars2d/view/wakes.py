@@ -6,7 +6,7 @@ from time import perf_counter
 
 import pygame
 
-from mars2d import frame as scenes
+from mars2d import parts as scenes
 from mars2d.frame import Float
 from mars2d.scenario import Scenario
 from mars2d.view.camera import Camera

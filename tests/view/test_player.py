@@ -8,7 +8,7 @@ import pytest
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.errors import InputError, LawError
-from mars2d.frame import sensors
+from mars2d.parts import sensors
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.view import keys
 from mars2d.view.player import SPEEDS, Player, between

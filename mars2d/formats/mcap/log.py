@@ -116,7 +116,7 @@ class Log:
         start = min(same, recorder.rows)
         self._counts = start, 0, 0, 0
         self._begun.append(start)
-        empty = Recorder(recorder.scenario).record(
+        empty = Recorder(recorder.scenario, versions=recorder.versions).record(
             world.seed, "not over", False, world.filename, Scene()
         )
         robots = recorder.sensor_robots

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mars2d import frame
+from mars2d import parts
 from mars2d.formats.mcap.drawing import draw
 from mars2d.formats.mcap.row import Row
 from mars2d.formats.mcap.wire import block, packed, varint
@@ -158,7 +158,7 @@ class Topics:
             entity.timestamp.FromNanoseconds(ns)
             draw(entity, scene, floor)
 
-        grounds = Scene([*frame.workspace(scenario).shapes, *frame.obstacles(scenario).shapes])
+        grounds = Scene([*parts.workspace(scenario).shapes, *parts.obstacles(scenario).shapes])
         add("ground", self._world, grounds, BENEATH)
         start = np.zeros(3)
         names = iter(self._names)

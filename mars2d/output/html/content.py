@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from mars2d import frame as scenes
+from mars2d import parts as scenes
 from mars2d.addons.base import Addon
 from mars2d.bodies.base import Drive
 from mars2d.errors import ordinal
