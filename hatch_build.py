@@ -11,7 +11,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-KERNEL = Path("mars2d") / "kernel"
+KERNEL = Path("mars2d") / "physics" / "kernel"
 
 
 class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg]

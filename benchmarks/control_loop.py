@@ -3,9 +3,9 @@
     python benchmarks/control_loop.py [--json OUT.json] [--sizes N ...] [--rounds N]
 
 Teams of unicycles (radius 0.15 m, 5 % of the area covered, 0.3 m/s, a new random omega each second,
-sampling time 0.05 s) among obstacles in a walled square, as `mars2d.bench.scenes.team` makes them.
+sampling time 0.05 s) among obstacles in a walled square, as `reports.bench.scenes.team` makes them.
 `mars2d`: `World.step` with a law and recording, at the default accuracy. `bare`: the loop of
-`mars2d.bench.yardstick`, with as many substeps as keep overlaps about within the same millimetre
+`reports.bench.yardstick`, with as many substeps as keep overlaps about within the same millimetre
 (15), without laws, checks or recording. Both run in turns in one process, so that the ratio holds
 on a noisy machine.
 """
@@ -22,9 +22,9 @@ from typing import Any
 import outcome
 
 import mars2d
-from mars2d.bench.scenes import SPEED, team
-from mars2d.bench.worlds import SETTINGS, world_of
-from mars2d.bench.yardstick import Bare
+from mars2d.reports.bench.scenes import SPEED, team
+from mars2d.reports.bench.worlds import SETTINGS, world_of
+from mars2d.reports.bench.yardstick import Bare
 
 DT = 0.05
 SUBSTEPS = round(SPEED * DT / SETTINGS["default"])

@@ -33,9 +33,9 @@ from pymunk._chipmunk_cffi import ffi, lib
 
 from mars2d import Holonomic, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
+from mars2d.core.progress import Progress
 from mars2d.geometry import edges_of, inside_polygon, point_segment_distance, wrap
-from mars2d.kernel import chipmunk
-from mars2d.progress import Progress
+from mars2d.physics.kernel import chipmunk
 from mars2d.study.work import Failure, each_done
 
 Float = NDArray[np.float64]

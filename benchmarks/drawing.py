@@ -47,19 +47,19 @@ import pygame
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
-from mars2d.bench.scenes import Turns, s2
-from mars2d.frame import Frame
-from mars2d.output.film import save_film
-from mars2d.output.mp4 import require_av
+from mars2d.output.films.film import save_film
+from mars2d.output.films.mp4 import require_av
+from mars2d.output.raster.layers import Layers
+from mars2d.output.raster.layout import Layout, fitted
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.stage import MEMORY, Stage
+from mars2d.record.frame import Frame
+from mars2d.reports.bench.scenes import Turns, s2
 from mars2d.sensors import RangeFinder
-from mars2d.view.display import be_quick
-from mars2d.view.layers import Layers
-from mars2d.view.layout import Layout, fitted
-from mars2d.view.painter import Painter
-from mars2d.view.player import between
-from mars2d.view.preferences import Preferences
-from mars2d.view.stage import MEMORY, Stage
-from mars2d.view.window import Window
+from mars2d.window.display import be_quick
+from mars2d.window.player import between
+from mars2d.window.preferences import Preferences
+from mars2d.window.window import Window
 
 SIZE = (1280, 720)
 SEEING = 20

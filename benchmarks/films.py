@@ -27,17 +27,17 @@ import pygame
 
 from mars2d import Robot, Scenario
 from mars2d.addons import Map
-from mars2d.bench.scenes import Turns, s2
-from mars2d.files import Experiment, open_experiment
-from mars2d.frame import Frame
-from mars2d.loop import simulate
-from mars2d.output.cut import Cut
-from mars2d.output.film import save_film
-from mars2d.output.footage import Footage, shots
-from mars2d.output.mp4 import require_av
-from mars2d.record import Record
+from mars2d.output.films.cut import Cut
+from mars2d.output.films.film import save_film
+from mars2d.output.films.footage import Footage, shots
+from mars2d.output.films.mp4 import require_av
+from mars2d.output.raster.picture import Artist
+from mars2d.record.frame import Frame
+from mars2d.record.record import Record
+from mars2d.reports.bench.scenes import Turns, s2
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.sensors import RangeFinder
-from mars2d.view.picture import Artist
+from mars2d.world.loop import simulate
 
 SIZE = (1280, 720)
 FPS = 25

@@ -30,8 +30,8 @@ from numpy.typing import NDArray
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
+from mars2d.geometry.shapes import rectangle
 from mars2d.sensors import RangeFinder
-from mars2d.shapes import rectangle
 
 Float = NDArray[np.float64]
 Outline = list[tuple[float, float]]

@@ -23,10 +23,10 @@ from typing import Any
 import numpy as np
 from outcome import write
 
-from mars2d.errors import InputError
-from mars2d.files import open_experiment
-from mars2d.timeline import PARKED, Timeline
-from mars2d.world import World
+from mars2d.core.errors import InputError
+from mars2d.scenario import open_experiment
+from mars2d.world.timeline import PARKED, Timeline
+from mars2d.world.world import World
 
 FILE = """
 from mars2d import Robot, Scenario

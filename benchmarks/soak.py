@@ -24,13 +24,13 @@ import numpy as np
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Communication, Map, Trails
-from mars2d.files import Experiment
-from mars2d.formats.mcap import Log
-from mars2d.loop import open_world
-from mars2d.progress import Progress
-from mars2d.record import Record
+from mars2d.core.progress import Progress
+from mars2d.output.formats.mcap import Log
+from mars2d.record.columns import Scratch, blocks
+from mars2d.record.record import Record
+from mars2d.scenario.experiment import Experiment
 from mars2d.sensors import Proximity, RangeFinder
-from mars2d.storage import Scratch, blocks
+from mars2d.world.loop import open_world
 
 LOOKS = 100
 """How often memory is looked at."""

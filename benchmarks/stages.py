@@ -15,10 +15,10 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from mars2d.bench.scenes import SCENES, Scene
-from mars2d.bench.suite import STEPS, warmed_up
-from mars2d.bench.worlds import SETTINGS
-from mars2d.world import World
+from mars2d.reports.bench.scenes import SCENES, Scene
+from mars2d.reports.bench.suite import STEPS, warmed_up
+from mars2d.reports.bench.worlds import SETTINGS
+from mars2d.world.world import World
 
 STAGES = {
     "sense": "_observe",
@@ -55,7 +55,7 @@ def shares(scene: Scene, max_overlap: float, least_time: float) -> dict[str, flo
     world = watched(scene, max_overlap, watches)
     steps, taken = 0, 0.0
     while taken < least_time:
-        if steps and scene.proximity:  # see mars2d/bench/suite.py
+        if steps and scene.proximity:  # see mars2d/reports/bench/suite.py
             world = watched(scene, max_overlap, watches)
         start = time.perf_counter()
         for _ in range(STEPS[scene.name]):

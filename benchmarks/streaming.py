@@ -23,10 +23,10 @@ from typing import Any
 import numpy as np
 
 from mars2d import Robot, Scenario, World
-from mars2d.files import Experiment
-from mars2d.formats.mcap import Log
-from mars2d.loop import simulate
+from mars2d.output.formats.mcap import Log
+from mars2d.scenario.experiment import Experiment
 from mars2d.sensors import RangeFinder
+from mars2d.world.loop import simulate
 
 TICKS = 400
 SCENES = {"1 robot": (1, 0), "10 robots": (10, 0), "20 robots": (20, 0),

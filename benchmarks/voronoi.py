@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Voronoi
-from mars2d.tessellation import Tessellation
+from mars2d.geometry.voronoi import Tessellation
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
@@ -105,9 +105,9 @@ def drawing(size: int, rounds: int) -> dict[str, Any]:
     """Return what it costs to draw the cells: the shapes, and painting them."""
     import pygame
 
-    from mars2d.scene import Scene
-    from mars2d.view.camera import Camera
-    from mars2d.view.painter import Painter
+    from mars2d.core.scene import Scene
+    from mars2d.output.raster.camera import Camera
+    from mars2d.output.raster.painter import Painter
 
     side = int(np.ceil(np.sqrt(size)))
     at = (np.arange(size) % side + 0.5, np.arange(size) // side + 0.5)

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import mars2d
-from mars2d.output.film import film_rows, save_film
+from mars2d.output.films.film import film_rows, save_film
 
 DOCS = Path(__file__).parent
 SIZE = (480, 400)

@@ -30,12 +30,12 @@ from mars2d import (
     sensors,
 )
 from mars2d.addons import Addon, Burst, Communication, Floor, Map
-from mars2d.description import Description
-from mars2d.errors import InputError
-from mars2d.joints import Hinge, Joint, Rod, Rope, Spring
-from mars2d.materials import MATERIALS
-from mars2d.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
-from mars2d.registry import summary
+from mars2d.bodies import Ball, Bar, Box, Gate, Hinge, Joint, Prop, Puck, Rod, Rope, Solid, Spring
+from mars2d.core.description import Description
+from mars2d.core.errors import InputError
+from mars2d.core.materials import MATERIALS
+from mars2d.core.registry import summary
+from mars2d.geometry import Compound, Disc, Polygon
 from mars2d.sensors import (
     Bumper,
     Ground,
@@ -49,7 +49,6 @@ from mars2d.sensors import (
     Sensor,
     SonarRing,
 )
-from mars2d.shapes import Compound, Disc, Polygon
 
 KINDS: tuple[type[Description], ...] = (
     Scenario, Robot, Animation,
@@ -98,7 +97,7 @@ columns are those products for two things of the same material.
 
 MATERIALS_TAIL = """
 Densities are in kg/m^3. The figures are typical ones of clean, dry, solid things; real ones scatter
-by a third and more. `mars2d/materials.py` names the sources.
+by a third and more. `mars2d/core/materials.py` names the sources.
 """
 
 TAIL = """

@@ -20,10 +20,11 @@ from PIL import Image
 
 from mars2d import Robot, Scenario, Unicycle, World, addons, sensors
 from mars2d.addons import Addon, Floor, Map
+from mars2d.bodies import Ball, Box
+from mars2d.core.registry import snake_case
+from mars2d.core.scene import Scene
 from mars2d.geometry import Outline
-from mars2d.props import Ball, Box
-from mars2d.registry import snake_case
-from mars2d.scene import Scene
+from mars2d.output.raster.picture import paint_frame, save_png
 from mars2d.sensors import (
     Bumper,
     Ground,
@@ -37,7 +38,6 @@ from mars2d.sensors import (
     Sensor,
     SonarRing,
 )
-from mars2d.view.picture import paint_frame, save_png
 
 DOCS = Path(__file__).parent
 SIZE = (760, 560)

@@ -12,16 +12,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, World
+from mars2d import Car, Differential, Holonomic, Prediction, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
-from mars2d.contact import episodes
-from mars2d.files import examples, open_experiment
-from mars2d.floor import GRAVITY
-from mars2d.joints import Joint, Rope, Spring
-from mars2d.loop import simulate
-from mars2d.prediction import Prediction
-from mars2d.props import Ball, Box, Prop, Puck
-from mars2d.record import Record
+from mars2d.bodies import Ball, Box, Joint, Prop, Puck, Rope, Spring
+from mars2d.physics.floor import GRAVITY
+from mars2d.record import episodes
+from mars2d.record.record import Record
+from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.world.loop import simulate
 
 Float = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ from math import asin, atan2, cos, degrees, hypot, sin
 import numpy as np
 
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
-from mars2d.props import Ball
+from mars2d.bodies import Ball
 
 RESTITUTIONS, LANES = (0.0, 0.5, 1.0), (2.2, 1.6, 1.0)  # m
 DRIVE = 0.3  # m/s

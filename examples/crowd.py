@@ -13,9 +13,8 @@ from math import atan2, inf, sqrt
 import numpy as np
 from scipy.spatial.distance import pdist
 
-from mars2d import Animation, Holonomic, Robot, Scenario
+from mars2d import Animation, Holonomic, Prediction, Robot, Scenario
 from mars2d.addons import Map
-from mars2d.prediction import Prediction
 
 LENGTH, HALL = 0.6, 2.5  # m, of the doorway from x = 0 on, and half the rooms' width
 

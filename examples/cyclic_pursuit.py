@@ -15,10 +15,9 @@ from math import atan2, ceil, cos, hypot, pi, sin
 
 import numpy as np
 
-from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
+from mars2d import Animation, Graph, Prediction, Robot, Scenario, Unicycle
 from mars2d.addons import Theory
 from mars2d.geometry import wrap
-from mars2d.neighbours import Graph
 
 
 def pursue(gain, speed, ratio, robot):

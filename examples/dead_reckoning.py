@@ -17,7 +17,7 @@ import numpy as np
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
 from mars2d.addons import Estimate
 from mars2d.geometry import wrap
-from mars2d.reckoning import covariances
+from mars2d.geometry.dead_reckoning import covariances
 from mars2d.sensors import Odometry
 
 CORNERS = [(8.0, 0.0), (8.0, 5.0), (0.0, 5.0), (0.0, 0.0)]  # m

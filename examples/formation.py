@@ -13,8 +13,7 @@ from math import cos, log, pi, sin
 
 import numpy as np
 
-from mars2d import Animation, Prediction, Robot, Scenario, Unicycle, addons
-from mars2d.neighbours import Graph
+from mars2d import Animation, Graph, Prediction, Robot, Scenario, Unicycle, addons
 
 AHEAD, K = 0.2, np.arange(6) - 2.5  # m; the robots' numbers, counted from the middle
 RING = np.roll(np.eye(6), 1, axis=0) + np.roll(np.eye(6), -1, axis=0)  # who sees whom

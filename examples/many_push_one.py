@@ -12,8 +12,8 @@ for one to four robots.
 import numpy as np
 
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
-from mars2d.floor import GRAVITY
-from mars2d.props import Box
+from mars2d.bodies import Box
+from mars2d.physics.floor import GRAVITY
 
 SPEED = 0.2  # m/s
 TEAMS, LANES = (1, 2, 3, 4), (2.4, 0.8, -0.8, -2.4)  # robots, m

@@ -7,7 +7,7 @@ I = sum of 1 / d^2, and turns towards the brighter side (Braitenberg's vehicle).
 import numpy as np
 
 from mars2d import Addon, Robot, Scenario, Sensor
-from mars2d.description import number
+from mars2d.core.description import number
 from mars2d.sensors import Quantity
 
 

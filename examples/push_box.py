@@ -12,8 +12,8 @@ friction of the second box is 1.9 % below F, that of the third 2 % above.
 import numpy as np
 
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
-from mars2d.floor import GRAVITY
-from mars2d.props import Box
+from mars2d.bodies import Box
+from mars2d.physics.floor import GRAVITY
 
 SPEED = 0.2  # m/s
 MASSES, LANES = (0.5, 1.0, 1.04, 2.0), (1.5, 0.5, -0.5, -1.5)  # kg, m

@@ -10,9 +10,8 @@ and the way left shrinks by one z at each step: z^2 = (1 - 2 h) z + h, h = gain 
 
 import numpy as np
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario
+from mars2d import Animation, Graph, Holonomic, Prediction, Robot, Scenario
 from mars2d.addons import Communication
-from mars2d.neighbours import Graph
 from mars2d.sensors import Pose
 
 GAIN, APART = 0.2, 0.7  # 1/s; m, of each robot from the meeting point, at a place of its own

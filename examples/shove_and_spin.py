@@ -13,10 +13,9 @@ from math import asin, cos, sin
 
 import numpy as np
 
-from mars2d import Animation, Robot, Scenario, Unicycle
-from mars2d.prediction import Prediction
-from mars2d.props import Ball, Box, Puck
-from mars2d.shapes import Polygon
+from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
+from mars2d.bodies import Ball, Box, Puck
+from mars2d.geometry import Polygon
 
 SQUARE = Polygon([(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)])
 

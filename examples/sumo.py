@@ -12,9 +12,8 @@ from math import pi
 
 import numpy as np
 
-from mars2d import Animation, Robot, Scenario, Unicycle, load_law
+from mars2d import Animation, Prediction, Robot, Scenario, Unicycle, load_law
 from mars2d.addons import Ring
-from mars2d.prediction import Prediction
 
 RING = 1.5  # m, its radius; its middle is (0, 0)
 

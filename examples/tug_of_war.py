@@ -10,11 +10,9 @@ Measured: when the game ends, and the ways of the boxes; one is held with 0.98 F
 
 from math import inf, pi, sqrt
 
-from mars2d import Animation, Robot, Scenario, Unicycle
-from mars2d.floor import GRAVITY
-from mars2d.joints import Rope
-from mars2d.prediction import Prediction
-from mars2d.props import Box
+from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
+from mars2d.bodies import Box, Rope
+from mars2d.physics.floor import GRAVITY
 
 LINE = 1.0  # m, from the middle to a team's line
 ORANGE, BLUE, GREEN = "#d55e00", "#0072b2", "#009e73"

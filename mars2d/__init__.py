@@ -8,25 +8,27 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mars2d import beginning  # noqa: F401 - first, for Ctrl-C while the others are imported
+from mars2d.core import startup as beginning  # noqa: F401 - first, for Ctrl-C while the others are imported
 
 # isort: split
 from mars2d.addons import Addon
-from mars2d.animation import Animation
 from mars2d.bodies import Car, Differential, Drive, Holonomic, Unicycle
-from mars2d.errors import InputError, LawError, Mars2dError
-from mars2d.files import load_law
-from mars2d.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
-from mars2d.prediction import Prediction
-from mars2d.record import Record, load
-from mars2d.robot import Robot
-from mars2d.scenario import Scenario
+from mars2d.core.errors import InputError, LawError, Mars2dError
+from mars2d.core.former import FormerNames
+from mars2d.record.record import Record, load
+from mars2d.scenario.animation import Animation
+from mars2d.scenario.experiment import load_law
+from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.scenario.prediction import Prediction
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
 from mars2d.sensors import Sensor
 from mars2d.session import run
-from mars2d.world import World
+from mars2d.world.world import World
 
 if TYPE_CHECKING:
     from mars2d.study.sweep import sweep
@@ -72,10 +74,17 @@ _OF_MANY_RUNS = {
     "sweep": "mars2d.study.sweep",
     "tournament": "mars2d.study.tournament.tournament",
 }
-"""What is imported when it is first asked for: most programs run one experiment."""
+"""The names that are imported when they are first asked for: most programs run one experiment."""
+
+if not any(isinstance(finder, FormerNames) for finder in sys.meta_path):
+    sys.meta_path.append(FormerNames())
 
 
 def __getattr__(name: str) -> Any:
     if name not in _OF_MANY_RUNS:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(_OF_MANY_RUNS[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -2,6 +2,6 @@
 
 import sys
 
-from mars2d.cli import main
+from mars2d.cli.command_line import main
 
 sys.exit(main())

@@ -7,20 +7,20 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from mars2d.animation import playback_speed
-from mars2d.description import wrong
-from mars2d.errors import InputError, Mars2dError, shown
-from mars2d.files import open_experiment
-from mars2d.interrupt import held_back
-from mars2d.loop import Interrupted, simulate
-from mars2d.record import Record
-from mars2d.scenario import Scenario
-from mars2d.streams import check_seed
-from mars2d.teleop import robot_of
-from mars2d.world import Watcher, World
+from mars2d.core.description import wrong
+from mars2d.core.errors import InputError, Mars2dError, shown
+from mars2d.core.interrupt import held_back
+from mars2d.core.streams import check_seed
+from mars2d.record.record import Record
+from mars2d.scenario.animation import playback_speed
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.scenario import Scenario
+from mars2d.world.loop import Interrupted, simulate
+from mars2d.world.teleop import robot_of
+from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:
-    from mars2d.formats.mcap import Log
+    from mars2d.output.formats.mcap import Log
 
 __all__ = ["run"]
 
@@ -64,7 +64,7 @@ def run(
     with held_back():  # Ctrl-C ends a run, and not that it is saved
         try:
             if driven is not None or _wants_window(speed, show):
-                from mars2d.view.show import show_experiment
+                from mars2d.window.show import show_experiment
 
                 result = show_experiment(opened, speed, seed, watchers, human=driven, log=log)
             else:
@@ -74,7 +74,7 @@ def run(
                 _keep(error, error.record, target, log)
             raise
         if target is not None and log is None:
-            from mars2d.formats.rescue import save_or_rescue
+            from mars2d.output.formats.rescue import save_or_rescue
 
             save_or_rescue(result, target)
     return result
@@ -82,7 +82,7 @@ def run(
 
 def _output(record: str | Path) -> tuple[Path, Log | None]:
     """Return the file that a record is saved to, and what writes it at once, if that is so."""
-    from mars2d import formats
+    from mars2d.output import formats
 
     if not isinstance(record, (str, Path)):
         raise wrong("record", record, "the name of a file, as 'run.mcap'")
@@ -96,7 +96,7 @@ def _output(record: str | Path) -> tuple[Path, Log | None]:
 
 def _keep(error: BaseException, record: Record, target: Path, log: Log | None) -> None:
     """Save what was recorded until an error, which is the one that counts."""
-    from mars2d.formats.rescue import rescued, save_or_rescue
+    from mars2d.output.formats.rescue import rescued, save_or_rescue
 
     if log is None:
         try:
@@ -114,6 +114,6 @@ def _wants_window(speed: float | str, show: bool | None) -> bool:
         return show
     if speed == "max":
         return False
-    from mars2d.view.display import display_available
+    from mars2d.window.display import display_available
 
     return display_available()

@@ -26,7 +26,7 @@ __all__ = ["SCENES", "Geometry", "Peer", "Simulator", "main"]
 
 Float = NDArray[np.float64]
 
-FILE = Path(__file__).parents[2] / "mars2d" / "bench" / "scenes.py"
+FILE = Path(__file__).parents[2] / "mars2d" / "reports" / "bench" / "scenes.py"
 
 TOLERANCE = 2e-3
 """How far a peer's readings may be from geometry, metres: peers count in 32 bits, or draw a circle
@@ -61,7 +61,7 @@ SCENES: dict[str, Callable[[], Any]] = scenes.SCENES
 class Simulator(ABC):
     """A simulator with a scene in it, that is stepped.
 
-    scene: a Scene of `mars2d.bench.scenes`. setting: one of the class's `SETTINGS`.
+    scene: a Scene of `mars2d.reports.bench.scenes`. setting: one of the class's `SETTINGS`.
     command: the last command of its robots (2, n), v [m/s] and omega [rad/s].
 
     episode: after how many steps the scene is to start anew. The law of S1 has states that it never

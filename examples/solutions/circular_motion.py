@@ -17,7 +17,7 @@ from functools import partial
 from math import pi
 
 from mars2d import Prediction
-from mars2d.files import open_module
+from mars2d.scenario import open_module
 
 base = open_module("circular_motion")
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from mars2d import Holonomic, Prediction, Robot
 from mars2d.addons import Voronoi
-from mars2d.files import open_module
+from mars2d.scenario import open_module
 
 base = open_module("coverage_circle")
 HOOK = [(0, 0), (5, 0), (5, 2), (2, 2), (2, 3), (5, 3), (5, 5), (0, 5)]

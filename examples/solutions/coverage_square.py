@@ -19,10 +19,9 @@ from functools import partial
 
 import numpy as np
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario
+from mars2d import Animation, Delaunay, Holonomic, Prediction, Robot, Scenario
 from mars2d.addons import Density, Voronoi
-from mars2d.neighbours import Delaunay
-from mars2d.tessellation import Tessellation
+from mars2d.geometry.voronoi import Tessellation
 
 SIDE, BREAKDOWN = 5.0, 20.0  # m; s, when some robots break down
 SQUARE = [(0, 0), (0, SIDE), (SIDE, SIDE), (SIDE, 0)]

@@ -17,8 +17,8 @@ from math import atan2, hypot, pi
 import numpy as np
 
 from mars2d import Prediction
-from mars2d.files import open_module
 from mars2d.geometry import wrap
+from mars2d.scenario import open_module
 
 base = open_module("cyclic_pursuit")
 

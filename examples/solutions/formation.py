@@ -18,7 +18,7 @@ from math import atan2, cos, degrees, hypot, sin
 import numpy as np
 
 from mars2d import Prediction
-from mars2d.files import open_module
+from mars2d.scenario import open_module
 
 base = open_module("formation")
 SHAPE = np.array(base.SHAPES["circle"])

@@ -13,7 +13,7 @@
 
 import numpy as np
 
-from mars2d.files import open_module
+from mars2d.scenario import open_module
 
 base = open_module("herding")
 CLOSE, FEAR, SLOW, FAST, PEN, unit = (

@@ -24,7 +24,7 @@ import numpy as np
 
 from mars2d import Prediction
 from mars2d.addons import Communication
-from mars2d.files import open_module
+from mars2d.scenario import open_module
 
 base = open_module("leader_following")
 UNTOLD = 3  # the robot for which the leader stands still

@@ -24,8 +24,8 @@ import numpy as np
 
 from mars2d import Prediction
 from mars2d.addons import Waypoints
-from mars2d.files import open_module
-from mars2d.potential import Potential
+from mars2d.geometry.potential_field import Potential
+from mars2d.scenario import open_module
 
 base = open_module("path_planning")
 control = base.control

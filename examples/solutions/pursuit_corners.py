@@ -16,8 +16,8 @@ from math import atan2, hypot
 import numpy as np
 
 from mars2d import Prediction
-from mars2d.files import open_module
 from mars2d.geometry import wrap
+from mars2d.scenario import open_module
 
 base = open_module("pursuit_corners")
 

@@ -16,8 +16,8 @@ import numpy as np
 
 from mars2d import Prediction
 from mars2d.addons import Game
-from mars2d.files import open_module
-from mars2d.tessellation import Tessellation
+from mars2d.geometry.voronoi import Tessellation
+from mars2d.scenario import open_module
 
 base = open_module("pursuit_voronoi")
 POINTS, SPEED = base.POINTS, base.SPEED

@@ -23,7 +23,7 @@ from math import asin, pi, sqrt
 import numpy as np
 
 from mars2d import Prediction
-from mars2d.files import open_module
+from mars2d.scenario import open_module
 
 base = open_module("random_walk")
 REACH, NEAR, PATIENCE = 0.3, 0.1, 5  # m, of the sensor; m, what counts as visited; steps back

@@ -20,7 +20,7 @@ from math import cos, pi, sqrt
 import numpy as np
 
 from mars2d import Prediction
-from mars2d.files import open_module
+from mars2d.scenario import open_module
 
 base = open_module("rendezvous")
 

@@ -8,6 +8,7 @@ from mars2d.addons.estimate import Estimate
 from mars2d.addons.field_of_view import FieldOfView
 from mars2d.addons.floor import Floor
 from mars2d.addons.game import Game
+from mars2d.addons.gilbert_elliott import Burst
 from mars2d.addons.map import Map
 from mars2d.addons.potential_field import PotentialField
 from mars2d.addons.ring import Ring
@@ -15,7 +16,6 @@ from mars2d.addons.theory import Theory
 from mars2d.addons.trails import Trails
 from mars2d.addons.voronoi import Voronoi
 from mars2d.addons.waypoints import Waypoints
-from mars2d.burst import Burst
 
 __all__ = [
     "HOOKS",

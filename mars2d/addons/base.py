@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d import checks
-from mars2d.description import entry, text
-from mars2d.errors import InputError, nearest
-from mars2d.geometry import Outline, Point
-from mars2d.live import Live
-from mars2d.materials import surface_friction, surface_restitution
-from mars2d.registry import snake_case
-from mars2d.scene import Scene
+from mars2d.core import checks
+from mars2d.core.description import entry, text
+from mars2d.core.errors import InputError, nearest
+from mars2d.core.materials import surface_friction, surface_restitution
+from mars2d.core.part import Live
+from mars2d.core.plane import Outline, Point
+from mars2d.core.registry import snake_case
+from mars2d.core.scene import Scene
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.world import World
+    from mars2d.record.frame import Frame
+    from mars2d.world.world import World
 
 __all__ = ["HOOKS", "Addon", "Color", "hooks_of"]
 

@@ -8,16 +8,16 @@ from itertools import accumulate, pairwise
 from math import hypot
 from typing import TYPE_CHECKING
 
-from mars2d import checks
 from mars2d.addons.base import Addon
-from mars2d.description import entry, flag, number, wrong
-from mars2d.errors import InputError
-from mars2d.geometry import Outline, Point
-from mars2d.scene import Scene, color, faded
+from mars2d.core import checks
+from mars2d.core.description import entry, flag, number, wrong
+from mars2d.core.errors import InputError
+from mars2d.core.plane import Outline, Point
+from mars2d.core.scene import Scene, color, faded
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.world import World
+    from mars2d.record.frame import Frame
+    from mars2d.world.world import World
 
 __all__ = ["Beacon"]
 

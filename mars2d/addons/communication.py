@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from mars2d.addons.base import Addon
-from mars2d.burst import Burst
-from mars2d.checks import instance
-from mars2d.description import entry, flag, number
-from mars2d.errors import InputError
+from mars2d.addons.gilbert_elliott import Burst
+from mars2d.core.checks import instance
+from mars2d.core.description import entry, flag, number
+from mars2d.core.errors import InputError
 
 __all__ = ["Communication"]
 

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mars2d.addons.base import Addon
-from mars2d.description import entry, wrong
-from mars2d.errors import InputError
-from mars2d.scene import Scene
+from mars2d.core.description import entry, wrong
+from mars2d.core.errors import InputError
+from mars2d.core.scene import Scene
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.record import Record
-    from mars2d.scenario import Scenario
+    from mars2d.record.frame import Frame
+    from mars2d.record.record import Record
+    from mars2d.scenario.scenario import Scenario
 
 __all__ = ["Capture", "Contest", "Outcome", "Teams"]
 

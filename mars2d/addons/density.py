@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import checks
 from mars2d.addons.base import Addon
-from mars2d.description import entry
-from mars2d.errors import InputError
-from mars2d.geometry import Outline, bounds_of, rectangle
-from mars2d.picture import Bounds, Picture, image_bounds, image_file, read_picture
-from mars2d.scene import Scene, color, rgb
-from mars2d.tessellation import Weight, density_at
-from mars2d.usercode import called
+from mars2d.core import checks
+from mars2d.core.description import entry
+from mars2d.core.errors import InputError
+from mars2d.core.picture import Bounds, Picture, image_bounds, image_file, read_picture
+from mars2d.core.plane import Outline, bounds_of, rectangle
+from mars2d.core.scene import Scene, color, rgb
+from mars2d.core.usercode import called
+from mars2d.geometry.voronoi import Weight, density_at
 
 if TYPE_CHECKING:
-    from mars2d.world import World
+    from mars2d.world.world import World
 
 __all__ = ["Density"]
 

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.description import entry, number, text
-from mars2d.errors import InputError
-from mars2d.reckoning import grown
-from mars2d.scene import Scene, color, faded
+from mars2d.core.description import entry, number, text
+from mars2d.core.errors import InputError
+from mars2d.core.scene import Scene, color, faded
+from mars2d.geometry.dead_reckoning import grown
 
 if TYPE_CHECKING:
     from mars2d.sensors.odometry import Odometry
-    from mars2d.world import World
+    from mars2d.world.world import World
 
 __all__ = ["Estimate", "ellipse"]
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from mars2d.addons.base import Addon
-from mars2d.checks import names
-from mars2d.description import entry, wrong
-from mars2d.errors import InputError, nearest
-from mars2d.scene import Scene, faded
+from mars2d.core.checks import names
+from mars2d.core.description import entry, wrong
+from mars2d.core.errors import InputError, nearest
+from mars2d.core.scene import Scene, faded
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
+    from mars2d.record.frame import Frame
     from mars2d.sensors.base import Sensor
-    from mars2d.world import World
+    from mars2d.world.world import World
 
 __all__ = ["FieldOfView"]
 

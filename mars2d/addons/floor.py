@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import checks
 from mars2d.addons.base import Addon, Color
-from mars2d.description import entry, wrong
-from mars2d.errors import InputError
-from mars2d.geometry import Outline, Point, bounds_of, inside_polygon, rectangle
-from mars2d.picture import Bounds, Picture, Pixels, image_bounds, image_file, read_picture
-from mars2d.scene import Scene, rgb
-from mars2d.scene import color as checked_color
+from mars2d.core import checks
+from mars2d.core.description import entry, wrong
+from mars2d.core.errors import InputError
+from mars2d.core.picture import Bounds, Picture, Pixels, image_bounds, image_file, read_picture
+from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectangle
+from mars2d.core.scene import Scene, rgb
+from mars2d.core.scene import color as checked_color
 
 if TYPE_CHECKING:
-    from mars2d.world import World
+    from mars2d.world.world import World
 
 __all__ = ["Floor"]
 

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.contest import Capture, Contest, Outcome, Teams, mark
-from mars2d.description import entry, real, wrong
-from mars2d.errors import likely
-from mars2d.scene import Scene, faded
+from mars2d.core.description import entry, real, wrong
+from mars2d.core.errors import likely
+from mars2d.core.scene import Scene, faded
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.record import Record
-    from mars2d.world import World
+    from mars2d.record.frame import Frame
+    from mars2d.record.record import Record
+    from mars2d.world.world import World
 
 __all__ = ["Capture", "Game", "Outcome"]
 

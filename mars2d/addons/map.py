@@ -8,11 +8,11 @@ from itertools import pairwise
 from pathlib import Path
 
 from mars2d.addons.base import Addon
-from mars2d.checks import outlines, polylines
-from mars2d.description import entry, wrong
-from mars2d.errors import InputError
-from mars2d.geometry import Outline
-from mars2d.usercode import file_beside
+from mars2d.core.checks import outlines, polylines
+from mars2d.core.description import entry, wrong
+from mars2d.core.errors import InputError
+from mars2d.core.plane import Outline
+from mars2d.core.usercode import file_beside
 
 __all__ = ["Map"]
 
@@ -84,7 +84,7 @@ class Map(Addon):
             return path
         if not isinstance(path, (str, Path)):
             raise wrong("Map.from_file(path)", path, "the name of a file, as 'plan.dxf'")
-        from mars2d import maps
+        from mars2d.addons import maps
 
         caller = Path(sys._getframe(1).f_code.co_filename)
         file = file_beside(Path(path), caller, "a map", maps.SUFFIXES)

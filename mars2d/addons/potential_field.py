@@ -7,16 +7,16 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 from mars2d.addons.base import Addon
-from mars2d.description import number, text
-from mars2d.errors import InputError
-from mars2d.geometry import Outline, Point
-from mars2d.potential import Goals, Potential
-from mars2d.scene import THEORY, Scene, faded
+from mars2d.core.description import number, text
+from mars2d.core.errors import InputError
+from mars2d.core.plane import Outline, Point
+from mars2d.core.scene import THEORY, Scene, faded
+from mars2d.geometry.potential_field import Goals, Potential
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.scenario import Scenario
-    from mars2d.world import World
+    from mars2d.record.frame import Frame
+    from mars2d.scenario.scenario import Scenario
+    from mars2d.world.world import World
 
 __all__ = ["PotentialField"]
 

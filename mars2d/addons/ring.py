@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import checks
 from mars2d.addons.contest import MARK, Contest, Outcome, Teams, mark
-from mars2d.description import entry, number
-from mars2d.geometry import Outline, Point
-from mars2d.scene import Scene
+from mars2d.core import checks
+from mars2d.core.description import entry, number
+from mars2d.core.plane import Outline, Point
+from mars2d.core.scene import Scene
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.record import Record
-    from mars2d.world import World
+    from mars2d.record.frame import Frame
+    from mars2d.record.record import Record
+    from mars2d.world.world import World
 
 __all__ = ["Ring"]
 

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from mars2d.addons.base import Addon
-from mars2d.checks import function
-from mars2d.description import entry
-from mars2d.scene import Scene
+from mars2d.core.checks import function
+from mars2d.core.description import entry
+from mars2d.core.scene import Scene
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
+    from mars2d.record.frame import Frame
 
 __all__ = ["Theory"]
 

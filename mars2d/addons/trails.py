@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mars2d.addons.base import Addon
-from mars2d.checks import names
-from mars2d.description import entry, number
-from mars2d.scene import Scene, color_of, rgb
+from mars2d.core.checks import names
+from mars2d.core.description import entry, number
+from mars2d.core.scene import Scene, color_of, rgb
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.world import World
+    from mars2d.record.frame import Frame
+    from mars2d.world.world import World
 
 __all__ = ["Trails"]
 

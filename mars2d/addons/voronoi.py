@@ -8,16 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.description import number, text, wrong
-from mars2d.errors import InputError, nearest
-from mars2d.geometry import Outline
-from mars2d.scene import THEORY, Scene, faded
-from mars2d.tessellation import Segment, Tessellation, Weight
+from mars2d.core.description import number, text, wrong
+from mars2d.core.errors import InputError, nearest
+from mars2d.core.plane import Outline
+from mars2d.core.scene import THEORY, Scene, faded
+from mars2d.geometry.voronoi import Segment, Tessellation, Weight
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.scenario import Scenario
-    from mars2d.world import World
+    from mars2d.record.frame import Frame
+    from mars2d.scenario.scenario import Scenario
+    from mars2d.world.world import World
 
 __all__ = ["Voronoi"]
 
@@ -35,7 +35,7 @@ class Voronoi(Addon):
     Laws find the cells of this instant as ``world.addons.voronoi.cells`` and so on; those of a
     record are ``voronoi.of(record.frame(row))``. All is worked out when it is asked for, once a
     control step. The workspace may be of any shape. With a Density in the scenario masses,
-    centroids and the cost are weighted by it. See `mars2d.tessellation.Tessellation`.
+    centroids and the cost are weighted by it. See `mars2d.geometry.voronoi.Tessellation`.
 
     Drawn are the cells in their robots' colours; where theory is shown, the centroids. A saved
     record has no functions: a Density of a function is lost with it, and the cells of the loaded

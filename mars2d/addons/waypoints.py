@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.checks import point
-from mars2d.description import entry, number, wrong
-from mars2d.errors import InputError, LawError, counted, shown
-from mars2d.geometry import Outline, Point, outside_polygon
-from mars2d.scene import Scene, faded
+from mars2d.core.checks import point
+from mars2d.core.description import entry, number, wrong
+from mars2d.core.errors import InputError, LawError, counted, shown
+from mars2d.core.plane import Outline, Point, outside_polygon
+from mars2d.core.scene import Scene, faded
 
 if TYPE_CHECKING:
-    from mars2d.frame import Frame
-    from mars2d.world import World
+    from mars2d.record.frame import Frame
+    from mars2d.world.world import World
 
 __all__ = ["Waypoints"]
 

@@ -1,9 +1,25 @@
-"""How robots move: the drives."""
+"""Bodies: drives that move them, props that robots push, joints that tie them together."""
 
-from mars2d.bodies.base import Drive
-from mars2d.bodies.car import Car
-from mars2d.bodies.differential import Differential
-from mars2d.bodies.holonomic import Holonomic
-from mars2d.bodies.unicycle import Unicycle
+from mars2d.bodies.drives import Car, Differential, Drive, Holonomic, Unicycle
+from mars2d.bodies.joints import Hinge, Joint, Rod, Rope, Spring
+from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 
-__all__ = ["Car", "Differential", "Drive", "Holonomic", "Unicycle"]
+__all__ = [
+    "Ball",
+    "Bar",
+    "Box",
+    "Car",
+    "Differential",
+    "Drive",
+    "Gate",
+    "Hinge",
+    "Holonomic",
+    "Joint",
+    "Prop",
+    "Puck",
+    "Rod",
+    "Rope",
+    "Solid",
+    "Spring",
+    "Unicycle",
+]

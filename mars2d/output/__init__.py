@@ -1,1 +1,1 @@
-"""What comes out of a run: figures and films."""
+"""All that leaves a run: files, figures, films, pages and pictures."""

@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d import checks
-from mars2d.delay import steps_until
-from mars2d.description import Check, entry, flag, number, real, text, wrong
-from mars2d.errors import InputError
-from mars2d.geometry import Point
-from mars2d.imperfection import Imperfection
-from mars2d.live import Live
-from mars2d.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
-from mars2d.registry import snake_case
-from mars2d.scene import Scene
+from mars2d.core import checks
+from mars2d.core.delay import steps_until
+from mars2d.core.description import Check, entry, flag, number, real, text, wrong
+from mars2d.core.errors import InputError
+from mars2d.core.part import Live
+from mars2d.core.plane import Point
+from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
+from mars2d.core.registry import snake_case
+from mars2d.core.scene import Scene
+from mars2d.sensors.error_model import Imperfection
 
 if TYPE_CHECKING:
-    from mars2d.views import RobotView
-    from mars2d.world import Addons
+    from mars2d.world.views import RobotView
+    from mars2d.world.world import Addons
 
 __all__ = [
     "ANGLE",

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 
-from mars2d import checks
-from mars2d.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.description import entry, flag, number, wrong
-from mars2d.errors import InputError, LawError, UnknownNameError, nearest, shown
-from mars2d.geometry import Point
-from mars2d.scene import Scene, faded
+from mars2d.core import checks
+from mars2d.core.description import entry, flag, number, wrong
+from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, shown
+from mars2d.core.plane import Point
+from mars2d.core.scene import Scene, faded
+from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
 from mars2d.sensors.base import (
     NOTHING,
     Float,
@@ -25,7 +25,7 @@ from mars2d.sensors.base import (
 )
 
 if TYPE_CHECKING:
-    from mars2d.views import RobotView
+    from mars2d.world.views import RobotView
 
 __all__ = ["Beacon", "Sightings"]
 

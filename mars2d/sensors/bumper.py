@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.description import integer, number
-from mars2d.scene import Scene, faded
+from mars2d.core.description import integer, number
+from mars2d.core.scene import Scene, faded
 from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
 
 if TYPE_CHECKING:
-    from mars2d.views import RobotView
+    from mars2d.world.views import RobotView
 
 __all__ = ["Bumper"]
 

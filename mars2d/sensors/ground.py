@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d.errors import LawError, shown
-from mars2d.scene import Scene, color_of
+from mars2d.core.errors import LawError, shown
+from mars2d.core.scene import Scene, color_of
 from mars2d.sensors.base import COLOR, Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
-    from mars2d.views import RobotView
+    from mars2d.world.views import RobotView
 
 __all__ = ["Ground"]
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d.description import entry, real, wrong
-from mars2d.scene import Scene
+from mars2d.core.description import entry, real, wrong
+from mars2d.core.scene import Scene
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
-    from mars2d.views import RobotView
+    from mars2d.world.views import RobotView
 
 __all__ = ["Imu"]
 

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d.description import choice, entry, number, real, wrong
-from mars2d.reckoning import draw_pose, odometry_covariance, sinc
-from mars2d.scene import Scene
+from mars2d.core.description import choice, entry, number, real, wrong
+from mars2d.core.scene import Scene
+from mars2d.geometry.dead_reckoning import draw_pose, odometry_covariance, sinc
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
 
 if TYPE_CHECKING:
-    from mars2d.views import RobotView
+    from mars2d.world.views import RobotView
 
 __all__ = ["Odometry", "odometry_covariance"]
 

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.description import flag, number
-from mars2d.scene import Scene, faded
+from mars2d.core.description import flag, number
+from mars2d.core.scene import Scene, faded
+from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
 from mars2d.sensors.base import Float, Quantity, Sensor, Sighting, Surroundings, sight_angle
 
 if TYPE_CHECKING:
-    from mars2d.views import RobotView
+    from mars2d.world.views import RobotView
 
 __all__ = ["RangeBearing"]
 

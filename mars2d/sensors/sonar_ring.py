@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mars2d.bearings import beam_angles
-from mars2d.description import integer, number
-from mars2d.geometry import Point
-from mars2d.scene import Scene, faded
+from mars2d.core.description import integer, number
+from mars2d.core.plane import Point
+from mars2d.core.scene import Scene, faded
+from mars2d.geometry.bearings import beam_angles
 from mars2d.sensors.base import DISTANCE, Float, Quantity, Scanner, Surroundings, sight_angle
 
 if TYPE_CHECKING:
-    from mars2d.views import RobotView
+    from mars2d.world.views import RobotView
 
 __all__ = ["SonarRing"]
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, NamedTuple, TypeVar
 
-from mars2d.errors import InputError, described, shown
+from mars2d.core.errors import InputError, described, shown
 
 __all__ = ["Failure", "attempt", "attempt_packed", "packed", "unpacked"]
 

@@ -10,7 +10,7 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any
 
-from mars2d.errors import InputError, MissingExtraError
+from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.study.attempt import one_line
 
 __all__ = ["cluster"]

@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 
-from mars2d.files import Experiment
+from mars2d.scenario.experiment import Experiment
 
 __all__ = ["Watched", "code_of"]
 

@@ -8,7 +8,7 @@ from math import isnan, nan
 
 import numpy as np
 
-from mars2d.errors import InputError, nearest
+from mars2d.core.errors import InputError, nearest
 from mars2d.study.estimates import Estimate, estimates
 from mars2d.study.statistics import Interval, confident
 from mars2d.study.table import Result, Table

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.errors import InputError, counted
-from mars2d.output.figure import (
+from mars2d.core.errors import InputError, counted
+from mars2d.output.figures.figure import (
     check_axes,
     line_style,
     new_figure,
@@ -18,7 +18,7 @@ from mars2d.output.figure import (
     save_drawing,
     style_ticks,
 )
-from mars2d.output.panels import (
+from mars2d.output.figures.panels import (
     Entry,
     caption,
     finish,
@@ -27,7 +27,7 @@ from mars2d.output.panels import (
     set_span,
     short_number,
 )
-from mars2d.output.style import DASHES, Style, style_of
+from mars2d.output.figures.style import DASHES, Style, style_of
 from mars2d.study.estimates import Estimate, estimates
 from mars2d.study.layout import Layout, layout_of
 from mars2d.study.statistics import confident

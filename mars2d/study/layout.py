@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.errors import InputError, nearest
+from mars2d.core.errors import InputError, nearest
 from mars2d.study.text import Point, in_words
 
 __all__ = ["Layout", "layout_of"]

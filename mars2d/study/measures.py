@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mars2d.addons.contest import Contest, Outcome
-from mars2d.errors import InputError, LawError, nearest, shown
-from mars2d.usercode import called, definition
+from mars2d.core.errors import InputError, LawError, nearest, shown
+from mars2d.core.usercode import called, definition
 
 if TYPE_CHECKING:
-    from mars2d.record import Record
-    from mars2d.scenario import Scenario
+    from mars2d.record.record import Record
+    from mars2d.scenario.scenario import Scenario
 
 __all__ = ["UNITS", "Measure", "measure_named", "measured", "measures"]
 
@@ -56,7 +56,7 @@ def path_length(record: Record) -> float | None:
     """How far the robots drove, metres: the mean over the robots."""
     if not len(record):
         return None
-    from mars2d.output.columns import signals
+    from mars2d.output.figures.columns import signals
 
     (speed,) = signals(record, ["speed"], None)
     driven = np.nansum(speed.values, axis=0) * record.scenario.sampling_time
@@ -67,7 +67,7 @@ def least_clearance(record: Record) -> float | None:
     """The least gap between a robot and another body, metres; 0 in touch, nothing if alone."""
     if not len(record):
         return None
-    from mars2d.output.distances import clearances
+    from mars2d.output.figures.distances import clearances
 
     gaps = clearances(record).pair
     return float(gaps.min()) if gaps.size else None

@@ -11,14 +11,14 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import Any, TypeVar
 
-from mars2d.errors import LawError, Mars2dError
-from mars2d.files import Experiment, open_experiment
-from mars2d.loop import open_world, simulate
-from mars2d.scenario import Scenario
+from mars2d.core.errors import LawError, Mars2dError
+from mars2d.core.usercode import name_of
+from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.scenario.scenario import Scenario
 from mars2d.study.code import code_of
 from mars2d.study.measures import Measure, measure_named, measured
 from mars2d.study.table import Result
-from mars2d.usercode import name_of
+from mars2d.world.loop import open_world, simulate
 
 __all__ = ["One", "TooLong", "measures_of", "name_in", "opened", "probed", "run_one"]
 
@@ -130,7 +130,7 @@ def _within(seconds: float | None, work: Callable[[], T]) -> T:
     """
     if seconds is None:
         return work()
-    from mars2d.testing.deadline import Deadline, Late
+    from mars2d.core.deadline import Deadline, Late
 
     outcome: SimpleQueue[Callable[[], T]] = SimpleQueue()
     limit = Deadline(seconds, lambda where: outcome.put(partial(_raise, late(where))))

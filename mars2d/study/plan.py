@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from mars2d.description import real, wrong
-from mars2d.errors import InputError, shown
-from mars2d.options import parse_setting
-from mars2d.streams import check_seed
+from mars2d.core.description import real, wrong
+from mars2d.core.errors import InputError, shown
+from mars2d.core.streams import check_seed
+from mars2d.scenario.options import parse_setting
 from mars2d.study.table import key_of
 
 __all__ = [

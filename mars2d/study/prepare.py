@@ -15,11 +15,11 @@ from types import ModuleType
 from typing import Any
 
 from mars2d.addons.contest import Contest
-from mars2d.description import real, wrong
-from mars2d.errors import InputError, Mars2dError, MissingExtraError, shown
-from mars2d.files import Experiment, examples
-from mars2d.plain import from_description
-from mars2d.scenario import Scenario
+from mars2d.core.description import real, wrong
+from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
+from mars2d.scenario.experiment import Experiment, examples
+from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.serialize import from_description
 from mars2d.study.code import Watched, code_of
 from mars2d.study.measures import Measure
 from mars2d.study.one import One, measures_of, name_in, probed

@@ -17,8 +17,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO
 
-from mars2d.errors import InputError, shown
-from mars2d.replacing import replacing
+from mars2d.core.atomic import replacing
+from mars2d.core.errors import InputError, shown
 from mars2d.study.plan import cell, value_in, word_cell, word_in
 from mars2d.study.table import Result, Table
 

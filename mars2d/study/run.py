@@ -10,9 +10,9 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import cast
 
-from mars2d.errors import InputError, Mars2dError, nearest
-from mars2d.interrupt import noted_interrupts
-from mars2d.progress import Progress
+from mars2d.core.errors import InputError, Mars2dError, nearest
+from mars2d.core.interrupt import noted_interrupts
+from mars2d.core.progress import Progress
 from mars2d.study.code import code_of
 from mars2d.study.one import One, opened, run_one
 from mars2d.study.plan import cell, cells_of

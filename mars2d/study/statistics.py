@@ -13,7 +13,7 @@ from math import ceil, hypot, inf, isfinite, nan, sqrt
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.description import real, wrong
+from mars2d.core.description import real, wrong
 
 __all__ = [
     "Interval",

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from math import ceil, floor, inf, isnan, log10
 
-from mars2d.errors import counted
+from mars2d.core.errors import counted
 from mars2d.study.comparison import comparison
 from mars2d.study.estimates import Estimate, Float, estimates
 from mars2d.study.statistics import seeds_for_share, seeds_needed

@@ -7,9 +7,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from mars2d.description import wrong
-from mars2d.errors import InputError
-from mars2d.scenario import Scenario
+from mars2d.core.description import wrong
+from mars2d.core.errors import InputError
+from mars2d.scenario.scenario import Scenario
 from mars2d.study.table import Table
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.errors import MissingExtraError, counted
+from mars2d.core.errors import MissingExtraError, counted
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
-from mars2d.errors import counted
-from mars2d.prediction import number
+from mars2d.core.errors import counted
+from mars2d.scenario.prediction import number
 from mars2d.study.table import Table
 
 __all__ = [

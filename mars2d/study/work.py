@@ -16,7 +16,7 @@ from concurrent.futures import (
 from queue import Empty, SimpleQueue
 from typing import Any, TypeVar
 
-from mars2d.errors import InputError, counted, shown
+from mars2d.core.errors import InputError, counted, shown
 from mars2d.study.attempt import Failure, attempt, attempt_packed, one_line, packed, unpacked
 from mars2d.study.cluster import cluster
 from mars2d.study.workers import done_by_processes, leave_if_imported_again

@@ -16,8 +16,8 @@ from multiprocessing.connection import Connection, wait
 from types import FrameType
 from typing import TypeVar
 
-from mars2d.errors import InputError
-from mars2d.interrupt import interrupts_blocked
+from mars2d.core.errors import InputError
+from mars2d.core.interrupt import interrupts_blocked
 from mars2d.study.attempt import Failure, attempt_packed, packed, unpacked
 
 __all__ = ["done_by_processes", "leave_if_imported_again"]

@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from mars2d import checks
 from mars2d.addons.base import HOOKS, Addon
-from mars2d.errors import InputError, shown
-from mars2d.geometry import rectangle
-from mars2d.scenario import Scenario
-from mars2d.scene import Scene
+from mars2d.core import checks
+from mars2d.core.deadline import Deadline
+from mars2d.core.errors import InputError, shown
+from mars2d.core.plane import rectangle
+from mars2d.core.scene import Scene
+from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.testing.common import (
     check_fields,
@@ -24,13 +25,12 @@ from mars2d.testing.common import (
     is_own,
     run_ended,
 )
-from mars2d.testing.deadline import Deadline
 from mars2d.testing.drawing import check_finite
 from mars2d.testing.finding import Finding, Report, judge
 from mars2d.testing.state import Places, fingerprint
 from mars2d.testing.trial import Run, Trial, changes, difference, prints, shepherd, small_world
 from mars2d.testing.witness import Notes, at, with_methods
-from mars2d.world import World
+from mars2d.world.world import World
 
 __all__ = ["addon_findings", "check_addon"]
 

@@ -10,15 +10,15 @@ import pickle
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from mars2d import plain
-from mars2d.description import Description
-from mars2d.errors import described, shown
-from mars2d.scenario import Scenario
-from mars2d.testing.deadline import Deadline, Late
+from mars2d.core.deadline import Deadline, Late
+from mars2d.core.description import Description
+from mars2d.core.errors import described, shown
+from mars2d.scenario import serialize
+from mars2d.scenario.scenario import Scenario
 from mars2d.testing.state import Places
 from mars2d.testing.trial import Difference, Run, Trial, as_input_error, difference
 from mars2d.testing.witness import Noted, Notes
-from mars2d.world import World
+from mars2d.world.world import World
 
 __all__ = [
     "check_fields",
@@ -116,15 +116,15 @@ def check_fields(part: Description, base: type[Description], notes: Notes) -> bo
             report.hint(
                 f"{name}.{field.name} says neither its unit nor its bounds: declare it as "
                 f"`{field.name}: float = number(default=..., low=..., unit=..., doc=...)`, "
-                "by mars2d.description"
+                "by mars2d.core.description"
             )
     return copies
 
 
 def _check_in_file(part: Description, field: str, value: Any, notes: Notes) -> None:
     try:
-        kept = json.loads(json.dumps(plain.from_description(value)))
-        back = part.replace(**{field: plain.to_value(kept)})
+        kept = json.loads(json.dumps(serialize.from_description(value)))
+        back = part.replace(**{field: serialize.to_value(kept)})
         same = bool(getattr(back, field) == value)
     except Exception:  # whatever a user's own check raises at what it does not know
         same = False

@@ -9,20 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from mars2d import checks
 from mars2d.addons.base import Addon
-from mars2d.control import Law, robot_command, team_command
-from mars2d.errors import InputError, LawError
-from mars2d.scenario import Scenario
+from mars2d.core import checks
+from mars2d.core.deadline import Deadline, Late
+from mars2d.core.errors import InputError, LawError
+from mars2d.core.usercode import name_of
+from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.testing.common import check_repeatable, run_ended
-from mars2d.testing.deadline import Deadline, Late
 from mars2d.testing.finding import Finding, Report, judge
 from mars2d.testing.state import Places
 from mars2d.testing.trial import Run, Trial, small_world
 from mars2d.testing.witness import Noted, Notes, at
-from mars2d.usercode import name_of
-from mars2d.world import World
+from mars2d.world.laws import Law, robot_command, team_command
+from mars2d.world.world import World
 
 __all__ = ["check_controller", "controller_findings", "is_of_a_team"]
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mars2d.scene import Scene
+from mars2d.core.scene import Scene
 from mars2d.testing.finding import Report
 
 __all__ = ["check_finite", "coordinates"]

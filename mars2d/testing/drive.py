@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from mars2d import checks
-from mars2d.bodies.base import Drive
-from mars2d.errors import InputError, shown
-from mars2d.robot import Robot
+from mars2d.bodies.drives.base import Drive
+from mars2d.core import checks
+from mars2d.core.deadline import Deadline
+from mars2d.core.errors import InputError, shown
+from mars2d.scenario.robot import Robot
 from mars2d.testing.common import check_fields, check_methods, check_places, is_own, run_ended
-from mars2d.testing.deadline import Deadline
 from mars2d.testing.finding import Finding, Report, judge
 from mars2d.testing.state import Places
 from mars2d.testing.trial import Run, Trial, bystander, small_world

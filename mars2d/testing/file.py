@@ -11,19 +11,19 @@ from types import ModuleType
 from typing import Any
 
 from mars2d.addons.base import Addon
-from mars2d.bodies.base import Drive
-from mars2d.description import Description
-from mars2d.errors import InputError
-from mars2d.files import Experiment
-from mars2d.scenario import Scenario
+from mars2d.bodies.drives.base import Drive
+from mars2d.core.deadline import Deadline
+from mars2d.core.description import Description
+from mars2d.core.errors import InputError
+from mars2d.core.usercode import name_of
+from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.testing.addon import addon_findings
 from mars2d.testing.controller import controller_findings, is_of_a_team
-from mars2d.testing.deadline import Deadline
 from mars2d.testing.drive import drive_findings
 from mars2d.testing.finding import Finding
 from mars2d.testing.sensor import sensor_findings
-from mars2d.usercode import name_of
 
 __all__ = ["Case", "defined_parts", "trials"]
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from mars2d.errors import InputError, counted
+from mars2d.core.errors import InputError, counted
 
 __all__ = ["CheckError", "Finding", "Report", "judge"]
 

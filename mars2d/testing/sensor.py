@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d import checks
-from mars2d.errors import shown
-from mars2d.scenario import Scenario
-from mars2d.scene import Scene
+from mars2d.core import checks
+from mars2d.core.deadline import Deadline
+from mars2d.core.errors import shown
+from mars2d.core.scene import Scene
+from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Quantity, Sensor
 from mars2d.testing.common import (
     check_fields,
@@ -24,13 +25,12 @@ from mars2d.testing.common import (
     first_run,
     is_own,
 )
-from mars2d.testing.deadline import Deadline
 from mars2d.testing.drawing import check_finite
 from mars2d.testing.finding import Finding, Report, judge
 from mars2d.testing.state import Places, fingerprint
 from mars2d.testing.trial import Run, Trial, changes, difference, prints, shepherd, small_world
 from mars2d.testing.witness import Noted, Notes, at, with_methods
-from mars2d.world import World
+from mars2d.world.world import World
 
 __all__ = ["check_sensor", "sensor_findings"]
 
@@ -349,7 +349,7 @@ def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> tuple[s
             bad = (values > top) & np.isfinite(values)
             why = f"beyond the range, {top:g} {quantity.unit}, a distance is inf"
     elif quantity.kind == "angle" and not bad.any():
-        bad, why = np.abs(values) > pi, "an angle lies in (-pi, pi]; mars2d.geometry has wrap"
+        bad, why = np.abs(values) > pi, "an angle lies in (-pi, pi]; mars2d.core.plane has wrap"
     elif quantity.kind == "color" and not bad.any():
         bad, why = (values < 0) | (values > 1), "a colour lies in 0 to 1"
     return (f"{values[bad].flat[0]:.6g} {of}", why) if bad.any() else None

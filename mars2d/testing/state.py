@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from mars2d.description import Description
-from mars2d.usercode import name_of
+from mars2d.core.description import Description
+from mars2d.core.usercode import name_of
 
 __all__ = ["Places", "fingerprint"]
 

@@ -14,18 +14,18 @@ from typing import Any
 import numpy as np
 
 from mars2d.addons.base import Addon
-from mars2d.errors import InputError, described
-from mars2d.geometry import Outline, Point
-from mars2d.props.box import Box
-from mars2d.robot import Robot
-from mars2d.scenario import Scenario
-from mars2d.scene import Scene
+from mars2d.bodies.props.box import Box
+from mars2d.core.deadline import Deadline, Late
+from mars2d.core.errors import InputError, described
+from mars2d.core.plane import Outline, Point
+from mars2d.core.scene import Scene
+from mars2d.core.usercode import users_line
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.testing.deadline import Deadline, Late
 from mars2d.testing.drawing import coordinates
 from mars2d.testing.state import fingerprint
-from mars2d.usercode import users_line
-from mars2d.world import World
+from mars2d.world.world import World
 
 __all__ = [
     "STEPS",

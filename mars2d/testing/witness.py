@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
-from mars2d.description import Description
-from mars2d.errors import InputError, LawError, UnknownNameError, likely
-from mars2d.sensing import Sense
+from mars2d.core.description import Description
+from mars2d.core.errors import InputError, LawError, UnknownNameError, likely
+from mars2d.core.usercode import called
+from mars2d.sensors.sensing import Sense
 from mars2d.testing.finding import Report
 from mars2d.testing.trial import drawn_at_random
-from mars2d.usercode import called
 
 __all__ = ["Noted", "Notes", "at", "with_methods"]
 

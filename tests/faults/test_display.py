@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from mars2d.files import open_experiment
-from mars2d.record import load
-from tests.view.person import ROOM, bare_environment, needs_screen
+from mars2d.record.record import load
+from mars2d.scenario.experiment import open_experiment
+from tests.window.person import ROOM, bare_environment, needs_screen
 
 ROOT = Path(__file__).parents[2]
 GONE = "mars2d: the display has gone away that the window was on\n"
@@ -120,7 +120,7 @@ WAYLAND = "error: XDG_RUNTIME_DIR is invalid or not set in the environment.\n"
 
 ABSENT = """
 import sys
-from mars2d.cli import main
+from mars2d.cli.command_line import main
 for command in sys.argv[1:]:
     print(main(command.split()), flush=True)
     print(file=sys.stderr, flush=True)
@@ -154,7 +154,7 @@ def test_a_run_whose_terminal_is_closed_is_saved(folder):
     ours, theirs = os.openpty()
     environment = bare_environment(PYTHONPATH=str(ROOT))
     take = "import os, sys; os.setsid(); os.close(os.open(os.ttyname(0), os.O_RDWR))"
-    run = "sys.exit(__import__('mars2d.cli').cli.main(sys.argv[1:]))"
+    run = "sys.exit(__import__('mars2d.cli.command_line').cli.main(sys.argv[1:]))"
     long = ["run", "room.py", "--headless", "--stop-time", "1e5", "--record", "closed.npz"]
     process = subprocess.Popen(
         [sys.executable, "-c", f"{take}\n{run}", *long],

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d.formats import SUFFIXES
+from mars2d.output.formats import SUFFIXES
 from tests.faults.commands import Command, Ended, Forking, started
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="processes are looked for in /proc")
@@ -232,8 +232,8 @@ def test_ctrl_c_at_many_moments_of_each_command(bench, name) -> None:
 
 IN_THE_MIDST = """
 import os, signal, sys
-import mars2d.cli, mars2d.replacing
-from mars2d.formats import npz
+import mars2d.cli.command_line, mars2d.core.atomic
+from mars2d.output.formats import npz
 
 def slowly(record, path):
     os.kill(os.getpid(), signal.SIGINT)
@@ -241,7 +241,7 @@ def slowly(record, path):
     write(record, path)
 
 write, npz.write = npz.write, slowly
-sys.exit(mars2d.cli.main(sys.argv[1:]))
+sys.exit(mars2d.cli.command_line.main(sys.argv[1:]))
 """
 
 
@@ -258,7 +258,7 @@ def test_ctrl_c_while_a_run_is_saved_waits_for_that(tmp_path, child) -> None:
 def test_in_python_too_a_run_is_saved_before_ctrl_c_comes_through(tmp_path, child) -> None:
     code = (
         "import mars2d, os, signal\n"
-        "from mars2d.formats import npz\n"
+        "from mars2d.output.formats import npz\n"
         "write = npz.write\n"
         "def slowly(record, path):\n"
         "    os.kill(os.getpid(), signal.SIGINT)\n"
@@ -276,14 +276,14 @@ def test_in_python_too_a_run_is_saved_before_ctrl_c_comes_through(tmp_path, chil
 
 def test_a_ctrl_c_that_python_drops_comes_again(child) -> None:
     code = (
-        "import os, signal, sys, time, mars2d.cli, mars2d.commands.doctor as doctor\n"
+        "import os, signal, sys, time, mars2d.cli.command_line, mars2d.cli.doctor as doctor\n"
         "class Tidied:\n"
         "    def __del__(self): os.kill(os.getpid(), signal.SIGINT); time.sleep(0)\n"
         "def execute(arguments):\n"
         "    Tidied()\n"
         "    time.sleep(20)\n"
         "doctor.execute = execute\n"
-        "sys.exit(mars2d.cli.main(['doctor']))\n"
+        "sys.exit(mars2d.cli.command_line.main(['doctor']))\n"
     )
     done = child(code, timeout=15)
     assert (done.returncode, done.stderr) == (130, "mars2d: interrupted\n")
@@ -294,8 +294,8 @@ def test_ctrl_c_while_a_row_is_logged_comes_when_it_is_written(tmp_path, child) 
     code = (
         "import mars2d, os, signal, sys, numpy as np\n"
         "from mars2d import Scenario, World\n"
-        "from mars2d.formats.mcap import Log\n"
-        "from mars2d.formats.mcap.tape import Tape\n"
+        "from mars2d.output.formats.mcap import Log\n"
+        "from mars2d.output.formats.mcap.tape import Tape\n"
         "begin = Tape.begin\n"
         "def slowly(self, *args):\n"
         "    os.kill(os.getpid(), signal.SIGINT)\n"
@@ -316,14 +316,14 @@ def test_ctrl_c_while_a_row_is_logged_comes_when_it_is_written(tmp_path, child) 
 
 def test_a_ctrl_c_of_which_a_library_makes_another_error_is_one_line(child) -> None:
     code = (
-        "import os, signal, sys, mars2d.cli, mars2d.commands.doctor as doctor\n"
+        "import os, signal, sys, mars2d.cli.command_line, mars2d.cli.doctor as doctor\n"
         "def execute(arguments):\n"
         "    try:\n"
         "        os.kill(os.getpid(), signal.SIGINT)\n"
         "    except KeyboardInterrupt as error:\n"
         "        raise ImportError('initialization failed') from error\n"
         "doctor.execute = execute\n"
-        "sys.exit(mars2d.cli.main(['doctor']))\n"
+        "sys.exit(mars2d.cli.command_line.main(['doctor']))\n"
     )
     done = child(code)
     assert (done.returncode, done.stderr) == (130, "mars2d: interrupted\n")

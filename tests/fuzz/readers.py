@@ -86,8 +86,8 @@ WORDS = [b"0", b"-1", b"1e999", b"null", b"[", b'"', b"9" * 9, b"\x00", b"\xff\x
 def read(path: Path) -> None:
     """Read a file as its ending says, and use a little of what it holds."""
     import mars2d
-    from mars2d.maps import obstacles
-    from mars2d.maps import read as read_map
+    from mars2d.addons.maps import obstacles
+    from mars2d.addons.maps import read as read_map
 
     kind = path.suffix[1:]
     if kind == "toml":
@@ -184,10 +184,10 @@ def main() -> None:
 
     with atheris.instrument_imports(include=["mars2d", "mcap", "svgelements"]):
         import mars2d
-        import mars2d.formats.mcap
-        import mars2d.formats.npz
-        import mars2d.maps
-        import mars2d.scenario_file
+        import mars2d.addons.maps
+        import mars2d.output.formats.mcap
+        import mars2d.output.formats.npz
+        import mars2d.scenario.toml_file
 
     folder = Path(tempfile.mkdtemp(dir="/dev/shm" if Path("/dev/shm").is_dir() else None))
     corpus = arguments.corpus or folder / "corpus"

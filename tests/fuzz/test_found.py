@@ -13,7 +13,7 @@ FOUND = sorted((Path(__file__).parent / "found").iterdir())
 
 READ = """
 import importlib.util, json, os, resource, sys
-import mars2d, mars2d.maps.svg, svgelements
+import mars2d, mars2d.addons.maps.svg, svgelements
 
 spec = importlib.util.spec_from_file_location("readers", sys.argv[1])
 readers = importlib.util.module_from_spec(spec)

@@ -11,10 +11,10 @@ Function = Callable[..., Any]
 MutantDict = dict[str, Any]
 
 alive = os.environ.get("MUTANT", "")
-"""The mutant in place of its original, as ``mars2d.geometry.x_wrap__mutmut_3``; empty for none."""
+"""The mutant of this process, as ``mars2d.core.plane.x_wrap__mutmut_3``; empty for none."""
 
 called: set[str] = set()
-"""The functions called since this was cleared, as ``mars2d.geometry.x_wrap__mutmut``."""
+"""The functions called since this was cleared, as ``mars2d.core.plane.x_wrap__mutmut``."""
 
 
 def wrap_in_trampoline(mutants: MutantDict) -> Callable[[Function], Function]:

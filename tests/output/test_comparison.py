@@ -11,11 +11,18 @@ from PIL import Image
 
 import mars2d
 from mars2d import InputError, Record, Robot, Scenario
-from mars2d.files import Experiment
-from mars2d.loop import simulate
-from mars2d.output.comparison import COLORS, MODES, Comparison, Drift, plot_comparison, plot_drift
-from mars2d.output.footage import Footage
-from mars2d.output.triptych import Triptych, save_triptych
+from mars2d.output.figures.comparison import (
+    COLORS,
+    MODES,
+    Comparison,
+    Drift,
+    plot_comparison,
+    plot_drift,
+)
+from mars2d.output.films.footage import Footage
+from mars2d.output.films.triptych import Triptych, save_triptych
+from mars2d.scenario.experiment import Experiment
+from mars2d.world.loop import simulate
 
 COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
 SIZE = (640, 360)

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Map
-from mars2d.output.contacts import normal_force, pair_name
+from mars2d.output.figures.contacts import normal_force, pair_name
 
 
 def meet(**changes):

@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 import mars2d
 from mars2d import InputError, Robot, Scenario, World
 from mars2d.addons import Map
-from mars2d.interventions import Change
-from mars2d.joints import Hinge
-from mars2d.output import distances
-from mars2d.output.distances import clearances, nearest_body
-from mars2d.props import Box, Puck
-from mars2d.shapes import rectangle
+from mars2d.bodies.joints import Hinge
+from mars2d.bodies.props import Box, Puck
+from mars2d.geometry.shapes import rectangle
+from mars2d.output.figures import distances
+from mars2d.output.figures.distances import clearances, nearest_body
+from mars2d.record.interventions import Change
 
 
 def still(world):

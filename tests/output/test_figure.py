@@ -20,14 +20,14 @@ from matplotlib.patches import Circle, Polygon
 import mars2d
 from mars2d import Animation, InputError, Record, Robot, Scenario
 from mars2d.addons import Map
-from mars2d.forces import FORCE
-from mars2d.joints import Rope
-from mars2d.looks import NEUTRAL
-from mars2d.output.artists import paint
-from mars2d.output.figure import plot_paths, plot_snapshots, save_figure
-from mars2d.output.html import page
-from mars2d.props import Box, Puck
-from mars2d.scene import Scene
+from mars2d.bodies.joints import Rope
+from mars2d.bodies.props import Box, Puck
+from mars2d.core.scene import Scene
+from mars2d.output.figures.artists import paint
+from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_figure
+from mars2d.output.layers.bodies import NEUTRAL
+from mars2d.output.layers.forces import FORCE
+from mars2d.output.pages.replay import page
 
 BLUE, RED = "#0072b2", "#d55e00"
 CHEVRON = [(2.0, 2.0), (4.0, 4.0), (2.0, 3.0), (0.0, 4.0)]
@@ -317,7 +317,7 @@ def test_neither_windows_nor_pyplot_are_touched(tmp_path):
     code = """
 import sys, mars2d
 assert "matplotlib" not in sys.modules
-import mars2d.output.figure as figure
+import mars2d.output.figures.figure as figure
 assert "matplotlib" not in sys.modules
 run = mars2d.run("random_walk", stop_time=20)
 run.plot()._repr_png_()

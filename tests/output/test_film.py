@@ -12,13 +12,20 @@ from PIL import Image
 
 import mars2d
 from mars2d import Robot, Scenario
-from mars2d.errors import InputError, MissingExtraError
-from mars2d.files import Experiment
-from mars2d.loop import simulate
-from mars2d.output.cut import Cut
-from mars2d.output.film import cut_of, film_record, film_rows, save_film, save_pictures, size_of
-from mars2d.output.footage import Footage, shots
-from tests.view.circling import Circling
+from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.output.films.cut import Cut
+from mars2d.output.films.film import (
+    cut_of,
+    film_record,
+    film_rows,
+    save_film,
+    save_pictures,
+    size_of,
+)
+from mars2d.output.films.footage import Footage, shots
+from mars2d.scenario.experiment import Experiment
+from mars2d.world.loop import simulate
+from tests.window.circling import Circling
 
 SIZE = (320, 240)
 
@@ -52,7 +59,7 @@ def test_a_gif_holds_every_frame_for_its_time_and_repeats(tmp_path):
 def test_a_gif_shows_what_the_picture_shows(tmp_path):
     from pygame.surfarray import array3d
 
-    from mars2d.view.picture import Artist
+    from mars2d.output.raster.picture import Artist
 
     save_film(frames(), tmp_path / "film.gif", size=SIZE, sensors=False)
     artist = Artist(SIZE)
@@ -100,7 +107,7 @@ def test_the_frames_of_an_mp4_are_the_pictures_in_their_order(tmp_path):
     av = pytest.importorskip("av")
     from pygame.surfarray import array3d
 
-    from mars2d.view.picture import Artist
+    from mars2d.output.raster.picture import Artist
 
     save_film(frames(), tmp_path / "film.mp4", size=SIZE, sensors=False)
     artist = Artist(SIZE)
@@ -232,7 +239,9 @@ def test_rates_must_be_positive_numbers(speed, fps):
 
 
 def test_the_film_module_is_imported_without_pygame():
-    code = "import sys, mars2d.output.film; assert not {'pygame', 'av', 'PIL'} & set(sys.modules)"
+    code = (
+        "import sys, mars2d.output.films.film;assert not {'pygame', 'av', 'PIL'} & set(sys.modules)"
+    )
     subprocess.run([sys.executable, "-c", code], check=True)
 
 

@@ -11,10 +11,10 @@ import pytest
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.addons import Communication
-from mars2d.errors import InputError, LawError
-from mars2d.output.html import page, save_html
-from mars2d.props import Box
-from mars2d.scene import Scene
+from mars2d.bodies.props import Box
+from mars2d.core.errors import InputError, LawError
+from mars2d.core.scene import Scene
+from mars2d.output.pages.replay import page, save_html
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.sensors.base import Sensor
 

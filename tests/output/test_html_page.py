@@ -11,16 +11,16 @@ import pytest
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
-from mars2d.interventions import Steer
-from mars2d.output.html import page
-from mars2d.props import Box
+from mars2d.bodies.props import Box
+from mars2d.output.pages.replay import page
+from mars2d.output.raster import shades
+from mars2d.output.raster.theme import DARK, contrast
+from mars2d.record.interventions import Steer
 from mars2d.sensors import Proximity, RangeFinder
-from mars2d.view import shades
-from mars2d.view.theme import DARK, contrast
 from tests.browser import Tab, differing
 
 REFERENCES = Path(__file__).parent / "references"
-SCRIPTS = Path(mars2d.__file__).parent / "output" / "html"
+SCRIPTS = Path(mars2d.__file__).parent / "output" / "pages" / "replay"
 EVIL = "<img src=x onerror=alert(1)>"
 GREEN, ORANGE, FORCE = "#009e73", "#d55e00", "#a3003c"
 

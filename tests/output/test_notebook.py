@@ -16,13 +16,15 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Animation, Robot, Scenario, World, props, sensors, shapes
+from mars2d import Animation, Robot, Scenario, World, sensors
 from mars2d.addons import Addon, Map
-from mars2d.files import examples, open_experiment
-from mars2d.loop import simulate
-from mars2d.output import notebook
-from mars2d.output.html import page
+from mars2d.bodies import props
+from mars2d.geometry import shapes
+from mars2d.output.pages import notebook
+from mars2d.output.pages.replay import page
+from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.sensors import Sensor
+from mars2d.world.loop import simulate
 
 MAKER = "make_notebook.py"
 NOTEBOOK = Path(__file__).parents[2] / "docs" / "notebook.ipynb"

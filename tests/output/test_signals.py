@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 import mars2d
 from mars2d import Car, Holonomic, InputError, Record, Robot, Scenario, World
-from mars2d.props import Puck
+from mars2d.bodies.props import Puck
 from mars2d.sensors import Bumper, Ground, Imu, LineCamera, Proximity, RangeFinder
 
 

@@ -13,8 +13,8 @@ from PIL import Image
 
 import mars2d
 from mars2d import InputError, Robot, Scenario
-from mars2d.output.figure import plot_snapshots, save_figure
-from mars2d.output.style import PRINT, PROJECTOR, STYLES, style_of
+from mars2d.output.figures.figure import plot_snapshots, save_figure
+from mars2d.output.figures.style import PRINT, PROJECTOR, STYLES, style_of
 
 KINDS = ("plot", "plot_signals", "plot_contacts", "plot_distances")
 

@@ -12,9 +12,9 @@ import pytest
 import shapely
 from PIL import Image
 
-from mars2d.output.extent import View
-from mars2d.output.svg import TOLERANCE, svg
-from mars2d.scene import WAKE_LINES, WAKE_MARKERS, Scene
+from mars2d.core.scene import WAKE_LINES, WAKE_MARKERS, Scene
+from mars2d.output.figures.extent import View
+from mars2d.output.pages.svg import TOLERANCE, svg
 
 VIEW, SIZE = View(0.0, 4.0, 0.0, 2.0), (400.0, 200.0)  # 100 pixels a metre
 NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"

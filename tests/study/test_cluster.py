@@ -14,9 +14,9 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import mars2d
-from mars2d.commands.working import add_workers, workers_of
-from mars2d.errors import InputError, MissingExtraError
-from mars2d.files import examples
+from mars2d.cli.working import add_workers, workers_of
+from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.scenario.experiment import examples
 from mars2d.study import cluster as clusters
 from mars2d.study.work import Failure, cluster, each_done
 

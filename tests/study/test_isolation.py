@@ -19,13 +19,13 @@ import pytest
 
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, load_law
 from mars2d.addons import Communication, Game, Map
-from mars2d.files import Experiment
-from mars2d.loop import simulate
-from mars2d.neighbours import Neighbourhood, Within
-from mars2d.props import Puck
+from mars2d.bodies.props import Puck
+from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.neighbours import Neighbourhood, Within
 from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
 from mars2d.study.isolation import Guard, Limits, Verdict, nursery
-from mars2d.world import World
+from mars2d.world.loop import simulate
+from mars2d.world.world import World
 
 needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
@@ -65,7 +65,7 @@ def played(scenario: Scenario, laws: dict, seed: int = 1, limits: Limits = LIMIT
 
 PURSUE = """
 from math import atan2
-from mars2d.geometry import wrap
+from mars2d.core.plane import wrap
 
 def control(robot):
     x, y = robot.neighbours[0].position - robot.position

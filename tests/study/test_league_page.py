@@ -9,7 +9,8 @@ import pytest
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.addons import Game
-from mars2d.output.html import page as replay_page
+from mars2d.output.pages.replay import page as replay_page
+from mars2d.output.raster.theme import DARK, LIGHT, contrast
 from mars2d.study.isolation import Verdict
 from mars2d.study.tournament import page as pages
 from mars2d.study.tournament.league import league
@@ -18,7 +19,6 @@ from mars2d.study.tournament.page import league_page, replay_data
 from mars2d.study.tournament.page.matrix import STEPS, shades
 from mars2d.study.tournament.page.text import DASH
 from mars2d.study.tournament.tournament import Tournament
-from mars2d.view.theme import DARK, LIGHT, contrast
 from tests.browser import Tab
 
 EVIL = "</script><script>alert(1)</script>'\"&amp;<img src=x onerror=alert(1)>\u2028{{title}}"

@@ -11,10 +11,10 @@ import pytest
 import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Game
-from mars2d.errors import LawError
-from mars2d.files import open_experiment
-from mars2d.loop import simulate
+from mars2d.core.errors import LawError
+from mars2d.scenario.experiment import open_experiment
 from mars2d.study.measures import BUILT_IN, UNITS, measure_named, measured, measures
+from mars2d.world.loop import simulate
 
 
 def ahead(robot):

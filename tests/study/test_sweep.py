@@ -13,9 +13,9 @@ import pytest
 
 import mars2d
 from mars2d import InputError, Robot, Scenario
-from mars2d.cli import main
+from mars2d.cli.command_line import main
+from mars2d.core import deadline
 from mars2d.study.results import Results, load_table
-from mars2d.testing import deadline
 
 DRIFT = '''
 """Robots drift."""
@@ -117,7 +117,7 @@ def test_a_scenario_and_a_module_are_run_as_well(here):
     )
     assert [result.error for result in table.results] == ["", ""]
     assert table.results[0].digest == mars2d.run(scenario, control=lambda w: (1, 0)).digest
-    module = mars2d.files.open_module("drift.py")
+    module = mars2d.scenario.experiment.open_module("drift.py")
     assert sweep(experiment=module).results[0].digest == sweep().results[0].digest
 
 

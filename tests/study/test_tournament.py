@@ -17,8 +17,8 @@ from types import SimpleNamespace
 import pytest
 
 import mars2d
-from mars2d import cli
-from mars2d.errors import InputError
+from mars2d.cli import command_line as cli
+from mars2d.core.errors import InputError
 from mars2d.study.isolation import Limits
 from mars2d.study.tournament.folder import PLAYED, Folder, played_before
 from mars2d.study.tournament.playing import play_all

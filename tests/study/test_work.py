@@ -16,7 +16,7 @@ from multiprocessing import get_context
 
 import pytest
 
-from mars2d.errors import InputError
+from mars2d.core.errors import InputError
 from mars2d.study import work, workers
 from mars2d.study.work import Failure, each_done, worker_count
 

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from mars2d.addons.communication import Communication
-from mars2d.geometry import Outline
-from mars2d.plain import without_code
-from mars2d.robot import Robot
-from mars2d.scenario import Scenario
-from mars2d.streams import stream
+from mars2d.core.plane import Outline
+from mars2d.core.streams import stream
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.serialize import without_code
 from mars2d.study.isolation.limits import Limits
 
 __all__ = ["Briefing", "Cast", "brief"]

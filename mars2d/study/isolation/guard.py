@@ -9,15 +9,15 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from mars2d.errors import InputError, LawError
-from mars2d.scenario import Scenario
-from mars2d.streams import check_seed
+from mars2d.core.errors import InputError, LawError
+from mars2d.core.streams import check_seed
+from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.briefing import brief
 from mars2d.study.isolation.ears import Ears
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.isolation.process import LawProcess
-from mars2d.views import RobotView
-from mars2d.world import World
+from mars2d.world.views import RobotView
+from mars2d.world.world import World
 
 __all__ = ["Guard", "Limits", "Verdict"]
 

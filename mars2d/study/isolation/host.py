@@ -21,9 +21,9 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from mars2d.control import Law, robot_command
-from mars2d.errors import Mars2dError, described
-from mars2d.files import law_in
+from mars2d.core.errors import Mars2dError, described
+from mars2d.core.usercode import users_line
+from mars2d.scenario.experiment import law_in
 from mars2d.study.isolation.briefing import Briefing
 from mars2d.study.isolation.frames import (
     ANSWER,
@@ -37,7 +37,7 @@ from mars2d.study.isolation.frames import (
 )
 from mars2d.study.isolation.limits import MB
 from mars2d.study.isolation.mirror import Mirror
-from mars2d.usercode import users_line
+from mars2d.world.laws import Law, robot_command
 
 __all__ = ["CUT_OFF", "main"]
 

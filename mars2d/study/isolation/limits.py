@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import NamedTuple
 
-from mars2d.description import real, wrong
+from mars2d.core.description import real, wrong
 
 __all__ = ["MB", "Limits", "Verdict"]
 

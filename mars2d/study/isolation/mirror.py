@@ -10,19 +10,19 @@ from typing import TYPE_CHECKING, Any, NoReturn, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.channel import Channel
-from mars2d.contact import CONTACT
-from mars2d.errors import LawError, UnknownNameError, nearest
-from mars2d.geometry import Outline
-from mars2d.message import Message, as_text
-from mars2d.scenario import Scenario
+from mars2d.core.errors import LawError, UnknownNameError, nearest
+from mars2d.core.plane import Outline
+from mars2d.record.contact import CONTACT
+from mars2d.record.message import Message, as_text
+from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.briefing import Briefing, Cast
 from mars2d.study.isolation.frames import STEP, STEP_HEAD, Layout
 from mars2d.study.isolation.sight import News
-from mars2d.views import VIEWS, Mind, PropView, RobotView
+from mars2d.world.channel import Channel
+from mars2d.world.views import VIEWS, Mind, PropView, RobotView
 
 if TYPE_CHECKING:
-    from mars2d.world import World
+    from mars2d.world.world import World
 
 __all__ = ["Letters", "Mirror"]
 
@@ -276,7 +276,7 @@ class Mirror:
 
     @property
     def contacts(self) -> NDArray[np.void]:
-        """The contacts since the last step, one row a pair, of dtype `mars2d.contact.CONTACT`."""
+        """The contacts since the last step, one row a pair, of dtype `mars2d.record.CONTACT`."""
         return self._contacts
 
     @property

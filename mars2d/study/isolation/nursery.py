@@ -23,7 +23,7 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple, NoReturn
 
-from mars2d.errors import InputError
+from mars2d.core.errors import InputError
 
 __all__ = ["Ended", "serve", "spawn", "start"]
 

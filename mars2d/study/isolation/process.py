@@ -14,8 +14,8 @@ import traceback
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mars2d.control import LARGEST
-from mars2d.errors import Mars2dError
+from mars2d.core.errors import Mars2dError
+from mars2d.core.usercode import users_line
 from mars2d.study.isolation.briefing import Briefing
 from mars2d.study.isolation.frames import (
     ANSWER,
@@ -33,10 +33,10 @@ from mars2d.study.isolation.host import CUT_OFF
 from mars2d.study.isolation.limits import MB
 from mars2d.study.isolation.nursery import start
 from mars2d.study.isolation.sight import Sight
-from mars2d.usercode import users_line
+from mars2d.world.laws import LARGEST
 
 if TYPE_CHECKING:
-    from mars2d.world import World
+    from mars2d.world.world import World
 
 __all__ = ["Fault", "LawProcess"]
 

@@ -9,19 +9,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.errors import LawError
-from mars2d.message import Message
+from mars2d.core.errors import LawError
+from mars2d.record.message import Message
 from mars2d.study.isolation.briefing import Briefing
-from mars2d.study.isolation.frames import (
-    HEAD,
-    STEP,
-    STEP_HEAD,
-    VELOCITIES,
-    Layout,
-)
+from mars2d.study.isolation.frames import HEAD, STEP, STEP_HEAD, VELOCITIES, Layout
 
 if TYPE_CHECKING:
-    from mars2d.world import World
+    from mars2d.world.world import World
 
 __all__ = ["News", "Sight"]
 

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from mars2d.errors import InputError, likely, nearest, shown
+from mars2d.core.errors import InputError, likely, nearest, shown
 
 __all__ = ["Files", "entrants", "law_code", "law_files", "names_of"]
 

@@ -10,8 +10,8 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from mars2d.errors import InputError
-from mars2d.versions import versions
+from mars2d.core.errors import InputError
+from mars2d.physics.versions import versions
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.results import lock
 from mars2d.study.tournament.entrants import law_code

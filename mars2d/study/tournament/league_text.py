@@ -7,7 +7,7 @@ from itertools import groupby
 from math import isnan
 from typing import TYPE_CHECKING
 
-from mars2d.errors import counted
+from mars2d.core.errors import counted
 from mars2d.study.tournament.league import Standing, head_to_head, league
 from mars2d.study.tournament.match import Played
 

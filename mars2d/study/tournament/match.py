@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mars2d.addons.contest import Contest, Outcome
-from mars2d.errors import InputError, LawError
-from mars2d.files import Experiment, open_experiment
-from mars2d.loop import simulate
-from mars2d.record import Record
-from mars2d.scenario import Scenario
+from mars2d.core.errors import InputError, LawError
+from mars2d.record.record import Record
+from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.limits import Limits, Verdict
+from mars2d.world.loop import simulate
 
 if TYPE_CHECKING:
     from mars2d.study.isolation import Guard

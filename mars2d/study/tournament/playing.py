@@ -10,8 +10,8 @@ from contextlib import contextmanager, nullcontext
 from functools import partial
 from pathlib import Path
 
-from mars2d.interrupt import noted_interrupts
-from mars2d.progress import Progress
+from mars2d.core.interrupt import noted_interrupts
+from mars2d.core.progress import Progress
 from mars2d.study.code import Watched
 from mars2d.study.isolation.limits import Limits
 from mars2d.study.run import duration

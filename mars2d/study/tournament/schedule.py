@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mars2d.errors import InputError, shown
-from mars2d.files import examples, open_experiment
+from mars2d.core.errors import InputError, shown
+from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.study.plan import MOST, Plan, seeds_of, settings_of
 from mars2d.study.tournament.entrants import Files, entrants, names_of
 from mars2d.study.tournament.match import Match, contest_of

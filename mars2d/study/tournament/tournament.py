@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.errors import InputError, MissingExtraError
-from mars2d.replacing import replacing
+from mars2d.core.atomic import replacing
+from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.study.isolation.limits import Limits
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from mars2d.output.html import page_script, page_style, player, replay_data
-from mars2d.output.html.template import colors, filled, policy
+from mars2d.output.pages.replay import page_script, page_style, player, replay_data
+from mars2d.output.pages.replay.template import colors, filled, policy
 from mars2d.study.tournament.page.facts import facts
 from mars2d.study.tournament.page.matches import choices, details, match_table
 from mars2d.study.tournament.page.matrix import matrix, shades

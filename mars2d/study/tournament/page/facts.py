@@ -7,7 +7,7 @@ from itertools import compress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.errors import counted
+from mars2d.core.errors import counted
 from mars2d.study.tournament.page.text import escaped
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from mars2d.errors import counted
+from mars2d.core.errors import counted
 from mars2d.study.tournament.page.facts import laws_of, round_of, rounds_of
 from mars2d.study.tournament.page.standings import header
 from mars2d.study.tournament.page.text import clean, escaped, named, time_cell

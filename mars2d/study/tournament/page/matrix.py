@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mars2d.output.raster.theme import DARK, LIGHT, mixed
 from mars2d.study.tournament.league import DRAW, WIN, is_draw
 from mars2d.study.tournament.page.facts import laws_of
 from mars2d.study.tournament.page.text import DASH, escaped, named
-from mars2d.view.theme import DARK, LIGHT, mixed
 
 if TYPE_CHECKING:
     from mars2d.study.tournament.match import Played

@@ -1,0 +1,259 @@
+"""A drawing: the pieces that a file holds, by layer, in metres."""
+
+from __future__ import annotations
+
+import contextlib
+import fnmatch
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.checks import LIMIT
+from mars2d.core.errors import InputError, counted, nearest, shown
+
+if TYPE_CHECKING:
+    import shapely
+
+__all__ = [
+    "METRES",
+    "MOST_PIECES",
+    "MOST_POINTS",
+    "Drawing",
+    "Piece",
+    "Unit",
+    "broken",
+    "wall",
+]
+
+Float = NDArray[np.float64]
+
+METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+"""The units that a drawing can be in, by name, in metres."""
+
+MOST_PIECES = 30_000
+MOST_POINTS = 100_000
+"""A drawing has no more pieces, and no more points, than these."""
+
+NO_LAYER = "no layer"
+"""The layer of what is in none."""
+
+SMALLEST, LARGEST = 2.0, 500.0
+"""A map whose longer side is beyond these has probably another unit, metres."""
+
+LIKELY = (4.0, 200.0)
+"""The longer side of a map in the unit that it was drawn in, metres."""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """What one unit of a drawing is: its name, its length in metres, and who says so."""
+
+    name: str
+    metres: float
+    source: str
+
+    @classmethod
+    def named(cls, name: str, source: str) -> Self:
+        """Return one of the units of METRES."""
+        return cls(name, METRES[name], source)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One thing drawn, in metres: a LineString is a wall, a Polygon is solid."""
+
+    layer: str
+    geometry: shapely.Geometry
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What a file holds: its pieces by layer, in metres, and what was left out.
+
+    source: the file's name. kind: what it is, in words. notes: more to say of it, as names and
+    texts. hidden: layers that are not shown unless they are named. skipped: how many things of
+    which kind were not read. others: how many pieces lie in layers that were not chosen. apart:
+    its areas are known not to overlap.
+    """
+
+    source: str
+    kind: str
+    unit: Unit
+    pieces: tuple[Piece, ...]
+    notes: tuple[tuple[str, str], ...] = ()
+    hidden: frozenset[str] = frozenset()
+    skipped: Mapping[str, int] = field(default_factory=dict)
+    others: Mapping[str, int] = field(default_factory=dict)
+    apart: bool = False
+
+    @cached_property
+    def layers(self) -> dict[str, int]:
+        """How many pieces each layer has, those with most first."""
+        return dict(Counter(piece.layer for piece in self.pieces).most_common())
+
+    @cached_property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """(xmin, xmax, ymin, ymax) of all pieces [m]."""
+        import shapely
+
+        xmin, ymin, xmax, ymax = shapely.total_bounds([p.geometry for p in self.pieces]).tolist()
+        return xmin, xmax, ymin, ymax
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, metres."""
+        xmin, xmax, ymin, ymax = self.bounds
+        return xmax - xmin, ymax - ymin
+
+    @property
+    def hint(self) -> str:
+        """What to say of a size that is hardly that of a map, or nothing."""
+        longer = max(self.size)
+        if SMALLEST <= longer <= LARGEST or not self.unit.name:
+            return ""
+        drawn = longer / self.unit.metres
+        fits = {
+            name: drawn * metres
+            for name, metres in METRES.items()
+            if LIKELY[0] <= drawn * metres <= LIKELY[1]
+        }
+        size = "small" if longer < SMALLEST else "large"
+        better = " or ".join(f"unit={name} ({long:.3g} m)" for name, long in fits.items())
+        ask = f": is it {better}?" if better else ": is the unit right?"
+        return f"{longer:.3g} m is {size} for a map of robots{ask}"
+
+    def only(self, layers: Sequence[str] | None) -> Drawing:
+        """Return the drawing with those layers only, by name or pattern; None: all that is shown.
+
+        Raises InputError for a name that no layer has, and where nothing is left.
+        """
+        names = list(self.layers)
+        chosen = {name for name in names if name not in self.hidden}
+        if layers is not None:
+            chosen = set()
+            for wanted in layers:
+                found = {n for n in names if fnmatch.fnmatch(n.lower(), wanted.lower())}
+                if not found:
+                    hint = nearest(wanted, names)
+                    raise InputError(f"{self.source} has no layer {shown(wanted)}{hint}")
+                chosen |= found
+        pieces = tuple(piece for piece in self.pieces if piece.layer in chosen)
+        if not pieces:
+            what = ", ".join(f"{count} {kind}" for kind, count in self.skipped.items())
+            more = f", but {what}" if what else ""
+            raise InputError(f"{self.source}: expected lines or areas; there are none{more}")
+        others = {name: count for name, count in self.layers.items() if name not in chosen}
+        return replace(self, pieces=pieces, others=others)
+
+    def moved(self, at: tuple[float, float]) -> Drawing:
+        """Return the drawing with the lower left corner of its bounds at a point [m]."""
+        import shapely
+
+        xmin, _, ymin, _ = self.bounds
+        shift = np.array(at) - (xmin, ymin)
+        moved = shapely.transform([p.geometry for p in self.pieces], lambda xy: xy + shift)
+        pieces = zip(self.pieces, moved.tolist(), strict=True)
+        return replace(self, pieces=tuple(Piece(p.layer, geometry) for p, geometry in pieces))
+
+    def check_size(self) -> None:
+        """Refuse what is too far away, or has no size. Raises InputError."""
+        xmin, xmax, ymin, ymax = self.bounds
+        far = max(map(abs, (xmin, xmax, ymin, ymax)))
+        if not isfinite(far) or far > LIMIT:
+            raise InputError(
+                f"{self.source}: lies up to {far:.3g} m from the origin, expected at most "
+                f"{LIMIT:g} m: at=(0, 0) moves it there, unit=... says how large it is"
+            )
+        if max(self.size) < 1e-3:
+            raise InputError(
+                f"{self.source}: is {max(self.size):.3g} m in size, expected a map; "
+                "unit=... says how large it is"
+            )
+
+
+def wall(name: str, layer: str, points: Float, metres: float) -> Piece | None:
+    """Return a wall through points (k, 2) in a unit of some metres; None if it has no length.
+
+    Raises InputError, which begins with `name`, for coordinates that are no numbers.
+    """
+    import shapely
+
+    check_finite(name, points)
+    differ = np.ones(len(points), dtype=bool)
+    differ[1:] = (np.diff(points, axis=0) != 0).any(axis=1)
+    kept = points[differ] * metres
+    return Piece(layer, shapely.LineString(kept)) if len(kept) > 1 else None
+
+
+def check_finite(name: str, points: Float) -> None:
+    """Refuse coordinates (k, 2) that are no numbers, or absurd ones. Raises InputError."""
+    wild = ~(np.abs(points) < 1e15)
+    if wild.any():
+        raise InputError(f"{name}: a coordinate is {points[wild][0]}: expected a finite number")
+
+
+def layer_name(name: object, otherwise: str = NO_LAYER) -> str:
+    """Return a layer's name as it can be shown: on one line, and no longer than 80 characters."""
+    plain = "".join(c if c.isprintable() else " " for c in str(name or "")[:200])
+    return " ".join(plain.split())[:80] or otherwise
+
+
+class Tally:
+    """Counts what is read of a file, and refuses too much of it."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._pieces = self._points = 0
+
+    def add(self, points: int, pieces: int = 1) -> None:
+        """Count pieces with so many points in all. Raises InputError beyond the limits."""
+        self._pieces += pieces
+        self._points += points
+        if self._pieces > MOST_PIECES:
+            raise InputError(f"{self._name}: more than {MOST_PIECES} pieces; choose fewer layers")
+        if self._points > MOST_POINTS:
+            raise InputError(f"{self._name}: more than {MOST_POINTS} points; draw it with fewer")
+
+
+@contextlib.contextmanager
+def broken(name: str, kind: str) -> Iterator[None]:
+    """Turn what a reader of files raises into an InputError: `name` can't be read as `kind`."""
+    try:
+        with np.errstate(all="ignore"):  # numbers that are none are looked for anyway
+            yield
+    except InputError as error:
+        if str(error).startswith(name):
+            raise
+        raise InputError(f"{name}: {error}") from error
+    except NameError:  # a fault of ours, not the file's
+        raise
+    except MemoryError:
+        raise InputError(f"{name}: can't be read as {kind}: it needs too much memory") from None
+    except RecursionError:
+        raise InputError(f"{name}: can't be read as {kind}: it is nested too deeply") from None
+    except Exception as error:  # libraries raise whatever comes
+        text = " ".join(str(error).split()) or type(error).__name__
+        said = text if len(text) <= 120 else f"{text[:117]}..."
+        raise InputError(f"{name}: can't be read as {kind}: {said}") from error
+
+
+def check_bytes(name: str, path: Path, most: int) -> None:
+    """Refuse a file of more than so many bytes. Raises InputError, which begins with `name`."""
+    size = path.stat().st_size
+    if size > most:
+        raise InputError(f"{name}: {size / 1e6:.3g} MB; expected at most {most / 1e6:g} MB")
+
+
+def listed(counts: Mapping[str, int], most: int = 8) -> str:
+    """Return counts in words, the largest first, as ``12 TEXT, 3 HATCH``."""
+    ranked = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
+    words = [f"{count} {name}" for name, count in ranked[:most]]
+    rest = sum(count for _, count in ranked[most:])
+    return ", ".join([*words, *([counted(rest, "other")] if rest else [])])

@@ -1,0 +1,141 @@
+"""Which reader reads which file, and the options that it takes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from mars2d.addons.maps.drawing import METRES, Drawing, Unit, check_bytes
+from mars2d.addons.maps.grid import IMAGES, MOST_BYTES
+from mars2d.core.checks import point
+from mars2d.core.description import real, wrong
+from mars2d.core.errors import InputError, likely
+
+__all__ = ["SUFFIXES", "advice", "read"]
+
+LARGEST = {
+    **dict.fromkeys((".dxf", ".svg", ".geojson", ".json", ".wkt"), 10_000_000),
+    **dict.fromkeys((".yaml", ".yml"), 64_000),
+    **dict.fromkeys(IMAGES, MOST_BYTES),
+}
+"""How large files of each kind may be, bytes."""
+
+SUFFIXES = tuple(LARGEST)
+"""The suffixes of files that are maps."""
+
+TAKES = {
+    ".dxf": ("layers", "unit"), ".svg": ("layers", "unit"), ".geojson": ("layers", "unit"),
+    ".json": ("layers", "unit"), ".wkt": ("unit",), ".yaml": (), ".yml": (),
+    **dict.fromkeys(IMAGES, ("resolution",)),
+}  # fmt: skip
+"""The options that each kind of file takes, besides `at`."""
+
+
+def read(
+    path: Path,
+    *,
+    layers: str | Sequence[str] | None = None,
+    unit: str | float | None = None,
+    resolution: float | None = None,
+    at: Sequence[float] | None = None,
+) -> Drawing:
+    """Read a map from a file: DXF, SVG, YAML of ROS, an image, GeoJSON, WKT.
+
+    layers: names or patterns such as ``*WALL*``, a list or one text with commas; None: all that
+    are shown. unit: that of the file, ``mm``, ``cm``, ``m``, ``in``, ``ft`` or a number of metres,
+    in place of what the file says. resolution: metres per pixel, for images, which don't say. at:
+    (x, y) [m] of the lower left corner of what is read; None: where the file has it. Raises
+    InputError, which names the file, what is wrong with it, and what was expected.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError(f"{path}: expected a map: {', '.join(SUFFIXES)}{advice(path)}")
+    options = {"layers": layers, "unit": unit, "resolution": resolution}
+    for option, value in options.items():
+        if value is not None and option not in TAKES[suffix]:
+            takers = [kind for kind, takes in TAKES.items() if option in takes]
+            raise InputError(
+                f"{path.name}: {option} is for {', '.join(takers)}, not {suffix}; leave it None"
+            )
+    if suffix in IMAGES and resolution is None:
+        raise InputError(f"{path.name}: an image needs resolution=..., metres per pixel, as 0.05")
+    chosen = None if layers is None else _layers(layers)
+    place = None if at is None else point("at", at)
+    _check_file(path, suffix)
+    drawing = _read(path, suffix, _unit(unit), resolution).only(chosen)
+    if place is not None:
+        drawing = drawing.moved(place)
+    drawing.check_size()
+    return drawing
+
+
+def advice(path: Path) -> str:
+    """Return what to do with a drawing that can't be read, or nothing."""
+    return "; save the drawing as DXF" if path.suffix.lower() == ".dwg" else ""
+
+
+def _read(path: Path, suffix: str, unit: Unit | None, resolution: Any) -> Drawing:
+    if suffix == ".dxf":
+        from mars2d.addons.maps.dxf import read_dxf
+
+        return read_dxf(path, unit)
+    if suffix == ".svg":
+        from mars2d.addons.maps.svg import read_svg
+
+        return read_svg(path, unit)
+    if suffix in (".geojson", ".json"):
+        from mars2d.addons.maps.geo import read_geojson
+
+        return read_geojson(path, unit)
+    if suffix == ".wkt":
+        from mars2d.addons.maps.geo import read_wkt
+
+        return read_wkt(path, unit)
+    from mars2d.addons.maps.raster import read_occupancy, read_picture
+
+    if suffix in IMAGES:
+        return read_picture(path, resolution)
+    return read_occupancy(path)
+
+
+def _check_file(path: Path, suffix: str) -> None:
+    """Refuse what is no file, or too large a one, before it is read."""
+    if path.is_dir():
+        raise InputError(f"{path}: a folder; expected a map, a file that ends in {suffix}")
+    if not path.is_file():
+        folder = path.parent
+        beside = [f for f in folder.iterdir() if f.suffix in SUFFIXES] if folder.is_dir() else []
+        raise InputError(f"{path}: there is no such file{likely(path, map(str, beside))}")
+    check_bytes(path.name, path, LARGEST[suffix])
+    if not path.stat().st_size:
+        raise InputError(f"{path.name}: an empty file; expected a map")
+    if not os.access(path, os.R_OK):
+        raise InputError(f"{path}: can't be read: no permission")
+
+
+def _layers(value: Any) -> list[str]:
+    """Check names of layers: a list, or one text with commas."""
+    names = value.split(",") if isinstance(value, str) else value
+    expected = "names of layers, as ['WALLS'] or 'WALLS,DOORS'"
+    if not isinstance(names, (list, tuple)) or not names:
+        raise wrong("layers", value, expected)
+    if not all(isinstance(name, str) and name.strip() for name in names):
+        raise wrong("layers", value, expected)
+    return [name.strip() for name in names]
+
+
+def _unit(value: Any) -> Unit | None:
+    """Check a unit: its name, or its length in metres."""
+    if value is None:
+        return None
+    expected = f"one of {', '.join(METRES)}, or a number of metres > 0"
+    if isinstance(value, str):
+        if value not in METRES:
+            raise wrong("unit", value, expected + likely(value, METRES))
+        return Unit.named(value, "as given")
+    metres = real("unit", value, expected)
+    if not 1e-9 <= metres <= 1e6:
+        raise wrong("unit", value, expected)
+    return Unit(f"{metres:g} m", metres, "as given")

@@ -1,0 +1,347 @@
+"""SVG drawings: what is filled is solid, what is a line is a wall."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+from xml.etree import ElementTree as ET
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.addons.maps.drawing import (
+    METRES,
+    MOST_POINTS,
+    NO_LAYER,
+    Drawing,
+    Piece,
+    Tally,
+    Unit,
+    broken,
+    check_finite,
+    layer_name,
+    wall,
+)
+from mars2d.addons.maps.regions import region
+from mars2d.core.errors import InputError, shown
+
+__all__ = ["read_svg"]
+
+Float = NDArray[np.float64]
+
+SVG = "{http://www.w3.org/2000/svg}"
+XLINK = "{http://www.w3.org/1999/xlink}href"
+LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
+
+MOST_ELEMENTS = 20_000
+DEEPEST = 64
+MOST_WORK = 50_000_000
+"""Elements with all that `use` repeats, groups in groups, and characters that are looked at."""
+
+MOST_DIGITS = 100
+"""Of a number; patterns of colours and fonts take the square of it."""
+
+ASIDE = ("symbol", "marker", "mask", "pattern", "clipPath", "filter", "metadata", "foreignObject")
+"""Elements that draw nothing where they stand."""
+
+LENGTHS = {"mm": 1e-3, "cm": 1e-2, "in": 0.0254, "pt": 0.0254 / 72, "pc": 0.0254 / 6}
+PIXEL = 0.0254 / 96
+"""What CSS calls a pixel, metres."""
+
+PAPER = 0.97
+"""What is filled with a lighter colour than this is paper, from 0 to 1."""
+
+ROUND = 128
+"""Points on a full turn of an arc; a Bezier curve has a quarter of them."""
+
+
+def read_svg(path: Path, unit: Unit | None) -> Drawing:
+    """Read an SVG drawing; its y axis, which points down, is turned up.
+
+    unit: that of a user unit, which is a unit of the viewBox; None takes it from the width in mm,
+    cm, in, pt or pc, if there is one. What has a fill that is not white is solid, as it looks;
+    else what has a stroke is a wall without thickness. A layer is the innermost group with a
+    label, or with an id. Raises InputError.
+    """
+    import svgelements
+
+    name = path.name
+    with broken(name, "an SVG drawing"):
+        root = _parsed(name, path.read_bytes())
+        unit, height = unit or _unit(root), _height(root)
+        for size in ("width", "height", "preserveAspectRatio"):
+            root.attrib.pop(size, None)  # now a user unit is 1
+        data = io.BytesIO(ET.tostring(root))
+        document = svgelements.SVG.parse(data, on_error="raise")
+        skipped: Counter[str] = Counter()
+        pieces = []
+        tally = Tally(name)
+        for layer, shape in _drawn(document, NO_LAYER, skipped):
+            rings = _rings(shape, tally)
+            for points in rings:
+                check_finite(name, points)
+                points[:, 1] = height - points[:, 1]
+            pieces += _pieces(name, layer, shape, rings, unit.metres, skipped)
+    return Drawing(name, "an SVG drawing", unit, tuple(pieces), skipped=dict(skipped))
+
+
+class _Builder(ET.TreeBuilder):
+    """Builds a tree that is neither too large nor too deep."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self._name, self._depth, self._count = name, 0, 0
+
+    def start(self, tag: Any, attrs: Any, /) -> Any:
+        """Count an element that begins."""
+        self._depth += 1
+        self._count += 1
+        if self._depth > DEEPEST:
+            raise InputError(f"{self._name}: elements within elements, more than {DEEPEST} deep")
+        if self._count > MOST_ELEMENTS:
+            raise InputError(f"{self._name}: more than {MOST_ELEMENTS} elements")
+        return super().start(tag, attrs)
+
+    def end(self, tag: Any, /) -> Any:
+        """Count an element that ends."""
+        self._depth -= 1
+        return super().end(tag)
+
+
+def _parsed(name: str, data: bytes) -> ET.Element:
+    """Return the tree of an SVG that is safe to read. Raises InputError."""
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(f"{name}: expected an SVG drawing, text in UTF-8") from None
+    if re.search(r"<!\s*(DOCTYPE|ENTITY)", text, flags=re.IGNORECASE):
+        raise InputError(f"{name}: has a <!DOCTYPE ...>, which is refused: delete it")
+    root = ET.fromstring(text, ET.XMLParser(target=_Builder(name)))
+    if root.tag not in ("svg", f"{SVG}svg"):
+        raise InputError(f"{name}: expected an SVG drawing; its root is <{shown(root.tag, 40)}>")
+    _check_size(name, root)
+    if re.search(rf"\d{{{MOST_DIGITS + 1}}}", text):
+        raise InputError(f"{name}: a number of more than {MOST_DIGITS} digits")
+    numbers = sum(
+        len(re.findall(r"[\d.]+", e.get("d", "") + e.get("points", ""))) for e in root.iter()
+    )
+    if numbers > 2 * MOST_POINTS:
+        raise InputError(f"{name}: more than {MOST_POINTS} points; draw it with fewer")
+    _set_aside(root)
+    return root
+
+
+class _Size(NamedTuple):
+    """What an element comes to with all that it contains and repeats.
+
+    elements: how many. depth: how deep they are nested. work: characters of attributes, each as
+    often as there are elements that inherit it.
+    """
+
+    elements: int
+    depth: int
+    work: int
+
+
+def _check_size(name: str, root: ET.Element) -> None:
+    """Refuse elements that use themselves, or that repeat others without end."""
+    by_id = {e.get("id"): e for e in root.iter() if e.get("id")}
+    styles = [e for e in root.iter() if e.tag in ("style", f"{SVG}style")]
+    for each in styles:
+        each.text = re.sub(r"/\*.*?(?:\*/|\Z)", "", each.text or "", flags=re.DOTALL)
+    style = sum(len(each.text or "") for each in styles)
+    work = sum(_work_of_style(each.text or "") for each in styles)
+    if work > MOST_WORK:
+        raise InputError(f"{name}: too many attributes and styles; simplify it")
+    sizes: dict[ET.Element, _Size] = {}
+    begun: set[ET.Element] = set()
+
+    def measure(element: ET.Element) -> _Size:
+        if element in sizes:
+            return sizes[element]
+        if element in begun or len(begun) > 2 * DEEPEST:
+            raise InputError(f"{name}: <use> of what it is part of: {shown(element.get('id'))}")
+        begun.add(element)
+        parts = [measure(child) for child in element]
+        if element.tag in ("use", f"{SVG}use"):
+            link = element.get("href", element.get(XLINK, ""))
+            if not link.startswith("#"):
+                raise InputError(f"{name}: <use> of {shown(link)}: expected #id in the same file")
+            if link[1:] in by_id:
+                parts.append(measure(by_id[link[1:]]))
+        begun.discard(element)
+        count = 1 + sum(part.elements for part in parts)
+        depth = 1 + max((part.depth for part in parts), default=0)
+        work = sum(map(_work_of, element.attrib.values())) * count
+        work += _work_of_path(element.get("d", "")) * count
+        work += style * (3 + element.get("class", "").count(" "))
+        size = _Size(count, depth, work + sum(part.work for part in parts))
+        if size.elements > MOST_ELEMENTS:
+            raise InputError(f"{name}: more than {MOST_ELEMENTS} elements, by <use> of others")
+        if size.depth > DEEPEST:
+            raise InputError(f"{name}: <use> within <use>, more than {DEEPEST} deep")
+        if size.work > MOST_WORK:
+            raise InputError(f"{name}: too many attributes and styles; simplify it")
+        sizes[element] = size
+        return size
+
+    measure(root)
+
+
+def _work_of(value: str) -> int:
+    """Return how many characters are looked at to read an attribute: more where ( is not closed."""
+    return len(value) + sum(
+        len(piece) * (piece.count("(") - 1) for piece in value.split(")") if piece.count("(") > 1
+    )
+
+
+def _work_of_path(data: str) -> int:
+    """Return how many segments are looked at, as characters, to close a path's parts again."""
+    parts = re.split("[Mm]", data)
+    closed = [len(re.findall("[Zz]", part)) for part in parts]
+    pairs = zip(parts, closed, strict=True)
+    return sum(10 * len(part) * (count - 1) for part, count in pairs if count > 1)
+
+
+def _work_of_style(text: str) -> int:
+    """Return how many characters are looked at to read a <style>: more where { is not closed."""
+    before = sum(len(piece) ** 2 for piece in text.split("{"))
+    return before + sum(len(piece) * piece.count("{") for piece in text.split("}"))
+
+
+def _set_aside(root: ET.Element) -> None:
+    """Put what draws nothing where it stands into <defs>, where it is found only by its id."""
+    names = {prefix + tag for tag in ASIDE for prefix in ("", SVG)}
+    for parent in list(root.iter()):
+        if parent.tag in ("defs", f"{SVG}defs"):
+            continue
+        for k, child in enumerate(list(parent)):
+            if child.tag in names:
+                aside = ET.Element(f"{SVG}defs")
+                aside.append(child)
+                parent[k] = aside
+
+
+def _unit(root: ET.Element) -> Unit:
+    """Return what a user unit is, by the drawing's width; metres if that has no unit."""
+    width, suffix = _length(root.get("width", ""))
+    box = _view_box(root)
+    if suffix in LENGTHS and width:
+        metres = PIXEL if box is None else LENGTHS[suffix] * width / box[2]
+        said = f"by the width, {root.get('width')}" + (f" for {box[2]:g} units" if box else "")
+        for name, length in METRES.items():
+            if abs(metres / length - 1) < 1e-6:
+                return Unit.named(name, said)
+        return Unit(f"{metres:.6g} m", metres, said)
+    return Unit.named("m", "supposed: the width has no unit")
+
+
+def _height(root: ET.Element) -> float:
+    """Return y at the lower edge, in user units as svgelements counts them."""
+    box = _view_box(root)
+    return box[3] if box is not None else _length(root.get("height", ""))[0]
+
+
+def _length(text: str) -> tuple[float, str]:
+    """Return a length as number and unit; 0 if it is none, or a share."""
+    found = re.fullmatch(r"\s*([0-9.]+(?:e[+-]?\d{1,2})?)\s*([a-z]*)\s*", text[:40], flags=re.I)
+    return (float(found[1]), found[2].lower()) if found else (0.0, "")
+
+
+def _view_box(root: ET.Element) -> tuple[float, float, float, float] | None:
+    text = root.get("viewBox")
+    if text is None:
+        return None
+    try:
+        x, y, width, height = (float(item) for item in re.split(r"[\s,]+", text.strip()))
+    except ValueError:
+        width = height = 0.0
+    if not (0 < width < 1e12 and 0 < height < 1e12):
+        raise InputError(f"viewBox = {shown(text)}: expected x, y, width > 0 and height > 0")
+    return x, y, width, height
+
+
+def _drawn(group: Any, layer: str, skipped: Counter[str]) -> Iterator[tuple[str, Any]]:
+    """Yield the shapes of a group with the layer of each."""
+    import svgelements
+
+    for element in group:
+        if isinstance(element, svgelements.Shape):
+            if str(element.values.get("visibility", "")) in ("hidden", "collapse"):
+                skipped["hidden"] += 1
+            else:
+                yield layer, element
+        elif isinstance(element, list):  # a group, a <use>, a drawing in the drawing
+            values: Any = getattr(element, "values", {})
+            own = values.get("attributes", {})
+            name = layer_name(own.get(LABEL) or own.get("id"), layer)
+            inner = name if values.get("tag") == "g" else layer
+            yield from _drawn(element, inner, skipped)
+        elif isinstance(element, (svgelements.Text, svgelements.Image)):
+            skipped[type(element).__name__.lower()] += 1
+
+
+def _pieces(
+    name: str, layer: str, shape: Any, rings: list[Float], metres: float, skipped: Counter[str]
+) -> list[Piece]:
+    """Return a shape as areas if it is filled, else as walls if it has a line."""
+    if _is_solid(shape):
+        even_odd = str(shape.values.get("fill-rule", "")) == "evenodd"
+        areas = region(name, [points * metres for points in rings], even_odd=even_odd)
+        if areas:
+            return [Piece(layer, area) for area in areas]
+    if _is_seen(shape.stroke, shape.values.get("stroke-opacity")):
+        walls = [wall(name, layer, points, metres) for points in rings]
+        return [piece for piece in walls if piece is not None]
+    skipped["white or without a line"] += 1
+    return []
+
+
+def _is_solid(shape: Any) -> bool:
+    if not _is_seen(shape.fill, shape.values.get("fill-opacity")):
+        return False
+    fill = shape.fill
+    return bool(min(fill.red, fill.green, fill.blue) < 255 * PAPER)
+
+
+def _is_seen(color: Any, opacity: Any) -> bool:
+    """Return whether a colour is there and lets not all through."""
+    try:
+        clear = opacity is not None and float(opacity) == 0
+    except ValueError:
+        clear = False
+    there = color is not None and color.value is not None and color.alpha > 0
+    return bool(there and not clear)
+
+
+def _rings(shape: Any, tally: Tally) -> list[Float]:
+    """Return the points (k, 2) of each part of a shape, in user units, y down; all are counted."""
+    import svgelements
+
+    found: list[list[tuple[float, float]]] = []
+    for segment in abs(svgelements.Path(shape)):  # abs: its transforms done
+        if isinstance(segment, svgelements.Move):
+            found.append([(segment.end.x, segment.end.y)])
+            tally.add(1)
+            continue
+        if segment.start is None or segment.end is None:
+            continue
+        if not found:
+            found.append([(segment.start.x, segment.start.y)])
+        if isinstance(segment, svgelements.Arc):
+            count = int(min(abs(segment.sweep) / (2 * np.pi), 1) * ROUND) + 2
+        elif isinstance(segment, (svgelements.CubicBezier, svgelements.QuadraticBezier)):
+            count = ROUND // 4
+        else:
+            count = 1
+        tally.add(count, 0)
+        if count == 1:
+            found[-1].append((segment.end.x, segment.end.y))
+        else:
+            places = np.arange(1, count + 1) / count
+            found[-1] += [tuple(point) for point in np.asarray(segment.npoint(places))]
+    return [np.array(points, dtype=float) for points in found if len(points) > 1]

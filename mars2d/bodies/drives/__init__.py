@@ -1,0 +1,9 @@
+"""Drives: how a command becomes the motion of a robot."""
+
+from mars2d.bodies.drives.base import Drive
+from mars2d.bodies.drives.car import Car
+from mars2d.bodies.drives.differential import Differential
+from mars2d.bodies.drives.holonomic import Holonomic
+from mars2d.bodies.drives.unicycle import Unicycle
+
+__all__ = ["Car", "Differential", "Drive", "Holonomic", "Unicycle"]

@@ -1,0 +1,160 @@
+"""What a drive is: from a command to the motion it asks for, and the force it can use."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import inf
+from typing import ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.description import Description, number
+from mars2d.core.quantity import Quantity
+
+__all__ = ["Drive", "Wheeled"]
+
+Float = NDArray[np.float64]
+
+ROUNDING = 1e-12
+"""By how much, relatively, a command may exceed its limits: limiting twice changes nothing."""
+
+
+class Drive(Description):
+    """The base of all drives.
+
+    A drive says how a command (2,) becomes a motion; `twist` is all that a drive of one's own
+    needs. Every method works on the columns of many robots at once. What happens to a command:
+
+    1. `saturate` limits it to what the actuators can do, `accelerate` to what they can do so soon
+       after the last one; the result is what is recorded;
+    2. it waits for `Scenario.command_delay` and for the drive's `dead_time`;
+    3. `disturb` adds the actuators' noise, which is not recorded;
+    4. `twist` gives the velocity that is asked for.
+
+    Two actuators move a robot. Unless a drive says otherwise, the command is what they do.
+    """
+
+    max_linear_speed: float = number(
+        default=0.5, above=0, high=1e3, unit="m/s", doc="bound of the speed"
+    )
+    max_force: float = number(
+        default=5.0, above=0, high=1e6, unit="N", doc="what the drive can push with"
+    )
+    max_torque: float = number(
+        default=0.5, above=0, high=1e6, unit="N m", doc="what it can turn with"
+    )
+    max_acceleration: float | None = number(
+        default=None, low=1e-6, high=1e6, unit="m/s^2", optional=True,
+        doc="bound of how quickly commands change; None: none",
+    )  # fmt: skip
+    noise: float = number(
+        default=0.0, low=0, high=1,
+        doc="standard deviation of an actuator's speed, in shares of it; anew each control step",
+    )  # fmt: skip
+    dead_time: float = number(
+        default=0.0, low=0, high=1e6, unit="s",
+        doc="from a command's arrival to its effect, on top of the scenario's `command_delay`",
+    )  # fmt: skip
+
+    frame: ClassVar[Literal["robot", "world"]] = "robot"
+    """The frame that `twist` gives linear velocities in."""
+
+    def saturate(self, command: Float) -> Float:
+        """Return commands (2, n) within the actuators' limits; here, as they are."""
+        return command
+
+    def twist(self, command: Float) -> Float:
+        """Return (3, n): two components of velocity [m/s], in `frame`, and spin [rad/s]."""
+        raise NotImplementedError(f"{type(self).__name__} must say how it moves")
+
+    def actuators(self, command: Float) -> Float:
+        """Return what commands (2, n) ask of the two actuators, (2, n)."""
+        return command
+
+    def command_for(self, actuators: Float) -> Float:
+        """Return the commands (2, n) that ask this of the two actuators, (2, n)."""
+        return actuators
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """What the two numbers of a command are, for figures and tables; here nobody knows."""
+        return ()
+
+    @property
+    def rates(self) -> tuple[float | None, float | None]:
+        """How much each actuator may change in a second, in its own unit; None: at will."""
+        return self.max_acceleration, self.max_acceleration
+
+    @cached_property
+    def _fastest_change(self) -> Float:
+        """The rates as an array (2, 1), inf for None."""
+        return np.array([[inf if rate is None else rate] for rate in self.rates])
+
+    def accelerate(self, command: Float, last: Float, duration: float) -> Float:
+        """Return commands (2, n), each actuator's change since the last ones limited.
+
+        last: (2, n), the commands issued `duration` seconds before.
+        """
+        had = self.actuators(last)
+        change = self.actuators(command) - had
+        most = self._fastest_change * duration
+        over = np.abs(change) > most + ROUNDING * (most + np.abs(had).max(axis=0))
+        if not over.any():
+            return command
+        return np.where(over.any(axis=0), self.command_for(had + change.clip(-most, most)), command)
+
+    def disturb(self, command: Float, normal: Float) -> Float:
+        """Return what the actuators make of commands (2, n): each is off by a share of its own.
+
+        normal: (2, n), numbers of the standard normal distribution, one for each actuator.
+        """
+        return self.command_for(self.actuators(command) * (1.0 + self.noise * normal))
+
+
+class Wheeled(Drive):
+    """The base of drives of two wheels on one axle, each of them an actuator.
+
+    Commands are (v [m/s], omega [rad/s]), and actuators the speeds of the wheels' rims,
+    v -+ wheel_semiaxis * omega [m/s]. With `noise` s and the semiaxis b, v and omega are off by the
+    variances s^2 (v^2 + b^2 omega^2) / 2 and s^2 (v^2 + b^2 omega^2) / (2 b^2): the velocity motion
+    model with alpha_1 = alpha_4 = s^2 / 2, alpha_2 = s^2 b^2 / 2, alpha_3 = s^2 / (2 b^2).
+
+    Source of the model: Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 5.3.
+    """
+
+    wheel_semiaxis: float = number(
+        default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
+    )
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """V [m/s] and omega [rad/s]."""
+        return Quantity("v", "m/s"), Quantity("omega", "rad/s")
+
+    @cached_property
+    def _arms(self) -> Float:
+        return np.array([[-self.wheel_semiaxis], [self.wheel_semiaxis]])
+
+    def actuators(self, command: Float) -> Float:
+        """Return the speeds (2, n) of the left and the right wheel's rim, m/s."""
+        return np.asarray(command[0] + self._arms * command[1])
+
+    def command_for(self, actuators: Float) -> Float:
+        """Return (v, omega), (2, n), of rims with these speeds."""
+        left, right = actuators
+        return np.array([(left + right) / 2, (right - left) / (2 * self.wheel_semiaxis)])
+
+    def saturate(self, command: Float) -> Float:
+        """Return commands (2, n) with each rim's speed clipped to +-max_linear_speed."""
+        rims, limit = self.actuators(command), self.max_linear_speed
+        over = np.abs(rims) > limit * (1 + ROUNDING)
+        if not over.any():
+            return command
+        return np.where(over.any(axis=0), self.command_for(rims.clip(-limit, limit)), command)
+
+    def twist(self, command: Float) -> Float:
+        """Return (v, 0, omega)."""
+        twist = np.zeros((3, command.shape[1]))
+        twist[::2] = command
+        return twist

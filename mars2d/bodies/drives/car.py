@@ -1,0 +1,69 @@
+"""The car: it steers with its front wheels."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mars2d.bodies.drives.base import ROUNDING, Drive, Float
+from mars2d.core.description import number
+from mars2d.core.quantity import Quantity
+
+__all__ = ["Car"]
+
+
+class Car(Drive):
+    """Steers with its front wheels, commanded by (v [m/s], steering angle delta [rad]).
+
+    x' = v cos(theta), y' = v sin(theta), theta' = v tan(delta) / wheelbase: the bicycle model. The
+    pose is that of the middle of the rear axle, v its speed; it turns about a point wheelbase /
+    tan(delta) to the left. Speed and steering are limited each by itself, so a car that is too fast
+    keeps its curvature. `noise` is that of the speed in shares of the speed, and that of the
+    steering angle in shares of max_steering, which it never exceeds.
+
+    Source: K. M. Lynch and F. C. Park, Modern Robotics (2017), section 13.3.1.
+    """
+
+    wheelbase: float = number(
+        default=0.2, low=1e-3, high=1e3, unit="m", doc="distance between the axles"
+    )
+    max_steering: float = number(
+        default=0.6, low=1e-3, high=1.5, unit="rad", doc="bound of the steering angle"
+    )
+    max_steering_rate: float | None = number(
+        default=None, low=1e-6, high=1e6, unit="rad/s", optional=True,
+        doc="bound of how quickly the steering angle changes; None: none",
+    )  # fmt: skip
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """V [m/s] and the steering angle delta [rad]."""
+        return Quantity("v", "m/s"), Quantity("delta", "rad", "angle")
+
+    @property
+    def rates(self) -> tuple[float | None, float | None]:
+        """The bounds of the acceleration [m/s^2] and of the steering rate [rad/s]."""
+        return self.max_acceleration, self.max_steering_rate
+
+    def saturate(self, command: Float) -> Float:
+        """Return commands (2, n), the speed clipped to +-max_linear_speed, the angle likewise."""
+        limit = np.array([[self.max_linear_speed], [self.max_steering]])
+        over = np.abs(command) > limit * (1 + ROUNDING)
+        if not over.any():
+            return command
+        return np.where(over, command.clip(-limit, limit), command)
+
+    def disturb(self, command: Float, normal: Float) -> Float:
+        """Return commands (2, n), the speed off by a share of itself, the angle of its bound.
+
+        normal: (2, n), numbers of the standard normal distribution.
+        """
+        v, delta = command
+        delta = delta + self.noise * self.max_steering * normal[1]
+        limit = self.max_steering
+        return np.array([v * (1.0 + self.noise * normal[0]), delta.clip(-limit, limit)])
+
+    def twist(self, command: Float) -> Float:
+        """Return (v, 0, v tan(delta) / wheelbase)."""
+        v, delta = command
+        tangent = np.sin(delta) / np.cos(delta)
+        return np.array([v, np.zeros(command.shape[1]), v * tangent / self.wheelbase])

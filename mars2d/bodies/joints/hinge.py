@@ -1,0 +1,40 @@
+"""A hinge: two bodies turn about one point."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any
+
+from mars2d.bodies.joints.base import Joint
+from mars2d.core.description import entry, number, real, wrong
+
+__all__ = ["Hinge", "turning_limits"]
+
+
+def turning_limits(name: str, value: Any) -> tuple[float, float] | None:
+    """Check the limits of a hinge, angles from its start."""
+    expected = "(least, largest) angle from the start, radians, least <= 0 <= largest; or None"
+    if value is None:
+        return None
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        raise wrong(name, value, expected)
+    least, largest = (real(name, item, expected) for item in value)
+    if not -100 * pi <= least <= 0 <= largest <= 100 * pi:
+        raise wrong(name, value, expected)
+    return least, largest
+
+
+class Hinge(Joint):
+    """A pin through both bodies, or through one and the world: `anchor_a` and `anchor_b` are one.
+
+    Bodies that share a hinge do not collide with each other. With limits it turns only so far; with
+    stiffness and damping a spring turns it back to the angle of the start.
+    """
+
+    limits: tuple[float, float] | None = entry(
+        default=None, check=turning_limits, unit="rad", doc="how far b, or without b a, may turn"
+    )
+    stiffness: float = number(
+        default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that turns it back"
+    )
+    damping: float = number(default=0.0, low=0, high=1e6, unit="N m s/rad", doc="of its turning")

@@ -1,0 +1,17 @@
+"""A rod: two points keep their distance."""
+
+from __future__ import annotations
+
+from mars2d.bodies.joints.base import Joint
+from mars2d.core.description import number
+
+__all__ = ["Rod"]
+
+
+class Rod(Joint):
+    """A rigid rod without weight: it holds two points at its length, and turns freely at both."""
+
+    length: float | None = number(
+        default=None, above=0, high=1e6, unit="m", optional=True,
+        doc="how long it is; None: as far as its ends are apart at the start",
+    )  # fmt: skip

@@ -1,0 +1,28 @@
+"""A ball: a disc that rolls."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from mars2d.bodies.props.base import Prop
+from mars2d.core.description import number
+from mars2d.geometry.shapes import Disc, Shape
+
+__all__ = ["Ball"]
+
+
+class Ball(Prop):
+    """A disc that rolls freely, as the floor does not hold it: it never stops by itself.
+
+    Its `ground_friction` is 0 by default; one of 0.01 is that of rolling.
+    """
+
+    diameter: float = number(default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter")
+    ground_friction = 0.0
+    friction = 0.0
+    restitution = 1.0
+
+    @cached_property
+    def shape(self) -> Shape:
+        """The disc."""
+        return Disc(self.diameter)

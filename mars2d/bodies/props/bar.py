@@ -1,0 +1,23 @@
+"""A bar: long and thin."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from mars2d.bodies.props.base import Prop
+from mars2d.core.description import number
+from mars2d.geometry.shapes import Shape, rectangle
+
+__all__ = ["Bar"]
+
+
+class Bar(Prop):
+    """A long thin rectangle along its heading."""
+
+    length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="how long it is")
+    thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="how thick it is")
+
+    @cached_property
+    def shape(self) -> Shape:
+        """The rectangle."""
+        return rectangle(self.length, self.thickness)

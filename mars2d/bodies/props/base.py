@@ -1,0 +1,123 @@
+"""What a prop is: a rigid body without a drive, which lies on the floor."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, Self
+
+from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
+from mars2d.core import checks
+from mars2d.core.description import Description, entry, number, real, text, wrong
+from mars2d.core.materials import MATERIALS, material, surface_friction, surface_restitution
+from mars2d.core.scene import optional_color
+from mars2d.geometry.shapes import Shape
+
+__all__ = ["Prop"]
+
+FASTEST = 100.0
+"""At the start, m/s and rad/s; quicker ones need ever more substeps."""
+
+
+def _velocity(name: str, value: Any) -> tuple[float, float, float]:
+    expected = f"(vx, vy, omega) in m/s and rad/s, each within +-{FASTEST:g}"
+    if not isinstance(value, (tuple, list)) or len(value) not in (2, 3):
+        raise wrong(name, value, expected)
+    vx, vy, omega = (real(name, item, expected) for item in [*value, 0.0][:3])
+    if max(abs(vx), abs(vy), abs(omega)) > FASTEST:
+        raise wrong(name, value, expected)
+    return vx, vy, omega
+
+
+def _friction(name: str, value: Any) -> float | None:
+    return None if value is None else surface_friction(name, value)
+
+
+def _restitution(name: str, value: Any) -> float | None:
+    return None if value is None else surface_restitution(name, value)
+
+
+class Prop(Description):
+    """The base of all props: bodies without a drive.
+
+    Its pose is that of its centre of mass. The floor slows it by Coulomb's friction, with the force
+    ground_friction * mass * g.
+    """
+
+    pose: tuple[float, float, float] = entry(
+        default=(0.0, 0.0, 0.0), check=checks.pose, unit="m, m, rad",
+        doc="initial pose (x, y, theta) of the centre of mass",
+    )  # fmt: skip
+    velocity: tuple[float, float, float] = entry(
+        default=(0.0, 0.0, 0.0), check=_velocity, unit="m/s, m/s, rad/s",
+        doc="initial velocity (vx, vy, omega)",
+    )  # fmt: skip
+    material: str | None = entry(
+        default=None, check=material, doc="what it is made of: gives what is None below"
+    )
+    mass: float | None = number(
+        default=None, low=1e-6, high=1e6, unit="kg", optional=True,
+        doc="mass; None: density x area x height, or 1 kg without a material",
+    )  # fmt: skip
+    moment: float | None = number(
+        default=None, above=0, high=1e12, unit="kg m^2", optional=True,
+        doc="moment of inertia; None: that of a plate",
+    )  # fmt: skip
+    height: float = number(
+        default=0.1, above=0, high=1e3, unit="m", doc="how high it is, for the mass by material"
+    )
+    friction: float | None = entry(
+        default=None, check=_friction,
+        doc="of its sides, a number or a material's name; None: the material's, or 0.5",
+    )  # fmt: skip
+    restitution: float | None = entry(
+        default=None, check=_restitution,
+        doc="of its sides, a number or a material's name; None: the material's, or 0",
+    )  # fmt: skip
+    ground_friction: float = number(
+        default=0.5, low=0, high=100, doc="coefficient of friction between it and the floor"
+    )
+    name: str | None = text(default=None, optional=True, doc="its name, else box0, ball1, ...")
+    color: str | None = entry(default=None, check=optional_color, doc="its colour")
+
+    def at(self, x: float, y: float, theta: float = 0.0) -> Self:
+        """Return a copy of this prop at pose (x [m], y [m], theta [rad])."""
+        return self.replace(pose=(x, y, theta))
+
+    @cached_property
+    def shape(self) -> Shape:
+        """Its shape, the centre of mass at the origin."""
+        raise NotImplementedError(f"{type(self).__name__} must say what shape it has")
+
+    def joints(self) -> tuple[Joint, ...]:
+        """Return the joints that it brings with it; its `name` is known by then."""
+        return ()
+
+    @property
+    def inertia(self) -> Inertia:
+        """Its mass [kg] and moment of inertia [kg m^2]."""
+        shape = self.shape
+        mass = self.mass
+        if mass is None:
+            mass = 1.0
+            if self.material is not None:
+                mass = MATERIALS[self.material].density * shape.area * self.height
+        return inertia_of(shape, mass, self.moment)
+
+    @property
+    def rigid(self) -> Rigid:
+        """The body that it is at the start."""
+        kind, name = type(self).__name__, str(self.name)
+        shape, inertia, surface = self.shape, self.inertia, self.surface
+        return Rigid(kind, name, self.pose, self.velocity, shape, inertia, surface)
+
+    @property
+    def surface(self) -> Surface:
+        """The friction and restitution of its sides."""
+        made_of = None if self.material is None else MATERIALS[self.material]
+        friction, restitution = self.friction, self.restitution
+        if friction is None:
+            friction = 0.5 if made_of is None else made_of.friction
+        if restitution is None:
+            restitution = 0.0 if made_of is None else made_of.restitution
+        return Surface(friction, restitution)

@@ -1,0 +1,53 @@
+"""A gate: a bar on a hinge."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import cos, pi, sin
+
+from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.joints.hinge import Hinge, turning_limits
+from mars2d.bodies.props.base import Prop
+from mars2d.core.description import entry, number
+from mars2d.geometry.shapes import Shape, rectangle
+
+__all__ = ["Gate"]
+
+
+class Gate(Prop):
+    """A bar that turns about a hinge at its end behind, fixed to the world.
+
+    The pose is that of its middle. Without stiffness it stays where it was left.
+    """
+
+    length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="how long it is")
+    thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="how thick it is")
+    ground_friction = 0.0
+    limits: tuple[float, float] | None = entry(
+        default=(-pi / 2, pi / 2), check=turning_limits, unit="rad",
+        doc="how far it turns from its start (least, largest); None: all round",
+    )  # fmt: skip
+    stiffness: float = number(
+        default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that shuts it"
+    )
+    damping: float = number(default=0.05, low=0, high=1e6, unit="N m s/rad", doc="of its turning")
+
+    @cached_property
+    def shape(self) -> Shape:
+        """The bar."""
+        return rectangle(self.length, self.thickness)
+
+    def joints(self) -> tuple[Joint, ...]:
+        """Return the hinge."""
+        x, y, theta = self.pose
+        end = -self.length / 2
+        return (
+            Hinge(
+                a=str(self.name),
+                anchor_a=(end, 0.0),
+                anchor_b=(x + end * cos(theta), y + end * sin(theta)),
+                limits=self.limits,
+                stiffness=self.stiffness,
+                damping=self.damping,
+            ),
+        )

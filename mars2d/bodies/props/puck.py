@@ -1,0 +1,23 @@
+"""A puck: a disc that slides."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from mars2d.bodies.props.base import Prop
+from mars2d.core.description import number
+from mars2d.geometry.shapes import Disc, Shape
+
+__all__ = ["Puck"]
+
+
+class Puck(Prop):
+    """A disc that slides and is slowed by the floor, as on a table."""
+
+    diameter: float = number(default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter")
+    ground_friction = 0.1
+
+    @cached_property
+    def shape(self) -> Shape:
+        """The disc."""
+        return Disc(self.diameter)

@@ -1,0 +1,33 @@
+"""A thing of any shape."""
+
+from __future__ import annotations
+
+from math import hypot
+
+from mars2d.bodies.props.base import Prop
+from mars2d.core.description import entry
+from mars2d.geometry.shapes import Shape, known_shape
+
+__all__ = ["Solid"]
+
+CENTRED = 1e-9
+"""How far off its origin a shape's centre of mass may be, in parts of its size."""
+
+
+def _centred(name: str, value: object) -> Shape:
+    shape = known_shape(name, value, "Polygon([(0, 0), (0.4, 0), (0.2, 0.3)])")
+    for _ in range(2):  # the first move leaves the rounding of a shape that was far away
+        x, y = shape.centroid
+        if hypot(x, y) <= CENTRED * shape.reach:
+            break
+        shape = shape.moved(-x, -y)
+    return shape
+
+
+class Solid(Prop):
+    """A thing of any shape: a polygon, concave too, or several shapes in one.
+
+    Its centre of mass is put at its pose, wherever the shape's own origin lies.
+    """
+
+    shape: Shape = entry(check=_centred, kw_only=False, doc="a Polygon, Disc or Compound")

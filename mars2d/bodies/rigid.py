@@ -1,0 +1,65 @@
+"""A rigid body as the physics takes it, be it a robot or a prop."""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import NamedTuple
+
+from mars2d.core.plane import Point
+from mars2d.geometry.shapes import Disc, Shape
+
+__all__ = ["Inertia", "Rigid", "Surface", "inertia_of"]
+
+Triple = tuple[float, float, float]
+
+
+class Inertia(NamedTuple):
+    """A mass [kg] and a moment of inertia about the body's origin [kg m^2]."""
+
+    mass: float
+    moment: float
+
+
+class Surface(NamedTuple):
+    """Coefficients of friction and restitution; a contact has the product of both bodies'."""
+
+    friction: float
+    restitution: float
+
+
+class Rigid(NamedTuple):
+    """One body at the start.
+
+    kind: the class that describes it, as "Robot" or "Box". pose: x, y [m], theta [rad]. velocity:
+    x', y' [m/s], theta' [rad/s]. shape: about the pose, which is that of the centre of mass.
+    """
+
+    kind: str
+    name: str
+    pose: Triple
+    velocity: Triple
+    shape: Shape
+    inertia: Inertia
+    surface: Surface
+
+    @property
+    def is_disc(self) -> bool:
+        """Whether it is nothing but one disc."""
+        return isinstance(self.shape, Disc)
+
+    @property
+    def bound(self) -> tuple[Point, float]:
+        """A circle that holds it at the start: its centre and radius, metres."""
+        center, radius = self.shape.bound
+        return self.to_world(center), radius
+
+    def to_world(self, point: Point) -> Point:
+        """Return where a point of the body lies at the start."""
+        x, y, theta = self.pose
+        c, s = cos(theta), sin(theta)
+        return x + c * point[0] - s * point[1], y + s * point[0] + c * point[1]
+
+
+def inertia_of(shape: Shape, mass: float, moment: float | None) -> Inertia:
+    """Return mass and moment of a body: the moment of a uniform plate unless one is given."""
+    return Inertia(mass, mass * shape.moment_per_mass if moment is None else moment)

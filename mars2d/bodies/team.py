@@ -1,0 +1,133 @@
+"""The drives of all robots of a world, those that are equal taken together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.bodies.drives.base import Drive
+from mars2d.core.description import wrong
+from mars2d.core.errors import LawError, shown
+from mars2d.core.usercode import called
+
+__all__ = ["Drives"]
+
+Float = NDArray[np.float64]
+Stream = Callable[[str], np.random.Generator]
+
+FASTEST = 1e6
+"""What a drive may ask for at most, m/s and rad/s."""
+
+LONGEST = 1e6
+"""The longest dead time, in sampling times: all commands under way are kept."""
+
+BLOCK = 256
+"""For so many control steps random numbers are drawn at once."""
+
+
+class _Team:
+    """Robots with equal drives."""
+
+    def __init__(self, drive: Drive, columns: Any, noise: Iterator[Float] | None) -> None:
+        """Take the drive, which columns of commands are theirs, and where random numbers are."""
+        self.drive, self.columns, self.noise = drive, columns, noise
+        self.normal: Float | None = None  # those of this control step
+        name = f"drive {type(drive).__name__}"
+        self.saturating = called(name, drive.saturate)
+        self.accelerating = called(name, drive.accelerate)
+        self.moving = called(name, drive.twist)
+
+
+class Drives:
+    """The drives of a world's robots: from all commands (2, n) to all twists (3, n)."""
+
+    def __init__(self, drives: Mapping[str, Drive], sampling_time: float, stream: Stream) -> None:
+        """Take the drives by their robots' names, the sampling time [s], and what opens streams.
+
+        Raises InputError for a dead time of more than a million sampling times.
+        """
+        for drive in drives.values():
+            if drive.dead_time > LONGEST * sampling_time:
+                raise wrong(
+                    f"{type(drive).__name__}.dead_time", drive.dead_time,
+                    f"at most a million sampling times of {sampling_time:g} s",
+                )  # fmt: skip
+        self.dead_time = np.array([drive.dead_time for drive in drives.values()])
+        self._sampling_time = sampling_time
+        column = {name: i for i, name in enumerate(drives)}
+        self._teams = []
+        for drive, names in _grouped(drives):
+            columns = np.array([column[name] for name in names])
+            noise = _normal([stream(f"drive {name}") for name in names]) if drive.noise else None
+            everybody = len(names) == len(drives)
+            self._teams.append(_Team(drive, slice(None) if everybody else columns, noise))
+        self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
+        self._noisy = [team for team in self._teams if team.noise is not None]
+
+    def limit(self, command: Float, last: Float) -> Float:
+        """Limit commands (2, n), in place, to what the drives can do after the last ones (2, n).
+
+        Raises LawError where a drive of the user's fails.
+        """
+        _saturate(self._teams, command)
+        if self._rated:
+            for team in self._rated:
+                with team.accelerating:
+                    command[:, team.columns] = team.drive.accelerate(
+                        command[:, team.columns], last[:, team.columns], self._sampling_time
+                    )
+            _saturate(self._rated, command)  # rounding may have brought one beyond a limit again
+        if not np.isfinite(command).all():
+            raise LawError(f"a drive saturates a command to {shown(command.tolist())}")
+        return command
+
+    def draw(self) -> None:
+        """Draw the noise of the control step that begins."""
+        for team in self._noisy:
+            assert team.noise is not None
+            team.normal = next(team.noise)
+
+    def twist(self, command: Float) -> Float:
+        """Return the twists (3, n) that the drives make of commands (2, n), noise included.
+
+        Raises LawError where a drive of the user's fails.
+        """
+        twist = np.empty((3, command.shape[1]))
+        for team in self._teams:
+            with team.moving:
+                mine = command[:, team.columns]
+                if team.normal is not None:
+                    mine = team.drive.disturb(mine, team.normal)
+                twist[:, team.columns] = team.drive.twist(mine)
+        if not (np.abs(twist) <= FASTEST).all():  # neither for NaN
+            raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {FASTEST:g}")
+        return twist
+
+
+def _saturate(teams: list[_Team], command: Float) -> None:
+    for team in teams:
+        with team.saturating:
+            command[:, team.columns] = team.drive.saturate(command[:, team.columns])
+
+
+def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:
+    """Return each different drive and the names of the robots that have it."""
+    groups: list[tuple[Drive, list[str]]] = []
+    for name, mine in drives.items():
+        for drive, names in groups:
+            if drive == mine and type(drive) is type(mine):
+                names.append(name)
+                break
+        else:
+            groups.append((mine, [name]))
+    return groups
+
+
+def _normal(streams: list[np.random.Generator]) -> Iterator[Float]:
+    """Yield standard normal numbers (2, n), each robot's from a stream of its own."""
+    while True:
+        blocks = [stream.standard_normal((BLOCK, 2)) for stream in streams]
+        yield from np.stack(blocks, axis=-1)

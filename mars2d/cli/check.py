@@ -1,0 +1,258 @@
+"""The verb ``check``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from mars2d.addons import maps
+from mars2d.bodies.joints import Joint
+from mars2d.cli.base import run_headless
+from mars2d.cli.outputs import check_outputs
+from mars2d.core.deadline import PATIENCE, Deadline, Late
+from mars2d.core.errors import InputError, Mars2dError, counted, nearest
+from mars2d.core.progress import Progress
+from mars2d.output import formats
+from mars2d.output.figures import figure
+from mars2d.output.figures.map import save_map
+from mars2d.record.record import Record, load
+from mars2d.scenario.experiment import Experiment, open_experiment, open_module
+from mars2d.scenario.map_option import reading_options
+from mars2d.scenario.options import parse_setting
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+from mars2d.testing.file import trials
+from mars2d.testing.finding import Finding
+from mars2d.world.verify import other_versions, rerun
+
+NAME = "check"
+
+TRIAL = 10
+"""Control steps that a check does: some mistakes only show when laws and sensors are called."""
+
+SHOWN = 8
+
+BAD_INPUT = 2
+
+LOADING = 60.0
+"""Seconds that a file may take to be loaded."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument(
+        "file",
+        metavar="FILE",
+        help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
+        f"a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map",
+    )
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", help="how a map is read"
+    )
+    parser.add_argument("--figure", type=Path, metavar="OUT", help="draw a map: .png, .pdf, .svg")
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Say what a file holds and whether it is sound."""
+    path = Path(arguments.file)
+    if path.suffix.lower() in maps.SUFFIXES:
+        check_outputs(arguments, {"figure": figure.SUFFIXES})
+        _check_map(path, dict(map(parse_setting, arguments.set)), arguments.figure)
+        return
+    for option in ("set", "figure"):
+        if getattr(arguments, option):
+            raise InputError(f"--{option} is for maps: {', '.join(maps.SUFFIXES)}")
+    if path.suffix.lower() in formats.SUFFIXES:
+        _check_record(path)
+    elif path.suffix in ("", ".py", ".toml"):
+        _check_code(arguments.file)
+    else:
+        raise InputError(
+            f"{path}: expected a Python file (.py), a scenario (.toml), a record "
+            f"({', '.join(formats.SUFFIXES)}) or a map ({', '.join(maps.SUFFIXES)})"
+            f"{maps.advice(path)}"
+        )
+
+
+def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> None:
+    """Say what was read of a map, and draw it."""
+    known = reading_options()
+    for name in settings:
+        if name not in known:
+            raise InputError(f"--set {name}: no option{nearest(name, known)}")
+    tolerance = settings.pop("tolerance", maps.TOLERANCE)
+    drawing = maps.read(path, **settings)
+    for name, text in maps.described(drawing, maps.obstacles(drawing, tolerance), tolerance):
+        print(f"{name:<12}{text}")
+    if picture is not None:
+        print(f"picture     {save_map(drawing, picture)}")
+
+
+def _check_code(source: str) -> None:
+    """Check what a file holds: parts, laws, an experiment, or several of these."""
+    module, experiment = _opened(source)
+    limit = Deadline(PATIENCE, _give_up(source))
+    if experiment is not None:
+        for name, text in _description(experiment):
+            print(f"{name:<12}{text}")
+    wrong = _try_all(module, experiment, limit)
+    if len(wrong) == 1:
+        name = Path(source).name
+        place = "" if wrong[0].text.startswith(f"{name}, line") else f"{name}: "
+        raise InputError(place + wrong[0].text)
+    if wrong:
+        raise InputError(f"{source}: {len(wrong)} things are wrong, as said above")
+    if experiment is not None:
+        print(f"sound: {counted(_run(experiment, source, limit), 'control step')} done")
+
+
+def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
+    """Return a file as a module, and the experiment in it, None if it has parts or laws alone."""
+    limit = Deadline(LOADING, _give_up(source))
+    try:
+        with limit:
+            if Path(source).suffix == ".toml":
+                return ModuleType(source), open_experiment(source)
+            module = open_module(source)
+            if not hasattr(module, "scenario") and any(True for _ in trials(module, None)):
+                return module, None
+            return module, open_experiment(module)
+    except Late:
+        raise _late(source, limit) from None
+
+
+def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline) -> list[Finding]:
+    """Try all parts and laws, say what was found, and return what is wrong."""
+    wrong: list[Finding] = []
+    said: set[Finding] = set()
+    for trial in trials(module, experiment, limit):
+        print(f"{trial.name} {trial.where}".rstrip(), end=": ", flush=True)
+        found = trial.findings()
+        findings = [finding for finding in found if finding not in said]
+        said |= {*findings}
+        faults = [f for f in findings if f.kind == "wrong" and not f.untried]
+        hints = len(findings) - len(faults)
+        verdict = "not tried to the end" if any(f.untried for f in found) else "sound"
+        if faults:
+            verdict = f"{counted(len(faults), 'thing')} wrong"
+        print(trial.untried or ", ".join([verdict, *([counted(hints, "hint")] if hints else [])]))
+        for finding in findings:
+            print(f"  {'wrong' if finding in faults else 'hint':<6}{finding.text}")
+        wrong += faults
+    return wrong
+
+
+def _run(experiment: Experiment, source: str, limit: Deadline) -> int:
+    """Do some control steps and return how many."""
+    scenario = experiment.scenario
+    stop_time = min(TRIAL * scenario.sampling_time, scenario.stop_time)
+    trial = Experiment(scenario.replace(stop_time=stop_time), experiment.control)
+    try:
+        with limit:
+            return len(run_headless(trial, 0, [lambda _: limit.alive()]).history)
+    except Late:
+        raise _late(source, limit) from None
+
+
+def _late(source: str, limit: Deadline) -> InputError:
+    where = f" at {limit.where}" if limit.where else ""
+    return InputError(f"{source}: did not come to an end within {limit.patience:g} s{where}")
+
+
+def _give_up(source: str) -> Callable[[str], None]:
+    """Return what to do when code can't even be broken off: to say so, and to leave."""
+
+    def leave(where: str) -> None:
+        place = f" at {where}" if where else ""
+        print(f"\nmars2d: {source}: does not come to an end{place}", file=sys.stderr, flush=True)
+        sys.stdout.flush()
+        os._exit(BAD_INPUT)
+
+    return leave
+
+
+def _description(experiment: Experiment) -> list[tuple[str, str]]:
+    """Return what was read of an experiment, as names and texts."""
+    scenario = experiment.scenario
+    xmin, xmax, ymin, ymax = scenario.bounds
+    rows = [("title", scenario.title)]
+    rows += [(str(robot.name), _robot(robot)) for robot in scenario.robots[:SHOWN]]
+    if len(scenario.robots) > SHOWN:
+        rows.append(("", f"and {counted(len(scenario.robots) - SHOWN, 'robot')} more"))
+    corners = "no limits"
+    if scenario.workspace is not None:
+        corners = f"{len(scenario.workspace)} corners, on_exit {scenario.on_exit!r}"
+    law = getattr(experiment.control, "__name__", "")
+    own = sum(robot.controller is not None for robot in scenario.robots)
+    laws = [f"{law}(world) of the team"] if law else []
+    laws += [f"{own} of robots' own"] if own else []
+    rows += [
+        ("workspace", f"{xmax - xmin:g} m x {ymax - ymin:g} m, {corners}"),
+        ("obstacles", str(len(scenario.obstacles))),
+        *_things(scenario),
+        ("add-ons", ", ".join(addon.key for addon in scenario.addons) or "none"),
+        ("time", f"{scenario.stop_time:g} s in steps of {scenario.sampling_time:g} s"),
+        ("laws", ", ".join(laws) or "none: all robots stand still"),
+    ]
+    if experiment.checks is not None:
+        rows.append(("checks", "checks(record), made after a whole run"))
+    return rows
+
+
+def _things(scenario: Scenario) -> list[tuple[str, str]]:
+    """Return what is to be said of props and joints, and of physics without forces."""
+    rows = [
+        ("props", ", ".join(str(prop.name) for prop in scenario.props)),
+        ("joints", ", ".join(_joint(tie.joint) for tie in scenario.ties)),
+        ("physics", "" if scenario.physics == "contact" else scenario.physics),
+    ]
+    return [(name, text) for name, text in rows if text]
+
+
+def _joint(joint: Joint) -> str:
+    return f"{type(joint).__name__} of {joint.a} and {joint.b or 'the world'}"
+
+
+def _robot(robot: Robot) -> str:
+    x, y, theta = robot.pose
+    parts = [type(robot.drive).__name__, *(sensor.key for sensor in robot.sensors)]
+    if robot.controller is not None:
+        parts.append(f"law {getattr(robot.controller, '__name__', 'of its own')}")
+    return f"at ({x:g}, {y:g}, {theta:.4g}): {', '.join(parts)}"
+
+
+def _check_record(path: Path) -> None:
+    record = load(path)
+    versions = ", ".join(f"{name} {version}" for name, version in record.versions.items())
+    print(f"record of   {record.scenario.title} ({record.filename or 'a Scenario'})")
+    print(f"seed        {record.seed}")
+    print(f"rows        {len(record)}, up to {record.time[-1] if len(record) else 0:g} s")
+    print(f"ended       {record.over_message}")
+    print(f"made with   {versions}")
+    print(f"digest      {record.digest}")
+    if record.missing:
+        print(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
+    if not len(record):
+        print("run again   nothing: it has no rows")
+        return
+    bar = Progress(len(record), "rows")
+    try:
+        departure = rerun(record, bar.update)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+    finally:
+        bar.close()
+    if departure is not None:
+        raise Mars2dError(f"{path}: run again, it departs at {departure}{_likely_reason(record)}")
+    print("run again   bit-identical")
+
+
+def _likely_reason(record: Record) -> str:
+    """Return what is not as it was when a record was made, which may change its last bits."""
+    others = [f"{k} {then}, here {now}" for k, (then, now) in other_versions(record).items()]
+    return f"; it was made with {', '.join(others)}" if others else ""

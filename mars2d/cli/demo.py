@@ -1,0 +1,85 @@
+"""The verb ``demo``."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from mars2d.cli.base import (
+    add_human,
+    add_preferences,
+    add_run_arguments,
+    add_theory,
+    has_display,
+    human_of,
+    make_folder,
+    preferences_of,
+    print_examples,
+    print_predictions,
+    run_headless,
+    show,
+    theory_of,
+    warn_unchecked,
+)
+from mars2d.cli.films import FPS, SHORT, save_footage
+from mars2d.core.errors import InputError, nearest
+from mars2d.core.streams import check_seed
+from mars2d.output.raster import require_pygame
+from mars2d.record.record import Record
+from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.world.loop import Interrupted
+
+NAME = "demo"
+
+FOLDER = Path("mars2d_demo")
+FILM_SIZE = (640, 480)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument("name", nargs="?", metavar="NAME", help="an example; else all are listed")
+    add_run_arguments(parser)
+    add_theory(parser)
+    add_human(parser)
+    add_preferences(parser)
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """List the examples, or play one."""
+    name = arguments.name
+    if name is None:
+        print_examples()
+        print("\nPlay one:  mars2d demo random_walk")
+        return
+    known = examples()
+    if name not in known:
+        raise InputError(f"{name}: there is no such example{nearest(name, known)}")
+    experiment = open_experiment(known[name], theory_of(arguments), seed=check_seed(arguments.seed))
+    human, look = human_of(arguments, experiment), preferences_of(arguments)
+    try:
+        if not arguments.headless and has_display():
+            record = show(experiment, None, arguments.seed, look, human)
+        else:
+            record = _make_pictures(experiment, name, arguments.seed)
+    except Interrupted:
+        warn_unchecked(experiment, "cut short")
+        raise
+    print_predictions(experiment, record)
+
+
+def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
+    """Run, make a picture and a short film, and say where they are."""
+    require_pygame("a film")
+    from mars2d.output.figures.figure import save_figure
+    from mars2d.output.films.footage import Footage
+
+    make_folder(FOLDER)
+    footage = Footage(experiment.scenario, experiment.scenario.stop_time / SHORT, FPS)
+    world = run_headless(experiment, seed, [footage])
+    record = world.record
+    print(f"{record.scenario.title}: {record.over_message}")
+    print(f"picture: {save_figure(record, FOLDER / f'{name}.png')}", flush=True)
+    film = FOLDER / f"{name}.gif"
+    save_footage(footage, world.frame, film, FILM_SIZE)
+    print(f"film:    {film}", flush=True)
+    return record

@@ -1,0 +1,71 @@
+"""The verb ``edit``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from mars2d.cli.base import add_preferences, has_display, preferences_of
+from mars2d.core.errors import InputError
+from mars2d.output.raster import require_pygame
+from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.scenario.options import parse_setting
+from mars2d.scenario.scenario import Scenario
+
+NAME = "edit"
+
+NO_DISPLAY = (
+    "there is no display to draw on; a scenario file is text, and any text editor will do: "
+    "see docs/scenario_files.md"
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    add = parser.add_argument
+    add("scenario", metavar="SCENARIO", nargs="?", help="a .toml or .py file, or an example")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", help="override a field")
+    add_preferences(parser)
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Draw a scenario with the mouse, a new one or that of a file, and save it as a file."""
+    options = dict(parse_setting(setting) for setting in arguments.set)
+    path = None if arguments.scenario is None else Path(arguments.scenario)
+    new = path is None or (path.suffix.lower() == ".toml" and not path.exists())
+    if new and path is not None and not path.parent.is_dir():
+        raise InputError(f"{path}: there is no folder {path.parent}")
+    experiment = open_experiment(Scenario() if new else arguments.scenario, options)
+    if not has_display():
+        require_pygame("a window")
+        raise InputError(NO_DISPLAY)
+    from mars2d.output.raster.painter import Painter
+    from mars2d.window.editor import Editor, EditorWindow
+
+    robots_wanted = any(name.partition(".")[0] == "robots" for name in options)
+    editor = Editor(
+        experiment.scenario,
+        Painter(),
+        path=path if new else _kept_in(arguments.scenario, experiment),
+        control=experiment.control,
+        empty=new and not robots_wanted,
+        changed=bool(options),
+    )
+    try:
+        EditorWindow(editor, preferences=preferences_of(arguments)).run()
+    except BaseException:  # Ctrl-C, a display that goes away, a fault: nobody can be asked
+        kept = editor.rescue()
+        if kept is not None:
+            print(f"mars2d: what was drawn and not saved is in {kept}", file=sys.stderr)
+        raise
+
+
+def _kept_in(source: str, experiment: Experiment) -> Path:
+    """Return where a drawing is kept: a scenario file itself, else beside an experiment.
+
+    What a shipped example becomes is kept in the current folder.
+    """
+    if not Path(source).is_file() and source in examples():
+        return Path(f"{source}.toml")
+    return Path(source) if experiment.path is None else experiment.path

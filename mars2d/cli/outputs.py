@@ -1,0 +1,194 @@
+"""What a run leaves behind: the files that are asked for by --record, --figure, --video, --html."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import sys
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+
+from mars2d.cli.films import Film, save_film_of
+from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.interrupt import held_back
+from mars2d.output import formats
+from mars2d.output.figures import figure
+from mars2d.output.films import film
+from mars2d.output.formats.rescue import rescued, save_or_rescue
+from mars2d.output.raster import require_pygame
+from mars2d.record.record import Record
+from mars2d.world.loop import Interrupted
+
+__all__ = [
+    "OUTPUTS",
+    "add_html",
+    "check_outputs",
+    "naming_lost_letters",
+    "run_and_save",
+    "save_record",
+    "say",
+]
+
+
+OUTPUTS = {
+    "record": formats.SUFFIXES,
+    "figure": figure.SUFFIXES,
+    "video": film.SUFFIXES,
+    "html": (".html", ".htm"),
+}
+"""The arguments that name files, and the suffixes that these may have."""
+
+
+def add_html(parser: argparse.ArgumentParser) -> None:
+    """Add the replay as a page."""
+    parser.add_argument(
+        "--html", type=Path, metavar="OUT.html", help="a replay for any browser, in one file"
+    )
+
+
+def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str, ...]]) -> None:
+    """Refuse a file that can't be written before the run, not after it.
+
+    outputs: arguments that name files, and the suffixes that they may have.
+    """
+    for name, suffixes in outputs.items():
+        path: Path | None = getattr(arguments, name)
+        if path is None:
+            continue
+        if path.suffix.lower() not in suffixes:
+            wanted = " or ".join(suffixes)
+            raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
+        if not path.parent.is_dir():
+            raise InputError(f"--{name} {path}: there is no folder {path.parent}")
+        if path.is_dir():
+            raise InputError(f"--{name} {path}: this is a folder")
+        if not os.access(path.parent, os.W_OK):
+            raise InputError(f"--{name} {path}: nothing can be written in {path.parent.absolute()}")
+        if name == "video":
+            require_pygame("a film")
+            if path.suffix.lower() == ".mp4":
+                film.require_av(path)
+        if name == "record":
+            formats.require(path)
+
+
+def run_and_save(
+    arguments: argparse.Namespace, run: Callable[[], tuple[Record, Film | None]]
+) -> tuple[Record, list[Mars2dError]]:
+    """Run, and save what is asked for, whatever ends the run; return what could not be saved.
+
+    run: returns the record, and what makes the film of it, if it is not to be made of the record.
+    Ctrl-C ends the run, but not that its data are saved; then it ends the rest. Raises what has
+    ended the run, once what was recorded until then is saved, and said where it is.
+    """
+    ended: Mars2dError | Interrupted | None = None
+    film: Film | None = None
+    target: Path | None = arguments.record
+    with held_back("" if target is None else f"the run is being saved in {target}"):
+        try:
+            record, film = run()
+        except (Mars2dError, Interrupted) as error:
+            if error.record is None or not len(error.record):
+                raise
+            ended, record = error, error.record
+        made, troubles = _tried(arguments, {"record": lambda: save_record(arguments, record)})
+    makers: dict[str, Film] = {
+        "figure": lambda: _save_figure(arguments, record),
+        "html": lambda: record.save_html(arguments.html),
+        "video": film or (lambda: save_film_of(record, arguments)),
+    }
+    others, more = _tried(arguments, makers)
+    made, troubles = made + others, troubles + more
+    if ended is None:
+        return record, troubles
+    say(troubles)
+    if made:
+        what = f"what was recorded until {record.time[-1]:g} s is in {', '.join(map(str, made))}"
+        print(f"mars2d: {what}", file=sys.stderr)
+    raise ended
+
+
+def _tried(
+    arguments: argparse.Namespace, makers: Mapping[str, Film]
+) -> tuple[list[Path], list[Mars2dError]]:
+    """Make what is asked for, each thing whatever becomes of the others: what was, what not."""
+    made, troubles = [], []
+    for name, make in makers.items():
+        path: Path | None = getattr(arguments, name)
+        if path is None:
+            continue
+        try:
+            make()
+        except Mars2dError as error:
+            troubles.append(error)
+        else:
+            made.append(path)
+    return made, troubles
+
+
+def say(troubles: Iterable[Mars2dError]) -> None:
+    """Say what could not be saved, where that is not what the command ends with."""
+    for trouble in troubles:
+        print(f"mars2d: {trouble}", file=sys.stderr)
+
+
+def save_record(arguments: argparse.Namespace, record: Record) -> None:
+    """Save the record, and those of branches beside it; a log is there, unless it was taken away.
+
+    Raises InputError, which says where the record is, where it could not be saved there.
+    """
+    target: Path = arguments.record
+    if target.suffix.lower() != formats.STREAMED:
+        save_or_rescue(record, target)
+    elif not target.exists():
+        place = rescued(record, target)
+        kept = "lost" if place is None else f"kept as {place}"
+        raise InputError(f"{target}: is not there any more; the record is {kept}")
+    for branch in record.branches:
+        saved = branch.save(_free_beside(target))
+        end = f"left at {branch.time[-1]:g} s" if len(branch) else "empty"
+        print(f"mars2d: another branch, {end}, is in {saved}", file=sys.stderr)
+
+
+def _save_figure(arguments: argparse.Namespace, record: Record) -> None:
+    times = _times_within(arguments.at, record)
+    with naming_lost_letters():
+        figure.save_figure(record, arguments.figure, times)
+
+
+@contextmanager
+def naming_lost_letters() -> Iterator[None]:
+    """Say in one line which characters no font has, where matplotlib warns of each at length."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.filterwarnings("always", message="Glyph ")
+        yield
+    lost: dict[str, None] = {}
+    for each in caught:
+        glyph = re.match(r"Glyph (\d+) ", str(each.message))
+        if glyph:
+            lost[repr(chr(int(glyph[1])))] = None
+        else:
+            warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
+    if lost:
+        print(f"mars2d: no font has {', '.join(lost)}: boxes stand for them", file=sys.stderr)
+
+
+def _free_beside(path: Path) -> Path:
+    """Return where a branch of a run is kept: no file is overwritten."""
+    names = (path.with_stem(f"{path.stem}_branch{k}") for k in count(1))
+    return next(beside for beside in names if not beside.exists())
+
+
+def _times_within(times: list[float] | None, record: Record) -> list[float] | None:
+    """Return those times that a run lasted for; it may have ended early."""
+    if times is None:
+        return None
+    end = float(record.time[-1])
+    within = [moment for moment in times if moment <= end]
+    if len(within) < len(times):
+        print(f"mars2d: the run ended at {end:g} s: no snapshots after it", file=sys.stderr)
+    return within or None

@@ -1,0 +1,109 @@
+"""The verb ``plot``."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+from mars2d.cli.base import times
+from mars2d.cli.outputs import check_outputs, naming_lost_letters
+from mars2d.core.errors import InputError, nearest
+from mars2d.output.figures import figure
+from mars2d.output.figures.style import STYLES, style_of
+from mars2d.output.formats import SUFFIXES
+from mars2d.record.record import Record, load
+from mars2d.scenario.experiment import examples
+
+NAME = "plot"
+
+KINDS = ("paths", "snapshots", "signals", "contacts", "distances")
+
+ONLY = {"at": "snapshots"} | dict.fromkeys(("columns", "robots", "from", "to"), "signals")
+"""Options that belong to one kind of figure."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    add = parser.add_argument
+    add("record", type=Path, metavar="RECORD", help=f"a saved run: {', '.join(SUFFIXES)}")
+    add("kind", metavar="KIND", nargs="?", default="paths", help=f"{', '.join(KINDS)}")
+    add("--figure", type=Path, metavar="OUT", help="where to: .png, .pdf, .svg")
+    add("--columns", type=_words, metavar="A,B,...", help="signals: which, as x,speed,effort")
+    add("--robots", type=_words, metavar="A,B,...", help="signals: of whom, by name or index")
+    add("--from", type=float, metavar="S", help="signals: where in the run they start")
+    add("--to", type=float, metavar="S", help="signals: where in the run they end")
+    add("--at", type=times, metavar="T1,T2,...", help="snapshots: at these times")
+    add("--style", default="screen", metavar="STYLE", help=f"{', '.join(STYLES)}")
+
+
+def _words(text: str) -> list[str]:
+    words = [word.strip() for word in text.split(",")]
+    if not all(words):
+        raise argparse.ArgumentTypeError(f"{text!r}: expected names with commas between them")
+    return words
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Draw a recorded run: paths, snapshots, signals, contacts or distances."""
+    kind, path = arguments.kind, arguments.record
+    if kind not in KINDS:
+        raise InputError(f"there is no figure of {kind!r}{nearest(kind, KINDS)}")
+    for option, only in ONLY.items():
+        if getattr(arguments, option) is not None and kind != only:
+            raise InputError(f"--{option} is for {only}: mars2d plot {path} {only}")
+    if kind == "snapshots" and arguments.at is None:
+        raise InputError("snapshots need their times, as --at 0,5,10")
+    look = style_of(arguments.style)
+    check_outputs(arguments, {"figure": figure.SUFFIXES})
+    _refuse_experiments(path)
+    record = load(path)
+    draw = _drawing(arguments, record)
+    target = arguments.figure or _free(f"{path.stem}_{kind}")
+    with naming_lost_letters():
+        print(figure.save_drawing(draw, target, trim=look.trim, dpi=look.dpi))
+
+
+def _refuse_experiments(path: Path) -> None:
+    """Say what to do with an experiment, which has to be run first."""
+    if path.suffix in (".py", ".toml") or (str(path) in examples() and not path.exists()):
+        raise InputError(
+            f"{path}: an experiment; run it first: mars2d run {path} --record {path.stem}.npz"
+        )
+
+
+def _drawing(arguments: argparse.Namespace, record: Record) -> Callable[[], Any]:
+    """Return the function that makes the figure."""
+    style = arguments.style
+    makers: dict[str, Callable[[], Any]] = {
+        "paths": lambda: record.plot(style=style).figure,
+        "snapshots": lambda: record.plot_snapshots(arguments.at, style=style),
+        "signals": lambda: (
+            record.plot_signals(
+                *arguments.columns or (),
+                robots=_robots(arguments.robots, record),
+                start=getattr(arguments, "from"),
+                end=arguments.to,
+                style=style,
+            )[0].figure
+        ),
+        "contacts": lambda: record.plot_contacts(style=style)[0].figure,
+        "distances": lambda: record.plot_distances(style=style).figure,
+    }
+    return makers[arguments.kind]
+
+
+def _robots(words: list[str] | None, record: Record) -> list[str | int] | None:
+    """Return robots by name, or by index where none has such a name."""
+    if words is None:
+        return None
+    names = {robot.name for robot in record.scenario.robots}
+    return [int(w) if w.isdecimal() and w not in names else w for w in words]
+
+
+def _free(stem: str) -> Path:
+    """Return a name in the current folder that no file has."""
+    names = (Path(f"{stem}_{k}.png" if k > 1 else f"{stem}.png") for k in count(1))
+    return next(path for path in names if not path.exists())

@@ -1,0 +1,168 @@
+"""The verb ``run``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from mars2d.cli.base import (
+    add_human,
+    add_options,
+    add_preferences,
+    add_run_arguments,
+    add_speed,
+    add_theory,
+    has_display,
+    human_of,
+    options_of,
+    predictions_of,
+    preferences_of,
+    print_predictions,
+    run_headless,
+    show,
+    theory_of,
+    times,
+    warn_unchecked,
+)
+from mars2d.cli.films import FPS, Film, add_film, check_film, film_speed, save_footage
+from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, run_and_save, say
+from mars2d.core.errors import InputError, counted
+from mars2d.core.streams import check_seed
+from mars2d.output import formats
+from mars2d.output.raster import require_pygame
+from mars2d.record.record import Record
+from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.scenario.prediction import Prediction
+from mars2d.world.loop import Interrupted
+
+NAME = "run"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    add = parser.add_argument
+    add("experiment", metavar="EXPERIMENT", help="a .py or .toml file, or the name of an example")
+    add_run_arguments(parser)
+    add_speed(parser)
+    add_options(parser)
+    add(
+        "--record",
+        type=Path,
+        metavar="OUT",
+        help="save all data: .npz, .mat, .csv, .nc; .mcap: as they come",
+    )
+    add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
+    add("--at", type=times, metavar="T1,T2,...", help="snapshots at these times in the figure")
+    add_film(parser)
+    add_html(parser)
+    add_theory(parser)
+    add_human(parser)
+    add_preferences(parser)
+    add("--json", action="store_true", help="print the outcome as one line of JSON")
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Run an experiment, in a window where there is one, and save what is asked for."""
+    check_outputs(arguments, OUTPUTS)
+    if arguments.at is not None and arguments.figure is None:
+        raise InputError("--at needs --figure OUT")
+    options, seed = options_of(arguments) | theory_of(arguments), check_seed(arguments.seed)
+    experiment = open_experiment(arguments.experiment, options, seed=seed)
+    _check_times(arguments, experiment)
+    scenario = experiment.scenario
+    check_film(arguments, scenario, scenario.last_iteration * scenario.sampling_time)
+    human_of(arguments, experiment)
+    start = time.perf_counter()
+    run = _run_in_window if _wants_window(arguments) else _run_headless
+    try:
+        record, troubles = run_and_save(arguments, lambda: run(arguments, experiment))
+    except Interrupted:
+        warn_unchecked(experiment, "cut short")
+        raise
+    lawless = experiment.control is None and not any(
+        robot.controller for robot in experiment.scenario.robots
+    )
+    if lawless and not experiment.scenario.props:
+        print("mars2d: there is no law, so all robots stood still", file=sys.stderr)
+    if arguments.json:
+        predictions = predictions_of(experiment, record)
+        print(_as_json(record, predictions, time.perf_counter() - start))
+    else:
+        print(_as_text(record), flush=True)
+        print_predictions(experiment, record)
+    if troubles:
+        say(troubles[:-1])
+        raise troubles[-1]
+
+
+def _check_times(arguments: argparse.Namespace, experiment: Experiment) -> None:
+    last = experiment.scenario.stop_time
+    for moment in arguments.at or ():
+        if not 0 <= moment <= last:
+            raise InputError(f"--at {moment:g}: the experiment goes from 0 to {last:g} s")
+
+
+def _wants_window(arguments: argparse.Namespace) -> bool:
+    if not arguments.headless and has_display():
+        return True
+    if arguments.speed == 0:
+        require_pygame("a window")
+        why = "it needs a window, not --headless" if arguments.headless else "there is no display"
+        raise InputError(f"--speed 0 makes one step a key press: {why}")
+    if not arguments.headless:
+        print("mars2d: there is no display, so this runs without a window", file=sys.stderr)
+    return False
+
+
+def _run_in_window(
+    arguments: argparse.Namespace, experiment: Experiment
+) -> tuple[Record, Film | None]:
+    human, look = human_of(arguments, experiment), preferences_of(arguments)
+    log = formats.log_to(arguments.record)
+    return show(experiment, arguments.speed, arguments.seed, look, human, log), None
+
+
+def _run_headless(
+    arguments: argparse.Namespace, experiment: Experiment
+) -> tuple[Record, Film | None]:
+    """Run as quick as can be: without a window, a speed is that of the film."""
+    log = formats.log_to(arguments.record)
+    if arguments.video is None:
+        return run_headless(experiment, arguments.seed, log=log).record, None
+    from mars2d.output.films.footage import Footage
+
+    speed = film_speed(experiment.scenario, arguments.speed)
+    footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
+    world = run_headless(experiment, arguments.seed, [footage], log)
+    last, path, size = world.frame, arguments.video, arguments.size
+    return world.record, lambda: save_footage(footage, last, path, size)
+
+
+def _as_text(record: Record) -> str:
+    done = f"{counted(_ticks(record), 'step')}, {counted(record.collisions, 'collision')}"
+    message = f"{record.scenario.title}: {record.over_message}"
+    return f"{message}. {done}, digest {record.digest[:16]}"
+
+
+def _as_json(record: Record, predictions: Sequence[Prediction], wall: float) -> str:
+    outcome = {
+        "ticks": _ticks(record),
+        "time": float(record.time[-1]) if len(record) else 0.0,
+        "over": record.finished,
+        "message": record.over_message,
+        "digest": record.digest,
+        "collisions": record.collisions,
+        "seed": record.seed,
+        "wall_s": round(wall, 6),
+        "checks": [prediction.as_dict() for prediction in predictions],
+    }
+    return json.dumps(outcome, allow_nan=False)
+
+
+def _ticks(record: Record) -> int:
+    """Return how many sampling times passed: one less than there are rows."""
+    return max(len(record) - 1, 0)

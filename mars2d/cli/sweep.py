@@ -1,0 +1,166 @@
+"""The verb ``sweep``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from mars2d.cli.base import add_preferences
+from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, naming_lost_letters
+from mars2d.cli.row import show_row
+from mars2d.cli.working import add_workers, workers_of
+from mars2d.core.errors import InputError, nearest
+from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
+from mars2d.study.prepare import prepared
+from mars2d.study.results import is_table, load_table
+from mars2d.study.run import run_study
+from mars2d.study.table import Table
+
+NAME = "sweep"
+
+TABLE = Path("sweep.csv")
+"""Where the rows go, if nothing is said."""
+
+OF_RUNS = ("set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry")
+"""What says which runs are made: nothing to be said of a table that is there."""
+
+OF_WORKERS = ("workers", "cluster")
+
+OF_A_TABLE = ("compare",)
+
+OF_A_ROW = ("view", "record", "html")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    add = parser.add_argument
+    add("experiment", nargs="?", metavar="EXPERIMENT",
+        help="a .py or .toml file, an example's name, or a study's .csv")  # fmt: skip
+    add("--set", action="append", default=[], metavar="KEY=VALUES",
+        help="a setting's values: 4,8,16; or 0.1:1.0:10, ten from 0.1 to 1.0; or one")  # fmt: skip
+    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
+    add("--seeds", type=int, metavar="N", help="how many, the same for each point; 1 if not said")
+    add("--first-seed", type=int, metavar="K", help="the first of them; 0 if not said")
+    add("--measure", action="append", default=[], metavar="NAME",
+        help="a function of the record in the experiment's file, or one built in")  # fmt: skip
+    add("--out", type=Path, metavar="OUT.csv", help=f"where the rows go: {TABLE} if not said")
+    add("--figure", type=Path, metavar="OUT", help="draw the measures: .png, .pdf, .svg")
+    add("--compare", metavar="KEY", help="how a setting's values differ, seed by seed")
+    add("--confidence", type=_confidence, default=0.95, metavar="P", help="of intervals: 0.95")
+    add("--time-limit", type=float, metavar="S", help="seconds that a run may take")
+    add("--retry", action="store_true", help="run rows again that have an error")
+    add_workers(parser)
+    add("--row", type=int, metavar="N", help="run one row of a study again")
+    add("--view", action="store_true", help="in the window, with --row")
+    add("--record", type=Path, metavar="OUT", help="save all data of a run, with --row")
+    add_html(parser)
+    add_preferences(parser)
+
+
+def _confidence(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < 1:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a number between 0 and 1, as 0.95")
+    return value
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Run an experiment over settings and seeds into a table, or one of its rows again."""
+    check_outputs(arguments, {name: OUTPUTS[name] for name in ("record", "figure", "html")})
+    if arguments.row is not None:
+        _refuse(arguments, (*OF_RUNS, *OF_WORKERS, *OF_A_TABLE), "--row N runs one row as it was")
+        show_row(arguments, _table_here(arguments))
+        return
+    _refuse(arguments, OF_A_ROW, "it is of one run: give --row N")
+    if arguments.experiment is None:
+        raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
+    if arguments.experiment.lower().endswith(".csv"):
+        _refuse(arguments, (*OF_RUNS, *OF_WORKERS), f"{arguments.experiment} is there already")
+        _report(arguments, load_table(arguments.experiment), Path(arguments.experiment))
+        return
+    _run(arguments)
+
+
+def _refuse(arguments: argparse.Namespace, names: tuple[str, ...], why: str) -> None:
+    for name in names:
+        if getattr(arguments, name) not in (None, False, []):
+            raise InputError(f"--{name.replace('_', '-')}: {why}")
+
+
+def _table_here(arguments: argparse.Namespace) -> Path:
+    """Return the file that holds the row: that given, or else the last of this folder's studies."""
+    if arguments.experiment is not None:
+        if not arguments.experiment.lower().endswith(".csv"):
+            raise InputError(
+                f"--row {arguments.row}: expected the .csv of a study, not {arguments.experiment}"
+            )
+        return Path(arguments.experiment)
+    tables = [path for path in Path().glob("*.csv") if path.is_file() and is_table(path)]
+    if not tables:
+        raise InputError(
+            f"--row {arguments.row}: there is no study in this folder; name its file, as "
+            f"mars2d sweep results.csv --row {arguments.row}"
+        )
+    return max(tables, key=lambda path: path.stat().st_mtime_ns)
+
+
+# -- a study ---------------------------------------------------------------------------------------
+
+
+def _run(arguments: argparse.Namespace) -> None:
+    out = TABLE if arguments.out is None else arguments.out
+    check_outputs(argparse.Namespace(out=out), {"out": (".csv",)})
+    count = 1 if arguments.seeds is None else arguments.seeds
+    plan = Plan(_settings(arguments), seeds_of(count, arguments.first_seed or 0))
+    if arguments.compare is not None:
+        _check_compared(arguments.compare, {k: len(v) for k, v in plan.settings.items()})
+    names = [name.strip() for given in arguments.measure for name in given.split(",")]
+    with workers_of(arguments) as (executor, workers):
+        study = prepared(arguments.experiment, plan, tuple(names), time_limit=arguments.time_limit)
+        for trouble in study.troubles[:3]:
+            print(f"mars2d: {trouble}", file=sys.stderr)
+        if study.troubles:
+            print(
+                "mars2d: such runs are rows with their error; the others are made", file=sys.stderr
+            )
+        table = run_study(study, out, executor=executor, workers=workers, retry=arguments.retry)
+    _report(arguments, table, out)
+
+
+def _settings(arguments: argparse.Namespace) -> dict[str, Any]:
+    given = parse_all(arguments.set)
+    if arguments.stop_time is not None:
+        if "stop_time" in given:
+            raise InputError("--stop-time: is given twice, with --set as well")
+        given["stop_time"] = [arguments.stop_time]
+    return settings_of(given)
+
+
+def _check_compared(name: str, counts: dict[str, int]) -> None:
+    if name not in counts:
+        raise InputError(f"--compare {name}: there is no such setting{nearest(name, counts)}")
+    if counts[name] < 2:
+        raise InputError(f"--compare {name}: it has one value; two or more can be compared")
+
+
+def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
+    """Print what a study came to, and where its files are."""
+    if arguments.compare is not None:
+        points = table.points()
+        counts = {n: len({p[k] for p in points}) for k, n in enumerate(table.settings)}
+        _check_compared(arguments.compare, counts)
+    print(table.summary(arguments.confidence))
+    if arguments.compare is not None:
+        print("", table.compare(arguments.compare, arguments.confidence), sep="\n")
+    print(f"\ntable:  {path}", flush=True)
+    if arguments.figure is not None:
+        from mars2d.study.figure import save_study_figure
+
+        with naming_lost_letters():
+            save_study_figure(table, arguments.figure, confidence=arguments.confidence)
+        print(f"figure: {arguments.figure}")

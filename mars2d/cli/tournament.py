@@ -1,0 +1,209 @@
+"""The verb ``tournament``."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+from mars2d.cli.base import add_preferences, has_display, preferences_of
+from mars2d.cli.outputs import check_outputs
+from mars2d.cli.working import add_workers, workers_of
+from mars2d.core.errors import InputError, counted
+from mars2d.output import formats
+from mars2d.output.raster import require_pygame
+from mars2d.record.record import Record
+from mars2d.study.isolation.limits import Limits
+from mars2d.study.plan import parse_all
+from mars2d.study.tournament.folder import played_before
+from mars2d.study.tournament.league_text import league_text, matches
+from mars2d.study.tournament.match import Match, Played, replayed
+from mars2d.study.tournament.playing import TournamentInterrupted, play_schedule
+from mars2d.study.tournament.schedule import Schedule, schedule
+from mars2d.study.tournament.tournament import LIMITS, PAGE, Tournament
+from mars2d.study.work import worker_count
+
+NAME = "tournament"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    add = parser.add_argument
+    add("scenario", metavar="SCENARIO", help="a file with a contest, or the name of an example")
+    add(
+        "--role",
+        action="append",
+        nargs="+",
+        default=[],
+        metavar="ROLE=FILES",
+        help="the laws of a role: files, a folder, or a pattern as pursuers/*.py",
+    )
+    add(
+        "--players",
+        action="append",
+        nargs="+",
+        default=[],
+        metavar="FILES",
+        help="laws of all roles",
+    )
+    add("--seeds", type=int, default=10, metavar="N", help="matches of each pairing")
+    add("--first-seed", type=int, default=0, metavar="K", help="the seeds are K to K + N - 1")
+    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
+    add(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUES",
+        help="an option; several values make rounds: mu=0.8,0.9 or mu=0.8:1.0:5",
+    )
+    add("--tick-limit", type=float, metavar="S", help="seconds that a law may take for a step")
+    add("--match-limit", type=float, metavar="S", help="seconds that it may take for a match")
+    add("--memory", type=float, metavar="MB", help="that a law may use")
+    add("--out", type=Path, metavar="FOLDER", help="for tables and page; else tournament_SCENARIO")
+    add("--no-replays", action="store_true", help="a small page, of very many matches")
+    add("--match", type=int, metavar="N", help="play this match alone, once more")
+    add("--view", action="store_true", help="with --match: show it in a window")
+    add("--record", type=Path, metavar="OUT", help="with --match: save all its data")
+    add_workers(parser)
+    add_preferences(parser)
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Let the laws of files play each other; print the league, and write a page with replays."""
+    _check(arguments)
+    limits = _limits(arguments)
+    planned = schedule(
+        arguments.scenario,
+        _roles(arguments),
+        [file for files in arguments.players for file in files],
+        seeds=arguments.seeds,
+        first_seed=arguments.first_seed,
+        settings=parse_all(arguments.set),
+        stop_time=arguments.stop_time,
+    )
+    path = arguments.out or Path(f"tournament_{Path(planned.experiment).stem}")
+    if arguments.match is not None:
+        _play_one(arguments, planned, path, limits)
+    else:
+        _play_all(arguments, planned, path, limits)
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    """Refuse what can't be done before anything is."""
+    for name in ("view", "record"):
+        if getattr(arguments, name) and arguments.match is None:
+            raise InputError(f"--{name} needs --match N")
+    check_outputs(arguments, {"record": formats.SUFFIXES})
+    worker_count(arguments.workers)
+    if arguments.view and not has_display():
+        require_pygame("a window")
+        raise InputError("--view: there is no display; save the match with --record OUT.npz")
+
+
+def _limits(arguments: argparse.Namespace) -> Limits:
+    given = {
+        "tick": arguments.tick_limit,
+        "match": arguments.match_limit,
+        "memory": arguments.memory,
+    }
+    return replace(LIMITS, **{name: value for name, value in given.items() if value is not None})
+
+
+def _roles(arguments: argparse.Namespace) -> dict[str, list[str]]:
+    """Return the files of each role: a shell has made several words of a pattern, or has not."""
+    roles: dict[str, list[str]] = {}
+    for words in arguments.role:
+        role = ""
+        for word in words:
+            name, equals, file = word.partition("=")
+            if role and (not equals or Path(word).exists()):
+                file = word
+            elif name and file:
+                role = name
+            else:
+                raise InputError(f"--role {word}: expected ROLE=FILES, as --role pursuer=laws/*.py")
+            roles.setdefault(role, []).append(file)
+    return roles
+
+
+# -- all matches -----------------------------------------------------------------------------------
+
+
+def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
+    """Play what was not played before; print the league, also after Ctrl-C."""
+    print(_announced(planned, len(played_before(path, planned, limits))), flush=True)
+    with workers_of(arguments) as (executor, workers):
+        try:
+            result = play_schedule(
+                planned,
+                limits,
+                path,
+                executor=executor,
+                workers=workers,
+                replays=not arguments.no_replays,
+            )
+        except TournamentInterrupted as interrupt:
+            _report(interrupt.tournament, path)
+            raise
+    _report(result, path)
+
+
+def _announced(planned: Schedule, before: int) -> str:
+    """Return what is played, of which so many matches were played before."""
+    laws = {role: {match.laws[role] for match in planned.matches} for role in planned.roles}
+    who = ", ".join(f"{len(names)} as {role}" for role, names in laws.items())
+    known = f", {before} of them played before" if before else ""
+    return f"{planned.title}: {who}: {matches(len(planned.matches))}{known}"
+
+
+def _report(result: Tournament, path: Path) -> None:
+    """Print how the laws stand, and where the files are."""
+    if result.matches:
+        print(f"\n{league_text(result)}\n")
+        print(f"page: {path / PAGE}", flush=True)
+
+
+# -- one match -------------------------------------------------------------------------------------
+
+
+def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
+    """Play one match again; say how it went, and whether it went as before."""
+    count = len(planned.matches)
+    if not 1 <= arguments.match <= count:
+        raise InputError(f"--match {arguments.match}: expected a number from 1 to {count}")
+    match = planned.matches[arguments.match - 1]
+    print(_described(match), flush=True)
+    played, record = replayed(match, limits)
+    steps = counted(played.steps, "step")
+    print(f"{played.message}. {steps}, digest {played.digest[:16]}")
+    print(_compared(played, planned, path, limits), flush=True)
+    for role, text in played.output.items():
+        print(f"{match.laws[role]} printed:\n{text.rstrip()}")
+    if arguments.record is not None:
+        record.save(arguments.record)
+    if arguments.view:
+        _view(arguments, record)
+
+
+def _described(match: Match) -> str:
+    laws = ", ".join(f"{role} {law}" for role, law in match.laws.items())
+    options = "".join(f", {name} = {value}" for name, value in match.options.items())
+    return f"match {match.number}: {laws}, seed {match.seed}{options}"
+
+
+def _compared(played: Played, planned: Schedule, path: Path, limits: Limits) -> str:
+    """Say whether a match went as it did when the tournament was played."""
+    found = played_before(path, planned, limits)
+    before = next((each for each in found if each.match == played.match), None)
+    if before is None:
+        return f"it was not played before with these files, as far as {path} says"
+    if before.digest == played.digest:
+        return "the same as before, to the last bit"
+    return f"not as before: {before.message}. Digest {before.digest[:16]}"
+
+
+def _view(arguments: argparse.Namespace, record: Record) -> None:
+    from mars2d.window.show import show_record
+
+    speed = record.scenario.animation.playback_speed
+    show_record(record, speed, preferences_of(arguments))

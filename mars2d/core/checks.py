@@ -1,0 +1,231 @@
+"""Checks of fields that are more than a number: points, poses, polygons, lists of parts."""
+
+from __future__ import annotations
+
+import inspect
+import keyword
+from collections import Counter
+from collections.abc import Iterable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from mars2d.core.description import Check, real, wrong
+from mars2d.core.errors import InputError, shown
+from mars2d.core.plane import Outline, Point
+
+__all__ = [
+    "LIMIT",
+    "function",
+    "identifier",
+    "instance",
+    "law",
+    "listing",
+    "names",
+    "outline",
+    "outlines",
+    "point",
+    "polylines",
+    "pose",
+    "unique",
+]
+
+LIMIT = 1e6
+"""Coordinates go up to this far, metres: beyond it a double can't hold a nanometre."""
+
+
+def _items(name: str, value: object, expected: str) -> list[Any]:
+    if isinstance(value, (str, bytes, dict)) or not isinstance(value, (Iterable, np.ndarray)):
+        raise wrong(name, value, expected)
+    try:
+        return list(value)
+    except TypeError:
+        raise wrong(name, value, expected) from None
+
+
+def _coordinates(name: str, value: object, items: list[Any], expected: str) -> list[float]:
+    try:
+        numbers = [real(name, item) for item in items]
+    except InputError:
+        raise wrong(name, value, f"{expected}, all of them finite") from None
+    if any(abs(number) > LIMIT for number in numbers):
+        raise wrong(name, value, f"{expected}, within +-{LIMIT:g}")
+    return numbers
+
+
+def point(name: str, value: object) -> Point:
+    """Check a point (x, y) in metres."""
+    expected = "a point (x, y) in metres"
+    items = _items(name, value, expected)
+    if len(items) != 2:
+        raise wrong(name, value, expected)
+    x, y = _coordinates(name, value, items, expected)
+    return x, y
+
+
+def pose(name: str, value: object) -> tuple[float, float, float]:
+    """Check a pose (x [m], y [m], theta [rad]); a point (x, y) has theta 0."""
+    expected = "a pose (x, y, theta) in metres and radians"
+    items = _items(name, value, expected)
+    if len(items) not in (2, 3):
+        raise wrong(name, value, expected)
+    x, y, theta = _coordinates(name, value, [*items, 0.0][:3], expected)
+    return x, y, theta
+
+
+def outline(name: str, value: object, least: int = 2) -> Outline:
+    """Check an outline: two vertices a wall, more a closed polygon that does not cross itself."""
+    what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
+    expected = f"{what}, as [(x, y), ...] in metres"
+    items = _items(name, value, expected)
+    points = [point(f"{name}[{i}]", item) for i, item in enumerate(items)]
+    if len(points) > 2 and points[0] == points[-1]:
+        points.pop()  # a ring written closed
+    if len(points) < least:
+        raise wrong(name, value, f"{expected}, at least {least} different ones")
+    _check_apart(name, [*points, points[0]] if len(points) > 2 else points)
+    if len(points) > 2:
+        _check_ring(name, points)
+    return tuple(points)
+
+
+def _check_apart(name: str, points: list[Point]) -> None:
+    """Refuse vertices one after the other that are the same; the first one may end the list."""
+    last = len(points) - 1
+    for i, (a, b) in enumerate(pairwise(points)):
+        if np.hypot(a[0] - b[0], a[1] - b[1]) < 1e-6:
+            after = 0 if i + 1 == last and points[last] is points[0] else i + 1
+            raise InputError(f"{name}: vertices {i} and {after} are the same, {a}")
+
+
+def _check_ring(name: str, points: list[Point]) -> None:
+    """Refuse a polygon that crosses itself or has no area."""
+    import shapely
+
+    ring = shapely.Polygon(points)
+    straight = np.linalg.matrix_rank(np.diff(np.array(points), axis=0), tol=1e-9) < 2
+    if not ring.is_valid and not straight:
+        reason = shapely.is_valid_reason(ring)  # as "Self-intersection[1 1]"
+        place = reason.partition("[")[2].rstrip("]").replace(" ", ", ")
+        raise InputError(
+            f"{name}: the polygon crosses or touches itself at ({place}): "
+            "list its vertices in order round the outline"
+        )
+    if straight or ring.area < 1e-9:
+        raise wrong(name, points, "a polygon with an area; its vertices lie on one line")
+
+
+def polylines(name: str, value: object) -> tuple[Outline, ...]:
+    """Check a list of open lines, each of two or more vertices."""
+    items = _items(name, value, "a list of walls, each [(x, y), ...] in metres")
+    if items and _is_point(items[0]):
+        raise wrong(name, value, "a list of walls: put one more pair of brackets round it")
+    return tuple(_polyline(f"{name}[{i}]", item) for i, item in enumerate(items))
+
+
+def _polyline(name: str, value: object) -> Outline:
+    expected = "a wall's vertices, as [(x, y), ...] in metres, at least 2"
+    points = [point(f"{name}[{i}]", p) for i, p in enumerate(_items(name, value, expected))]
+    if len(points) < 2:
+        raise wrong(name, value, expected)
+    _check_apart(name, points)
+    return tuple(points)
+
+
+def outlines(name: str, value: object) -> tuple[Outline, ...]:
+    """Check a list of outlines."""
+    items = _items(name, value, "a list of outlines, each [(x, y), ...] in metres")
+    if items and _is_point(items[0]):
+        raise wrong(name, value, "a list of outlines: put one more pair of brackets round it")
+    return tuple(outline(f"{name}[{i}]", item) for i, item in enumerate(items))
+
+
+def _is_point(value: object) -> bool:
+    try:
+        first = next(iter(value))  # type: ignore[call-overload]
+    except (TypeError, StopIteration):
+        return False
+    return isinstance(first, (int, float, np.number))
+
+
+def instance(kind: type, example: str) -> Check:
+    """Return a check for one object of a class."""
+
+    def check(name: str, value: object) -> object:
+        if isinstance(value, type) and issubclass(value, kind):
+            raise InputError(
+                f"{name} = {value.__name__}: expected an object; write {value.__name__}(...)"
+            )
+        if not isinstance(value, kind):
+            article = "an" if kind.__name__[0] in "AEIOU" else "a"
+            raise wrong(name, value, f"{article} {kind.__name__}, as {example}")
+        return value
+
+    return check
+
+
+def listing(kind: type, example: str) -> Check:
+    """Return a check for a list of objects of a class, kept as a tuple."""
+
+    def check(name: str, value: object) -> tuple[Any, ...]:
+        if isinstance(value, kind):
+            raise InputError(f"{name} = {shown(value)}: expected a list; write [{shown(value)}]")
+        items = _items(name, value, f"a list, as [{example}]")
+        each = instance(kind, example)
+        return tuple(each(f"{name}[{i}]", item) for i, item in enumerate(items))
+
+    return check
+
+
+def names(name: str, value: object, expected: str) -> tuple[str, ...] | None:
+    """Check a list of names, at least one, none of them twice; it may be None."""
+    if value is None:
+        return None
+    if not isinstance(value, (tuple, list)) or not value:
+        raise wrong(name, value, expected)
+    if not all(isinstance(item, str) for item in value):
+        raise wrong(name, value, expected)
+    for item in value:
+        if value.count(item) > 1:
+            raise InputError(f"{name}: {item!r} stands there twice")
+    return tuple(value)
+
+
+def unique(name: str, keys: list[str]) -> None:
+    """Refuse names that stand twice in a list."""
+    for key, count in Counter(keys).items():
+        if count > 1:
+            raise InputError(f"{name}: two are called {key!r}; give one another name=...")
+
+
+def law(name: str, value: object, subject: str) -> object:
+    """Check a control law: something to be called with one argument, the `subject`."""
+    return function(name, value, subject)
+
+
+def function(name: str, value: object, *arguments: str) -> object:
+    """Check something to be called with these arguments, described in words."""
+    count = {1: "one argument", 2: "two arguments"}[len(arguments)]
+    words = " and ".join(arguments)
+    if not callable(value):
+        raise wrong(name, value, f"a function of {count}, {words}")
+    try:
+        inspect.signature(value).bind(*arguments)
+    except TypeError:
+        given = inspect.signature(value)
+        called = getattr(value, "__name__", type(value).__name__)
+        raise InputError(
+            f"{name} = {called}{given}: expected a function of exactly {count}, {words}"
+        ) from None
+    except ValueError:
+        pass  # a built-in without a signature: the first call will tell
+    return value
+
+
+def identifier(name: str, value: str | None, prefix: str) -> None:
+    """Refuse a part's name that can't follow the `prefix` under which a law finds it."""
+    if value is None:
+        return
+    if not value.isidentifier() or value.startswith("_") or keyword.iskeyword(value):
+        raise wrong(name, value, f"letters, digits and _, a letter first, as it follows {prefix}")

@@ -1,0 +1,99 @@
+"""A limit to how long the user's code may take: it is broken off, and its line is known."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from types import TracebackType
+
+from mars2d.core.usercode import users_line
+
+__all__ = ["Deadline", "Late"]
+
+PATIENCE = 10.0
+"""Seconds that a control step may take."""
+
+GRACE = 5.0
+"""Seconds that it may then take to be broken off."""
+
+
+class Late(BaseException):
+    """The user's code took too long. No Exception, so that its own `except` can't swallow it."""
+
+
+class Deadline:
+    """Breaks off what runs within it, by Late, `patience` seconds after the last `alive`.
+
+    A thread of its own watches, so it works in every thread and on every system. What waits in the
+    operating system (``time.sleep``) can't be broken off; then `give_up` is called with the line
+    that hangs, from the watching thread, if it is given. Where no thread can be started, as in a
+    browser, nothing is broken off.
+    """
+
+    def __init__(
+        self, patience: float = PATIENCE, give_up: Callable[[str], None] | None = None
+    ) -> None:
+        self.patience, self._give_up = patience, give_up
+        self._lock = threading.Lock()
+        self._ended = threading.Event()
+        self._thread = 0
+        self._since, self._fired = 0.0, False
+        self.where = ""
+
+    def alive(self) -> None:
+        """Begin to count anew."""
+        self._since, self._fired = time.monotonic(), False
+
+    def arrived(self) -> str:
+        """Return the line that was broken off, where Late was caught within the block."""
+        self.alive()
+        return self.where
+
+    def __enter__(self) -> Deadline:
+        self.alive()
+        self.where, self._thread, self._ended = "", threading.get_ident(), threading.Event()
+        watch = threading.Thread(target=self._watch, args=(self._ended,), daemon=True)
+        with contextlib.suppress(RuntimeError):  # "can't start new thread"
+            watch.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        tb: TracebackType | None,
+    ) -> None:
+        with self._lock:
+            self._ended.set()
+        if self._fired and (kind is None or not issubclass(kind, Late)):
+            # Raised, but not arrived yet. To take it back would leave the interpreter slower.
+            with contextlib.suppress(Late):
+                time.sleep(GRACE)
+
+    def _watch(self, ended: threading.Event) -> None:
+        while not ended.wait(min(self.patience / 10, 0.2)):
+            waited = time.monotonic() - self._since
+            if self._fired and waited > GRACE and self._give_up is not None:
+                self._give_up(self.where)
+                return
+            if not self._fired and waited > self.patience:
+                with self._lock:
+                    if ended.is_set():
+                        return
+                    self.where = self._line()
+                    self.alive()
+                    self._fired = True
+                    self._raise()
+
+    def _line(self) -> str:
+        frame = sys._current_frames().get(self._thread)
+        return "" if frame is None else users_line(traceback.extract_stack(frame)) or ""
+
+    def _raise(self) -> None:
+        thread, error = ctypes.c_ulong(self._thread), ctypes.py_object(Late)
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, error)

@@ -1,0 +1,292 @@
+"""Descriptions: frozen, keyword-only, validated objects, the gate in front of the engine.
+
+A class that derives from `Description` becomes a frozen dataclass. Its fields are declared with
+`number`, `choice`, `flag`, `text` or `entry`, which carry the bounds, the unit and the meaning;
+a plain annotation (``noise: float = 0.1``) works too. Whatever reaches an object has passed its
+checks: no NaN, no infinity, no wrong type, no unknown name.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import inspect
+import math
+import numbers
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar, Self, dataclass_transform
+
+import numpy as np
+
+from mars2d.core.errors import CONTROLS, InputError, likely, nearest, shown
+
+__all__ = ["Description", "choice", "entry", "flag", "integer", "number", "text"]
+
+Check = Callable[[str, Any], Any]
+"""Takes the field's full name and the value given, returns the value kept, raises InputError."""
+
+
+def wrong(name: str, value: object, expected: str) -> InputError:
+    """Return the error that says: field `name` was given `value`, `expected` was wanted."""
+    return InputError(f"{name} = {shown(value)}: expected {expected}")
+
+
+def real(name: str, value: object, expected: str = "a number") -> float:
+    """Return `value` as a finite float; a bool, NaN, an infinity or text is an InputError."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise wrong(name, value, expected)
+    try:
+        result = float(value)
+    except OverflowError:
+        raise wrong(name, value, expected) from None
+    if not math.isfinite(result):
+        raise wrong(name, value, f"{expected}, and finite")
+    return result
+
+
+def _bounds(low: float | None, above: float | None, high: float | None, unit: str) -> str:
+    limits = [
+        f"{sign} {limit:g}"
+        for sign, limit in ((">=", low), (">", above), ("<=", high))
+        if limit is not None
+    ]
+    return " ".join(filter(None, ["a number", " and ".join(limits), f"[{unit}]" if unit else ""]))
+
+
+def number(
+    *,
+    default: Any = dataclasses.MISSING,
+    low: float | None = None,
+    above: float | None = None,
+    high: float | None = None,
+    unit: str = "",
+    optional: bool = False,
+    doc: str = "",
+    kw_only: bool = True,
+) -> Any:
+    """Declare a field that is a finite float: ``low <= value``, ``above < value <= high``."""
+    expected = _bounds(low, above, high, unit) + (", or None" if optional else "")
+
+    def check(name: str, value: object) -> float | None:
+        if optional and value is None:
+            return None
+        result = real(name, value, expected)
+        inside = (
+            (low is None or result >= low)
+            and (above is None or result > above)
+            and (high is None or result <= high)
+        )
+        if not inside:
+            raise wrong(name, value, expected)
+        return result
+
+    return entry(default=default, check=check, unit=unit, doc=doc, kw_only=kw_only)
+
+
+def integer(
+    *,
+    default: Any = dataclasses.MISSING,
+    low: int,
+    high: int,
+    doc: str = "",
+    kw_only: bool = True,
+) -> Any:
+    """Declare a field that is a whole number, ``low <= value <= high``."""
+
+    def check(name: str, value: object) -> int:
+        expected = f"a whole number from {low} to {high}"
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+            raise wrong(name, value, expected)
+        if not low <= int(value) <= high:
+            raise wrong(name, value, expected)
+        return int(value)
+
+    return entry(default=default, check=check, doc=doc, kw_only=kw_only)
+
+
+def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = "") -> Any:
+    """Declare a field that is one of a few words."""
+
+    def check(name: str, value: object) -> str:
+        if not isinstance(value, str) or value not in of:
+            hint = likely(value, of) if isinstance(value, str) else ""
+            raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
+        return value
+
+    return entry(default=default, check=check, doc=doc)
+
+
+def flag(*, default: Any = dataclasses.MISSING, doc: str = "") -> Any:
+    """Declare a field that is True or False."""
+    return entry(default=default, check=_check_bool, doc=doc)
+
+
+def text(*, default: Any = dataclasses.MISSING, optional: bool = False, doc: str = "") -> Any:
+    """Declare a field that is text in one line, as names and titles are."""
+
+    def check(name: str, value: object) -> str | None:
+        if optional and value is None:
+            return None
+        found = _check_str(name, value)
+        if CONTROLS.search(found):
+            raise wrong(name, value, "text in one line, without codes of a terminal")
+        return found
+
+    return entry(default=default, check=check, doc=doc)
+
+
+def entry(
+    *,
+    default: Any = dataclasses.MISSING,
+    check: Check,
+    unit: str = "",
+    doc: str = "",
+    factory: Any = dataclasses.MISSING,
+    kw_only: bool = True,
+) -> Any:
+    """Declare a field with a check of its own, which returns the value to keep."""
+    return dataclasses.field(
+        default=default,
+        default_factory=factory,
+        kw_only=kw_only,
+        metadata={"check": check, "unit": unit, "doc": doc},
+    )
+
+
+def whole(text: str) -> str:
+    """Return a text with a question mark for each half a character, which no file can hold.
+
+    Python has them in names of files that are not in UTF-8.
+    """
+    return text.encode(errors="replace").decode()
+
+
+def _check_bool(name: str, value: object) -> bool:
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise wrong(name, value, "True or False")
+
+
+def _check_str(name: str, value: object) -> str:
+    if not isinstance(value, str):
+        raise wrong(name, value, "text in quotes")
+    if whole(value) != value:
+        raise wrong(name, value, "text without half a character, which no file can hold")
+    return value
+
+
+def _check_int(name: str, value: object) -> int:
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+        raise wrong(name, value, "a whole number")
+    return int(value)
+
+
+_PLAIN: dict[object, Check] = {
+    "float": real,
+    "int": _check_int,
+    "bool": _check_bool,
+    "str": _check_str,
+    float: real,
+    int: _check_int,
+    bool: _check_bool,
+    str: _check_str,
+}
+
+
+@dataclass_transform(
+    frozen_default=True,
+    kw_only_default=True,
+    field_specifiers=(number, integer, choice, flag, text, entry),
+)
+class Description:
+    """The base of all descriptions. Raises InputError for a wrong, missing or unknown field."""
+
+    __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        _keep_checks(cls)
+        dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
+        cls.__init__ = _gated(cls, cls.__init__)  # type: ignore[method-assign]
+
+    def __post_init__(self) -> None:
+        for field in dataclasses.fields(self):
+            check = field.metadata.get("check") or _PLAIN.get(field.type)
+            if check is not None:
+                name = f"{type(self).__name__}.{field.name}"
+                object.__setattr__(self, field.name, check(name, getattr(self, field.name)))
+        self._validate()
+
+    def _validate(self) -> None:
+        """Check what concerns several fields together."""
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some fields changed, validated anew."""
+        current = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        return type(self)(**(current | changes))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is copied and sent to other processes: all but what is worked out again."""
+        kind, worked_out = type(self), functools.cached_property
+        return {
+            name: value
+            for name, value in self.__dict__.items()
+            if not isinstance(getattr(kind, name, None), worked_out)
+        }
+
+    def __repr__(self) -> str:
+        changed = [
+            f"{f.name}={shown(getattr(self, f.name), 200)}"
+            for f in dataclasses.fields(self)
+            if not _is_default(f, getattr(self, f.name))
+        ]
+        return f"{type(self).__name__}({', '.join(changed)})"
+
+
+def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
+    if field.default is not dataclasses.MISSING:
+        return bool(field.default == value)
+    if field.default_factory is not dataclasses.MISSING:
+        return bool(field.default_factory() == value)
+    return False
+
+
+def _keep_checks(cls: type[Description]) -> None:
+    """Let a subclass give an inherited field a new default without losing the field's check."""
+    inherited = getattr(super(cls, cls), "__dataclass_fields__", {})
+    annotations = inspect.get_annotations(cls)
+    for name, field in inherited.items():
+        default = vars(cls).get(name, dataclasses.MISSING)
+        declared = name in annotations or default is not dataclasses.MISSING
+        if declared and "check" in field.metadata and not isinstance(default, dataclasses.Field):
+            setattr(cls, name, entry(default=default, kw_only=field.kw_only, **field.metadata))
+            annotations = {name: field.type} | annotations
+    cls.__annotations__ = annotations
+
+
+def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
+    """Wrap a dataclass's __init__ so that wrong names and missing ones are InputErrors."""
+    known = {f.name: f for f in dataclasses.fields(cls) if f.init}
+    positional = [name for name, f in known.items() if not f.kw_only]
+    required = [
+        name
+        for name, f in known.items()
+        if f.default is dataclasses.MISSING and f.default_factory is dataclasses.MISSING
+    ]
+
+    @functools.wraps(init)
+    def checked(self: Any, *args: Any, **kwargs: Any) -> None:
+        if type(self) is cls:
+            for name in kwargs:
+                if name not in known:
+                    raise InputError(f"{cls.__name__} has no field {name!r}{nearest(name, known)}")
+            if len(args) > len(positional):
+                example = f"{cls.__name__}({next(iter(known), 'field')}=...)"
+                raise InputError(f"{cls.__name__} takes its fields by name, as in {example}")
+            given = {*positional[: len(args)], *kwargs}
+            for name in required:
+                if name not in given:
+                    raise InputError(f"{cls.__name__}.{name} is missing")
+        init(self, *args, **kwargs)
+
+    return checked

@@ -1,0 +1,129 @@
+"""The errors that MARS2D raises, each written for the person who can mend it."""
+
+from __future__ import annotations
+
+import builtins
+import difflib
+import re
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from mars2d.record.record import Record
+
+__all__ = [
+    "InputError",
+    "LawError",
+    "Mars2dError",
+    "MissingExtraError",
+    "UnknownNameError",
+    "nearest",
+]
+
+
+CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
+"""Line breaks, and what tells a terminal to do something."""
+
+
+class Mars2dError(Exception):
+    """The root of all errors of this package.
+
+    where: the file and line that the error points at, as ``walk.py, line 12``, or None.
+    record: what was recorded until then, when the error ended a run, else None.
+    """
+
+    where: str | None = None
+    record: Record | None = None
+
+    def __str__(self) -> str:
+        text = super().__str__()
+        return f"{self.where}: {text}" if self.where else text
+
+
+class InputError(Mars2dError, ValueError):
+    """Something that was given can't be used; the message names it and says what was expected."""
+
+
+class LawError(InputError):
+    """A control law, sensor or add-on of the user's raised, or returned what can't be used."""
+
+
+class UnknownNameError(LawError, AttributeError):
+    """A law asked for something that is not there."""
+
+
+class MissingExtraError(InputError):
+    """An optional library is needed and not installed; the message holds the pip line."""
+
+
+def likely(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
+    """Return ``"; did you mean 'known'?"`` for the known name that is nearest, or ``""``.
+
+    likeness: how near it must be, from 0 to 1.
+    """
+    close = difflib.get_close_matches(str(name), sorted(known), n=1, cutoff=likeness)
+    return f"; did you mean {close[0]!r}?" if close else ""
+
+
+def nearest(name: object, known: Iterable[str], likeness: float = 0.6, most: int = 12) -> str:
+    """Return the nearest known name as `likely` does, or else a list of all, if not over `most`.
+
+    >>> nearest("diametr", ["diameter", "mass"])
+    "; did you mean 'diameter'?"
+    >>> nearest("xyz", ["diameter", "mass"])
+    '; known: diameter, mass'
+    """
+    names = sorted(known)
+    listed = f"; known: {', '.join(names)}" if 0 < len(names) <= most else ""
+    return likely(name, names, likeness) or listed
+
+
+def described(error: BaseException) -> str:
+    """Return what an exception of the user's code says, with the name nearest to a misspelt one."""
+    if isinstance(error, InputError):
+        return str(error)
+    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    known: set[str] = set()
+    if isinstance(error, NameError):
+        step = error.__traceback__
+        while step is not None:
+            known = {*step.tb_frame.f_locals, *step.tb_frame.f_globals, *dir(builtins)}
+            step = step.tb_next
+    elif isinstance(error, AttributeError):
+        known = {name for name in dir(error.obj) if not name.startswith("_")}
+    else:
+        return text
+    return text + likely(error.name, known)
+
+
+def counted(count: int, thing: str) -> str:
+    """Return a number with its noun, as ``1 robot`` or ``2 robots``."""
+    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
+
+
+def ordinal(number: int) -> str:
+    """Return a number as it counts things in order, as ``1st`` or ``12th``.
+
+    >>> [ordinal(number) for number in (2, 3, 12, 32)]
+    ['2nd', '3rd', '12th', '32nd']
+    """
+    teens = 10 < number % 100 < 20
+    return f"{number}{'th' if teens else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"
+
+
+def one_line(text: object) -> str:
+    r"""Return what a text says in one line that a terminal shows: what it can't is escaped.
+
+    >>> one_line("two\nlines")
+    'two\\nlines'
+    """
+    return CONTROLS.sub(lambda found: ascii(found[0])[1:-1], str(text))
+
+
+def shown(value: Any, limit: int = 60) -> str:
+    """Return `value` as it is quoted in a message: its repr, cut to `limit` characters."""
+    try:
+        text = " ".join(repr(value).split())
+    except Exception as error:  # a user's own __repr__ may be what is broken
+        text = f"<{type(value).__name__} whose repr raises {type(error).__name__}>"
+    return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -1,0 +1,108 @@
+"""What things are made of: density, friction and restitution by the material's name.
+
+The engine multiplies the values of the two surfaces in a contact. So a surface has the square root
+of what a pair of the same material has: steel on steel gets 0.76 * 0.76 = 0.58. Unlike pairs come
+out near the tables for most of these, but too high with ice. What touches a surface of 1 and 1, as
+obstacles are by default, has its own values in the contact.
+
+The figures are typical ones of clean, dry, solid things. Real ones scatter by a third and more,
+with finish, moisture and speed: measure where it matters. Sources:
+
+- density and sliding friction: Marks' Standard Handbook for Mechanical Engineers, sections 6.1 and
+  3.2, and the tables of engineeringtoolbox.com; between them, where they differ;
+- restitution: round figures for impacts of about 1 m/s, in the order that Newton found (Principia,
+  scholium to the laws: glass 15/16, steel and cork about 5/9) and Goldsmith after him (Impact,
+  1960). It falls with speed;
+- cardboard, felt and foam are of many kinds: estimates.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from mars2d.core.description import real, wrong
+from mars2d.core.errors import nearest
+
+__all__ = ["MATERIALS", "Material", "material", "surface_friction", "surface_restitution"]
+
+
+class Material(NamedTuple):
+    """Density [kg/m^3], and what a surface of it brings into a contact.
+
+    A contact has the product of both surfaces' friction and of both surfaces' restitution.
+    """
+
+    density: float
+    friction: float
+    restitution: float
+
+
+_PAIRS = {
+    "aluminium": (2700.0, 0.6, 0.5),
+    "cardboard": (150.0, 0.4, 0.1),
+    "concrete": (2400.0, 0.65, 0.4),
+    "felt": (250.0, 0.5, 0.2),
+    "foam": (30.0, 0.6, 0.4),
+    "glass": (2500.0, 0.4, 0.9),
+    "ice": (917.0, 0.05, 0.5),
+    "plastic": (1000.0, 0.3, 0.6),
+    "rubber": (1100.0, 1.15, 0.75),
+    "steel": (7850.0, 0.58, 0.6),
+    "teflon": (2200.0, 0.04, 0.5),
+    "wood": (600.0, 0.4, 0.5),
+}
+"""Density [kg/m^3], and friction and restitution between two things of the same material."""
+
+MATERIALS: dict[str, Material] = {
+    name: Material(density, round(friction**0.5, 2), round(restitution**0.5, 2))
+    for name, (density, friction, restitution) in _PAIRS.items()
+}
+"""The materials by name."""
+
+
+def material(name: str, value: object) -> str | None:
+    """Check a material's name, or None.
+
+    >>> material("Box.material", "wood")
+    'wood'
+    """
+    if value is None:
+        return None
+    if not isinstance(value, str) or value not in MATERIALS:
+        raise wrong(name, value, f"a material's name, or None{_known(value)}")
+    return value
+
+
+def surface_friction(name: str, value: object) -> float:
+    """Check a surface's coefficient of friction: a number from 0 to 1000, or a material's name.
+
+    >>> surface_friction("Robot.friction", "rubber")
+    1.07
+    """
+    return _surface(name, value, "friction", 1e3)
+
+
+def surface_restitution(name: str, value: object) -> float:
+    """Check a surface's restitution: a number from 0 to 1, or a material's name.
+
+    >>> surface_restitution("Robot.restitution", 0.5)
+    0.5
+    """
+    return _surface(name, value, "restitution", 1.0)
+
+
+def _surface(name: str, value: object, quantity: str, high: float) -> float:
+    expected = f"a number >= 0 and <= {high:g}, or a material's name"
+    if isinstance(value, str):
+        if value not in MATERIALS:
+            raise wrong(name, value, expected + _known(value))
+        return float(getattr(MATERIALS[value], quantity))
+    result = real(name, value, expected)
+    if not 0 <= result <= high:
+        raise wrong(name, value, expected)
+    return result
+
+
+def _known(value: object) -> str:
+    """Return a hint at the nearest material's name, else all of them."""
+    return nearest(value.lower(), MATERIALS) if isinstance(value, str) else ""

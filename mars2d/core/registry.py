@@ -1,0 +1,178 @@
+"""Families of parts by name: drives, sensors, add-ons; MARS2D's own and those of other packages.
+
+A package ships a part by an entry point of the group ``mars2d.<family>``, such as
+``mars2d.sensors``. They are looked up when somebody asks for parts by name, never on import.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+from mars2d.core.description import Description
+from mars2d.core.errors import described, nearest, shown
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+__all__ = [
+    "BASES",
+    "FAMILIES",
+    "Plugin",
+    "family_of",
+    "members",
+    "package_of",
+    "plugin",
+    "plugins",
+    "snake_case",
+    "summary",
+]
+
+FAMILIES = {
+    "bodies": "mars2d.bodies.drives",
+    "props": "mars2d.bodies.props",
+    "joints": "mars2d.bodies.joints",
+    "sensors": "mars2d.sensors",
+    "addons": "mars2d.addons",
+}
+"""The families of parts, and the package that holds the parts of each."""
+
+BASES = {
+    "bodies": "Drive",
+    "props": "Prop",
+    "joints": "Joint",
+    "sensors": "Sensor",
+    "addons": "Addon",
+}
+"""The class that all parts of a family derive from."""
+
+
+@dataclass(frozen=True)
+class Plugin:
+    """A part that another package ships by an entry point, or why it can't be used.
+
+    name: of the class, or of the entry point if there is no class. package, version: what `pip`
+    calls the package. kind: the class, None if it can't be used. problem: then why, in words.
+    """
+
+    family: str
+    name: str
+    package: str
+    version: str
+    kind: type[Description] | None = None
+    problem: str = ""
+
+
+def snake_case(name: str) -> str:
+    """Return a class name as the name of a thing: ``RangeFinder`` -> ``range_finder``.
+
+    >>> snake_case("RangeFinder")
+    'range_finder'
+    """
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
+
+
+def members(family: str) -> dict[str, type[Description]]:
+    """Return the public classes of a family (``"sensors"``, ``"addons"``, ``"bodies"``) by name.
+
+    First those of MARS2D, then those of other packages that can be used, see `plugins`.
+    """
+    others = {p.name: p.kind for p in plugins(family) if p.kind is not None}
+    return _own(family) | others
+
+
+@cache
+def plugins(family: str) -> tuple[Plugin, ...]:
+    """Return what other packages ship for a family, what can't be used with its problem.
+
+    A name that MARS2D has itself, or another package before in the alphabet, is a problem.
+    """
+    from importlib.metadata import entry_points  # which takes a tenth of the package's import
+
+    taken = dict.fromkeys(_own(family), "MARS2D itself")
+    found = []
+    for entry in sorted(entry_points(group=f"mars2d.{family}"), key=lambda e: (_package(e), e)):
+        part = _load(family, entry)
+        if part.kind is not None and part.name in taken:
+            problem = f"{taken[part.name]} has a {part.name}, which is used in its place"
+            part = Plugin(family, part.name, part.package, part.version, problem=problem)
+        if part.kind is not None:
+            taken[part.name] = part.package
+        found.append(part)
+    return tuple(found)
+
+
+def plugin(family: str, name: str, package: str) -> type[Description] | None:
+    """Return the class that a package ships under a name, None if it is not installed."""
+    kinds = (p.kind for p in plugins(family) if (p.name, p.package) == (name, package))
+    return next(kinds, None)
+
+
+def family_of(kind: type[Description]) -> str | None:
+    """Return the family of one of MARS2D's own parts, None for a class that is none."""
+    return next((f for f, package in FAMILIES.items() if kind.__module__.startswith(package)), None)
+
+
+def package_of(family: str, kind: type[Description]) -> str | None:
+    """Return which package ships a class by an entry point, None if no one does."""
+    return next((p.package for p in plugins(family) if p.kind is kind), None)
+
+
+def _load(family: str, entry: EntryPoint) -> Plugin:
+    package, version = _package(entry), entry.dist.version if entry.dist else ""
+    base = getattr(importlib.import_module(FAMILIES[family]), BASES[family])
+    problem = ""
+    try:
+        kind = entry.load()
+    except (Exception, SystemExit) as error:  # another's code: it must not end us
+        problem = f"{entry.value} can't be loaded: {described(error)}"
+        return Plugin(family, entry.name, package, version, problem=problem)
+    if not (isinstance(kind, type) and issubclass(kind, base)):
+        problem = f"{entry.value} is {shown(kind)}: expected a class derived from {base.__name__}"
+        return Plugin(family, entry.name, package, version, problem=problem)
+    return Plugin(family, kind.__name__, package, version, kind)
+
+
+def _package(entry: EntryPoint) -> str:
+    return entry.dist.name if entry.dist else "an unknown package"
+
+
+def _own(family: str) -> dict[str, type[Description]]:
+    """Return MARS2D's own classes of a family by name."""
+    return {kind.__name__: kind for kind in _walk(family)}
+
+
+def _walk(family: str) -> Iterator[type[Description]]:
+    package = importlib.import_module(FAMILIES[family])
+    for info in sorted(pkgutil.iter_modules(package.__path__), key=lambda m: m.name):
+        module = importlib.import_module(f"{FAMILIES[family]}.{info.name}")
+        for name in getattr(module, "__all__", ()):
+            kind = getattr(module, name)
+            is_part = isinstance(kind, type) and issubclass(kind, Description)
+            if is_part and info.name != "base" and not _leaves_methods(kind):
+                yield kind
+
+
+def _leaves_methods(kind: type) -> bool:
+    """Return whether a class leaves methods to those that derive from it, as Contest does."""
+    methods = (getattr(kind, name, None) for name in dir(kind))
+    return any(getattr(method, "__isabstractmethod__", False) for method in methods)
+
+
+def misspelt_groups() -> list[str]:
+    """Return entry points' groups that begin with ``mars2d.`` and are none, each with a hint."""
+    from importlib.metadata import entry_points
+
+    groups = {group for group in entry_points().groups if group.startswith("mars2d.")}
+    known = [f"mars2d.{family}" for family in BASES]
+    return [f"{group}{nearest(group, known)}" for group in sorted(groups - {*known})]
+
+
+def summary(kind: type) -> str:
+    """Return the first line of a class's docstring."""
+    return (kind.__doc__ or "").strip().partition("\n")[0]

@@ -1,0 +1,365 @@
+"""What to draw, never how: shapes in world coordinates, in the order they lie on each other.
+
+The window, the films and the figures all paint the same `Scene`. Positions and sizes are metres,
+line widths and text heights are points of the screen or page. Colours are ``#rrggbb`` or, with
+opacity, ``#rrggbbaa``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.core.errors import InputError, nearest, shown
+from mars2d.core.pixels import LARGEST_IMAGE
+from mars2d.core.plane import Outline
+
+__all__ = [
+    "PALETTE",
+    "THEORY",
+    "Arrow",
+    "Circle",
+    "Image",
+    "Line",
+    "Polygon",
+    "Scene",
+    "Text",
+    "arrow_outline",
+    "color",
+    "color_of",
+    "faded",
+    "optional_color",
+    "rgb",
+    "wake_style",
+]
+
+Anchor = Literal["center", "left", "right", "above", "below"]
+
+# Okabe & Ito's colours, distinguishable with every common colour vision deficiency (2008).
+PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#5f4b8b", "#444444")
+
+THEORY = "#7b3294"
+"""The colour of what theory predicts."""
+
+_NAMED = {
+    "black": "#000000", "white": "#ffffff", "gray": "#808080", "grey": "#808080",
+    "red": "#d62728", "green": "#2ca02c", "blue": "#1f77b4", "orange": "#ff7f0e",
+    "purple": "#9467bd", "brown": "#8c564b", "pink": "#e377c2", "cyan": "#17becf",
+    "magenta": "#c2187f", "yellow": "#e8c500",
+    # Matlab's one-letter colours, as MARS's Base_colors uses them
+    "k": "#000000", "r": "#d62728", "g": "#2ca02c", "b": "#1f77b4", "m": "#c2187f",
+    "c": "#17becf", "y": "#e8c500", "w": "#ffffff",
+}  # fmt: skip
+
+WAKE_LINES = ("--", "-.", "-", ":")
+WAKE_MARKERS = (".", "o", "x", "+", "*", "s")
+
+
+def color(name: str, value: object) -> str:
+    """Return a colour as ``#rrggbb`` or ``#rrggbbaa``; field `name` is for the error message."""
+    if isinstance(value, str):
+        lower = value.strip().lower()
+        if lower in _NAMED:
+            return _NAMED[lower]
+        digits = lower.removeprefix("#")
+        if lower.startswith("#") and all(c in "0123456789abcdef" for c in digits):
+            if len(digits) in (6, 8):
+                return lower
+            if len(digits) == 3:
+                return "#" + "".join(2 * c for c in digits)
+    hint = nearest(value, [k for k in _NAMED if len(k) > 1]) if isinstance(value, str) else ""
+    raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
+
+
+def optional_color(name: str, value: object) -> str | None:
+    """Check a colour that may be None."""
+    return None if value is None else color(name, value)
+
+
+@lru_cache(maxsize=1024)
+def _checked(name: str, value: str) -> str:
+    return color(name, value)
+
+
+@lru_cache(maxsize=64)
+def _styled(value: str) -> str:
+    return wake_style("style", value)
+
+
+def _paint(value: str | None, field: str = "fill") -> str | None:
+    """Check a colour that may be None, which paints nothing."""
+    return None if value is None else _checked(field, value)
+
+
+def faded(value: str, opacity: float) -> str:
+    """Return the colour ``#rrggbb`` at an opacity from 0 to 1."""
+    return f"{value[:7]}{round(255 * opacity):02x}"
+
+
+@lru_cache(maxsize=1024)
+def rgb(color: str) -> tuple[float, float, float]:
+    """Return red, green and blue, from 0 to 1, of a colour ``#rrggbb``.
+
+    >>> rgb("#ff0033")
+    (1.0, 0.0, 0.2)
+    """
+    red, green, blue = (int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return red, green, blue
+
+
+def color_of(values: Iterable[float]) -> str:
+    """Return the colour ``#rrggbb`` of red, green and blue; beyond 0 to 1 they are clipped.
+
+    >>> color_of((1.0, -0.5, 0.2))
+    '#ff0033'
+    """
+    return "#" + "".join(f"{round(255 * min(max(value, 0.0), 1.0)):02x}" for value in values)
+
+
+def wake_style(name: str, value: object) -> str:
+    """Check a wake style: a line style of Matlab's plot, a marker, or both, as ``-`` or ``o--``."""
+    if isinstance(value, str):
+        rest = value
+        for mark in WAKE_MARKERS:
+            if rest.startswith(mark) and rest not in WAKE_LINES:
+                rest = rest[1:]
+                break
+        if value and rest in ("", *WAKE_LINES):
+            return value
+    raise InputError(
+        f"{name} = {value!r}: expected a line style ({' '.join(WAKE_LINES)}), "
+        f"a marker ({' '.join(WAKE_MARKERS)}), or a marker and a line style, as 'o--'"
+    )
+
+
+def split_wake_style(style: str) -> tuple[str, str]:
+    """Return (marker, line) of a checked wake style; either may be empty."""
+    if style in WAKE_LINES:
+        return "", style
+    return style[0], style[1:]
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A disc or ring: centre (x, y) and radius in metres; `pixels` adds to the radius on screen."""
+
+    center: tuple[float, float]
+    radius: float
+    fill: str | None = None
+    stroke: str | None = None
+    width: float = 1.0
+    pixels: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Polygon:
+    """A closed outline, not necessarily convex: vertices (k, 2) in metres."""
+
+    points: NDArray[np.float64]
+    fill: str | None = None
+    stroke: str | None = None
+    width: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A polyline through points (k, 2) in metres. `style` is that of MARS's wake, as ``o--``."""
+
+    points: NDArray[np.float64]
+    stroke: str
+    width: float = 1.0
+    style: str = "-"
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A label at a point (x, y) in metres; `size` is its height in points.
+
+    halo: the colour of a rim round the letters, which sets them off from what they lie on.
+    """
+
+    position: tuple[float, float]
+    text: str
+    color: str = "#333333"
+    size: float = 12.0
+    anchor: Anchor = "center"
+    halo: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """An arrow from `tail` to `tip`, (x, y) in metres; `width` is that of its shaft, in points.
+
+    A short one is drawn smaller as a whole, so that it stays an arrow. stroke: a thin edge round
+    it, which sets it off from what it lies on.
+    """
+
+    tail: tuple[float, float]
+    tip: tuple[float, float]
+    fill: str
+    stroke: str | None = None
+    width: float = 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    """Pixels (rows, columns, 3), red, green and blue to 255, over (xmin, xmax, ymin, ymax) [m].
+
+    The first row is the upper one. With a fourth number, the opacity to 255, it is seen through.
+    """
+
+    pixels: NDArray[np.uint8]
+    bounds: tuple[float, float, float, float]
+
+
+Shape = Circle | Polygon | Line | Text | Arrow | Image
+
+
+@dataclass(slots=True)
+class Scene:
+    """A list of shapes, the first lying lowest. Each method adds one."""
+
+    shapes: list[Shape] = field(default_factory=list)
+
+    def circle(
+        self,
+        center: ArrayLike,
+        radius: float,
+        *,
+        fill: str | None = None,
+        stroke: str | None = None,
+        width: float = 1.0,
+        pixels: float = 0.0,
+    ) -> None:
+        """Add a disc (`fill`), a ring (`stroke`), or both."""
+        x, y = np.asarray(center, dtype=float)[:2].tolist()
+        fill, stroke = _paint(fill), _paint(stroke, "stroke")
+        self.shapes.append(Circle((x, y), float(radius), fill, stroke, width, pixels))
+
+    def polygon(
+        self,
+        points: ArrayLike | Outline,
+        *,
+        fill: str | None = None,
+        stroke: str | None = None,
+        width: float = 1.0,
+    ) -> None:
+        """Add a closed outline through points (k, 2)."""
+        fill, stroke = _paint(fill), _paint(stroke, "stroke")
+        self.shapes.append(Polygon(_points(points), fill, stroke, width))
+
+    def line(
+        self, points: ArrayLike | Outline, *, stroke: str, width: float = 1.0, style: str = "-"
+    ) -> None:
+        """Add a polyline through points (k, 2)."""
+        stroke, style = _checked("stroke", stroke), _styled(style)
+        self.shapes.append(Line(_points(points), stroke, width, style))
+
+    def text(
+        self,
+        position: Sequence[float] | NDArray[np.float64],
+        text: str,
+        *,
+        color: str = "#333333",
+        size: float = 12.0,
+        anchor: Anchor = "center",
+        halo: str | None = None,
+    ) -> None:
+        """Add a label."""
+        x, y = np.asarray(position, dtype=float)[:2].tolist()
+        color, halo = _checked("color", color), _paint(halo, "halo")
+        self.shapes.append(Text((x, y), str(text), color, size, anchor, halo))
+
+    def arrow(
+        self,
+        tail: ArrayLike,
+        tip: ArrayLike,
+        *,
+        fill: str,
+        stroke: str | None = None,
+        width: float = 3.0,
+    ) -> None:
+        """Add an arrow."""
+        (ax, ay), (bx, by) = (np.asarray(end, dtype=float)[:2].tolist() for end in (tail, tip))
+        fill, stroke = _checked("fill", fill), _paint(stroke, "stroke")
+        self.shapes.append(Arrow((ax, ay), (bx, by), fill, stroke, width))
+
+    def cross(self, center: ArrayLike, arm: float, *, stroke: str, width: float = 1.0) -> None:
+        """Add a lying cross, as wide and as high as twice its `arm` [m]."""
+        x, y = np.asarray(center, dtype=float)[:2].tolist()
+        for up in (arm, -arm):
+            self.line([(x - arm, y - up), (x + arm, y + up)], stroke=stroke, width=width)
+
+    def image(self, pixels: ArrayLike, bounds: Sequence[float]) -> None:
+        """Add an image: pixels (rows, columns, 3) from 0 to 255, the upper row first.
+
+        bounds: (xmin, xmax, ymin, ymax) in metres. It has 4096 rows and columns at most. Pixels of
+        four numbers, (rows, columns, 4), have an opacity as well.
+        """
+        given = np.asarray(pixels)
+        fits = given.ndim == 3 and given.shape[2] in (3, 4) and min(given.shape) > 0
+        if not fits or max(given.shape) > LARGEST_IMAGE or given.dtype != np.uint8:
+            raise InputError(
+                f"pixels of shape {given.shape}, {given.dtype}: expected (rows, columns, 3 or "
+                f"4) of uint8, up to {LARGEST_IMAGE} rows and columns"
+            )
+        xmin, xmax, ymin, ymax = np.asarray(bounds, dtype=float).tolist()
+        if not (xmin < xmax and ymin < ymax):
+            raise InputError(f"bounds = {shown(bounds)}: expected (xmin, xmax, ymin, ymax) [m]")
+        self.shapes.append(Image(given, (xmin, xmax, ymin, ymax)))
+
+    def sector(
+        self,
+        pose: ArrayLike,
+        radius: float,
+        angle: float,
+        *,
+        fill: str | None = None,
+        stroke: str | None = None,
+        width: float = 1.0,
+    ) -> None:
+        """Add a field of view: a sector of `angle` radians about the heading of a pose (3,)."""
+        if angle >= 2 * np.pi:
+            self.circle(pose, radius, fill=fill, stroke=stroke, width=width)
+            return
+        x, y, theta = np.asarray(pose, dtype=float).tolist()
+        steps = theta + np.linspace(-angle / 2, angle / 2, max(2, int(angle / 0.1) + 2))
+        arc = np.column_stack([x + radius * np.cos(steps), y + radius * np.sin(steps)])
+        self.polygon(np.vstack([[x, y], arc]), fill=fill, stroke=stroke, width=width)
+
+    def extend(self, shapes: Iterable[Shape]) -> None:
+        """Add the shapes of another scene."""
+        self.shapes.extend(shapes)
+
+
+HEAD_LENGTH, HEAD_WIDTH = 4.0, 3.4
+"""Of an arrow's head, in widths of its shaft."""
+
+SHORTEST = 1.6
+"""Shorter arrows, in lengths of their head, are drawn smaller as a whole."""
+
+
+def arrow_outline(
+    tail: tuple[float, float], tip: tuple[float, float], width: float
+) -> NDArray[np.float64]:
+    """Return the corners (7, 2) of an arrow whose shaft is `width` wide, all in one unit."""
+    dx, dy = tip[0] - tail[0], tip[1] - tail[1]
+    length = float(np.hypot(dx, dy))
+    if length == 0.0:
+        return np.tile(np.array([tail], dtype=float), (7, 1))
+    width = min(width, length / (SHORTEST * HEAD_LENGTH))
+    axes = np.array([[dx, dy], [-dy, dx]]) / length
+    neck = length - HEAD_LENGTH * width
+    half, head = width / 2, HEAD_WIDTH * width / 2
+    places = [(0, half), (neck, half), (neck, head), (length, 0)]
+    places += [(at, -off) for at, off in places[2::-1]]
+    return np.array(places) @ axes + tail
+
+
+def _points(points: ArrayLike | Outline) -> NDArray[np.float64]:
+    return np.asarray(points, dtype=float).reshape(-1, 2)

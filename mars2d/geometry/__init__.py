@@ -1,0 +1,32 @@
+"""Algorithms of the plane, and the shapes of bodies."""
+
+from mars2d.core.plane import (
+    Outline,
+    Point,
+    bounds_of,
+    distance_to_ring,
+    edges_of,
+    inside_polygon,
+    outside_polygon,
+    point_segment_distance,
+    rectangle,
+    wrap,
+)
+from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
+
+__all__ = [
+    "Compound",
+    "Disc",
+    "Outline",
+    "Point",
+    "Polygon",
+    "Shape",
+    "bounds_of",
+    "distance_to_ring",
+    "edges_of",
+    "inside_polygon",
+    "outside_polygon",
+    "point_segment_distance",
+    "rectangle",
+    "wrap",
+]

@@ -1,0 +1,94 @@
+"""Dead reckoning: how unsure one is of a pose that is the sum of small steps."""
+
+from __future__ import annotations
+
+from math import cos, isfinite, sin, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.core.scene import Scene, faded
+
+__all__ = ["covariances", "draw_pose", "grown", "odometry_covariance", "sinc"]
+
+Float = NDArray[np.float64]
+
+
+def sinc(angle: float) -> float:
+    """Return sin(angle) / angle: the chord of an arc of twice that angle, over the arc."""
+    return sin(angle) / angle if angle else 1.0
+
+
+def odometry_covariance(
+    covariance: ArrayLike, theta: float, left: float, right: float, semiaxis: float, drift: float
+) -> Float:
+    """Return the covariance (3, 3) of dead reckoning after one more step, to first order.
+
+    covariance: (3, 3) of (x, y, theta) before. theta: the heading before, radians. left, right:
+    what the rims travelled, metres. semiaxis: half the distance between the wheels, metres. drift:
+    the field of `Odometry`, sqrt(m).
+
+    >>> after = odometry_covariance(np.zeros((3, 3)), 0.0, 1.0, 1.0, 0.5, 0.1)
+    >>> after.diagonal().round(6).tolist()
+    [0.005, 0.005, 0.02]
+
+    Source: Siegwart, Nourbakhsh and Scaramuzza (2011), equations 5.8 to 5.12, with the exact arc in
+    place of the chord of the mean heading.
+    """
+    before = np.asarray(covariance, dtype=float)
+    forward, spin = (left + right) / 2, (right - left) / (2 * semiaxis)
+    middle, half = theta + spin / 2, spin / 2
+    chord = sinc(half)
+    # d(chord) / d(spin); the series where the difference would cancel.
+    bend = -spin / 12 if abs(spin) < 1e-3 else (cos(half) - chord) / spin
+    c, s = cos(middle), sin(middle)
+    dx, dy = chord * forward * c, chord * forward * s
+    by_pose = np.array([[1.0, 0.0, -dy], [0.0, 1.0, dx], [0.0, 0.0, 1.0]])
+    by_spin = np.array(
+        [forward * (bend * c - chord * s / 2), forward * (bend * s + chord * c / 2), 1]
+    )
+    by_forward = np.array([chord * c, chord * s, 0.0])
+    per_left = by_forward / 2 - by_spin / (2 * semiaxis)
+    per_right = by_forward / 2 + by_spin / (2 * semiaxis)
+    by_rims = drift * np.column_stack([sqrt(abs(left)) * per_left, sqrt(abs(right)) * per_right])
+    return np.asarray(by_pose @ before @ by_pose.T + by_rims @ by_rims.T)
+
+
+def grown(spread: Float, before: Float, after: Float, semiaxis: float, drift: float) -> Float:
+    """Return the covariance (3, 3) after an arc from one pose (3,) to another.
+
+    semiaxis and drift as in `odometry_covariance`.
+    """
+    theta = float(before[2])
+    dx, dy, turn = (after - before).tolist()
+    middle, chord = theta + turn / 2, sinc(turn / 2)
+    straight = cos(middle) * dx + sin(middle) * dy
+    way = straight / chord if abs(chord) > 1e-9 else 0.0  # a whole turn: no arc leads anywhere
+    rims = (way - semiaxis * turn, way + semiaxis * turn)
+    return odometry_covariance(spread, theta, *rims, semiaxis, drift)
+
+
+def draw_pose(scene: Scene, pose: ArrayLike, color: str) -> None:
+    """Draw a ring with a heading where something takes itself to be, a pose (3,); nan: nowhere."""
+    x, y, theta = np.asarray(pose, dtype=float).tolist()
+    if isfinite(x + y + theta):
+        scene.circle((x, y), 0.0, stroke=color, fill=faded(color, 0.15), width=1.2, pixels=6.0)
+        ahead = (x + 0.3 * cos(theta), y + 0.3 * sin(theta))
+        scene.line([(x, y), ahead], stroke=color, width=1.2)
+
+
+def covariances(path: ArrayLike, semiaxis: float, drift: float) -> Float:
+    """Return the covariances (T, 3, 3) of poses (T, 3) that odometry tells one after the other.
+
+    path: x [m], y [m], theta [rad, not wrapped], at each control step. semiaxis: half the distance
+    between the wheels, metres. drift: the field of Odometry, sqrt(m). The first pose is certain.
+
+    >>> straight = [(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)]
+    >>> covariances(straight, 0.5, 0.1)[-1].diagonal().round(3).tolist()
+    [0.01, 0.05, 0.04]
+    """
+    poses = np.asarray(path, dtype=float).reshape(-1, 3)
+    found = np.zeros((len(poses), 3, 3))
+    for k in range(1, len(poses)):
+        found[k] = grown(found[k - 1], poses[k - 1], poses[k], semiaxis, drift)
+    return found

@@ -1,0 +1,218 @@
+"""Scenes as the artists of matplotlib: lines and patches on axes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.scene import (
+    Arrow,
+    Circle,
+    Image,
+    Line,
+    Polygon,
+    Scene,
+    Shape,
+    Text,
+    arrow_outline,
+    split_wake_style,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+__all__ = ["SHAPES", "paint", "points_per_metre"]
+
+Float = NDArray[np.float64]
+
+SHAPES = 2.0
+"""The level of shapes in matplotlib's order of drawing, unless another one is asked for."""
+
+TEXT_GAP = 4.0  # points between a label and what it names
+MARK_SPACING = 9.0  # points along a path from one mark to the next
+
+
+# Matlab's line styles, which are matplotlib's as well.
+LINES: dict[str, Any] = {"": "none", "-": "-", "--": "--", ":": ":", "-.": "-."}
+
+# Matlab's marks: its name, whether it is filled, its diameter in points.
+MARKS: dict[str, tuple[Any, bool, float]] = {
+    ".": ("o", True, 4.4),
+    "o": ("o", False, 6.4),
+    "x": ("x", True, 6.4),
+    "+": ("+", True, 6.4),
+    "*": ((6, 2, 0), True, 6.4),
+    "s": ("s", False, 6.0),
+}
+
+
+def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) -> None:
+    """Paint the shapes of a scene on matplotlib axes, in metres, the first one lowest.
+
+    scale: what line widths, marks and text heights [points] are multiplied by. level: matplotlib's
+    zorder of all the shapes. A circle's `pixels` are points of the page; where it has a radius as
+    well they are turned into metres as the axes are now, so set the limits before.
+    """
+    ppm = points_per_metre(ax)
+    for shape in scene.shapes:
+        if isinstance(shape, Circle):
+            _circle(shape, ax, scale, level, ppm)
+        elif isinstance(shape, Line):
+            _line(shape, ax, scale, level, ppm)
+        elif isinstance(shape, Polygon):
+            _polygon(shape, ax, scale, level)
+        elif isinstance(shape, Arrow):
+            _arrow(shape, ax, scale, level, ppm)
+        elif isinstance(shape, Image):
+            _image(shape, ax, level)
+        else:
+            _text(shape, ax, scale, level)
+    if scene.shapes:
+        ax.update_datalim(np.vstack([_corners(shape) for shape in scene.shapes]))
+        ax.autoscale_view()
+
+
+def _corners(shape: Shape) -> Float:
+    """Return points (k, 2) within whose bounds a shape lies, metres."""
+    if isinstance(shape, Circle):
+        return np.add(shape.center, [[-shape.radius] * 2, [shape.radius] * 2])
+    if isinstance(shape, Image):
+        return np.reshape(shape.bounds, (2, 2)).T
+    if isinstance(shape, Arrow):
+        return np.array([shape.tail, shape.tip])
+    return np.reshape(shape.position, (1, 2)) if isinstance(shape, Text) else shape.points
+
+
+def _add(artist: Line2D | Patch, ax: Axes) -> None:
+    """Add a shape to axes, within which it stays: it is none of the layout's concern."""
+    artist.set_in_layout(False)
+    ax.add_artist(artist)
+
+
+def _circle(shape: Circle, ax: Axes, scale: float, level: float, ppm: float) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Circle as Disc
+
+    fill, stroke = shape.fill or "none", shape.stroke or "none"
+    width = shape.width * scale if shape.stroke else 0.0
+    if shape.radius == 0:  # a mark, of the same size however one zooms
+        x, y = shape.center
+        size = 2 * shape.pixels * scale
+        mark = Line2D(
+            [x], [y], linestyle="none", marker="o", markersize=size,
+            markerfacecolor=fill, markeredgecolor=stroke, markeredgewidth=width, zorder=level,
+        )  # fmt: skip
+        _add(mark, ax)
+        return
+    radius = shape.radius + shape.pixels * scale / ppm
+    disc = Disc(
+        shape.center, radius, facecolor=fill, edgecolor=stroke, linewidth=width, zorder=level
+    )
+    _add(disc, ax)
+
+
+def _polygon(shape: Polygon, ax: Axes, scale: float, level: float) -> None:
+    from matplotlib.patches import Polygon as Outline
+
+    if len(shape.points) == 0:
+        return
+    patch = Outline(
+        shape.points, closed=True, joinstyle="round", zorder=level,
+        facecolor=shape.fill or "none", edgecolor=shape.stroke or "none",
+        linewidth=shape.width * scale if shape.stroke else 0.0,
+    )  # fmt: skip
+    _add(patch, ax)
+
+
+def _arrow(shape: Arrow, ax: Axes, scale: float, level: float, ppm: float) -> None:
+    from matplotlib.patches import Polygon as Outline
+
+    points = arrow_outline(shape.tail, shape.tip, shape.width * scale / ppm)
+    edge = (
+        {"edgecolor": shape.stroke, "linewidth": 0.8 * shape.width * scale}
+        if shape.stroke
+        else {"linewidth": 0}
+    )
+    for style in (edge, {"linewidth": 0.0}):
+        patch = Outline(
+            points, closed=True, joinstyle="round", zorder=level, facecolor=shape.fill, **style
+        )
+        _add(patch, ax)
+
+
+def _image(shape: Image, ax: Axes, level: float) -> None:
+    from matplotlib.image import AxesImage
+
+    image = AxesImage(ax, extent=shape.bounds, origin="upper", zorder=level)
+    image.set_data(shape.pixels)
+    image.set_in_layout(False)
+    ax.add_artist(image)
+
+
+def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None:
+    from matplotlib.lines import Line2D
+
+    mark, style = split_wake_style(shape.style)
+    line = Line2D(
+        shape.points[:, 0], shape.points[:, 1], color=shape.stroke, linewidth=shape.width * scale,
+        solid_capstyle="butt" if len(shape.points) == 2 else "round", solid_joinstyle="round",
+        zorder=level,
+    )  # fmt: skip
+    line.set_linestyle(LINES[style])
+    if mark:
+        name, filled, size = MARKS[mark]
+        line.set_marker(name)
+        line.set_markersize(size * scale)
+        line.set_markeredgewidth(0.0 if mark == "." else shape.width * scale)
+        line.set_markerfacecolor(shape.stroke if filled else "none")
+        line.set_markevery(_spaced(shape.points, MARK_SPACING * scale / ppm))
+    _add(line, ax)
+
+
+def _spaced(points: Float, spacing: float) -> list[int]:
+    """Return which points (k, 2) to mark, so that marks lie `spacing` metres apart or more."""
+    if len(points) == 0:
+        return []
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    kept: list[int] = np.unique(np.floor(along / spacing), return_index=True)[1].tolist()
+    return kept
+
+
+def _text(shape: Text, ax: Axes, scale: float, level: float) -> None:
+    # "left" puts the text's left end at the point, as in Matlab and matplotlib.
+    shifts = {"left": (1, 0), "right": (-1, 0), "above": (0, 1), "below": (0, -1)}
+    dx, dy = shifts.get(shape.anchor, (0, 0))
+    label = ax.annotate(
+        shape.text,
+        shape.position,
+        xytext=(dx * TEXT_GAP * scale, dy * TEXT_GAP * scale),
+        textcoords="offset points",
+        color=shape.color,
+        fontsize=shape.size * scale,
+        horizontalalignment="left" if dx > 0 else "right" if dx < 0 else "center",
+        verticalalignment="bottom" if dy > 0 else "top" if dy < 0 else "center",
+        annotation_clip=True,
+        zorder=level,
+    )
+    if shape.halo:
+        from matplotlib.patheffects import withStroke
+
+        label.set_path_effects([withStroke(linewidth=2.5 * scale, foreground=shape.halo)])
+    label.set_parse_math(False)
+    label.set_clip_on(True)
+    label.set_in_layout(False)
+
+
+def points_per_metre(ax: Axes) -> float:
+    """Return how many points of the page a metre takes, as the axes are laid out now."""
+    figure: Any = ax.get_figure()
+    box = ax.get_position(original=True)
+    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
+    across = box.width * figure.bbox.width / abs(xmax - xmin)
+    upwards = box.height * figure.bbox.height / abs(ymax - ymin)
+    return float(72 / figure.dpi * min(across, upwards))

@@ -1,0 +1,199 @@
+"""Figures of contacts: who touched whom from when to when, and how hard."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import counted
+from mars2d.output.figures.figure import plain_name
+from mars2d.output.figures.panels import (
+    Entry,
+    caption,
+    color_bar,
+    curve,
+    dress_panel,
+    finish,
+    name_curves,
+    panels,
+    say,
+    set_span,
+    width_of,
+)
+from mars2d.output.figures.rows import check_rows
+from mars2d.output.figures.style import Style, style_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from mars2d.record.record import Record
+    from mars2d.scenario.scenario import Scenario
+
+__all__ = ["normal_force", "pair_name", "plot_contacts"]
+
+Float = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+CELLS = 500
+"""In how many parts the time is cut, of each of which a pair's bar shows the largest force."""
+
+HEIGHT = 0.62
+"""Of a bar, in shares of its line."""
+
+
+def plot_contacts(
+    record: Record, axes: Sequence[Axes] | None = None, *, style: str = "screen"
+) -> list[Axes]:
+    """Draw when which pairs touched, and the normal force of all contacts over time.
+
+    In the upper panel each pair has a line with a bar for each time that it stayed in touch, in the
+    order in which they first met; its colour is the mean normal force over a control step: the
+    normal impulse over the sampling time. Of more than 16 pairs, on a projector 8, those
+    with the largest impulse over the run are drawn, and how many more there are is said. The lower
+    panel is the sum of the normal forces of all pairs. Where no forces act, as with physics "stop",
+    there is the upper one alone.
+
+    axes: one for the upper panel, or two; by default those of a new figure. style: as in
+    `Record.plot`. Returns the axes; a record without contacts says so in the first. Raises
+    InputError for a record without rows.
+    """
+    look = style_of(style)
+    check_rows(record)
+    contacts = record.contacts
+    force = bool(contacts["normal_impulse"].any())
+    pairs, group = _pairs(contacts)
+    chosen = _chosen(contacts, pairs, group, look.rows)
+    names = ["pairs", "normal force"][: _panel_count(axes, force=force)]
+    own = axes is None
+    with look.fonts():
+        tall = max(0.9, 0.24 * look.label / 10 * (len(chosen) + 1) / look.panel)
+        axes = panels(axes, names, look, [tall, 1.0][: len(names)])
+        for ax in axes:
+            dress_panel(ax, record, axes[-1], look)
+        if len(chosen):
+            _timeline(axes[0], record, pairs[chosen], _lines(group, chosen, len(pairs)), look)
+            if len(chosen) < len(pairs):
+                _say_more(axes[0], len(pairs) - len(chosen), look)
+        else:
+            _say_nothing(axes, record, look)
+        if len(axes) == 2 and len(chosen):
+            _sum(axes[1], record, look)
+        name_curves(axes[0], record.scenario.title, [], look)
+        return finish(axes, own=own)
+
+
+def normal_force(record: Record) -> Float:
+    """Return the sum of all contacts' normal forces, (T,) N: the mean over the step before a row.
+
+    It is the normal impulse of the control step that led to the row over the sampling time.
+    """
+    rows = record.contact_rows
+    inside = rows < len(record)
+    impulse = np.bincount(rows[inside], record.contacts["normal_impulse"][inside], len(record))
+    return np.asarray(impulse / record.scenario.sampling_time)
+
+
+def pair_name(scenario: Scenario, a: int, b: int) -> str:
+    """Return what a pair of bodies is called."""
+    return " \N{EN DASH} ".join(plain_name(scenario.body_name(body)) for body in (a, b))
+
+
+def _panel_count(axes: Sequence[Axes] | None, *, force: bool) -> int:
+    """Return how many panels there are: as many as axes are given, else what is to be seen."""
+    if axes is not None and np.size(np.asarray(axes, dtype=object)) == 1:
+        return 1
+    return 2 if force or axes is not None else 1
+
+
+def _pairs(contacts: NDArray[np.void]) -> tuple[Index, Index]:
+    """Return the pairs that touched (p, 2), and which one each contact is of, (c,)."""
+    both = np.column_stack([contacts["a"], contacts["b"]]).astype(np.intp)
+    pairs, group = np.unique(both, axis=0, return_inverse=True)
+    return pairs, group.ravel()
+
+
+def _chosen(contacts: NDArray[np.void], pairs: Index, group: Index, most: int) -> Index:
+    """Return the pairs that matter most, in the order in which they first touched."""
+    count = len(pairs)
+    impulse = np.bincount(group, contacts["normal_impulse"], count)
+    touched = np.bincount(group, contacts["duration"], count)
+    first = np.full(count, np.inf)
+    np.minimum.at(first, group, contacts["time"])
+    which = np.lexsort((first, -touched, -impulse))[:most]
+    return np.asarray(which[np.lexsort((which, first[which]))])
+
+
+def _lines(group: Index, chosen: Index, count: int) -> Index:
+    """Return on which line each contact is drawn, from the top, (c,); -1 on none."""
+    line = np.full(count, -1, dtype=np.intp)
+    line[chosen] = np.arange(len(chosen))
+    return np.asarray(line[group])
+
+
+def _timeline(ax: Axes, record: Record, pairs: Index, lines: Index, look: Style) -> None:
+    """Draw a bar for each time that a pair stayed in touch, coloured by its force."""
+    import matplotlib as mpl
+    from matplotlib.collections import PolyCollection
+
+    drawn = lines >= 0
+    contacts, lines = record.contacts[drawn], lines[drawn]
+    step, end = record.scenario.sampling_time, float(record.time[-1])
+    width = max(end - float(record.time[0]), step) / CELLS
+    cell = np.floor(contacts["time"] / width).astype(np.intp)
+    # A cell is what a pair did in a while: where it parted within, it has one bar all the same.
+    keys, group = np.unique(np.column_stack([lines, cell]), axis=0, return_inverse=True)
+    group = group.ravel()
+    begin, until, force = (np.full(len(keys), v) for v in (np.inf, -np.inf, 0.0))
+    np.minimum.at(begin, group, contacts["time"])
+    np.maximum.at(until, group, contacts["time"] + contacts["duration"])
+    np.maximum.at(force, group, contacts["normal_impulse"] / step)
+    until = np.maximum(until, begin + 1.5 * width)  # so that the shortest touch is seen
+    middle = len(pairs) - 0.5 - keys[:, 0]
+    low, high = middle - HEIGHT / 2, middle + HEIGHT / 2
+    corners = [(begin, low), (until, low), (until, high), (begin, high)]
+    bars: Any = np.moveaxis(np.array(corners), 2, 0)
+    shades = mpl.colormaps["Greys" if look.greys else "YlOrRd"]
+    cmap = mpl.colors.ListedColormap(shades(np.linspace(0.35, 1.0, 256)))
+    collection = PolyCollection(bars, edgecolor="face", linewidth=0.3, zorder=3)
+    strongest = float(force.max())
+    if strongest > 0:
+        collection.set(cmap=cmap, array=force, clim=(0.0, strongest))
+    else:
+        collection.set(facecolor=look.muted, edgecolor=look.muted)
+    ax.add_collection(collection)
+    if strongest > 0:
+        color_bar(ax, collection, "normal force [N]", look)
+    ax.set_ylim(0, len(pairs))
+    names = [pair_name(record.scenario, a, b) for a, b in pairs]
+    ax.set_yticks(np.arange(len(pairs)) + 0.5, names[::-1])
+    for text in ax.get_yticklabels():
+        text.set_parse_math(False)
+    ax.grid(visible=False, axis="y")
+
+
+def _say_more(ax: Axes, count: int, look: Style) -> None:
+    """Say above the bars how many pairs are not drawn."""
+    ax.text(
+        1.0, 1.0, f"and {counted(count, 'more pair')}", transform=ax.transAxes, ha="right",
+        va="bottom", fontsize=look.small, color=look.muted,
+    )  # fmt: skip
+
+
+def _say_nothing(axes: Sequence[Axes], record: Record, look: Style) -> None:
+    lasted = f"{float(record.time[-1] - record.time[0]):.4g} s"
+    say(axes[0], f"no contacts: nothing touched in {lasted}", look)
+    for ax in axes:
+        ax.set_axis_off()
+
+
+def _sum(ax: Axes, record: Record, look: Style) -> None:
+    """Draw the sum of all normal forces over time."""
+    force = normal_force(record)
+    color, _ = look.curve(0)
+    curve(ax, record.time, force, Entry("", color, "-", width_of(1, look)), held="pre")
+    set_span(ax, 0.0, float(force.max()))
+    ax.set_ylim(0, None)
+    caption(ax, "normal force of all", "N", look)

@@ -1,0 +1,291 @@
+"""Figures of how near bodies came to each other and to obstacles: their clearances."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import ordinal
+from mars2d.core.plane import lines_and_areas
+from mars2d.geometry.shapes import Piece
+from mars2d.output.figures.contacts import pair_name
+from mars2d.output.figures.panels import (
+    Entry,
+    caption,
+    curve,
+    dress_panel,
+    finish,
+    name_curves,
+    panels,
+    say,
+    set_span,
+    width_of,
+)
+from mars2d.output.figures.rows import check_rows
+from mars2d.output.figures.style import Style, style_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from mars2d.record.record import Record
+    from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Clearances", "clearances", "plot_distances"]
+
+Float = NDArray[np.float64]
+
+FEW_PAIRS = 6
+"""Up to this many pairs have a curve each; of more there is a band."""
+
+LEAST_SPAN = 0.05
+"""The axis goes up to this at least, metres: bodies that rest against each other overlap a hair."""
+
+MOST_DISCS, MOST_PIECES = 2e7, 1e6
+"""How many distances are worked out at most, of discs and of other shapes; else rows are left out.
+Each takes about 20 ns and 2 us."""
+
+
+@dataclass(frozen=True, eq=False)
+class Clearances:
+    """The gaps between surfaces over time, metres; a gap is 0 in touch, less than 0 in overlap.
+
+    rows: (T',) of the record at which they were worked out. pairs: (p, 2) bodies, one of them a
+    robot at least. pair: (T', p) between those. obstacle: (T', n) of each robot to what stands
+    nearest of the obstacles and walls, or None where there are none.
+    """
+
+    rows: NDArray[np.intp]
+    pairs: NDArray[np.intp]
+    pair: Float
+    obstacle: Float | None
+
+
+def clearances(record: Record) -> Clearances:
+    """Return the clearances of a record: of robots to robots and props, and to obstacles.
+
+    A clearance is the shortest distance between two outlines. Of two discs that overlap it is minus
+    how deep they do; of other shapes at least 0 less the radii of discs. Bodies that a hinge joins
+    are left out: they don't collide. Where a run is so long that the figure would take minutes,
+    every k-th row alone is looked at.
+    """
+    scenario = record.scenario
+    n, shapes = len(scenario.robots), [body.shape.pieces for body in scenario.bodies]
+    pairs = [
+        (a, b)
+        for a, b in combinations(range(len(shapes)), 2)
+        if a < n and (a, b) not in scenario.joined
+    ]
+    obstacles = bool(_surfaces(record))
+    discs = sum(len(shapes[a]) == len(shapes[b]) == 1 and _round(shapes, a, b) for a, b in pairs)
+    others = len(pairs) - discs + (n if obstacles else 0)
+    stride = max(1.0, len(record) * discs / MOST_DISCS, len(record) * others / MOST_PIECES)
+    rows = np.arange(0, len(record), int(np.ceil(stride)))
+    if rows[-1] != len(record) - 1:
+        rows = np.append(rows, len(record) - 1)
+    poses = np.concatenate([record.pose[rows], record.prop_pose[rows]], axis=2)
+    placed = _Placed(shapes, poses)
+    gaps = np.empty((len(rows), len(pairs)))
+    for k, (a, b) in enumerate(pairs):
+        gaps[:, k] = placed.between(a, b)
+    return Clearances(
+        rows, np.array(pairs, dtype=np.intp).reshape(-1, 2), gaps,
+        _to_obstacles(record, placed, rows) if obstacles else None,
+    )  # fmt: skip
+
+
+def _round(shapes: list[tuple[Piece, ...]], *bodies: int) -> bool:
+    return all(len(piece.vertices) == 1 for body in bodies for piece in shapes[body])
+
+
+class _Placed:
+    """Bodies where they were: the convex pieces of each, over time."""
+
+    def __init__(self, shapes: list[tuple[Piece, ...]], poses: Float) -> None:
+        """Take the pieces of the bodies, and their poses (T, 3, bodies)."""
+        self._shapes, self._poses = shapes, poses
+        self._outlines: dict[tuple[int, int], Any] = {}
+
+    def _points(self, body: int, piece: Piece) -> Float:
+        """Return where the vertices of a piece were, (T, v, 2) metres."""
+        x, y, theta = self._poses[:, :, body, None].swapaxes(0, 1)
+        c, s = np.cos(theta), np.sin(theta)
+        ahead, left = np.array(piece.vertices).T
+        return np.stack([x + c * ahead - s * left, y + s * ahead + c * left], axis=2)
+
+    def outlines(self, body: int, k: int) -> Any:
+        """Return a piece of a body as geometries of shapely, (T,), without its radius."""
+        import shapely
+
+        if (body, k) not in self._outlines:
+            points = self._points(body, self._shapes[body][k])
+            disc = points.shape[1] == 1
+            made = shapely.points(points[:, 0]) if disc else shapely.polygons(points)
+            self._outlines[body, k] = made
+        return self._outlines[body, k]
+
+    def pieces(self, body: int) -> Iterator[tuple[int, float]]:
+        """Yield the number and the radius of each piece of a body."""
+        for k, piece in enumerate(self._shapes[body]):
+            yield k, piece.radius
+
+    def between(self, a: int, b: int) -> Float:
+        """Return the clearance of two bodies, (T,) metres."""
+        import shapely
+
+        if _round(self._shapes, a, b):
+            return self._between_discs(a, b)
+        gaps = [
+            shapely.distance(self.outlines(a, i), self.outlines(b, j)) - r - s
+            for i, r in self.pieces(a)
+            for j, s in self.pieces(b)
+        ]
+        return np.asarray(np.min(gaps, axis=0))
+
+    def _between_discs(self, a: int, b: int) -> Float:
+        gaps = []
+        for p in self._shapes[a]:
+            for q in self._shapes[b]:
+                apart = (self._points(a, p) - self._points(b, q))[:, 0]
+                gaps.append(np.hypot(apart[:, 0], apart[:, 1]) - p.radius - q.radius)
+        return np.asarray(np.min(gaps, axis=0))
+
+
+def _surfaces(record: Record) -> list[Scenario]:
+    """Return the scenarios of a run, changes included, that have something to run into."""
+    scenarios = [record.scenario, *(change.scenario for change in record.changes)]
+    return [scenario for scenario in scenarios if scenario.surfaces]
+
+
+def _to_obstacles(record: Record, placed: _Placed, rows: NDArray[np.intp]) -> Float:
+    """Return the clearance of each robot to what stands nearest, (T', n) metres; nan for none."""
+    import shapely
+
+    n = len(record.scenario.robots)
+    result = np.full((len(rows), n), np.nan)
+    changed = sorted({change.row for change in record.changes})
+    edges = [0, *(row for row in changed if 0 < row < len(record)), len(record)]
+    for begin, end in pairwise(edges):
+        scenario = record.scenario_at(begin)
+        which = np.flatnonzero((rows >= begin) & (rows < end))
+        if not scenario.surfaces or not len(which):
+            continue
+        solid = lines_and_areas(scenario.obstacles)
+        if len(scenario.surfaces) > len(scenario.obstacles):  # the wall stands round the robots
+            solid.append(shapely.LinearRing(scenario.surfaces[-1].outline))
+        everything = shapely.GeometryCollection(solid)
+        shapely.prepare(everything)
+        for robot in range(n):
+            gaps = [
+                shapely.distance(everything, placed.outlines(robot, k)[which]) - radius
+                for k, radius in placed.pieces(robot)
+            ]
+            result[which, robot] = np.min(gaps, axis=0)
+    return result
+
+
+# -- the figure -----------------------------------------------------------------------------------
+
+
+def plot_distances(record: Record, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+    """Draw the clearances over time: how far surfaces are from each other, 0 where they touch.
+
+    Of up to six pairs, each has a curve: robots and robots, robots and props. Of more there are,
+    over the robots, the least, the mean and the most of each one's clearance to whatever body is
+    nearest to it. The clearance of the robot that is nearest to an obstacle or wall is a curve of
+    its own. See `clearances` for what is measured.
+
+    ax: matplotlib axes to draw on; by default those of a new figure. style: as in `Record.plot`.
+    Returns the axes. Raises InputError for a record without rows.
+    """
+    look = style_of(style)
+    check_rows(record)
+    found = clearances(record)
+    with look.fonts():
+        own = ax is None
+        ax = panels(None if ax is None else [ax], ["clearance"], look, [2.2])[0]
+        dress_panel(ax, record, ax, look)
+        caption(ax, "clearance", "m", look)
+        time = record.time[found.rows]
+        few = len(found.pairs) <= FEW_PAIRS
+        if few:
+            entries, drawn = _pair_curves(record, found, look)
+        else:
+            entries, drawn = _band(ax, record, found, look)
+        if found.obstacle is not None:
+            drawn.append(_least(found.obstacle))
+            whose = "nearest robot" if len(record.scenario.robots) > 1 else "robot"
+            dash = "-." if few and look.greys else "--"
+            grey = "#808080" if look.greys else look.muted
+            entries.append(Entry(f"{whose} to an obstacle", grey, dash, width_of(1, look)))
+        for entry, values in zip(entries[-len(drawn) :], drawn, strict=True):
+            level = 3.0 if entry.dash == "-" else 3.1
+            curve(ax, time, values, entry, many=len(drawn), level=level)
+        if drawn:
+            _set_limits(ax, drawn, found, few=few)
+            ax.axhline(0.0, color=look.ink, linewidth=0.8 * look.stroke, zorder=2.5)
+        else:
+            say(ax, "no distances: there is one body and no obstacle", look)
+        title = record.scenario.title
+        if len(found.rows) > 1 and found.rows[1] > 1:
+            title += f", every {ordinal(int(found.rows[1]))} row"
+        name_curves(ax, title, entries, look)
+        finish([ax], own=own)
+    return ax
+
+
+def _least(gaps: Float) -> Float:
+    """Return the least of each row, nan where there is none."""
+    least = np.where(np.isnan(gaps), np.inf, gaps).min(axis=1)
+    return np.where(np.isfinite(least), least, np.nan)
+
+
+def _pair_curves(record: Record, found: Clearances, look: Style) -> tuple[list[Entry], list[Float]]:
+    """Return a curve for each pair."""
+    entries = []
+    for k, (a, b) in enumerate(found.pairs.tolist()):
+        color, dash = look.curve(k)
+        if not look.greys and k % 2:  # so that one sees that two are the same
+            dash = "--"
+        name = pair_name(record.scenario, a, b)
+        entries.append(Entry(name, color, dash, width_of(1, look)))
+    return entries, list(found.pair.T)
+
+
+def nearest_body(found: Clearances, robots: int) -> Float:
+    """Return the clearance of each robot to the body that is nearest to it, (T', n) metres."""
+    nearest = np.full((len(found.rows), robots), np.inf)
+    for k, (a, b) in enumerate(found.pairs.tolist()):
+        for body in (a, b):
+            if body < robots:
+                np.minimum(nearest[:, body], found.pair[:, k], out=nearest[:, body])
+    return np.where(np.isfinite(nearest), nearest, np.nan)
+
+
+def _band(
+    ax: Axes, record: Record, found: Clearances, look: Style
+) -> tuple[list[Entry], list[Float]]:
+    """Draw a band from the least to the most; return the curves of the least and the mean."""
+    nearest = nearest_body(found, len(record.scenario.robots))
+    low, mean, high = nearest.min(axis=1), nearest.mean(axis=1), nearest.max(axis=1)
+    color = look.curve(0)[0]
+    pale = "#e0e0e0" if look.greys else "#cfe3f1"
+    ax.fill_between(record.time[found.rows], low, high, color=pale, linewidth=0, zorder=2)
+    width = width_of(1, look)
+    entries = [
+        Entry("robots to their nearest body", pale, "-", 5 * look.stroke),
+        Entry("least of them", color, "-", width),
+        Entry("mean of them", color, ":", width),
+    ]
+    return entries, [low, mean]
+
+
+def _set_limits(ax: Axes, drawn: list[Float], found: Clearances, *, few: bool) -> None:
+    every = [values[np.isfinite(values)] for values in (*drawn, *(() if few else (found.pair,)))]
+    low = min(values.min(initial=0.0) for values in every)
+    high = max(values.max(initial=0.0) for values in drawn)
+    set_span(ax, low, max(high, LEAST_SPAN))

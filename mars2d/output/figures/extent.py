@@ -1,0 +1,92 @@
+"""What part of the plane a figure shows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import InputError
+from mars2d.output.figures.rows import check_rows
+
+if TYPE_CHECKING:
+    from mars2d.record.record import Record
+    from mars2d.scenario.scenario import Scenario
+
+__all__ = ["View"]
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class View:
+    """What part of the plane is drawn, metres."""
+
+    xmin: float
+    xmax: float
+    ymin: float
+    ymax: float
+
+    FARTHEST = 1e100
+    """How far away bodies may be, metres: numbers as large as can be have no squares."""
+
+    RATIO = 8.0
+    """The longest side to the shortest: a corridor is given some room."""
+
+    @classmethod
+    def of(cls, record: Record, row: int) -> Self:
+        """Return the view of the workspace, and of all paths until `row`, with a margin."""
+        check_rows(record)
+        paths = record.pose[: row + 1], record.prop_pose[: row + 1]
+        farthest = max(float(np.abs(path[:, :2]).max(initial=0.0)) for path in paths)
+        if farthest > cls.FARTHEST:
+            raise InputError(f"bodies are up to {farthest:.2g} m away: too far to be drawn")
+        return cls.around(record.scenario, *paths)
+
+    @classmethod
+    def around(cls, scenario: Scenario, pose: Float, prop_pose: Float) -> Self:
+        """Return the view of the workspace and of poses (T, 3, n) and (T, 3, p), with a margin."""
+        xy = pose[:, :2]
+        low, high = xy.min(axis=0), xy.max(axis=0)  # (2, n)
+        reach = np.array([robot.radius + abs(robot.center_offset) for robot in scenario.robots])
+        if scenario.props:
+            props = prop_pose[:, :2]
+            low = np.hstack([low, props.min(axis=0)])
+            high = np.hstack([high, props.max(axis=0)])
+            reach = np.append(reach, [prop.shape.reach for prop in scenario.props])
+        xmin, xmax, ymin, ymax = scenario.bounds
+        xmin = min(xmin, float((low[0] - reach).min()))
+        xmax = max(xmax, float((high[0] + reach).max()))
+        ymin = min(ymin, float((low[1] - reach).min()))
+        ymax = max(ymax, float((high[1] + reach).max()))
+        margin = 0.02 * max(xmax - xmin, ymax - ymin)
+        view = cls(xmin - margin, xmax + margin, ymin - margin, ymax + margin)
+        more_x = max(0.0, view.height / cls.RATIO - view.width) / 2
+        more_y = max(0.0, view.width / cls.RATIO - view.height) / 2
+        return cls(view.xmin - more_x, view.xmax + more_x, view.ymin - more_y, view.ymax + more_y)
+
+    @property
+    def width(self) -> float:
+        """From left to right, metres."""
+        return self.xmax - self.xmin
+
+    @property
+    def height(self) -> float:
+        """From bottom to top, metres."""
+        return self.ymax - self.ymin
+
+    def union(self, limits: tuple[float, float, float, float]) -> Self:
+        """Return the view that also holds (xmin, xmax, ymin, ymax), metres."""
+        xmin, xmax, ymin, ymax = limits
+        return replace(
+            self,
+            xmin=min(self.xmin, xmin), xmax=max(self.xmax, xmax),
+            ymin=min(self.ymin, ymin), ymax=max(self.ymax, ymax),
+        )  # fmt: skip
+
+    def inches(self, width: float, height: float) -> tuple[float, float]:
+        """Return the largest (width, height) in the view's proportions that fits, inches."""
+        scale = min(width / self.width, height / self.height)
+        return scale * self.width, scale * self.height

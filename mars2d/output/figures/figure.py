@@ -1,0 +1,471 @@
+"""Figures of records with matplotlib: the paths, or snapshots of them, for reports and papers."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from io import BytesIO
+from math import ceil, log
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.core.atomic import replacing
+from mars2d.core.errors import InputError, shown
+from mars2d.core.plane import grid_step
+from mars2d.core.scene import Line, Polygon, Scene, Shape, Text, faded
+from mars2d.output.figures.artists import paint, points_per_metre
+from mars2d.output.figures.extent import View
+from mars2d.output.figures.rows import rows_at
+from mars2d.output.figures.style import SCREEN, Style, style_of
+from mars2d.output.layers import parts as seen
+from mars2d.output.layers.forces import (
+    FORCE,
+    LABEL_SIZE,
+    force_scale,
+    forces,
+    in_newtons,
+    round_force,
+)
+from mars2d.output.layers.messages import messages
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from mars2d.record.frame import Frame
+    from mars2d.record.record import Record
+    from mars2d.scenario.scenario import Scenario
+
+__all__ = [
+    "LEGEND_LIMIT",
+    "SUFFIXES",
+    "View",
+    "check_axes",
+    "dress",
+    "label",
+    "line_style",
+    "new_figure",
+    "paint_row",
+    "plain_name",
+    "plot_paths",
+    "plot_snapshots",
+    "save_drawing",
+    "save_figure",
+    "show_in_notebooks",
+    "style_ticks",
+]
+
+Float = NDArray[np.float64]
+Layout = Literal["constrained"] | None
+
+SUFFIXES = (".png", ".pdf", ".svg")
+"""The formats of `save_figure`."""
+
+LEGEND_LIMIT = 8
+"""With more robots than this there is no legend: base colours recur."""
+
+NAME_LIMIT = 24
+
+INK, MUTED, GRID = SCREEN.ink, SCREEN.muted, SCREEN.grid
+
+WORKSPACE = 1.0
+"""Its level in matplotlib's order of drawing: the grid lies above it, at 1.5, the shapes at 2."""
+
+TICK_SPACING = 28.0  # points between ticks, at least
+
+
+def plot_paths(record: Record, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+    """Draw the paths of a record: initial poses hollow, final poses filled, obstacles and grid.
+
+    ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
+    and which a notebook shows. style: the name of one of `figures.style`. Returns the axes.
+    Raises InputError if the record has no rows.
+
+    >>> import mars2d
+    >>> ax = mars2d.run("random_walk", stop_time=10).plot()
+    >>> ax.get_xlabel(), ax.get_title()
+    ('x [m]', 'Random movements, t = 10 s')
+    """
+    look = style_of(style)
+    view = View.of(record, len(record) - 1)
+    record = look.restyled(record)
+    own = ax is None
+    with look.fonts():
+        if ax is None:
+            width, height = _page(look, record.scenario, view)
+            ax = new_figure(width, height).add_subplot()
+        else:
+            check_axes(ax)
+            if ax.has_data():  # a second record over a first one
+                view = view.union((*ax.get_xlim(), *ax.get_ylim()))
+        dress(ax, record.scenario, view, look)
+        label(ax, look=look)
+        _set_title(ax, f"{record.scenario.title}, {_time(float(record.time[-1]))}", look)
+        _add_legend(ax, record.scenario, look)
+        if own:
+            ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
+            show_in_notebooks(ax)
+        paint_row(ax, record, len(record) - 1, look)
+    return ax
+
+
+def _page(look: Style, scenario: Scenario, view: View) -> tuple[float, float]:
+    """Return the size of a figure of one drawing, inches."""
+    if look.page is not None:
+        return look.page
+    beside = 0.8 * look.label / SCREEN.label + _legend_width(scenario, look)
+    if look.single is None:
+        width, height = view.inches(5.2, 4.8)
+        return width + beside, height + 0.9
+    _, height = view.inches(look.single - beside, 1.5 * look.single)
+    return look.single, height + 0.5
+
+
+def plot_snapshots(
+    record: Record, times: ArrayLike, figure: Figure | None = None, *, style: str = "screen"
+) -> Figure:
+    """Draw the paths until each of some times, one panel a time.
+
+    times: seconds, within the record; the panel shows the last row that is not after it. figure:
+    a matplotlib figure to draw on, by default a new one. style: as in `plot_paths`. Returns the
+    figure. Raises InputError for a time outside of the record, and if the record has no rows.
+    """
+    look = style_of(style)
+    rows = rows_at(record, times)
+    with look.fonts():
+        return _snapshots(look.restyled(record), rows, figure, look)
+
+
+def _snapshots(record: Record, rows: list[int], figure: Figure | None, look: Style) -> Figure:
+    scenario = record.scenario
+    view = View.of(record, max(rows))
+    ratio = view.width / view.height
+    cols = _columns(len(rows), ratio, look.page)
+    lines = ceil(len(rows) / cols)
+    own = figure is None
+    if figure is None:
+        figure = new_figure(*_page_of_panels(look, scenario, view, cols, lines))
+    panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
+    for unused in panels[len(rows) :]:
+        unused.remove()
+    for k, (ax, row) in enumerate(zip(panels, rows, strict=False)):
+        dress(ax, scenario, view, look)
+        label(ax, below=k + cols >= len(rows), beside=k % cols == 0, look=look)
+        ax.set_title(_time(float(record.time[row])), fontsize=look.label, color=look.ink)
+    _add_legend(panels[min(cols, len(rows)) - 1], scenario, look)
+    if look.title:
+        heading = _wrapped(scenario.title, figure.bbox.width / figure.dpi, look)
+        figure.suptitle(heading, fontsize=look.title, color=look.ink, parse_math=False)
+    if own:
+        figure.draw_without_rendering()
+        figure.__dict__["_repr_png_"] = partial(_png, figure)
+    for ax, row in zip(panels, rows, strict=False):
+        paint_row(ax, record, row, look)
+    return figure
+
+
+def _page_of_panels(
+    look: Style, scenario: Scenario, view: View, cols: int, lines: int
+) -> tuple[float, float]:
+    """Return the size of a figure of several drawings in columns and lines, inches."""
+    if look.page is not None:
+        return look.page
+    beside = 0.6 + _legend_width(scenario, look)
+    if look.full is None:
+        room = min(3.2, 9.6 / cols)
+        width, height = view.inches(room, room)
+        return cols * (width + 0.25) + beside, lines * (height + 0.4) + 0.9
+    _, height = view.inches((look.full - beside) / cols - 0.1, look.full)
+    return look.full, lines * (height + 0.25) + 0.4
+
+
+def save_figure(
+    record: Record, path: str | Path, times: ArrayLike | None = None, *, style: str = "screen"
+) -> Path:
+    """Save a figure of a record as ``.png``, ``.pdf`` or ``.svg`` and return its path.
+
+    times: seconds; when given, snapshots at these times, else the paths of the whole run. style: as
+    in `plot_paths`. The same record gives the same bytes. Raises InputError for another suffix, a
+    path that can't be written, a record without rows, or a time outside of it.
+    """
+    look = style_of(style)
+
+    def draw() -> Any:
+        if times is None:
+            return plot_paths(record, style=style).get_figure()
+        return plot_snapshots(record, times, style=style)
+
+    return save_drawing(draw, path, trim=look.trim, dpi=look.dpi)
+
+
+def save_drawing(
+    draw: Callable[[], Figure], path: str | Path, *, trim: bool = True, dpi: int = SCREEN.dpi
+) -> Path:
+    """Save the figure that `draw` returns as ``.png``, ``.pdf`` or ``.svg`` and return its path.
+
+    trim: cut off what is blank around the drawing. dpi: pixels an inch of a .png. Fonts are
+    embedded in a .pdf. Raises InputError as `save_figure`.
+    """
+    import matplotlib as mpl
+
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        known = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        raise InputError(f"{path}: a figure is saved as {known}, this ends in {path.suffix!r}")
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: can't be written: there is no folder {path.parent}")
+    # Without the date, and with ids that do not depend on chance.
+    dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+    with mpl.rc_context({"svg.hashsalt": "mars2d", "pdf.fonttype": 42}):
+        figure, made = draw(), BytesIO()  # on a full disk its own errors would hide the disk's
+        figure.savefig(
+            made, format=suffix[1:], dpi=dpi, bbox_inches="tight" if trim else None,
+            pad_inches=0.1, metadata=dates.get(suffix),
+        )  # fmt: skip
+    with replacing(path) as file:
+        file.write(made.getbuffer())
+    return path
+
+
+def new_figure(width: float, height: float, *, layout: Layout = "constrained") -> Figure:
+    """Return a figure [inches] that pyplot does not know of."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), layout=layout, facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def check_axes(ax: object) -> None:
+    """Raise InputError for what is no axes to draw on."""
+    from matplotlib.axes import Axes
+
+    if not isinstance(ax, Axes) or ax.name != "rectilinear":
+        raise InputError(
+            f"ax = {shown(ax)}: expected plain axes of matplotlib, as plt.subplots()[1]"
+        )
+
+
+def dress(ax: Axes, scenario: Scenario, view: View, look: Style = SCREEN) -> None:
+    """Set limits, grid and ticks, and paint what never moves."""
+    ax.set_aspect("equal")
+    ax.set_xlim(view.xmin, view.xmax)
+    ax.set_ylim(view.ymin, view.ymax)
+    ax.set_facecolor("white")
+    ax.set_axisbelow("line")  # the grid between WORKSPACE and SHAPES
+    style_ticks(ax, look)
+    set_ticks = partial(_set_ticks, spacing=TICK_SPACING * look.small / SCREEN.small)
+    set_ticks(ax)
+    ax.callbacks.connect("xlim_changed", set_ticks)
+    ax.callbacks.connect("ylim_changed", set_ticks)
+    if scenario.animation.grid:
+        ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
+    else:
+        ax.grid(visible=False)
+    edge = scenario.workspace is None
+    ax.spines[:].set(color=look.grid, linewidth=0.8 * look.stroke, visible=edge)
+    for shape in seen.workspace(scenario).shapes:
+        if isinstance(shape, Polygon):  # its outline is the frame of the grid
+            paint(Scene([replace(shape, stroke=None)]), ax, level=WORKSPACE)
+            for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
+                line.set_clip_path(ax.patches[-1])
+            paint(Scene([replace(shape, fill=None)]), ax, scale=0.75 * look.stroke)
+    paint(seen.floor(scenario), ax, level=WORKSPACE)
+    paint(seen.obstacles(scenario), ax, scale=0.6 * look.stroke)
+
+
+def style_ticks(ax: Axes, look: Style) -> None:
+    """Set how the labels of ticks look, those that are made later as well."""
+    ax.tick_params(which="both", length=0, labelsize=look.small, labelcolor=look.muted)
+    if look.family:
+        ax.tick_params(which="both", labelfontfamily=list(look.family))
+
+
+def line_style(dash: str) -> Any:
+    """Return Matlab's name of a line style as matplotlib takes it, which is the same."""
+    return dash
+
+
+def _set_ticks(ax: Axes, spacing: float) -> None:
+    """Set the ticks of both axes at the same distance: 1, 2 or 5 times a power of ten metres.
+
+    spacing: between ticks at least, points.
+    """
+    from matplotlib.ticker import MultipleLocator
+
+    step = grid_step(spacing / points_per_metre(ax))
+    ax.xaxis.set_major_locator(MultipleLocator(step))
+    ax.yaxis.set_major_locator(MultipleLocator(step))
+
+
+def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SCREEN) -> None:
+    """Label the axes below and beside the drawing, where there is no other panel."""
+    ax.tick_params(labelbottom=below, labelleft=beside)
+    if below:
+        ax.set_xlabel("x [m]", color=look.ink, fontsize=look.label)
+    if beside:
+        ax.set_ylabel("y [m]", color=look.ink, fontsize=look.label)
+
+
+def paint_row(ax: Axes, record: Record, row: int, look: Style = SCREEN) -> None:
+    """Paint the paths until a row, the initial poses, and the robots as they are then."""
+    scenario = record.scenario
+    now = record.frame(row)
+    _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
+    few = len(scenario.robots) <= LEGEND_LIMIT
+    radius = min(robot.radius for robot in scenario.robots) * points_per_metre(ax)
+    drawn = scenario.animation.show_real_shape
+    scale = min(max(radius / 9, 0.1), 0.75) if drawn else 0.75 if few else 0.5
+    stroke = look.stroke
+    scale *= stroke
+    paint(seen.addons(now), ax, scale=0.75 * stroke)
+    if scenario.animation.wake:
+        trails = _dashed(seen.trails(now), scenario, look)
+        if not few:
+            trails = Scene([_paler(shape) for shape in trails.shapes])
+        paint(trails, ax, scale=(0.55 if few else 0.4) * stroke)
+    if scenario.animation.theory:  # above the paths, as in the window: they may cover it
+        paint(seen.theory(now), ax, scale=0.75 * stroke)
+    if scenario.animation.show_initial_pose:
+        paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75 * stroke))
+    thick = max(0.4 * stroke, scale)
+    paint(messages(now), ax, scale=thick)
+    paint(seen.props(now), ax, scale=min(scale, 0.6 * stroke))
+    paint(seen.robots(now), ax, scale=scale)
+    paint(seen.joints(now), ax, scale=thick)
+    if scenario.animation.forces:
+        _paint_forces(ax, now, thick, look)
+
+
+def _paint_forces(ax: Axes, now: Frame, scale: float, look: Style) -> None:
+    """Paint the forces of the last control step, and how long some round force is."""
+    shapes = forces(now).shapes
+    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
+    length = force_scale(now.scenario).newton
+    force = round_force(0.14 * (xmax - xmin) / length)
+    tail = (xmin + 0.03 * (xmax - xmin), ymin + 0.05 * (ymax - ymin))
+    tip = (tail[0] + force * length, tail[1])
+    legend = Scene()
+    legend.arrow(tail, tip, fill=FORCE, stroke="#ffffff")
+    legend.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left", halo="#ffffff")
+    shapes += legend.shapes
+    paint(Scene([shape for shape in shapes if not isinstance(shape, Text)]), ax, scale=scale)
+    size = 0.65 * look.small / SCREEN.small
+    paint(Scene([shape for shape in shapes if isinstance(shape, Text)]), ax, scale=size)
+
+
+def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:
+    """Return the paths, the robots' with the line styles by which they are told apart."""
+    if not look.greys or scenario.animation.wake_style != "-":
+        return trails
+    first = len(trails.shapes) - len(scenario.robots)  # the props' come before
+    shapes = [
+        replace(shape, style=look.dash(k - first))
+        if k >= first and isinstance(shape, Line)
+        else shape
+        for k, shape in enumerate(trails.shapes)
+    ]
+    return Scene(shapes)
+
+
+def _paler(shape: Shape) -> Shape:
+    """Return a line more faint, so that in a crowd the robots stand out from their paths."""
+    return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
+
+
+def _set_title(ax: Axes, title: str, look: Style) -> None:
+    if not look.title:
+        return
+    ax.apply_aspect()
+    room = 1.25 * ax.get_window_extent().width / ax.get_figure().dpi  # type: ignore[union-attr]
+    ax.set_title(_wrapped(title, room, look), fontsize=look.title, color=look.ink, parse_math=False)
+
+
+def _wrapped(title: str, room: float, look: Style) -> str:
+    """Return a title in lines that fit into some room, inches."""
+    letters = max(20, int(room * 120 / look.title))
+    return textwrap.fill(title, letters, max_lines=3, placeholder=" …")
+
+
+def _time(seconds: float) -> str:
+    return f"t = {seconds:.10g} s"
+
+
+def _names(scenario: Scenario) -> list[str]:
+    """Return the robots' names as they stand in a legend, or none if there are too many."""
+    if len(scenario.robots) > LEGEND_LIMIT:
+        return []
+    return [plain_name(str(robot.name)) for robot in scenario.robots]
+
+
+def plain_name(name: str) -> str:
+    """Return a name as it stands in a legend: in one line that is not too long."""
+    name = " ".join(name.split())
+    return name if len(name) <= NAME_LIMIT else name[: NAME_LIMIT - 1] + "…"
+
+
+def _legend_width(scenario: Scenario, look: Style) -> float:
+    """Return about how wide the legend will be, inches."""
+    names = _names(scenario)
+    return (0.3 + 0.075 * max(map(len, names))) * look.small / SCREEN.small if names else 0.0
+
+
+def _add_legend(ax: Axes, scenario: Scenario, look: Style) -> None:
+    """Name the robots beside the drawing, if they are few."""
+    from matplotlib.lines import Line2D
+
+    names = _names(scenario)
+    if not names:
+        return
+    handles: list[Artist] = [
+        Line2D(
+            [], [], linestyle=line_style(look.dash(i) if look.greys else ""),
+            linewidth=1.5 * look.stroke, marker="o", markersize=6 * look.small / SCREEN.small,
+            color=color, markeredgewidth=0,
+        )
+        for i, color in enumerate(scenario.colors)
+    ]  # fmt: skip
+    legend = ax.legend(
+        handles, ["robot"] * len(names), loc="upper left",
+        bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
+        frameon=False, fontsize=look.small, labelcolor=look.ink,
+        handletextpad=0.6 if look.greys else 0.1, handlelength=3.0 if look.greys else 1.5,
+    )  # fmt: skip
+    for text, name in zip(legend.get_texts(), names, strict=True):
+        text.set_parse_math(False)
+        text.set_text(name)  # only now: a legend leaves out labels that begin with "_"
+
+
+def _columns(count: int, ratio: float, page: tuple[float, float] | None) -> int:
+    """Return in how many columns to lay out panels whose width to height is `ratio`.
+
+    page: the size of the figure, if that is given: then the panels are as large as can be.
+    """
+
+    def fault(cols: int) -> float:
+        lines = ceil(count / cols)
+        if page is not None:
+            return -min(page[0] / cols - 0.4, (page[1] / lines - 1.0) * ratio)  # less the text
+        return abs(log(cols * ratio / lines / 1.6)) + 0.3 * (cols * lines - count)
+
+    return min(range(1, count + 1), key=fault)
+
+
+def show_in_notebooks(ax: Axes) -> None:
+    """Let a notebook show the axes, or their figure: it asks for the method _repr_png_."""
+    figure: Any = ax.get_figure()
+    ax.__dict__["_repr_png_"] = figure.__dict__["_repr_png_"] = partial(_png, figure)
+
+
+def _png(figure: Figure) -> bytes:
+    file = BytesIO()
+    figure.savefig(file, format="png", dpi=120, bbox_inches="tight", pad_inches=0.1)
+    return file.getvalue()

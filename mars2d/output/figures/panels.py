@@ -1,0 +1,258 @@
+"""Panels over time, one below the other: their figure, axes, titles, legends and curves."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from math import ceil
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import InputError, counted
+from mars2d.output.figures.figure import (
+    check_axes,
+    line_style,
+    new_figure,
+    show_in_notebooks,
+    style_ticks,
+)
+from mars2d.output.figures.style import Style
+from mars2d.output.figures.thinning import thinned
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+
+    from mars2d.record.record import Record
+
+__all__ = [
+    "Entry",
+    "caption",
+    "color_bar",
+    "curve",
+    "dress_panel",
+    "finish",
+    "name_curves",
+    "panels",
+    "say",
+    "set_span",
+    "short_number",
+    "width_of",
+]
+
+Float = NDArray[np.float64]
+
+VERTICES = 20_000
+"""About so many points a panel has at most, over all its curves."""
+
+MOST_BLOCKS, LEAST_BLOCKS = 1000, 250
+"""In how many parts a long curve is cut, of each of which the extremes are drawn."""
+
+CAPTION = 12
+"""How many letters a line beside an axis of values has."""
+
+LETTER = 0.56
+"""The width of a letter, about, in heights of text."""
+
+
+class Entry(NamedTuple):
+    """What a legend says of a curve: its name, colour, line style and width [points], marker."""
+
+    name: str
+    color: str
+    dash: str
+    width: float
+    marker: str = ""
+    hollow: bool = False
+
+
+def panels(
+    axes: Sequence[Axes] | None, names: Sequence[str], look: Style, heights: Sequence[float] = ()
+) -> list[Axes]:
+    """Return axes for panels below each other: those given, or those of a new figure.
+
+    names: what the panels show, for the error where another number of axes is given. heights: of
+    the panels, relative to each other.
+    """
+    if axes is not None:
+        given = list(np.ravel(np.asarray(axes, dtype=object)))
+        for ax in given:
+            check_axes(ax)
+        if len(given) != len(names):
+            panels_needed = f"{counted(len(names), 'panel')} ({', '.join(names)})"
+            raise InputError(f"axes: {len(given)} of them, for {panels_needed}: one for each")
+        return given
+    tall = sum(heights) if heights else len(names)
+    width, height = look.page or (look.full or 7.6, tall * look.panel + 0.09 * look.label)
+    figure = new_figure(width, height)
+    grid = {"height_ratios": list(heights)} if heights else {}
+    made = figure.subplots(len(names), 1, sharex=True, squeeze=False, gridspec_kw=grid)
+    return list(made.ravel())
+
+
+def dress_panel(
+    ax: Axes, record: Record, last: Axes, look: Style, rows: slice = slice(None)
+) -> None:
+    """Set the limits of time, grid, ticks and spines; name the time below the last panel.
+
+    rows: those that are drawn.
+    """
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+    begin, end = record.time[rows][[0, -1]].tolist()
+    ax.set_xlim(begin, end if end > begin else begin + record.scenario.sampling_time)
+    ax.set_facecolor("white")
+    ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
+    ax.set_axisbelow(True)
+    style_ticks(ax, look)
+    ax.spines[:].set(color=look.line, linewidth=0.8 * look.stroke)
+    ax.spines[["top", "right"]].set_visible(False)
+    bins = int(np.clip(_points(ax)[1] / (2.4 * look.small), 2, 5))
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=bins, steps=[1, 2, 4, 5, 10], min_n_ticks=2))
+    ax.yaxis.set_major_formatter(FuncFormatter(short_number))
+    if ax is last or not ax.get_shared_x_axes().joined(ax, last):
+        ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
+
+
+def short_number(value: float, _: int = 0) -> str:
+    """Return a number as it stands at a tick: short, without what rounding has left."""
+    return f"{round(value, 12) + 0.0:g}".replace("-", "\N{MINUS SIGN}")
+
+
+def caption(ax: Axes, name: str, unit: str, look: Style) -> None:
+    """Say what a panel shows, beside its axis of values, and upright: nobody tilts the head."""
+    text = f"{name} [{unit}]" if unit else name
+    if len(text) > CAPTION:
+        text = "\n".join(textwrap.wrap(name, CAPTION) + ([f"[{unit}]"] if unit else []))
+    ax.set_ylabel(
+        text, color=look.ink, fontsize=look.label, rotation=0, ha="right", va="center",
+        linespacing=1.0 if look.family else 1.2, parse_math=False,
+    )  # fmt: skip
+
+
+def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> None:
+    """Write a title above the first panel, and below it a legend in as many lines as it needs."""
+    from matplotlib.lines import Line2D
+
+    room = _points(ax)[0]
+    above = 0.0
+    if entries:
+        widest = max(len(entry.name) for entry in entries)
+        handle = 3.2 if look.greys else 2.0
+        each = look.small * (handle + 0.5 + 1.2 + LETTER * widest)
+        cols = max(1, min(len(entries), int(room / each)))
+        lines = ceil(len(entries) / cols)
+        cols = ceil(len(entries) / lines)
+        handles = [
+            Line2D(
+                [],
+                [],
+                color=entry.color,
+                linestyle=line_style(entry.dash),
+                linewidth=entry.width,
+                marker=entry.marker,
+                markersize=0.7 * look.small,
+                markerfacecolor="white" if entry.hollow else entry.color,
+            )
+            for entry in entries
+        ]
+        legend = ax.legend(
+            handles, ["curve"] * len(entries), loc="lower left", bbox_to_anchor=(0.0, 1.0),
+            ncols=cols, frameon=False, fontsize=look.small, labelcolor=look.ink,
+            handlelength=handle, columnspacing=1.2, handletextpad=0.5, borderpad=0.0,
+            borderaxespad=0.3, labelspacing=0.3,
+        )  # fmt: skip
+        for text, entry in zip(legend.get_texts(), entries, strict=True):
+            text.set_parse_math(False)
+            text.set_text(entry.name)  # only now: a legend leaves out labels that begin with "_"
+        above = lines * look.small * 1.5
+    if look.title:
+        letters = max(20, int(room / (LETTER * look.title)))
+        ax.set_title(
+            textwrap.fill(title, letters, max_lines=2, placeholder=" …"), loc="left",
+            fontsize=look.title, color=look.ink, pad=6 * look.stroke**0.5 + above, parse_math=False,
+        )  # fmt: skip
+
+
+def curve(
+    ax: Axes, time: Float, values: Float, entry: Entry, *, held: str = "", many: int = 1,
+    wraps: bool = False, level: float = 3.0,
+) -> None:  # fmt: skip
+    """Draw values (T,) over time; what is not finite is a gap, what stands alone in gaps a dot.
+
+    held: "post" if a value holds until the next one, "pre" if it has held since the one before.
+    many: how many curves the panel has. Of a long curve the extremes are kept. wraps: of an angle,
+    so that from pi to -pi there is no line.
+    """
+    blocks = int(np.clip(VERTICES / 5 / many, LEAST_BLOCKS, MOST_BLOCKS))
+    kept = thinned(values, blocks)
+    time, values = time[kept], values[kept]
+    if wraps:
+        jumps = np.flatnonzero(np.abs(np.diff(values)) > np.pi) + 1
+        time, values = np.insert(time, jumps, time[jumps]), np.insert(values, jumps, np.nan)
+    finite = np.isfinite(values)
+    near = np.concatenate([[False], finite, [False]])
+    alone = finite & ~(near[2:] | near[:-2])
+    ax.plot(
+        time, np.where(finite, values, np.nan), color=entry.color, linestyle=entry.dash,
+        linewidth=entry.width, drawstyle=f"steps-{held}" if held else "default",
+        solid_joinstyle="round", zorder=level,
+    )  # fmt: skip
+    if alone.any():
+        ax.plot(
+            time[alone], values[alone], linestyle="none", marker="o", color=entry.color,
+            markersize=2.2 * entry.width, markeredgewidth=0, zorder=level,
+        )  # fmt: skip
+
+
+def set_span(ax: Axes, low: float, high: float) -> None:
+    """Set the limits of a panel's values round those from `low` to `high`, with a margin.
+
+    What is the same but for rounding is not blown up.
+    """
+    if not low <= high:  # there are none
+        low, high = 0.0, 1.0
+    least = max(1e-6, 1e-4 * max(abs(low), abs(high)))
+    if high - low < least:
+        middle, least = (low + high) / 2, max(0.1, 0.1 * abs(low))
+        low, high = middle - least, middle + least
+    margin = 0.06 * (high - low)
+    ax.set_ylim(low - margin, high + margin)
+
+
+def color_bar(ax: Axes, image: ScalarMappable, text: str, look: Style) -> None:
+    """Add a scale of colours beside axes, within their own place."""
+    bar = ax.figure.colorbar(image, cax=ax.inset_axes((1.012, 0.0, 0.014, 1.0)))
+    bar.outline.set_visible(False)
+    style_ticks(bar.ax, look)
+    bar.ax.tick_params(pad=2)
+    bar.set_label(text, color=look.ink, fontsize=look.small, parse_math=False)
+
+
+def say(ax: Axes, text: str, look: Style) -> None:
+    """Write in axes why there is nothing in them."""
+    ax.text(
+        0.5, 0.5, text, transform=ax.transAxes, ha="center", va="center", wrap=True,
+        fontsize=look.label, color=look.muted, parse_math=False,
+    )  # fmt: skip
+
+
+def finish(axes: Sequence[Axes], *, own: bool) -> list[Axes]:
+    """Return the axes, after notebooks were told how to show a figure of ours."""
+    if own:
+        for ax in axes:
+            show_in_notebooks(ax)
+    return list(axes)
+
+
+def width_of(many: int, look: Style, few: int = 8) -> float:
+    """Return the width of a curve among many, points."""
+    return 1.5 * look.stroke if many <= few else 0.7 * look.stroke**0.5
+
+
+def _points(ax: Axes) -> tuple[float, float]:
+    """Return the width and the height of axes, points; before the layout, about."""
+    box, points = ax.get_window_extent(), 72 / ax.figure.dpi
+    return box.width * points, box.height * points

@@ -1,0 +1,280 @@
+"""Figures of any column of a record over time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.description import real
+from mars2d.core.errors import InputError
+from mars2d.output.figures.columns import IMAGE_FROM, Signal, chosen_robots, signals
+from mars2d.output.figures.figure import LEGEND_LIMIT, plain_name
+from mars2d.output.figures.panels import (
+    Entry,
+    caption,
+    color_bar,
+    curve,
+    dress_panel,
+    finish,
+    name_curves,
+    panels,
+    say,
+    set_span,
+    width_of,
+)
+from mars2d.output.figures.rows import PANEL_LIMIT, check_rows
+from mars2d.output.figures.style import Style, style_of
+from mars2d.output.figures.thinning import spans
+from mars2d.record.interventions import Change, Place
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from mars2d.record.record import Record
+
+__all__ = ["DEFAULT", "plot_signals"]
+
+Float = NDArray[np.float64]
+
+DEFAULT = ("x", "y", "theta", "command")
+
+MOST_MARKS = 100
+"""Of moments at which somebody interfered, so many are marked at most."""
+
+COLUMNS = 1500
+"""An image has at most so many columns of pixels."""
+
+
+def plot_signals(
+    record: Record,
+    columns: Sequence[str] = (),
+    robots: Sequence[str | int] | None = None,
+    axes: Sequence[Axes] | None = None,
+    *,
+    start: float | None = None,
+    end: float | None = None,
+    style: str = "screen",
+) -> list[Axes]:
+    """Draw columns of a record over time, one panel a column, and return the axes.
+
+    columns: "x", "y" [m], "theta" [rad], as recorded, not wrapped; "speed" [m/s], the mean since
+    the row before, from the poses; "command", both parts, or one of them, as "command.0" or, where
+    all drives agree on its name, "command.v"; "effort"; the name of a sensor, or parts of its
+    reading, as "range_finder.90" (a beam) or "imu.ax" (a quantity); "prop.x", "prop.y",
+    "prop.theta", "prop.speed". By default x, y, theta and the command. robots: those wanted, by
+    name or index; None: all. axes: one for each panel; by default those of a new figure. start,
+    end: seconds, the part of the run that is drawn; by default all of it. style: as in
+    `Record.plot`.
+
+    A scan, as of a laser, is an image of a robot's readings over time and bearing; where it is
+    longer than the page has pixels, the nearest distance counts. Flags are bars where they are
+    True. What is nan or inf is a gap. Where somebody put a robot elsewhere or changed the scenario
+    there is a dotted line. Of long columns the extremes are drawn, so that no peak is lost.
+
+    Raises InputError for a record without rows, and for columns, robots and times that are not
+    there.
+    """
+    look = style_of(style)
+    check_rows(record)
+    rows = _rows(record, start, end)
+    names = [columns] if isinstance(columns, str) else list(columns or DEFAULT)
+    found = [replace(s, values=s.values[rows]) for s in signals(record, names, robots)]
+    team = len(record.scenario.robots)
+    if robots is not None and all(body >= team for signal in found for body in signal.bodies):
+        raise InputError("robots: all columns that were chosen are of props")
+    shown = [part for signal in found for part in _by_robot(signal)]
+    if len(shown) > PANEL_LIMIT // 4:
+        raise InputError(
+            f"columns: they need {len(shown)} panels, and a figure has at most {PANEL_LIMIT // 4}: "
+            "choose some columns, or some robots"
+        )
+    with look.fonts():
+        given, own = axes, axes is None
+        axes = panels(given, [signal.name for signal in shown], look)
+        for ax, signal in zip(axes, shown, strict=True):
+            dress_panel(ax, record, axes[-1], look, rows)
+            _draw(ax, record, rows, signal, look)
+        entries = _entries(record, chosen_robots(record, robots), shown, look)
+        entries += _mark(axes, record, rows, look)
+        name_curves(axes[0], record.scenario.title, entries, look)
+        if own:
+            axes[0].figure.align_ylabels(axes)
+        return finish(axes, own=own)
+
+
+def _rows(record: Record, start: float | None, end: float | None) -> slice:
+    """Return the rows from start to end, both inclusive, seconds."""
+    last = float(record.time[-1])
+    first = 0.0 if start is None else real("start", start, "seconds")
+    final = last if end is None else real("end", end, "seconds")
+    slack = 1e-6 * record.scenario.sampling_time  # times are rounded
+    low, high = np.searchsorted(record.time, [first - slack, final + slack])
+    if not (0 <= first <= final <= last + slack and low < high):
+        raise InputError(
+            f"signals from {first:g} to {final:g} s: expected a part of the run, which goes from 0 "
+            f"to {last:g} s"
+        )
+    return slice(int(low), int(high))
+
+
+def _by_robot(signal: Signal) -> Iterator[Signal]:
+    """Yield a signal for each panel: images of several robots have one each."""
+    if signal.values.ndim == 2 or not _is_image(signal):
+        yield signal
+        return
+    for k, robot in enumerate(signal.bodies):
+        yield replace(signal, values=signal.values[:, k : k + 1], bodies=(robot,))
+
+
+def _is_image(signal: Signal) -> bool:
+    several = signal.values.ndim == 3 and signal.values.shape[2] >= IMAGE_FROM
+    return signal.values.ndim == 4 or (several and signal.values.dtype != np.bool_)
+
+
+def _draw(ax: Axes, record: Record, rows: slice, signal: Signal, look: Style) -> None:
+    times = record.time[rows]
+    if signal.values.ndim > 2 and _is_image(signal):
+        _image(ax, record, times, signal, look)
+        return
+    values = signal.values.reshape(len(times), -1)
+    each = values.shape[1] // max(1, len(signal.bodies))
+    if values.dtype == np.bool_:
+        _flags(ax, record, times, signal, values, look)
+        return
+    caption(ax, signal.name, signal.unit, look)
+    many = values.shape[1]
+    for k in range(many):
+        entry = _entry(record, signal.bodies[k // each], look, many)
+        curve(ax, times, values[:, k], entry, held=signal.held, many=many, wraps=signal.wraps)
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        say(ax, "nothing was measured", look)
+    low = 0.0 if signal.name.split(".")[-1] in ("effort", "speed") else np.inf
+    high = 1.0 if signal.name == "effort" else -np.inf
+    set_span(ax, min(low, finite.min(initial=np.inf)), max(high, finite.max(initial=-np.inf)))
+
+
+def _entry(record: Record, body: int, look: Style, many: int) -> Entry:
+    """Return how the curve of a robot or a prop looks, and what a legend says of it."""
+    width = width_of(many, look, LEGEND_LIMIT)
+    scenario = record.scenario
+    robots = len(scenario.robots)
+    name = plain_name(scenario.bodies[body].name)
+    if body < robots:
+        color, dash = look.robot_curve(scenario, body)
+        return Entry(name, color, dash if many <= LEGEND_LIMIT else "-", width)
+    return Entry(name, *look.curve(body), width)
+
+
+def _entries(
+    record: Record, robots: tuple[int, ...], shown: list[Signal], look: Style
+) -> list[Entry]:
+    """Return the legend: the robots, and the props where columns of theirs are drawn, if few."""
+    curves = [s for s in shown if s.values.dtype != np.bool_ and not _is_image(s)]
+    drawn = {body for signal in curves for body in signal.bodies}
+    order = [robot for robot in robots if robot in drawn]
+    order += sorted(body for body in drawn if body >= len(record.scenario.robots))
+    return [_entry(record, b, look, 1) for b in order] if len(order) <= LEGEND_LIMIT else []
+
+
+def _mark(axes: Sequence[Axes], record: Record, rows: slice, look: Style) -> list[Entry]:
+    """Draw a line where somebody interfered, and return what the legend says of it."""
+    kinds = (Place, Change)
+    moments = {each.row for each in record.interventions if isinstance(each, kinds)}
+    drawn = moments.intersection(range(len(record))[rows])
+    times = [float(record.time[row]) for row in sorted(drawn)][:MOST_MARKS]
+    if not times:
+        return []
+    entry = Entry("by hand", look.muted, ":", look.stroke)
+    for ax in axes:
+        for time in times:
+            ax.axvline(time, color=entry.color, linestyle=":", linewidth=entry.width, zorder=2.5)
+    return [entry]
+
+
+# -- flags and images -----------------------------------------------------------------------------
+
+
+def _flags(
+    ax: Axes, record: Record, times: Float, signal: Signal, values: Float, look: Style
+) -> None:
+    """Draw bars where flags (T, rows) are True, a row each, the first on top."""
+    from matplotlib.collections import PolyCollection
+
+    count = values.shape[1]
+    each = count // max(1, len(signal.bodies))
+    step = record.scenario.sampling_time
+    least = 2 * (times[-1] - times[0]) / COLUMNS
+    names = []
+    for k in range(count):
+        body = signal.bodies[k // each]
+        names.append(record.scenario.bodies[body].name + (f" {k % each}" if each > 1 else ""))
+        edges = np.diff(np.concatenate([[False], values[:, k], [False]]).astype(np.int8))
+        first, last = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
+        begin, end = spans(times[first], times[last] + step, least)
+        low, high = count - 1 - k + 0.15, count - k - 0.15
+        bars = [[(b, low), (e, low), (e, high), (b, high)] for b, e in zip(begin, end, strict=True)]
+        color = look.colors(record.scenario)[body]
+        ax.add_collection(PolyCollection(bars, facecolor=color, linewidth=0, zorder=3))
+    ax.set_ylim(0, count)
+    caption(ax, signal.name, "", look)
+    rows = count if count <= look.rows else 0
+    ax.set_yticks(np.arange(rows) + 0.5, [plain_name(n) for n in names[:rows]][::-1])
+    for text in ax.get_yticklabels():
+        text.set_parse_math(False)
+    ax.grid(visible=False, axis="y")
+    if not values.any():
+        say(ax, "never", look)
+
+
+def _image(ax: Axes, record: Record, times: Float, signal: Signal, look: Style) -> None:
+    """Draw the readings (T, 1, beams) or (T, 1, pixels, 3) of a robot over time and bearing."""
+    import matplotlib as mpl
+    from matplotlib.image import AxesImage
+    from matplotlib.ticker import MultipleLocator
+
+    values = signal.values[:, 0]
+    size = -(-len(values) // COLUMNS)
+    starts = np.arange(0, len(values), size)
+    if signal.nearest and size > 1:
+        values = np.fmin.reduceat(values, starts, axis=0)
+    else:
+        values = values[starts]
+    time, step = float(times[0]), record.scenario.sampling_time
+    beams = values.shape[1]
+    low, high = 0.0, float(beams)
+    unit = ""
+    if signal.bearings is not None:
+        half = (signal.bearings[1] - signal.bearings[0]) / 2
+        low, high = float(signal.bearings[0] - half), float(signal.bearings[-1] + half)
+        unit = "°"
+        ax.yaxis.set_major_locator(MultipleLocator(90 if high - low > 200 else 30))
+    cmap = mpl.colormaps["gray" if look.greys else "viridis"].with_extremes(bad="white")
+    image = AxesImage(
+        ax, cmap=cmap, origin="lower", interpolation="nearest", zorder=1,
+        extent=(time, time + step * size * len(starts), low, high),
+    )  # fmt: skip
+    shown = values.swapaxes(0, 1)
+    if shown.ndim == 3:
+        shown = np.where(np.isfinite(shown), shown, 1.0)
+    image.set_data(np.ma.masked_invalid(shown))
+    ax.add_image(image)
+    image.set_clip_path(ax.patch)
+    ax.set_ylim(low, high)
+    ax.grid(visible=False)
+    name = plain_name(str(record.scenario.robots[signal.bodies[0]].name))
+    index = ", index" if beams > 1 and not unit else ""
+    caption(ax, f"{signal.name} of {name}{index}", unit, look)
+    if beams == 1:
+        ax.set_yticks([])
+    if shown.ndim == 2:
+        finite = shown[np.isfinite(shown)]
+        if not len(finite):
+            say(ax, "nothing was measured", look)
+            return
+        image.set_clim(min(0.0, finite.min()), finite.max())
+        color_bar(ax, image, f"[{signal.unit}]" if signal.unit else "", look)

@@ -1,0 +1,98 @@
+"""What a film is made of: frames of a run, recorded or taken as it happens."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mars2d.core.errors import InputError
+from mars2d.core.scene import Scene
+from mars2d.output.films.cut import Cut
+from mars2d.record.frame import Frame, between
+from mars2d.scenario.scenario import Scenario
+
+if TYPE_CHECKING:
+    from mars2d.world.world import World
+
+__all__ = ["Footage", "shots"]
+
+
+def shots(
+    cut: Cut, sampling_time: float, last: int, frame: Callable[[int], Frame]
+) -> Iterator[Frame]:
+    """Yield the frames of a film, between the sampling times as well.
+
+    frame: returns that of a row, from 0 to `last`; it is asked for rows in their order, once each.
+    """
+    seen: dict[int, Frame] = {}
+    for time in cut.moments.tolist():
+        row = min(int(time / sampling_time + 1e-9), last)
+        rows = (row,) if row == last else (row, row + 1)
+        # The same objects as long as they are seen: what is drawn of them is then kept.
+        seen = {each: seen.get(each) or frame(each) for each in rows}
+        on_time = row == last or time - row * sampling_time < 1e-9 * max(1.0, time)
+        yield seen[row] if on_time else between(seen[row], seen[row + 1], time)
+
+
+class Footage:
+    """Takes those frames of a run that a film of it needs; add it to the run's watchers.
+
+    Live frames hold what add-ons draw, which a record does not.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        speed: float,
+        fps: float,
+        start: float | None = None,
+        end: float | None = None,
+    ) -> None:
+        """Take what `Cut.of` takes; the run may end earlier than the scenario lets it."""
+        self.speed = speed
+        self._sampling_time = scenario.sampling_time
+        last = scenario.last_iteration * scenario.sampling_time
+        self._cut = Cut.of(last, speed, fps, start, end)
+        self._frames: dict[int, Frame] = {}
+        rows = np.floor(self._cut.moments / self._sampling_time + 1e-9).astype(int)
+        # Each moment lies between two rows, and both are needed.
+        self._wanted = {*rows.tolist(), *(rows + 1).tolist()}
+
+    def __call__(self, world: World) -> None:
+        """Take the world's frame, if the film needs it."""
+        if world.iteration in self._wanted:
+            self.take(world.frame)
+
+    def take(self, frame: Frame) -> None:
+        """Take a frame, with what the add-ons draw now."""
+        if frame.draw_addons is not None:
+            scene = Scene()
+            frame.draw_addons(scene)
+            frame = dataclasses.replace(
+                frame, draw_addons=lambda target: target.extend(scene.shapes)
+            )
+        self._frames[frame.iteration] = frame
+
+    def frames(self, last: Frame) -> Iterator[Frame]:
+        """Yield the film's frames; `last` is the end of the run.
+
+        Raises InputError where the run ended before the film's start.
+        """
+        cut = self._until(last)
+        self.take(last)
+        yield from shots(cut, self._sampling_time, last.iteration, self._frames.__getitem__)
+
+    def count(self, last: Frame) -> int:
+        """Return how many frames the film has."""
+        return self._until(last).count
+
+    def _until(self, last: Frame) -> Cut:
+        """Return the part that the run has, which may have ended early."""
+        if last.time < self._cut.start:
+            raise InputError(
+                f"a film from {self._cut.start:g} s on: the run ended at {last.time:g} s"
+            )
+        return dataclasses.replace(self._cut, end=min(self._cut.end, last.time))

@@ -1,0 +1,228 @@
+"""A comparison as a film: three panels side by side, and below them the drift as it grows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.core.errors import counted
+from mars2d.core.scene import Scene
+from mars2d.output.figures.comparison import COLORS, MEANINGS, MODES, Comparison, plot_drift
+from mars2d.output.films.film import save_pictures
+from mars2d.output.films.footage import Footage
+from mars2d.output.raster.bars import Status, draw_header
+from mars2d.output.raster.camera import PIXELS, Camera
+from mars2d.output.raster.layers import Layers
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.stage import Stage
+from mars2d.output.raster.theme import PRINTED
+from mars2d.record.frame import Frame
+from mars2d.record.record import Record
+
+__all__ = ["Reel", "Triptych", "save_triptych"]
+
+Float = NDArray[np.float64]
+
+TITLE = 74.0
+"""The height of the title above a panel, points."""
+
+LOWEST_PLOT = 0.3
+"""The share of the picture's height that the drift has at least."""
+
+
+Reel = tuple[Footage, Frame]
+"""The frames of a run: its footage, and its last frame."""
+
+
+def save_triptych(
+    comparison: Comparison,
+    reels: Mapping[str, Reel],
+    path: str | Path,
+    *,
+    fps: float = 25,
+    size: tuple[int, int] = (1280, 720),
+    progress: Callable[[int], None] | None = None,
+) -> None:
+    """Write the film of a comparison as .gif or .mp4; a run that ended earlier stands still.
+
+    reels: the frames of each run, by its physics, all of one speed and taken at `fps`. size:
+    pixels, even for .mp4. progress: called with the number of frames written so far. Raises
+    InputError where the film can't be written, MissingExtraError when .mp4 needs PyAV.
+    """
+    save_pictures(_pictures(comparison, reels, size, progress), path, fps)
+
+
+def _pictures(
+    comparison: Comparison,
+    reels: Mapping[str, Reel],
+    size: tuple[int, int],
+    progress: Callable[[int], None] | None,
+) -> Iterator[pygame.Surface]:
+    """Yield each instant's picture, always on the same surface."""
+    status = f"{reels['contact'][0].speed:.3g}x"
+    triptych = Triptych(comparison, size, status)
+    surface = pygame.Surface(size, 0, 32)
+    shown: tuple[Frame | None, ...] = (None,) * len(MODES)
+    films = [footage.frames(last) for footage, last in (reels[mode] for mode in MODES)]
+    for count, frames in enumerate(zip_longest(*films), 1):
+        shown = tuple(new or old for new, old in zip(frames, shown, strict=True))
+        yield triptych.paint([frame for frame in shown if frame is not None], surface)
+        if progress is not None:
+            progress(count)
+
+
+class Triptych:
+    """Paints one instant of the three runs after another, keeping what does not change.
+
+    size: pixels. status: what the chip beside the time says, as "10x".
+    """
+
+    def __init__(
+        self, comparison: Comparison, size: tuple[int, int] = (1280, 720), status: str = ""
+    ) -> None:
+        """Lay out the picture and draw the curves of the drift; no frame is painted yet."""
+        self.comparison = comparison
+        self.size = size
+        self._layout = Layout.of(size, 0.0)
+        self._painter = Painter(theme=PRINTED)
+        self._painter.ui = self._layout.ui
+        self._status = Status(status) if status else None
+        ui, width = self._layout.ui, size[0]
+        top = self._layout.header.bottom + round(TITLE * ui)
+        high = self._plot_height(size[1] - top)
+        edges = [round(k * width / 3) for k in range(4)]
+        self._panels = [
+            _Panel(mode, record, pygame.Rect(left, top, right - left, high), self._painter)
+            for (mode, record), left, right in zip(
+                comparison.records.items(), edges, edges[1:], strict=False
+            )
+        ]
+        for panel in self._panels:
+            panel.look_at(comparison, size)
+        self._plot = _Plot(comparison, pygame.Rect(0, top + high, width, size[1] - top - high), ui)
+
+    def _plot_height(self, room: int) -> int:
+        """Return how high the panels are: as the view wants it, with room left for the drift."""
+        ui, view = self._layout.ui, self.comparison.view
+        across = self.size[0] / 3 - 64 * ui
+        wanted = across * view.height / view.width + 36 * ui
+        return round(min(max(wanted, 0.15 * room), room - LOWEST_PLOT * self.size[1]))
+
+    def paint(self, frames: list[Frame], surface: pygame.Surface | None = None) -> pygame.Surface:
+        """Return the picture of an instant, given the frame of each run then."""
+        if surface is None:
+            surface = pygame.Surface(self.size, 0, 32)
+        surface.fill(self._painter.theme.page)
+        for panel, frame in zip(self._panels, frames, strict=True):
+            panel.paint(surface, frame)
+        latest = max(frames, key=lambda frame: frame.time)
+        self._plot.paint(surface, latest.time, self._painter)
+        draw_header(surface, self._layout, self._painter, latest, self._status)
+        return surface
+
+
+class _Panel:
+    """One run: its title, and its picture below that on the rectangle `plot`."""
+
+    def __init__(self, mode: str, record: Record, plot: pygame.Rect, painter: Painter) -> None:
+        self.mode, self.plot = mode, plot
+        self._painter = painter
+        self._stage = Stage(painter)
+        self._camera = PIXELS  # until it is told where to look
+        began = record.contacts["began"]
+        self._collisions = np.sort(record.contacts["time"][began])
+
+    def look_at(self, comparison: Comparison, size: tuple[int, int]) -> None:
+        """Choose the camera that shows what all panels show."""
+        ui, view, plot = self._painter.ui, comparison.view, self.plot
+        margins = (
+            plot.left + 44 * ui, plot.top + 6 * ui,
+            size[0] - plot.right + 20 * ui, size[1] - plot.bottom + 30 * ui,
+        )  # fmt: skip
+        self._camera = Camera.fit((view.xmin, view.xmax, view.ymin, view.ymax), size, margins)
+
+    def paint(self, surface: pygame.Surface, frame: Frame) -> None:
+        animation = frame.scenario.animation
+        layers = Layers.of(animation)
+        self._stage.draw(surface, frame, self._camera, layers, self.plot)
+        ui, fonts, theme = self._painter.ui, self._painter.fonts, self._painter.theme
+        count = int(np.searchsorted(self._collisions, frame.time, side="right"))
+        title = fonts.render(self.mode, 21 * ui, COLORS[self.mode], bold=True)
+        done = fonts.render(counted(count, "collision"), 17 * ui, theme.ink)
+        left, right = self.plot.left + round(44 * ui), self.plot.right - round(20 * ui)
+        level = self.plot.top - round(TITLE * ui)
+        surface.blit(title, title.get_rect(midleft=(left, level + round(20 * ui))))
+        surface.blit(done, done.get_rect(midright=(right, level + round(21 * ui))))
+        text, color = MEANINGS[self.mode], theme.muted
+        if frame.over_message:
+            text, color = frame.over_message, theme.text
+        for k, part in enumerate(fonts.wrap(text, 13.5 * ui, right - left, 2)):
+            line = fonts.render(part, 13.5 * ui, color)
+            surface.blit(line, line.get_rect(midleft=(left, level + round((43 + 17 * k) * ui))))
+
+
+class _Plot:
+    """The drift on the rectangle `place`: the curves drawn once, and shown as far as time is."""
+
+    def __init__(self, comparison: Comparison, place: pygame.Rect, ui: float) -> None:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        self.place = place
+        dpi = 110 * ui
+        figure = Figure(figsize=(place.width / dpi, place.height / dpi), dpi=dpi, facecolor="white")
+        canvas = FigureCanvasAgg(figure)
+        width, height = place.size
+        sides = 80 * ui / width, 1 - 20 * ui / width
+        ends = 48 * ui / height, 1 - 38 * ui / height
+        ax = figure.add_axes((sides[0], ends[0], sides[1] - sides[0], ends[1] - ends[0]))
+        curves = plot_drift(comparison, ax)
+        self._whole = _drawn(canvas)
+        for line in ax.lines:
+            line.set_visible(False)
+        self._empty = _drawn(canvas)
+        self._end = comparison.end
+        self._curves = [self._in_pixels(ax.transData.transform(curve)) for curve in curves]
+        self._times = [curve[:, 0] for curve in curves]
+        self._span = [float(x) for x in ax.transAxes.transform([(0, 0), (1, 1)])[:, 0]]
+        self._top = place.bottom - ax.bbox.y1
+        self._bottom = place.bottom - ax.bbox.y0
+        colors = [color for mode, color in COLORS.items() if mode in comparison.drifts]
+        self._colors = [color for color in colors for _ in range(2)]
+
+    def _in_pixels(self, points: Float) -> Float:
+        """Return points (T, 2) that count upwards from the figure's corner as the surface's."""
+        return np.column_stack([self.place.left + points[:, 0], self.place.bottom - points[:, 1]])
+
+    def paint(self, surface: pygame.Surface, time: float, painter: Painter) -> None:
+        surface.blit(self._empty, self.place)
+        left, right = self._span
+        now = left + (right - left) * min(time / self._end, 1.0) if self._end > 0 else right
+        part = pygame.Rect(0, 0, round(now) + (3 if time >= self._end else 0), self.place.height)
+        surface.blit(self._whole, self.place, part)
+        scene = Scene()
+        x = self.place.left + now
+        scene.line([(x, -self._top), (x, -self._bottom)], stroke="#9aa5b1", width=1.0)
+        # The mean first, so that the largest drift lies on top of it.
+        for points, times, color in reversed(
+            list(zip(self._curves, self._times, self._colors, strict=True))
+        ):
+            at = min(time, float(times[-1]))
+            px, py = (float(np.interp(at, times, points[:, k])) for k in (0, 1))
+            if np.isfinite(py):
+                scene.circle((px, -py), 0.0, fill=color, stroke="#ffffff", pixels=5.0)
+        painter.paint(surface, scene.shapes, PIXELS)
+
+
+def _drawn(canvas: Any) -> pygame.Surface:
+    """Return what is on a canvas of matplotlib as a surface."""
+    canvas.draw()
+    width, height = canvas.get_width_height()
+    return pygame.image.frombuffer(bytes(canvas.buffer_rgba()), (width, height), "RGBA")

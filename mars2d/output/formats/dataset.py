@@ -1,0 +1,133 @@
+"""A dataset of xarray: all columns with named axes and units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mars2d.core.errors import MissingExtraError
+from mars2d.output.formats import header as headers
+from mars2d.output.formats.units import (
+    COLUMN_UNITS,
+    CONTACT_UNITS,
+    MESSAGE_UNITS,
+    POSE_UNITS,
+    command_units,
+    sensor_units,
+)
+from mars2d.record.message import STATUS
+from mars2d.record.record import Record
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+__all__ = ["HEADER", "named_dataset", "to_xarray", "variable_of"]
+
+HEADER = "mars2d"
+"""The attribute that holds what is beside the columns, as JSON."""
+
+LONG_NAMES = {
+    "pose": "poses of the robots: x, y, heading",
+    "command": "commands issued",
+    "command_time": "when the command takes effect",
+    "prop_pose": "poses of the props: x, y, heading",
+    "effort": "largest share of its bounds that a drive used in the control step before",
+}
+
+DIMENSIONS = {
+    "time": ("time",),
+    "pose": ("time", "axis", "robot"),
+    "command": ("time", "input", "robot"),
+    "command_time": ("time",),
+    "prop_pose": ("time", "axis", "prop"),
+    "effort": ("time", "robot"),
+}
+
+
+def to_xarray(record: Record) -> Dataset:
+    """Return all columns of a record as a dataset, with units as attributes.
+
+    ``pose``: time, axis (x, y, theta), robot. ``command``: time, input, robot. ``prop_pose``: time,
+    axis, prop. ``effort``: time, robot. ``sensor_NAME``: time, robot, and ``NAME_0`` and so on for
+    the axes of a reading; ``NAME_robot`` in place of robot where not all carry it.
+    ``contact_FIELD``: contact. ``message_FIELD``: message; ``contents``: content, the texts. The
+    attributes have title, seed, digest, why it ended and, as JSON, the rest. Raises
+    MissingExtraError without xarray.
+    """
+    return named_dataset(record, {name: name for name in record.sensors})
+
+
+def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
+    """Return what `to_xarray` does, with other names for sensors."""
+    try:
+        import xarray as xr
+    except ImportError:
+        raise MissingExtraError('datasets need xarray: pip install "mars2d[data]"') from None
+    scenario = record.scenario
+    names = [str(robot.name) for robot in scenario.robots]
+    places: dict[str, Any] = {
+        "axis": list(POSE_UNITS),
+        "robot": np.array(names, dtype=object),
+        "prop": np.array([str(prop.name) for prop in scenario.props], dtype=object),
+    }
+    for name, robots in record.sensor_robots.items():
+        if len(robots) < len(names):
+            carriers = [names[robot] for robot in robots]
+            places[f"{sensors[name]}_robot"] = np.array(carriers, dtype=object)
+    variables: dict[str, Any] = {
+        variable_of(name, sensors): (
+            _dimensions(record, name, sensors), column, _attributes(record, name),
+        )
+        for name, column in headers.numbers_of(record).items()
+    }  # fmt: skip
+    places["time"] = variables.pop("time")
+    if record.contents:
+        texts = np.array(record.contents, dtype=object)
+        about = {"long_name": "what was sent, as JSON; message_content counts it from 0"}
+        variables["contents"] = (("content",), texts, about)
+    about = {
+        "title": scenario.title,
+        "source": f"MARS2D {record.versions.get('mars2d', '')}".strip(),
+        "seed": str(record.seed),  # netCDF has no whole numbers so large
+        "digest": record.digest,
+        "over_message": record.over_message,
+        HEADER: headers.as_text(headers.of_record(record)),
+    }
+    return xr.Dataset(variables, coords=places, attrs=about)
+
+
+def variable_of(column: str, sensors: Mapping[str, str]) -> str:
+    """Return the name of the variable of a column: ``sensor_scan`` of ``sensor:scan``."""
+    family, _, name = column.partition(":")
+    return f"sensor_{sensors[name]}" if family == "sensor" else column.replace(":", "_")
+
+
+def _dimensions(record: Record, column: str, sensors: Mapping[str, str]) -> tuple[str, ...]:
+    if column in DIMENSIONS:
+        return DIMENSIONS[column]
+    family, _, name = column.partition(":")
+    if family != "sensor":
+        return (family, "xy") if name in ("point", "normal") else (family,)
+    called = sensors[name]
+    all_carry = len(record.sensor_robots[name]) == len(record.scenario.robots)
+    others = (f"{called}_{k}" for k in range(record.sensors[name].ndim - 2))
+    return ("time", "robot" if all_carry else f"{called}_robot", *others)
+
+
+def _attributes(record: Record, column: str) -> dict[str, str]:
+    family, _, name = column.partition(":")
+    unit = COLUMN_UNITS.get(column)
+    if column in ("pose", "prop_pose"):
+        unit = ", ".join(POSE_UNITS.values())
+    elif column == "command":
+        unit = ", ".join(command_units(record)) or None
+    elif family == "sensor":
+        unit = ", ".join(sensor_units(record, name) or ()) or None
+    elif family in ("contact", "message"):
+        unit = (CONTACT_UNITS if family == "contact" else MESSAGE_UNITS).get(name)
+    long_name = LONG_NAMES.get(column, f"{family} {name}".strip().replace("_", " "))
+    if column == "message:status":
+        long_name = ", ".join(f"{k} {word}" for k, word in enumerate(STATUS))
+    return {"long_name": long_name} | ({"units": unit} if unit else {})

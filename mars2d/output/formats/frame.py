@@ -1,0 +1,125 @@
+"""Tables of pandas: bodies over time, contacts, messages."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.description import wrong
+from mars2d.core.errors import MissingExtraError, nearest
+from mars2d.output.formats.bodies import INPUTS, Part, parts_of
+from mars2d.output.formats.units import (
+    COLUMN_UNITS,
+    CONTACT_UNITS,
+    MESSAGE_UNITS,
+    POSE_UNITS,
+    command_units,
+    sensor_units,
+)
+from mars2d.record.message import STATUS
+from mars2d.record.record import Record
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+__all__ = ["to_frame"]
+
+
+def to_frame(record: Record, table: str = "bodies") -> DataFrame:
+    """Return a table of a record; ``frame.attrs["units"]`` has the units of its columns.
+
+    "bodies": indexed by time and body, robots first, then props; what a body does not have is
+    missing, as the command of a prop. A reading that is an array has a column for each value, as
+    ``scan_0``. "contacts": as `Record.contacts`, with the names of both bodies, obstacles' as
+    ``obstacle 0`` or ``wall``. "messages": as `Record.messages`, with the names of both robots, the
+    text and the status in words. Raises InputError for another table, MissingExtraError without
+    pandas.
+    """
+    tables = {"bodies": _bodies, "contacts": _contacts, "messages": _messages}
+    if not isinstance(table, str) or table not in tables:
+        expected = "one of " + ", ".join(map(repr, tables))
+        hint = nearest(table, tables, most=0) if isinstance(table, str) else ""
+        raise wrong("table", table, expected + hint)
+    try:
+        import pandas as pd  # noqa: F401
+    except ImportError:
+        raise MissingExtraError('tables need pandas: pip install "mars2d[data]"') from None
+    frame, units = tables[table](record)
+    frame.attrs["units"] = {name: unit for name, unit in units.items() if name in frame}
+    return frame
+
+
+def _bodies(record: Record) -> tuple[DataFrame, dict[str, str]]:
+    import pandas as pd
+
+    columns = record.columns()
+    robots, props = len(record.scenario.robots), len(record.scenario.props)
+    shapes = {name: values.shape for name, values in record.sensors.items()}
+    parts = parts_of(robots, props, record.sensor_robots, shapes)
+    table = {name: _column(columns, where, robots + props) for name, where in parts.items()}
+    names = [body.name for body in record.scenario.bodies]
+    index = pd.MultiIndex.from_product([record.time, names], names=["time", "body"])
+    units = POSE_UNITS | COLUMN_UNITS
+    units |= dict(zip(INPUTS, command_units(record), strict=False))
+    for name, where in parts.items():
+        if where[0].name.startswith("sensor:"):
+            found = sensor_units(record, where[0].name.removeprefix("sensor:"))
+            if found:  # one for all values, or those along the last axis of a reading
+                units[name] = found[where[0].at[-1] if len(found) > 1 else 0]
+    return pd.DataFrame(table, index=index), units
+
+
+def _column(columns: dict[str, NDArray[Any]], parts: list[Part], bodies: int) -> Any:
+    """Return a column of the table, (T x bodies,): numbers or flags, some of them missing."""
+    import pandas as pd
+
+    values = [columns[part.name][(slice(None), *part.at)] for part in parts]
+    lacking = np.ones((len(columns["time"]), bodies), dtype=bool)
+    flags = values[0].dtype == np.bool_
+    found = np.zeros(lacking.shape, bool) if flags else np.full(lacking.shape, np.nan)
+    for part, some in zip(parts, values, strict=True):
+        found[:, list(part.bodies)] = some
+        lacking[:, list(part.bodies)] = False
+    if flags and lacking.any():
+        return pd.arrays.BooleanArray(found.ravel(), lacking.ravel())
+    return found.ravel()
+
+
+def _contacts(record: Record) -> tuple[DataFrame, dict[str, str]]:
+    import pandas as pd
+
+    rows = record.contacts
+    table: dict[str, Any] = {}
+    for field in rows.dtype.names or ():
+        values = rows[field]
+        if values.ndim == 2:
+            table |= {f"{field}_{axis}": values[:, k] for k, axis in enumerate("xy")}
+            continue
+        table[field] = values
+        if field in ("a", "b"):
+            names = {body: record.scenario.body_name(body) for body in np.unique(values).tolist()}
+            named = [names[body] for body in values.tolist()]
+            table[f"body_{field}"] = np.array(named, dtype=object)
+    units = CONTACT_UNITS | {
+        f"{field}_{axis}": CONTACT_UNITS[field] for field in ("point", "normal") for axis in "xy"
+    }
+    return pd.DataFrame(table), units
+
+
+def _messages(record: Record) -> tuple[DataFrame, dict[str, str]]:
+    import pandas as pd
+
+    rows, names = record.messages, [str(robot.name) for robot in record.scenario.robots]
+    table: dict[str, Any] = {}
+    for field in rows.dtype.names or ():
+        words: dict[str, Any] = {"content": record.contents, "status": STATUS}
+        if field in words:
+            table[field] = np.array([words[field][i] for i in rows[field].tolist()], dtype=object)
+            continue
+        table[field] = rows[field]
+        if field in ("sender", "receiver"):
+            named = [names[i] for i in rows[field].tolist()]
+            table[f"{field}_name"] = np.array(named, dtype=object)
+    return pd.DataFrame(table), MESSAGE_UNITS

@@ -1,0 +1,273 @@
+"""What a file of a record holds beside its columns, and how both become a record again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import InputError, Mars2dError
+from mars2d.output.formats.size import check_size
+from mars2d.record import interventions
+from mars2d.record.contact import CONTACT
+from mars2d.record.message import MESSAGE, STATUS
+from mars2d.record.record import COLUMNS, Record
+from mars2d.scenario import serialize
+
+__all__ = [
+    "FORMAT",
+    "KINDS",
+    "OBJECTS",
+    "TEXTS",
+    "as_text",
+    "check_format",
+    "names_in",
+    "names_of_bodies",
+    "numbers_of",
+    "of_record",
+    "of_text",
+    "reading",
+    "restored",
+    "to_record",
+    "with_shapes",
+]
+
+Columns = Mapping[str, NDArray[Any]]
+
+FORMAT = 3
+"""The version of what files hold; files of another one are refused."""
+
+OBJECTS = 16
+"""How many bytes one of JSON may take when it is read: what is small in a file may be much."""
+
+TEXTS = ("contents", "content_sizes")
+"""The columns that are texts: formats that have text keep them with the header."""
+
+KINDS = frozenset(np.dtype(kind).str for kind in (np.float64, np.bool_, np.int32, np.uint8))
+"""The kinds of numbers in all other columns."""
+
+
+def of_record(record: Record) -> dict[str, Any]:
+    """Return all of a record that is not in its columns, as dicts, lists, text and numbers."""
+    return {
+        "format": FORMAT,
+        "scenario": serialize.from_description(record.scenario),
+        "seed": record.seed,
+        "over_message": record.over_message,
+        "finished": record.finished,
+        "filename": record.filename,
+        "versions": dict(record.versions),
+        "messages": bool(record.contents),
+        "sensor_robots": {name: list(robots) for name, robots in record.sensor_robots.items()},
+        "interventions": [interventions.to_plain(each) for each in record.interventions],
+        "digest": record.digest,
+    }
+
+
+def numbers_of(record: Record) -> dict[str, NDArray[Any]]:
+    """Return all columns of a record but those that are texts."""
+    return {name: column for name, column in record.columns().items() if name not in TEXTS}
+
+
+def with_shapes(record: Record) -> dict[str, Any]:
+    """Return what `of_record` does, for a format in which columns lose their kinds or shapes.
+
+    ``columns`` has both of each, ``contents`` the texts of messages.
+    """
+    kept = {name: [each.dtype.str, each.shape] for name, each in numbers_of(record).items()}
+    return of_record(record) | {"columns": kept, "contents": list(record.contents)}
+
+
+def as_text(header: Mapping[str, Any]) -> str:
+    """Return a header as a line of JSON, in ASCII."""
+    return json.dumps(header)
+
+
+def of_text(path: Path, text: str | bytes, largest: int) -> dict[str, Any]:
+    """Return the header in a file's JSON; InputError where it is too large, or of another format.
+
+    Raises whatever comes up where it is no header at all.
+    """
+    check_size(path, OBJECTS * len(text), largest)
+    header: dict[str, Any] = json.loads(text)
+    check_format(header)
+    return header
+
+
+def names_in(header: Mapping[str, Any]) -> list[str]:
+    """Return the names of the columns that a file with this header holds."""
+    contacts = [f"contact:{name}" for name in CONTACT.names or ()]
+    messages = [*(f"message:{name}" for name in MESSAGE.names or ()), *TEXTS]
+    sensors = [f"sensor:{name}" for name in header["sensor_robots"]]
+    return [*COLUMNS, *contacts, *sensors, *(messages if header["messages"] else ())]
+
+
+def names_of_bodies(header: Mapping[str, Any]) -> list[str]:
+    """Return those of the names in a file that have a row for each time."""
+    return [*COLUMNS, *(f"sensor:{name}" for name in header["sensor_robots"])]
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Let whatever goes wrong while a file is read be said in one line that names it."""
+    try:
+        yield
+    except Mars2dError as error:
+        if str(path) in str(error):
+            raise
+        raise InputError(f"{path}: {error}") from error
+    except MemoryError as error:
+        raise InputError(f"{path}: there is not enough memory to read it") from error
+    except OSError as error:
+        raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
+    except Exception as error:  # zip, zlib, numpy, scipy, json, protobuf have their own each
+        raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
+
+
+def check_format(header: Mapping[str, Any]) -> None:
+    """Refuse a file of another format than this one's; the InputError says which version wrote it.
+
+    Raises whatever comes up where this is no header at all.
+    """
+    made = header["versions"].get("mars2d", "?")
+    if type(header["format"]) is not int:
+        raise TypeError("format")
+    if header["format"] > FORMAT:
+        raise InputError(f"written by a newer version of MARS2D, {made}: install that one to read")
+    if header["format"] < FORMAT:
+        raise InputError(f"written by an older version of MARS2D, {made}: run the experiment again")
+
+
+def restored(header: Mapping[str, Any], columns: Columns) -> Record:
+    """Put a record together from columns that lost their kinds or shapes, by `with_shapes`.
+
+    columns: those of `numbers_of`, their values in order; one without values may be missing.
+    Raises what `to_record` does.
+    """
+    whole = {}
+    for name in names_in(header):
+        if name not in TEXTS:
+            kind, shape = header["columns"][name]
+            if kind not in KINDS or min(shape) < 0:
+                raise ValueError(name)
+            values = columns.get(name, np.empty(0)).reshape(shape)
+            with np.errstate(invalid="ignore"):  # a number that is none, where a file is damaged
+                whole[name] = values.astype(kind, copy=False)
+    texts = [text.encode() for text in header["contents"]]
+    whole["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
+    whole["content_sizes"] = np.array([len(text) for text in texts], dtype=np.int64)
+    return to_record(header, whole)
+
+
+def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False) -> Record:
+    """Put a record together from what a file held.
+
+    columns: those of `names_in`, as `Record.columns` gives them. torn: whether the file breaks off,
+    so that it states no digest. Raises InputError where they do not have the digest that the header
+    states, and whatever comes up where this is no record.
+    """
+    talked = header["messages"]
+    scenario, missing = serialize.to_scenario(header["scenario"])
+    robots = {name: tuple(indices) for name, indices in header["sensor_robots"].items()}
+    record = Record(
+        scenario=scenario,
+        seed=header["seed"],
+        time=columns["time"],
+        pose=columns["pose"],
+        command=columns["command"],
+        command_time=columns["command_time"],
+        prop_pose=columns["prop_pose"],
+        effort=columns["effort"],
+        sensors={name: columns[f"sensor:{name}"] for name in robots},
+        sensor_robots=robots,
+        contacts=_rows(CONTACT, "contact", columns),
+        messages=_rows(MESSAGE, "message", columns) if talked else np.zeros(0, MESSAGE),
+        contents=_contents(columns) if talked else (),
+        over_message=header["over_message"],
+        finished=header["finished"],
+        filename=header["filename"],
+        versions=dict(header["versions"]),
+        missing=missing,
+        interventions=tuple(interventions.of_plain(each) for each in header["interventions"]),
+    )
+    _check_kinds(header)
+    _check(record)
+    if not torn and record.digest != header["digest"]:
+        raise InputError("damaged: its columns do not have the digest that it states")
+    return record
+
+
+def _rows(dtype: np.dtype[Any], family: str, columns: Columns) -> NDArray[np.void]:
+    """Return the contacts or messages that a file held, field by field."""
+    names = dtype.names or ()
+    rows = np.zeros(len(columns[f"{family}:{names[0]}"]), dtype=dtype)
+    for name in names:
+        values = columns[f"{family}:{name}"]
+        if values.dtype != rows[name].dtype or values.shape != rows[name].shape:
+            raise ValueError(f"{family}:{name}: {values.dtype} {values.shape}")
+        rows[name] = values
+    return rows
+
+
+def _contents(columns: Columns) -> tuple[str, ...]:
+    text, sizes = columns["contents"].tobytes(), columns["content_sizes"]
+    if sizes.ndim != 1 or sizes.dtype != np.int64 or (sizes < 0).any() or sizes.sum() != len(text):
+        raise ValueError("content_sizes")
+    ends = np.cumsum(sizes).tolist()
+    return tuple(text[start:end].decode() for start, end in pairwise([0, *ends]))
+
+
+def _check_kinds(header: Mapping[str, Any]) -> None:
+    """Raise ValueError where the header's single values are not what they should be."""
+    kinds = {"seed": int, "over_message": str, "finished": bool, "filename": str}
+    for name, kind in kinds.items():
+        if type(header[name]) is not kind:
+            raise ValueError(name)
+    known = all(isinstance(version, str) for version in header["versions"].values())
+    if not 0 <= header["seed"] < 2**63 or not known:
+        raise ValueError("seed, versions")
+    words = [header[name] for name in ("over_message", "filename", "versions", "sensor_robots")]
+    json.dumps(words, ensure_ascii=False).encode()  # half a character is no text
+
+
+def _check(record: Record) -> None:
+    """Raise ValueError where the columns don't fit together: shapes, kinds, indices, not a number.
+
+    A window or a figure would fail on them later, and say less.
+    """
+    rows, n, props = len(record.time), len(record.scenario.robots), len(record.scenario.props)
+    shapes = [(rows,), (rows, 3, n), (rows, 2, n), (rows,), (rows, 3, props), (rows, n)]
+    for name, shape in zip(COLUMNS, shapes, strict=True):
+        column = getattr(record, name)
+        if column.shape != shape or column.dtype != np.float64 or not np.isfinite(column).all():
+            raise ValueError(name)
+    if (np.diff(record.time) <= 0).any():
+        raise ValueError("time")
+    for name, values in record.sensors.items():
+        robots = record.sensor_robots[name]
+        if values.shape[:2] != (rows, len(robots)) or values.dtype not in (np.float64, np.bool_):
+            raise ValueError(name)
+        if not all(type(i) is int and 0 <= i < n for i in robots) or len({*robots}) < len(robots):
+            raise ValueError(name)
+    contacts, messages = record.contacts, record.messages
+    bodies = n + props
+    if len(contacts):
+        _check_range(contacts["a"], 0, bodies)
+        _check_range(contacts["b"], -(2**31), bodies)
+    if len(messages):
+        _check_range(messages["sender"], 0, n)
+        _check_range(messages["receiver"], 0, n)
+        _check_range(messages["content"], 0, len(record.contents))
+        _check_range(messages["status"], 0, len(STATUS))
+    interventions.check(record.interventions, record.scenario, rows)
+
+
+def _check_range(values: NDArray[Any], low: int, end: int) -> None:
+    if (values < low).any() or (values >= end).any():
+        raise ValueError("an index out of range")

@@ -1,0 +1,168 @@
+"""``.mat``: one struct for Matlab and Octave, `out_data`, as the MARS paper names things.
+
+All numbers are doubles there, flags are logical, and what has an index is counted from 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.bodies import Holonomic
+from mars2d.core.atomic import replacing
+from mars2d.core.errors import InputError
+from mars2d.output.formats import header as headers
+from mars2d.output.formats.mat5 import read_struct
+from mars2d.output.formats.naming import plain_names
+from mars2d.output.formats.size import in_bytes
+from mars2d.record.record import Record
+
+__all__ = ["read", "require", "write"]
+
+NAME = "out_data"
+
+MOST = 2**31 - 2**20
+"""Matlab and Octave open structs of up to 2 GB, with what is said of them in the header."""
+
+HISTORY = {
+    "time": "Time", "pose": "Pose", "command": "Command", "command_time": "Command_time",
+    "prop_pose": "Prop_pose", "effort": "Effort",
+}  # fmt: skip
+
+INDICES = {"contact:a", "contact:b", "message:sender", "message:receiver", "message:content"}
+"""Columns that count something from 0; those below 0, obstacles, are counted from -1 anyway."""
+
+
+def require(path: Path) -> None:
+    """Need nothing: scipy is there."""
+
+
+def write(record: Record, path: Path) -> None:
+    """Write a record to a file. Raises InputError where it can't be written."""
+    from scipy.io import savemat
+
+    columns = headers.numbers_of(record)
+    size = sum(8 * column.size for column in columns.values())
+    if size > MOST:
+        raise InputError(
+            f"{path}: can't be written: {in_bytes(size)} are more than Matlab reads from a .mat, "
+            "2 GB: save it as .npz"
+        )
+    header, out = headers.with_shapes(record), _looks(record)
+    for name, (struct, field) in _places(header).items():
+        out.setdefault(struct, {})[field] = _for_matlab(name, columns[name])
+    out |= {"Digest": record.digest, "Header": headers.as_text(header)}
+    with replacing(path) as file:
+        into: Any = file
+        # Names longer than 31 characters, to which the default holds, are Matlab's since 2000.
+        savemat(into, {NAME: out}, do_compression=True, long_field_names=True, oned_as="column")
+
+
+def read(path: Path, largest: int) -> Record:
+    """Read the record in a file; InputError where there is none, or it is larger than allowed."""
+    with headers.reading(path):
+        out = read_struct(path, NAME, largest)
+        header = headers.of_text(path, out["Header"], largest)
+        places, shapes = _places(header), header["columns"]
+        columns = {
+            name: _of_matlab(name, out[struct][field], shapes[name][1])
+            for name, (struct, field) in places.items()
+        }
+        return headers.restored(header, columns)
+
+
+def _places(header: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
+    """Return for each column in which struct it is, and in which field there."""
+    sensors = plain_names(header["sensor_robots"])
+    places = {}
+    for name in headers.names_in(header):
+        family, _, field = name.partition(":")
+        if name in HISTORY:
+            places[name] = ("History", HISTORY[name])
+        elif family == "sensor":
+            places[name] = ("Sensors", sensors[field])
+        elif name not in headers.TEXTS:
+            places[name] = (f"{family.capitalize()}s", field)
+    return places
+
+
+def _for_matlab(name: str, column: NDArray[Any]) -> NDArray[Any]:
+    values = column if column.dtype == np.bool_ else column.astype(np.float64)
+    return values + (values >= 0) if name in INDICES else values
+
+
+def _of_matlab(name: str, values: NDArray[Any], shape: list[int]) -> NDArray[Any]:
+    """Return a column in its own shape: Matlab has two axes at least, and drops last ones of 1."""
+    if name in INDICES:
+        values = values.astype(np.float64)
+        values = values - (values > 0)
+    return values.reshape(shape, order="F")
+
+
+def _looks(record: Record) -> dict[str, Any]:
+    """Return what Table 1 of the paper has beside the history, and whose names they are."""
+    scenario, robots = record.scenario, record.scenario.robots
+    drives = [robot.drive for robot in robots]
+    animation, workspace = scenario.animation, scenario.workspace
+    nothing = float("nan")
+    return {
+        "Robots": float(len(robots)),
+        "Initial_pose": scenario.initial_pose,
+        "Sampling_time": scenario.sampling_time,
+        "Stop_time": scenario.stop_time,
+        "Workspace": np.array(workspace) if workspace else np.empty((0, 2)),
+        "Bounds": np.array([scenario.bounds]),
+        "Non_holonomic": np.array([[not isinstance(drive, Holonomic) for drive in drives]]),
+        "Command_delay": scenario.command_delay,
+        "Exp_over": record.finished,
+        "Exp_over_msg": _text(record.over_message),
+        "Filename": _text(record.filename),
+        "Version": _text(record.versions.get("mars2d", "")),
+        "Addons": _cell(addon.key for addon in scenario.addons),
+        "Robot": {
+            "Name": _cell(str(robot.name) for robot in robots),
+            "Drive": _cell(type(drive).__name__ for drive in drives),
+            "Max_linear_speed": np.array([[drive.max_linear_speed for drive in drives]]),
+            "Wheels_semiaxis_length": np.array(
+                [[getattr(drive, "wheel_semiaxis", nothing) for drive in drives]]
+            ),
+            "Diameter": np.array([[2 * robot.radius for robot in robots]]),
+            "Distance_center_barycenter": np.array([[robot.center_offset for robot in robots]]),
+        },
+        "Prop": {"Name": _cell(str(prop.name) for prop in scenario.props)},
+        "Animation": {
+            "Title": _text(scenario.title),
+            "Grid": animation.grid,
+            "Show_initial_pose": animation.show_initial_pose,
+            "Show_real_shape": animation.show_real_shape,
+            "Wake": animation.wake,
+            "Wake_style": animation.wake_style,
+            "Playback_speed": animation.playback_speed,
+            "Base_colors": _cell(animation.base_colors),
+        },
+        "Seed": np.int64(record.seed),
+        "Sensors": {},
+        "Sensor_robots": _carriers(record),
+    }
+
+
+def _carriers(record: Record) -> dict[str, Any]:
+    """Return for each sensor the robots that carry it, counted from 1."""
+    fields = plain_names(record.sensors)
+    return {fields[name]: np.array(record.sensor_robots[name]) + 1.0 for name in fields}
+
+
+def _cell(texts: Iterable[str]) -> NDArray[Any]:
+    return np.array([_text(each) for each in texts], dtype=object).reshape(-1, 1)
+
+
+def _text(text: str) -> str:
+    """Return a text with as many characters as it has bytes, by blanks at its end.
+
+    Octave reads as many bytes as a text is said to have characters, and would cut off the rest.
+    """
+    return text + " " * (len(text.encode()) - len(text))

@@ -1,0 +1,10 @@
+"""``.mcap``: a log that is written while a run goes on, for this program and for Foxglove."""
+
+from __future__ import annotations
+
+from mars2d.output.formats.mcap.log import Log
+from mars2d.output.formats.mcap.packing import write
+from mars2d.output.formats.mcap.reading import read
+from mars2d.output.formats.mcap.tape import require
+
+__all__ = ["Log", "read", "require", "write"]

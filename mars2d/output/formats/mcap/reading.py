@@ -1,0 +1,171 @@
+"""Records read from logs, whole or broken off, and from whatever else has the ending of one."""
+
+from __future__ import annotations
+
+import json
+import struct
+from array import array
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import InputError
+from mars2d.output.formats import header as headers
+from mars2d.output.formats.mcap.row import Row, decoded
+from mars2d.output.formats.mcap.scanning import CHANNEL, MAGIC, MESSAGE, METADATA, Torn, scan
+from mars2d.output.formats.mcap.tape import BEGIN, END, TOPIC
+from mars2d.output.formats.mcap.wording import metadata, text
+from mars2d.record.contact import CONTACT
+from mars2d.record.message import MESSAGE as MESSAGES
+from mars2d.record.message import as_of
+from mars2d.record.record import Record
+
+__all__ = ["BROKEN_OFF", "read"]
+
+BROKEN_OFF = "The log breaks off here: the run was killed, or still goes on"
+"""What a record says of its end that the log does not tell."""
+
+SIZES = {"pose": 3, "command": 2, "prop_pose": 3, "effort": 1}
+"""How many numbers a body has in each column."""
+
+
+def read(path: Path, largest: int) -> Record:
+    """Read the record in a file; InputError where there is none, or it is larger than allowed.
+
+    A log that breaks off anywhere has all rows up to there; it is told by `Record.over_message`.
+    """
+    with headers.reading(path), path.open("rb") as file:
+        rows, header, end, count = _Rows(), None, None, 0
+        channels: set[int] = set()
+        try:
+            for kind, data in scan(path, file, largest, channels):
+                if kind == MESSAGE:
+                    rows.add(decoded(data[22:]))
+                elif kind == CHANNEL:
+                    (channel,) = struct.unpack_from("<H", data)
+                    if text(data, 4)[0] == TOPIC:
+                        channels.add(channel)
+                elif kind == METADATA:
+                    name, told = metadata(data)
+                    if name == BEGIN:
+                        header = json.loads(told["header"])
+                        headers.check_format(header)
+                        rows.cut(int(told["row"]))
+                    elif name == END:
+                        end, count = json.loads(told["end"]), int(told["rows"])
+        except Torn:
+            if len(rows) < count:
+                end = None
+        if header is None:
+            raise InputError(_why_nothing(path, channels))
+        return rows.record(header, end)
+
+
+def _why_nothing(path: Path, channels: set[int]) -> str:
+    """Return why a file holds no run. channels: those for rows that it has."""
+    if path.stat().st_size < len(MAGIC):
+        return "empty: the run was killed before it began"
+    if channels:
+        return "holds no rows: the run ended before its first one"
+    return "an MCAP file, but not of MARS2D: it has no rows of a run"
+
+
+class _Rows:
+    """The rows of a log while it is read, column by column."""
+
+    def __init__(self) -> None:
+        self._count = 0
+        self._columns = {name: bytearray() for name in ("time", "command_time", *SIZES)}
+        self._sensors: dict[str, tuple[tuple[int, ...], np.dtype[Any], bytearray]] = {}
+        self._contacts, self._messages = bytearray(), bytearray()
+        self._contents: list[str] = []
+        self._changes: list[tuple[int, str]] = []
+        # What rows have any number of, and where those of each row end.
+        lists: list[Any] = [self._contacts, self._messages, self._contents]
+        self._lists = [(array("q"), things) for things in lists]
+
+    def __len__(self) -> int:
+        return self._count
+
+    def add(self, row: Row) -> None:
+        """Add a row; one that was there already, and all after it, were left for this one."""
+        if row.row != self._count:
+            self.cut(row.row)
+        for name in ("time", "command_time"):
+            self._columns[name] += struct.pack("<d", getattr(row, name))
+        for name in SIZES:
+            values = getattr(row, name)
+            if self._count and len(self._columns[name]) != self._count * values.nbytes:
+                raise ValueError(name)
+            self._columns[name] += values.tobytes()
+        self._add_readings(row)
+        self._contacts += row.contacts.tobytes()
+        self._messages += row.messages.tobytes()
+        self._contents += row.contents
+        self._changes += [(row.row, change) for change in row.changes]
+        for ends, things in self._lists:
+            ends.append(len(things))
+        self._count += 1
+
+    def _add_readings(self, row: Row) -> None:
+        if self._count == 0:
+            self._sensors = {
+                name: (values.shape, values.dtype, bytearray())
+                for name, values in row.readings.items()
+            }
+        if row.readings.keys() != self._sensors.keys():
+            raise ValueError("sensors")
+        for name, values in row.readings.items():
+            shape, dtype, data = self._sensors[name]
+            if (values.shape, values.dtype) != (shape, dtype):
+                raise ValueError(name)
+            data += values.tobytes()
+
+    def cut(self, count: int) -> None:
+        """Drop all rows from `count` on. Raises ValueError where there are fewer."""
+        if not 0 <= count <= self._count:
+            raise ValueError("a row that does not follow the one before")
+        columns = [*self._columns.values(), *(data for _, _, data in self._sensors.values())]
+        for data in columns if self._count else ():
+            del data[len(data) // self._count * count :]
+        for ends, things in self._lists:
+            del things[ends[count - 1] if count else 0 :]
+            del ends[count:]
+        self._changes = [each for each in self._changes if each[0] < count]
+        self._count = count
+
+    def record(self, header: dict[str, Any], end: dict[str, Any] | None) -> Record:
+        """Return the record; raises what `headers.to_record` does. end: as the log tells it."""
+        changes = [json.loads(text) for _, text in self._changes]
+        robots = header["sensor_robots"]
+        whole = header | {
+            "interventions": [*header["interventions"], *changes],
+            "messages": bool(self._contents),
+            "sensor_robots": {name: robots[name] for name in robots if name in self._sensors},
+        }
+        whole |= end or {"over_message": BROKEN_OFF, "finished": False}
+        scenario = header["scenario"]
+        return headers.to_record(whole, self._all(scenario), torn=end is None)
+
+    def _all(self, scenario: dict[str, Any]) -> dict[str, NDArray[Any]]:
+        """Return the columns as `Record.columns` does. scenario: as plain data."""
+        n = self._count
+        robots, props = len(scenario["robots"]), len(scenario.get("props", ()))
+        columns = {name: np.frombuffer(data) for name, data in self._columns.items()}
+        for name, numbers in SIZES.items():
+            bodies = props if name == "prop_pose" else robots
+            shape = (n, bodies) if numbers == 1 else (n, numbers, bodies)
+            columns[name] = columns[name].reshape(shape)
+        for name, (reading, dtype, data) in self._sensors.items():
+            columns[f"sensor:{name}"] = np.frombuffer(data, dtype).reshape(n, *reading)
+        contacts = np.frombuffer(self._contacts, CONTACT)
+        columns |= {f"contact:{name}": contacts[name] for name in CONTACT.names or ()}
+        now = columns["time"][-1] if n else 0.0
+        messages = as_of(np.frombuffer(self._messages, MESSAGES), now)
+        columns |= {f"message:{name}": messages[name] for name in MESSAGES.names or ()}
+        texts = [text.encode() for text in self._contents]
+        columns["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
+        columns["content_sizes"] = np.array([len(text) for text in texts], dtype=np.int64)
+        return columns

@@ -1,0 +1,169 @@
+"""``.csv``: one long table, a row for each time and body, that any program opens.
+
+Its last column, `record`, holds all that is not in the others, as JSON in pieces.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from base64 import b64decode, b64encode
+from collections.abc import Iterator, Mapping
+from itertools import chain, islice, repeat
+from math import prod
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.atomic import replacing
+from mars2d.output.formats import header as headers
+from mars2d.output.formats.bodies import FIRST, LAST, Part, parts_of
+from mars2d.output.formats.size import check_size
+from mars2d.record.record import Record
+
+__all__ = ["read", "require", "write"]
+
+PIECE = 30_000
+"""Characters of JSON in a cell: a spreadsheet's holds 32 767."""
+
+BLOCK = 50_000
+"""How many cells of the table are made at once, or few more."""
+
+NAN = np.array(np.nan).view(np.uint64) << np.uint64(1)
+"""The bits of the usual one, but for its sign."""
+
+Columns = Mapping[str, NDArray[Any]]
+
+
+def require(path: Path) -> None:
+    """Need nothing: Python writes tables itself."""
+
+
+def write(record: Record, path: Path) -> None:
+    """Write a record to a file. Raises InputError where it can't be written."""
+    columns, header = headers.numbers_of(record), headers.with_shapes(record)
+    parts = _parts(header)
+    in_table = headers.names_of_bodies(header)
+    header["exact"] = {
+        name: b64encode(column.tobytes()).decode()
+        for name, column in columns.items()
+        if name not in in_table or not _as_text_says_all(column)
+    }
+    text = headers.as_text(header)
+    pieces = (text[i : i + PIECE] for i in range(0, len(text), PIECE))
+    names = [str(body.name) for body in record.scenario.bodies]
+    with replacing(path) as binary, io.TextIOWrapper(binary, "utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow([*FIRST, *parts, LAST])
+        for rows in _blocks(len(record), len(names) * len(parts)):
+            cells = [_cells(columns, column, rows, len(names)) for column in parts.values()]
+            times = chain.from_iterable(
+                repeat(t, len(names)) for t in columns["time"][rows].tolist()
+            )
+            bodies = names * (rows.stop - rows.start)
+            last = chain(islice(pieces, len(bodies)), repeat(""))
+            table.writerows(zip(times, bodies, *cells, last, strict=False))
+        table.writerows([*repeat("", len(FIRST) + len(parts)), piece] for piece in pieces)
+
+
+def read(path: Path, largest: int) -> Record:
+    """Read the record in a file; InputError where there is none, or it is larger than allowed."""
+    with headers.reading(path), path.open(encoding="utf-8-sig", newline="") as file:
+        size = path.stat().st_size
+        check_size(path, size, largest)
+        text = "".join(_pieces(csv.reader(file, strict=True)))
+        header = headers.of_text(path, text, largest)
+        check_size(path, 8 * _claimed(header, size), largest)
+        file.seek(0)
+        return headers.restored(header, _values(header, csv.reader(file, strict=True)))
+
+
+def _claimed(header: Mapping[str, Any], size: int) -> int:
+    """Return how many values a table is said to hold; ValueError if its file is too small for it.
+
+    Each value takes a byte at least, and each column some of the first line.
+    """
+    kept = [header["columns"][name] for name in headers.names_of_bodies(header)]
+    values: int = sum(prod(shape) for _, shape in kept)
+    wide = sum(prod(shape[2:]) for _, shape in kept)
+    known = all(kind in headers.KINDS and min(shape) >= 0 for kind, shape in kept)
+    if not known or max(values, wide) > size:
+        raise ValueError("columns")
+    return values
+
+
+def _pieces(table: Iterator[list[str]]) -> Iterator[str]:
+    for row in islice(table, 1, None):
+        if not row[-1]:
+            return
+        yield row[-1]
+
+
+def _values(header: Mapping[str, Any], table: Iterator[list[str]]) -> dict[str, NDArray[Any]]:
+    """Return the columns in a table, and those that are in its header to the last bit."""
+    shapes, parts = header["columns"], _parts(header)
+    if next(table) != [*FIRST, *parts, LAST]:
+        raise ValueError("names of columns")
+    names = headers.names_of_bodies(header)
+    found = {name: np.empty(shapes[name][1], shapes[name][0]) for name in names}
+    bodies = shapes["pose"][1][2] + shapes["prop_pose"][1][2]
+    for rows in _blocks(shapes["time"][1][0], bodies * len(parts)):
+        count = rows.stop - rows.start
+        lines = list(islice(table, count * bodies))
+        cells = np.array(lines, dtype=object).reshape(count, bodies, len(parts) + 3)
+        found["time"][rows] = cells[:, 0, 0].astype(np.float64)
+        for k, column in enumerate(parts.values(), len(FIRST)):
+            for part in column:
+                values = found[part.name][rows][(slice(None), *part.at)]
+                texts = cells[:, list(part.bodies[: values.shape[1]]), k]
+                values[...] = texts == "1" if values.dtype == np.bool_ else texts.astype(np.float64)
+    if any(row and row[0] for row in table):
+        raise ValueError("more rows than there are")
+    for name, text in header["exact"].items():
+        found[name] = np.frombuffer(b64decode(text, validate=True), shapes[name][0])
+    return found
+
+
+def _parts(header: Mapping[str, Any]) -> dict[str, list[Part]]:
+    """Return the columns of the table of a record with this header."""
+    shapes, sensors = header["columns"], header["sensor_robots"]
+    robots, props = (shapes[name][1][2] for name in ("pose", "prop_pose"))
+    return parts_of(robots, props, sensors, {name: shapes[f"sensor:{name}"][1] for name in sensors})
+
+
+def _blocks(rows: int, width: int) -> Iterator[slice]:
+    """Yield slices that divide rows of so many cells into blocks."""
+    step = max(1, BLOCK // max(1, width))
+    return (slice(start, min(start + step, rows)) for start in range(0, rows, step))
+
+
+def _cells(columns: Columns, parts: list[Part], rows: slice, bodies: int) -> list[Any]:
+    """Return a column of the table as it is written, in some of the record's rows."""
+    cells = np.full((rows.stop - rows.start, bodies), "", dtype=object)
+    for part in parts:
+        values = columns[part.name][rows][(slice(None), *part.at)]
+        cells[:, list(part.bodies)] = _written(values)
+    return cells.ravel().tolist()
+
+
+def _written(values: NDArray[Any]) -> NDArray[Any]:
+    """Return values as objects that csv writes in full, and as R and pandas read them."""
+    if values.dtype == np.bool_:
+        return values.astype(np.int64).astype(object)
+    written = values.astype(object)
+    if not np.isfinite(values).all():
+        negative = np.signbit(values)
+        for odd, text in ((np.isnan(values), "NaN"), (np.isinf(values), "Inf")):
+            written[odd & ~negative] = text
+            written[odd & negative] = f"-{text}"
+    return written
+
+
+def _as_text_says_all(values: NDArray[Any]) -> bool:
+    """Return whether all that is not a number is so in one of the two ways that have a text."""
+    if values.dtype == np.bool_:
+        return True
+    bits = values[np.isnan(values)].view(np.uint64)
+    return bool((bits << np.uint64(1) == NAN).all())

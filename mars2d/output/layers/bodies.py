@@ -1,0 +1,222 @@
+"""How single bodies look: robots, props, and what ties them together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from math import cos, pi, sin, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.bodies.attached_joint import Tie
+from mars2d.bodies.joints.hinge import Hinge
+from mars2d.bodies.joints.rope import Rope
+from mars2d.bodies.joints.spring import Spring
+from mars2d.bodies.props.base import Prop
+from mars2d.core.plane import Point
+from mars2d.core.scene import Scene, faded
+from mars2d.geometry.shapes import Disc, Rim, Shape
+from mars2d.scenario.robot import Robot
+
+__all__ = ["INK", "OBSTACLE", "draw_prop", "draw_robot", "draw_tie", "prop_colors", "prop_edge"]
+
+Float = NDArray[np.float64]
+
+INK = "#3d4852"
+OBSTACLE = "#b8c0c8"
+
+NEUTRAL = "#d8cbb3"
+"""The colour of a prop of which neither colour nor material is said."""
+
+MATERIAL_COLORS = {
+    "aluminium": "#c3ced8",
+    "cardboard": "#c9a26b",
+    "concrete": "#bdb8ae",
+    "felt": "#a9bd97",
+    "foam": "#f1e3b0",
+    "glass": "#cfe8e4",
+    "ice": "#d6ecf8",
+    "plastic": "#e8c7d9",
+    "rubber": "#77716b",
+    "steel": "#9fb2c4",
+    "teflon": "#eceae4",
+    "wood": "#d9b384",
+}
+
+ROPE = "#7a5c2e"
+STEEL = "#52606d"
+COILS = 9
+TAUT = 2e-3
+"""A rope is drawn straight where it is shorter than its length by no more than this share of it."""
+
+
+def draw_robot(scene: Scene, robot: Robot, pose: Float, fill: str | None, stroke: str) -> None:
+    """Draw a robot to scale, at a pose (3,): its chassis, and a line ahead that shows its heading.
+
+    The line goes from the centre of rotation to the front; a robot that turns about another point
+    than its geometric centre has a dot there. fill: None draws it hollow.
+    """
+    x, y, theta = pose.tolist()
+    offset = robot.center_offset
+    mark = stroke if fill is None else "#ffffff"
+    if robot.shape is None:
+        c, s = cos(theta), sin(theta)
+        center, r = (x - offset * c, y - offset * s), robot.radius
+        scene.circle(center, r, fill=fill, stroke=stroke, width=1.5)
+        ends = [(center[0] + d * c, center[1] + d * s) for d in (min(offset, 0.0), r)]
+        scene.line(ends, stroke=mark, width=2.5)
+    else:
+        chassis = robot.chassis
+        _draw_shape(scene, chassis, pose, fill, stroke, 1.5)
+        r = chassis.thickness / 2
+        scene.line(_placed(_ahead(chassis), pose), stroke=mark, width=2.5)
+    if offset:
+        scene.circle((x, y), r / 6, fill=mark)  # the centre of rotation
+
+
+def draw_prop(scene: Scene, prop: Prop, pose: Float, color: str, *, hollow: bool = False) -> None:
+    """Draw a prop at a pose (3,); a faint line from its centre of mass ahead shows how it turns."""
+    edge = prop_edge(color)
+    stroke = faded(edge, 0.7) if hollow else edge
+    _draw_shape(scene, prop.shape, pose, None if hollow else color, stroke, 1.5)
+    scene.line(_placed(_ahead(prop.shape), pose), stroke=faded(edge, 0.45), width=1.5)
+
+
+def prop_colors(props: Sequence[Prop]) -> tuple[str, ...]:
+    """Return the colour of each prop: its own, or that of its material."""
+    return tuple(p.color or MATERIAL_COLORS.get(p.material or "", NEUTRAL) for p in props)
+
+
+def prop_edge(color: str) -> str:
+    """Return the colour of a prop's edge: a darker one."""
+    return "#" + "".join(f"{round(0.45 * int(color[k : k + 2], 16)):02x}" for k in (1, 3, 5))
+
+
+def draw_tie(scene: Scene, tie: Tie, poses: Float) -> None:
+    """Draw what ties two bodies, (3, bodies): a rope, rod, spring or hinge."""
+    joint = tie.joint
+    start = _placed([joint.anchor_a], poses[:, tie.a])[0]
+    end = np.array(joint.anchor_b)
+    if tie.b >= 0:
+        end = _placed([joint.anchor_b], poses[:, tie.b])[0]
+    if isinstance(joint, Hinge):
+        scene.circle(start, 0.0, fill="#ffffff", stroke=INK, width=2.0, pixels=4.0)
+        return
+    apart = float(np.hypot(*(end - start)))
+    if isinstance(joint, Rope):
+        slack = tie.length - apart > TAUT * tie.length
+        points = _wave(start, end, tie.length) if slack else [start, end]
+        scene.line(points, stroke=faded(ROPE, 0.75) if slack else ROPE, width=2.0)
+    elif isinstance(joint, Spring):
+        scene.line(_zigzag(start, end, tie.length), stroke=STEEL, width=1.8)
+    else:
+        scene.line([start, end], stroke="#ffffff", width=6.0)
+        scene.line([start, end], stroke=STEEL, width=4.0)
+    for point in (start, end):
+        scene.circle(point, 0.0, fill=ROPE if isinstance(joint, Rope) else STEEL, pixels=3.0)
+
+
+def _wave(start: Float, end: Float, length: float) -> Float:
+    """Return two periods of a wave that is as long as the rope [m], within a few percent."""
+    apart = float(np.hypot(*(end - start)))
+    height = sqrt(max(length**2 - apart**2, 0.0)) / 8  # of a zigzag; a wave's is a little less
+    height *= 1 - 0.1 * apart / length
+    share = np.linspace(0.0, 1.0, 49)
+    return _beside(start, end, share, height * np.sin(4 * pi * share))
+
+
+def _zigzag(start: Float, end: Float, length: float) -> Float:
+    """Return a spring's coils between two short straight ends."""
+    apart = float(np.hypot(*(end - start)))
+    height = 0.1 * max(length, 0.6)
+    lead = min(0.1 * max(length, apart), 0.2 * apart) / max(apart, 1e-9)
+    coils = lead + (1 - 2 * lead) * (np.arange(2 * COILS) + 0.5) / (2 * COILS)
+    share = np.concatenate([[0.0, lead], coils, [1 - lead, 1.0]])
+    side = np.concatenate([[0.0, 0.0], np.resize([height, -height], 2 * COILS), [0.0, 0.0]])
+    return _beside(start, end, share, side)
+
+
+def _beside(start: Float, end: Float, share: Float, side: Float) -> Float:
+    """Return points (k, 2) at shares of the way from start to end, and metres beside it."""
+    along = end - start
+    apart = float(np.hypot(*along))
+    normal = np.array([-along[1], along[0]]) / apart if apart > 0 else np.array([0.0, 1.0])
+    return np.asarray(start + share[:, None] * along + side[:, None] * normal)
+
+
+def _draw_shape(
+    scene: Scene, shape: Shape, pose: Float, fill: str | None, stroke: str, width: float
+) -> None:
+    """Draw the shape of a body at a pose (3,), without seams where its parts overlap."""
+    if fill is None or len(shape.rims) == 1:
+        for rim in _edges(shape):
+            _draw_rim(scene, rim, pose, fill, stroke, width)
+        return
+    for rim in shape.rims:
+        _draw_rim(scene, rim, pose, None, stroke, 2 * width)
+    for rim in shape.rims:
+        _draw_rim(scene, rim, pose, fill, None, width)
+
+
+def _draw_rim(
+    scene: Scene, rim: Rim, pose: Float, fill: str | None, stroke: str | None, width: float
+) -> None:
+    points = _placed(rim.points, pose)
+    if rim.radius:
+        scene.circle(points[0], rim.radius, fill=fill, stroke=stroke, width=width)
+    else:
+        scene.polygon(points, fill=fill, stroke=stroke, width=width)
+
+
+def _placed(points: ArrayLike | Sequence[Point], pose: Float) -> Float:
+    """Return where points (k, 2) of a body lie in the world when it is at a pose (3,)."""
+    x, y, theta = pose.tolist()
+    c, s = cos(theta), sin(theta)
+    turned = np.asarray(points, dtype=float) @ np.array([[c, s], [-s, c]])
+    return np.asarray(turned + np.array([x, y]))
+
+
+@lru_cache(maxsize=1024)
+def _region(shape: Shape) -> Any:
+    """Return what a shape covers as a region of shapely, its parts as one."""
+    import shapely
+
+    parts = [
+        shapely.Point(rim.points[0]).buffer(rim.radius, quad_segs=24)
+        if rim.radius
+        else shapely.Polygon(rim.points)
+        for rim in shape.rims
+    ]
+    return shapely.union_all(parts)
+
+
+@lru_cache(maxsize=1024)
+def _edges(shape: Shape) -> tuple[Rim, ...]:
+    """Return the rims of a shape's parts as one: what overlaps has no edge inside."""
+    import shapely
+
+    if len(shape.rims) == 1:
+        return shape.rims
+    rings = [
+        ring
+        for part in shapely.get_parts(_region(shape))
+        for ring in (part.exterior, *part.interiors)
+    ]
+    return tuple(Rim(tuple(ring.coords[:-1]), 0.0) for ring in rings)
+
+
+@lru_cache(maxsize=1024)
+def _ahead(shape: Shape) -> tuple[Point, Point]:
+    """Return the ends of the first stretch within a shape on the x axis, from its origin on."""
+    import shapely
+
+    if isinstance(shape, Disc) and shape.center == (0.0, 0.0):
+        return (0.0, 0.0), (shape.radius, 0.0)
+    (x, _), radius = shape.bound
+    axis = shapely.LineString([(0.0, 0.0), (max(x + radius, radius), 0.0)])
+    within = shapely.get_parts(shapely.intersection(axis, _region(shape)))
+    found = [part.bounds for part in within if not part.is_empty]
+    first = min(found, default=(0.0, 0.0, shape.thickness / 2, 0.0))
+    return (first[0], 0.0), (first[2], 0.0)

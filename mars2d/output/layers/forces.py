@@ -1,0 +1,187 @@
+"""The forces of contacts as arrows where they act, and the drives that slip."""
+
+from __future__ import annotations
+
+from math import floor, log10, sqrt
+from statistics import median
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.scene import Anchor, Scene
+from mars2d.geometry.shapes import Shape
+from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
+
+__all__ = [
+    "FORCE",
+    "LABEL_SIZE",
+    "SLIP",
+    "SLIPPING",
+    "SLIP_EDGE",
+    "ForceScale",
+    "bounding_circle",
+    "force_scale",
+    "forces",
+    "in_newtons",
+    "mean_forces",
+    "round_force",
+]
+
+Float = NDArray[np.float64]
+
+FORCE, EDGE = "#a3003c", "#ffffff"
+SLIP, SLIP_EDGE = "#ffc20a", "#3d2f00"
+ARROW_WIDTH = 3.5
+LABEL_SIZE = 13.0
+
+SLIPPING = 0.999
+"""The effort from which on a drive is said to slip."""
+
+FAINTEST = 0.01
+"""Weaker forces, in shares of the strongest drive's, are not drawn."""
+
+MOST = 60
+"""Of the contacts of a frame, so many are drawn: the strongest."""
+
+LABELED, LABELS = 0.15, 6
+"""Numbers stand at so many arrows at most, the longest of all, from this share of a force on."""
+
+FEW = 6
+"""From more robots than this on, arrows are shorter and thinner: in a crowd forces pile up."""
+
+
+class ForceScale(NamedTuple):
+    """How forces are drawn, the same in a whole experiment.
+
+    strongest: newtons, the largest bound of a drive. newton: metres that 1 N is long. longest:
+    metres; stronger forces are drawn this long, with a cut through the arrow. width: of an arrow,
+    points. ring: what the widths of slip marks are multiplied by.
+    """
+
+    strongest: float
+    newton: float
+    longest: float
+    width: float
+    ring: float
+
+
+def force_scale(scenario: Scenario) -> ForceScale:
+    """Return the scale of an experiment.
+
+    Among few robots the bound of the strongest drive is as long as a robot and a half, or as a part
+    of the workspace where robots are small in it.
+    """
+    xmin, xmax, ymin, ymax = scenario.bounds
+    sizes = [2 * robot.radius for robot in scenario.robots]
+    length = max(1.5 * median(sizes), 0.06 * max(xmax - xmin, ymax - ymin))
+    strongest = max(robot.drive.max_force for robot in scenario.robots)
+    crowd = max(1.0, sqrt(len(scenario.robots) / FEW))
+    return ForceScale(
+        strongest=strongest,
+        newton=length / strongest / crowd,
+        longest=2.5 * length / crowd,
+        width=ARROW_WIDTH / crowd**0.25,
+        ring=1 / sqrt(crowd),
+    )
+
+
+def mean_forces(contacts: NDArray[np.void], sampling_time: float) -> Float:
+    """Return the mean force on b over the control step of each contact, (k, 2) newtons."""
+    normal = contacts["normal"]
+    tangent = np.column_stack([-normal[:, 1], normal[:, 0]])
+    impulse = contacts["normal_impulse"][:, None] * normal
+    impulse = impulse + contacts["tangential_impulse"][:, None] * tangent
+    return np.asarray(impulse / sampling_time)
+
+
+def forces(frame: Frame) -> Scene:
+    """Return the mean forces of the control step that led to a frame, and which drives slip.
+
+    Each pair that touched has two opposite arrows from where it touched, one on either body; on an
+    obstacle there is none. In a crowd only the strongest are drawn.
+    """
+    scene = Scene()
+    _slip_marks(scene, frame)
+    scenario, contacts = frame.scenario, frame.contacts
+    if not len(contacts):
+        return scene
+    force = mean_forces(contacts, scenario.sampling_time)
+    size = np.hypot(force[:, 0], force[:, 1])
+    scale = force_scale(scenario)
+    drawn = np.flatnonzero(size >= FAINTEST * scale.strongest)
+    drawn = drawn[np.argsort(size[drawn], kind="stable")][-MOST:]  # the strongest lie on top
+    at = _touching_points(frame)
+    length = np.minimum(scale.newton * size[drawn], scale.longest)
+    reach = force[drawn] * (length / size[drawn])[:, None]
+    cuts = scale.newton * size[drawn] > scale.longest
+    for start, arrow, cut, solid in zip(
+        at[drawn], reach, cuts, contacts["b"][drawn] >= 0, strict=True
+    ):
+        for way in (arrow, -arrow) if solid else (-arrow,):
+            scene.arrow(start, start + way, fill=FORCE, stroke=EDGE, width=scale.width)
+            if cut:
+                _cut(scene, start, way)
+    for k, row in list(enumerate(drawn.tolist()))[-LABELS:]:
+        if size[row] >= LABELED * scale.strongest:
+            way = reach[k] if contacts["b"][row] >= 0 else -reach[k]
+            _number(scene, at[row] + way, way, float(size[row]))
+    return scene
+
+
+def _slip_marks(scene: Scene, frame: Frame) -> None:
+    """Draw a ring of the warning colour round each robot whose drive is at its bound."""
+    slipping = np.flatnonzero(frame.effort >= SLIPPING).tolist()
+    share = force_scale(frame.scenario).ring if slipping else 1.0
+    for i in slipping:
+        center, radius = bounding_circle(frame.scenario.robots[i].chassis, frame.pose[:, i])
+        for color, width in ((SLIP_EDGE, 4.5), (SLIP, 2.7)):
+            scene.circle(center, radius, stroke=color, width=share * width, pixels=1.5)
+
+
+def bounding_circle(shape: Shape, pose: Float) -> tuple[Float, float]:
+    """Return the centre (2,) and radius of a circle round a body at a pose (3,), metres."""
+    (x, y), radius = shape.bound
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    return pose[:2] + np.array([c * x - s * y, s * x + c * y]), radius
+
+
+def _cut(scene: Scene, start: Float, way: Float) -> None:
+    """Draw a gap across an arrow that is not as long as it should be."""
+    slant = 0.06 * np.array([way[0] - way[1], way[0] + way[1]])
+    for share in (0.42, 0.5):
+        middle = start + share * way
+        scene.line([middle - slant, middle + slant], stroke=EDGE, width=2.0)
+
+
+def _number(scene: Scene, tip: Float, way: Float, newtons: float) -> None:
+    across = abs(way[0]) > abs(way[1])
+    side: Anchor = ("left" if way[0] > 0 else "right") if across else "above"
+    if not across and way[1] < 0:
+        side = "below"
+    scene.text(tip, in_newtons(newtons), color=FORCE, size=LABEL_SIZE, anchor=side, halo=EDGE)
+
+
+def _touching_points(frame: Frame) -> Float:
+    """Return where the contacts of a frame are now, (k, 2) metres.
+
+    A row says where a pair first touched during the control step; that point has moved with a.
+    """
+    contacts = frame.contacts
+    since = np.clip(frame.time - contacts["time"], 0.0, frame.scenario.sampling_time)
+    return np.asarray(contacts["point"] + frame.velocity[:2, contacts["a"]].T * since[:, None])
+
+
+def in_newtons(force: float) -> str:
+    """Return a force as it is read: 0.25 N, 4.9 N, 12 N, 2.4 kN."""
+    if force >= 1000:
+        return f"{force / 1000:.3g} kN"
+    digits = 2 if force < 1 else 1 if force < 10 else 0
+    return f"{force:.{digits}f} N"
+
+
+def round_force(most: float) -> float:
+    """Return the largest number of 1, 2 or 5 times a power of ten that is at most `most`."""
+    power = 10.0 ** floor(log10(most) + 1e-9)
+    return next(k * power for k in (5.0, 2.0, 1.0) if k * power <= most * (1 + 1e-9))

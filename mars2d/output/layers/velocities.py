@@ -1,0 +1,108 @@
+"""How fast everything moves: arrows of velocity, and arcs of how far it turns in a second."""
+
+from __future__ import annotations
+
+from math import sqrt
+from statistics import median
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.scene import Arrow, Scene
+from mars2d.output.layers.forces import bounding_circle
+from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["VELOCITY", "SpeedScale", "in_metres_a_second", "speed_scale", "velocities"]
+
+Float = NDArray[np.float64]
+
+VELOCITY, EDGE = "#00695c", "#ffffff"
+ARROW_WIDTH, ARC_WIDTH = 3.2, 2.0  # points
+
+SLOWEST = 0.01
+"""Slower bodies, in shares of the fastest drive's bound, have no arrow."""
+
+LEAST_TURN, MOST_TURN = 0.15, 5.0
+"""Arcs are drawn from so many radians a second on, and up to so many radians."""
+
+ARCS = 16
+"""Of the bodies that turn, so many have an arc: those that turn the most."""
+
+HEAD = 0.5
+"""The length of the arrow at an arc's end, radians at most."""
+
+FEW, CROWD = 6, 30
+"""From more robots on, arrows are shorter and thinner, and from more bodies on without an edge."""
+
+
+class SpeedScale(NamedTuple):
+    """How velocities are drawn, the same in a whole experiment.
+
+    fastest: m/s, the largest bound of a drive. meter_a_second: metres that 1 m/s is long. longest:
+    metres; faster bodies have an arrow of this length. width: of an arrow, points.
+    """
+
+    fastest: float
+    meter_a_second: float
+    longest: float
+    width: float
+
+
+def speed_scale(scenario: Scenario) -> SpeedScale:
+    """Return the scale of an experiment: the fastest drive's bound is two robots long."""
+    xmin, xmax, ymin, ymax = scenario.bounds
+    sizes = [2 * robot.radius for robot in scenario.robots]
+    length = max(2.0 * median(sizes), 0.08 * max(xmax - xmin, ymax - ymin))
+    fastest = max(robot.drive.max_linear_speed for robot in scenario.robots)
+    crowd = max(1.0, sqrt(len(scenario.robots) / FEW))
+    return SpeedScale(
+        fastest=fastest,
+        meter_a_second=length / fastest / sqrt(crowd),
+        longest=2.5 * length / sqrt(crowd),
+        width=ARROW_WIDTH / crowd**0.25,
+    )
+
+
+def velocities(frame: Frame) -> Scene:
+    """Return the mean velocities of the control step that led to a frame.
+
+    An arrow goes from the middle of a body to where it would be after some time, the same for all.
+    An arc beside it goes from its heading to what that will be after a second.
+    """
+    scene, velocity = Scene(), frame.velocity
+    scale = speed_scale(frame.scenario)
+    poses = np.hstack([frame.pose, frame.prop_pose])
+    turning = np.argsort(-np.abs(velocity[2]), kind="stable")[:ARCS]
+    for i in turning.tolist():
+        if abs(velocity[2, i]) >= LEAST_TURN:
+            center, radius = bounding_circle(frame.scenario.bodies[i].shape, poses[:, i])
+            _arc(scene, center, 1.3 * radius, float(poses[2, i]), float(velocity[2, i]))
+    speed = np.hypot(velocity[0], velocity[1])
+    length = np.minimum(scale.meter_a_second * speed, scale.longest)
+    moving = np.flatnonzero(speed >= SLOWEST * scale.fastest)
+    tails = poses[:2, moving]
+    tips = tails + velocity[:2, moving] * (length[moving] / speed[moving])
+    edge = EDGE if len(speed) <= CROWD else None
+    for (ax, ay), (bx, by) in zip(tails.T.tolist(), tips.T.tolist(), strict=True):
+        scene.shapes.append(Arrow((ax, ay), (bx, by), VELOCITY, edge, scale.width))
+    return scene
+
+
+def _arc(scene: Scene, center: Float, radius: float, heading: float, turn: float) -> None:
+    """Draw an arc with the head of an arrow; turn: radians."""
+    turn = float(np.clip(turn, -MOST_TURN, MOST_TURN))
+    head = min(HEAD, abs(turn)) * np.sign(turn)
+    angles = heading + np.linspace(0.0, turn - 0.5 * head, max(3, int(abs(turn) / 0.2) + 2))
+    rim = center + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    scene.line(rim, stroke=VELOCITY, width=ARC_WIDTH)
+    ends = heading + np.array([turn - head, turn])
+    tail, tip = center + radius * np.column_stack([np.cos(ends), np.sin(ends)])
+    scene.arrow(tail, tip, fill=VELOCITY, width=ARC_WIDTH)
+
+
+def in_metres_a_second(speed: float) -> str:
+    """Return a speed as it is read: 0.25 m/s, 4.9 m/s, 12 m/s."""
+    digits = 2 if speed < 1 else 1 if speed < 10 else 0
+    return f"{speed:.{digits}f} m/s"

@@ -1,0 +1,1 @@
+"""Pages and drawings: the replay in a browser, SVG, notebooks."""

@@ -1,0 +1,225 @@
+"""One instant as an SVG drawing: what the window shows, with metres at its sides and a caption."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from math import ceil, floor, log10
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import described
+from mars2d.core.plane import grid_step
+from mars2d.core.scene import Anchor, Polygon, Scene, Text
+from mars2d.output.figures.extent import View
+from mars2d.output.figures.style import SCREEN
+from mars2d.output.layers import parts as seen
+from mars2d.output.layers.forces import forces
+from mars2d.output.layers.messages import messages
+from mars2d.output.layers.names import names
+from mars2d.output.pages.svg import Layer, svg
+from mars2d.output.raster.theme import LIGHT
+from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["draw", "say"]
+
+Float = NDArray[np.float64]
+
+WIDTH, HEIGHT = 560.0, 440.0
+"""The room for what is drawn, pixels: it is as large as fits."""
+LEFT, RIGHT, ABOVE = 36.0, 10.0, 10.0
+"""The room at its sides, pixels."""
+
+LARGEST = 1_000_000
+"""The characters of a drawing from which the paths are left out."""
+
+FEW = 8
+"""Among more bodies there are no names, and paths are thinner."""
+
+TICKS = 42.0  # pixels from one line of the grid to the next, at least
+SIZE, LINE = 12.0, 16.0  # of the caption's words and lines, pixels
+LETTER = 0.52 * SIZE  # the width of a letter, about
+NUMBER = 11.0  # the size of the numbers at the sides, pixels
+
+INK, MUTED, WARNING = LIGHT.ink, LIGHT.muted, LIGHT.failed
+GRID, AXIS = SCREEN.grid, "#d0d6dd"
+
+
+def draw(frame: Frame, caption: str) -> str:
+    """Return a frame as an SVG picture with a caption below it.
+
+    What can't be drawn, since a sensor or an add-on of the user's raises, is left out, and said
+    below the caption. So it is with paths that would take more than a million characters.
+    """
+    view = View.around(
+        frame.scenario,
+        _with_end(frame.path, frame.pose),
+        _with_end(frame.prop_path, frame.prop_pose),
+    )
+    notes: list[str] = []
+    parts = _parts(frame, view, notes)
+    picture = _framed([part for _, part in parts], view, caption, notes)
+    if len(picture) > LARGEST:
+        notes.append("The paths are left out: they would take too much room in a notebook.")
+        kept = [part for name, part in parts if name != "paths"]
+        picture = _framed(kept, view, caption, notes)
+    return picture
+
+
+def say(words: str) -> str:
+    """Return words as a picture."""
+    lines = [(line, WARNING) for line in textwrap.wrap(words, int(WIDTH / LETTER))]
+    view = View(0.0, WIDTH, -LINE * len(lines), 0.0)
+    return svg(
+        [(_written(lines, (0.0, LINE / 2), 1.0), 1.0)], view, (view.width, view.height), words
+    )
+
+
+def _with_end(path: Float, pose: Float) -> Float:
+    return np.concatenate([path, pose[None]]) if len(path) else pose[None]
+
+
+def _parts(frame: Frame, view: View, notes: list[str]) -> list[tuple[str, Layer]]:
+    """Return what is drawn, by name, the lowest first; add to `notes` what fails to be."""
+    scenario, look = frame.scenario, frame.scenario.animation
+    ppm = _ppm(view)
+    few = len(scenario.bodies) <= FEW
+    radius = min(robot.radius for robot in scenario.robots) * ppm
+    drawn = look.show_real_shape
+    bodies = min(max(radius / 9, 0.1), 0.8) if drawn else 0.8 if few else 0.5
+    thin = max(0.4, bodies)
+    listed: list[tuple[str, bool, float, Callable[[], Scene]]] = [
+        ("workspace", True, 0.8, partial(seen.workspace, scenario)),
+        ("floor", True, 0.8, partial(seen.floor, scenario)),
+        ("grid", look.grid, 1.0, partial(_grid, scenario, view)),
+        ("obstacles", True, 0.7, partial(seen.obstacles, scenario)),
+        (
+            "start",
+            look.show_initial_pose,
+            min(1.3 * bodies, 0.8),
+            lambda: seen.initial_poses(scenario),
+        ),
+        ("paths", look.wake, 0.75 if few else 0.5, lambda: seen.trails(frame)),
+        ("sensors", True, 0.7, lambda: seen.sensors(frame)),
+        ("add-ons", True, 0.8, lambda: seen.addons(frame)),
+        ("theory", look.theory, 0.8, lambda: seen.theory(frame)),
+        ("messages", True, thin, lambda: messages(frame)),
+        ("props", True, min(bodies, 0.7), lambda: seen.props(frame)),
+        ("robots", True, bodies, lambda: seen.robots(frame)),
+        ("joints", True, thin, lambda: seen.joints(frame)),
+        ("forces", look.forces, thin, lambda: forces(frame)),
+        ("names", few, 0.85, lambda: names(frame)),
+    ]
+    found = []
+    for name, wanted, scale, scene in listed:
+        if not wanted:
+            continue
+        try:
+            found.append((name, (scene(), scale)))
+        except Exception as error:
+            notes.append(f"Not drawn: {name}. {described(error)}")
+    return found
+
+
+def _framed(layers: Sequence[Layer], view: View, caption: str, notes: Sequence[str]) -> str:
+    """Return layers with numbers at their sides, and words below."""
+    ppm = _ppm(view)
+    room = max(20, int((ppm * view.width + LEFT) / LETTER))
+    words = [(line, INK) for line in textwrap.wrap(caption, room, max_lines=3, placeholder=" …")]
+    for note in notes:
+        lines = textwrap.wrap(note, room, max_lines=3, placeholder=" …")
+        words += [(line, WARNING) for line in lines]
+    below = 2 * LINE + LINE * len(words)
+    whole = View(
+        view.xmin - LEFT / ppm, view.xmax + RIGHT / ppm,
+        view.ymin - below / ppm, view.ymax + ABOVE / ppm,
+    )  # fmt: skip
+    margin = [
+        _around(view, whole),
+        _numbers(view),
+        _written(words, (whole.xmin, view.ymin - LINE / ppm), ppm),
+    ]
+    size = (ppm * whole.width, ppm * whole.height)
+    title = " ".join([caption, *notes])
+    return svg([*layers, *((scene, 1.0) for scene in margin)], whole, size, title)
+
+
+def _written(lines: Sequence[tuple[str, str]], corner: tuple[float, float], ppm: float) -> Scene:
+    """Return lines, each with its colour, below a point."""
+    scene = Scene()
+    for k, (line, color) in enumerate(lines):
+        place = (corner[0], corner[1] - (1 + k) * LINE / ppm)
+        scene.text(place, line, color=color, size=SIZE, anchor="left")
+    return scene
+
+
+def _ppm(view: View) -> float:
+    """Return the pixels of a metre."""
+    return min(WIDTH / view.width, HEIGHT / view.height)
+
+
+def _around(view: View, whole: View) -> Scene:
+    """Return the ground of the words: what is drawn does not reach under them."""
+    scene = Scene()
+    for xmin, xmax, ymin, ymax in (
+        (whole.xmin, view.xmin, whole.ymin, whole.ymax),
+        (whole.xmin, whole.xmax, whole.ymin, view.ymin),
+    ):
+        corners = [(xmin, ymin), (xmax, ymin), (xmax, ymax), (xmin, ymax)]
+        scene.polygon(corners, fill="#ffffff")
+    return scene
+
+
+def _step(view: View) -> float:
+    """Return the distance of grid lines, metres."""
+    return grid_step(TICKS / _ppm(view))
+
+
+def _ticks(low: float, high: float, step: float) -> list[float]:
+    """Return the multiples of a step from `low` to `high`."""
+    return [k * step for k in range(ceil(low / step - 1e-6), floor(high / step + 1e-6) + 1)]
+
+
+def _grid(scenario: Scenario, view: View) -> Scene:
+    """Return the lines of the grid, within the workspace, and the workspace's edge over them."""
+    import shapely
+
+    step, scene = _step(view), Scene()
+    across = [[(x, view.ymin), (x, view.ymax)] for x in _ticks(view.xmin, view.xmax, step)]
+    upwards = [[(view.xmin, y), (view.xmax, y)] for y in _ticks(view.ymin, view.ymax, step)]
+    for axis, lines in enumerate((across, upwards)):
+        for line in lines:
+            stretches = [np.array(line)]
+            if scenario.workspace is not None:
+                inside = shapely.intersection(
+                    shapely.LineString(line), shapely.Polygon(scenario.workspace)
+                )
+                stretches = [shapely.get_coordinates(p) for p in shapely.get_parts(inside)]
+            color = AXIS if abs(line[0][axis]) < step / 2 else GRID
+            for stretch in stretches:
+                if len(stretch) > 1:
+                    scene.line(stretch, stroke=color)
+    edge = (s for s in seen.workspace(scenario).shapes if isinstance(s, Polygon))
+    scene.extend(replace(shape, fill=None, width=0.8 * shape.width) for shape in edge)
+    return scene
+
+
+def _numbers(view: View) -> Scene:
+    """Return the metres, below and beside what is drawn; the last ones with their unit."""
+    step, scene = _step(view), Scene()
+    decimals = max(0, -floor(log10(step) + 1e-9))
+
+    def add(place: tuple[float, float], value: float, anchor: Anchor, unit: str) -> None:
+        text = f"{value + 0.0:.{decimals}f}".replace("-", "\N{MINUS SIGN}")
+        scene.shapes.append(Text(place, text + unit, MUTED, NUMBER, anchor))
+
+    across = _ticks(view.xmin, view.xmax, step)
+    for x in across:
+        add((x, view.ymin), x, "below", " m" if x == across[-1] else "")
+    for y in _ticks(view.ymin, view.ymax, step):
+        add((view.xmin, y), y, "right", "")
+    return scene

@@ -1,0 +1,139 @@
+"""What scenarios, worlds and records show in a notebook.
+
+Pictures are SVG without scripts or styles, which every notebook shows, and its viewers on the web
+as well. A record is a replay in a frame of its own; beneath it lies the picture of its end, for
+viewers that take frames out.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mars2d.core.errors import counted, described
+from mars2d.output.pages.drawing import draw, say
+from mars2d.output.pages.svg import text_of
+from mars2d.record.frame import Frame
+
+if TYPE_CHECKING:
+    from mars2d.record.record import Record
+    from mars2d.scenario.scenario import Scenario
+    from mars2d.world.world import World
+
+__all__ = ["record_html", "record_svg", "scenario_svg", "world_svg"]
+
+HEIGHT = 480
+"""Of a replay, pixels."""
+
+LARGEST = 4_000_000
+"""The characters of a replay from which a notebook shows only the picture of its end."""
+
+
+def scenario_svg(scenario: Scenario) -> str:
+    """Return a picture of a scenario at its start; it never raises."""
+    return _picture(lambda: (_start(scenario), _described(scenario)), scenario.title)
+
+
+def world_svg(world: World) -> str:
+    """Return a picture of a world as it is, with the paths so far; it never raises."""
+
+    def picture() -> tuple[Frame, str]:
+        frame, last = world.frame, world.scenario.stop_time
+        if len(frame.path) and not world.over:
+            frame = replace(frame, sensed=frame.path[-1])  # where its readings were taken
+        when = f"t = {world.time:.10g} s of {last:g} s"
+        return frame, f"{world.scenario.title}: {when}" + (
+            f"; {world.over_message}" if world.over else ""
+        )
+
+    return _picture(picture, world.scenario.title)
+
+
+def record_svg(record: Record) -> str:
+    """Return a picture of the end of a record, with the paths; it never raises."""
+
+    def picture() -> tuple[Frame, str]:
+        if not len(record):
+            return _start(record.scenario), f"{record.scenario.title}: no rows, nothing ran"
+        return record.frame(-1), _outcome(record)
+
+    return _picture(picture, record.scenario.title)
+
+
+def record_html(record: Record) -> str:
+    """Return a replay in a frame, over the picture of its end; it never raises.
+
+    Where there is no replay, or one too large for a notebook, words below the picture say so.
+    """
+    picture = base64.b64encode(record_svg(record).encode()).decode()
+    title = text_of(f"Replay of {record.scenario.title}")
+    image = (
+        f'<img alt="{title}, its end" src="data:image/svg+xml;base64,{picture}" '
+        'style="max-width:100%;max-height:100%">'
+    )
+    if not len(record):
+        return image
+    try:
+        from mars2d.output.pages.replay import page
+
+        replay = page(record)
+    except Exception as error:  # of parts of the user's that are drawn
+        return f"{image}<p>There is no replay: {text_of(described(error))}</p>"
+    if len(replay) > LARGEST:
+        return (
+            f"{image}<p>The replay is too large for a notebook, {len(replay) / 1e6:.1f} MB: "
+            '<code>record.save_html("replay.html")</code> writes it to a file.</p>'
+        )
+    return (
+        f'<div style="position:relative;height:{HEIGHT}px;overflow:hidden">{image}'
+        f'<iframe title="{title}" sandbox="allow-scripts" srcdoc="{text_of(replay)}" '
+        'style="position:absolute;left:0;top:0;width:100%;height:100%;border:0"></iframe></div>'
+    )
+
+
+def _picture(made: Callable[[], tuple[Frame, str]], title: str) -> str:
+    """Return the picture of a frame with its caption, or in its place what went wrong."""
+    try:
+        return draw(*made())
+    except Exception as error:  # parts of the user's own have their say in all of it
+        return say(f"{title}: can't be drawn. {described(error)}")
+
+
+def _start(scenario: Scenario) -> Frame:
+    """Return what is seen of a scenario before anything has moved."""
+    poses = [prop.pose for prop in scenario.props]
+    return Frame(
+        scenario=scenario,
+        time=0.0,
+        iteration=0,
+        pose=scenario.initial_pose,
+        path=np.empty((0, 3, len(scenario.robots))),
+        prop_pose=np.array(poses).reshape(-1, 3).T,
+        effort=np.zeros(len(scenario.robots)),
+    )
+
+
+def _described(scenario: Scenario) -> str:
+    """Return what a scenario has, in words."""
+    counts = {
+        "robot": len(scenario.robots),
+        "prop": len(scenario.props),
+        "joint": len(scenario.ties),
+        "obstacle": len(scenario.obstacles),
+    }
+    parts = ", ".join(counted(count, thing) for thing, count in counts.items() if count)
+    return (
+        f"{scenario.title}: {parts}; {scenario.sampling_time:g} s a control step, "
+        f"{scenario.stop_time:g} s at most, physics {scenario.physics!r}"
+    )
+
+
+def _outcome(record: Record) -> str:
+    """Return what came out of a run, in words."""
+    rows = f"{counted(len(record), 'row')} to t = {record.time[-1]:.10g} s"
+    touches = counted(record.collisions, "collision")
+    return f"{record.scenario.title}: {rows}, {touches}; {record.over_message}"

@@ -1,0 +1,287 @@
+"""What stands around the picture: the header with the time, the footer with what has to be said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import pygame
+
+from mars2d.core.excerpt import Excerpt
+from mars2d.output.raster.layout import FOOTER, Layout, interface_scale
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import Tone
+from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Banner", "Status", "draw_footer", "draw_header", "footer_height"]
+
+Kind = Literal["running", "waiting", "past", "hand", "error"]
+
+LINE, CODE_LINE = 23.0, 20.0
+"""The heights of a banner's lines, points."""
+BANNER_LINES = 8
+CODE_LINES = 5
+LARGEST_BANNER = 0.5
+"""Of the surface's height: longer text is cut, and code about the line it is about left out."""
+SEPARATOR = " · "
+SHORTEST_TITLE = 110.0
+"""Points; where a title gets less, something else in the header goes first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """The chip in the header: what the clock does, in words and by its colour.
+
+    kind: running; waiting, as when paused; past, an instant before the newest is shown; hand, a
+    robot is driven by hand; error.
+    """
+
+    text: str
+    kind: Kind = "running"
+
+
+@dataclass(frozen=True, slots=True)
+class Banner:
+    """What has to be said across the foot of the picture; excerpt: the lines of code it is about.
+
+    hint: the keys that go on from here.
+    """
+
+    text: str
+    hint: str = ""
+    error: bool = False
+    excerpt: Excerpt | None = None
+
+
+# -- the header -----------------------------------------------------------------------------------
+
+
+def draw_header(
+    surface: pygame.Surface, layout: Layout, painter: Painter, frame: Frame, status: Status | None
+) -> None:
+    """Draw the title on the left, the time, step and status on the right.
+
+    Where there is no room for all, the step goes first, then the title.
+    """
+    ui, bar, fonts, theme = layout.ui, layout.header, painter.fonts, painter.theme
+    surface.fill(theme.bar, bar)
+    surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
+    pad, gap = round(20 * ui), round(24 * ui)
+    right = bar.right - pad
+    if status is not None:
+        right = _chip(surface, painter, status, right, bar, ui) - gap
+    digits = decimals(frame.scenario)
+    longest = f"{frame.scenario.stop_time:.{digits}f} s"
+    longest = longest if len(longest) < 12 else "00000.00 s"
+    time = _Figure("time", f"{frame.time:.{digits}f} s", longest)
+    longest = "0" * len(str(frame.scenario.last_iteration))
+    step = _Figure("step", str(frame.iteration), longest)
+    title_width = fonts.width(frame.scenario.title, 20 * ui, bold=True)
+    needed = time.width(painter, ui) + min(SHORTEST_TITLE * ui, title_width) + 2 * gap + pad
+    if right - step.width(painter, ui) >= needed:
+        right = step.draw(surface, painter, right, bar, ui) - gap
+    right = time.draw(surface, painter, right, bar, ui)
+    room = right - pad - gap
+    title = fonts.shorten(frame.scenario.title, 20 * ui, room, bold=True)
+    if len(title) > 3 or title == frame.scenario.title:
+        image = fonts.render(title, 20 * ui, theme.ink, bold=True)
+        surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
+
+
+def decimals(scenario: Scenario) -> int:
+    """Return how many decimals tell two sampling times apart: 1 to 3."""
+    step = scenario.sampling_time
+    return next((k for k in (1, 2) if abs(round(step, k) - step) < 1e-9), 3)
+
+
+@dataclass(frozen=True, slots=True)
+class _Figure:
+    """A name and its value; longest: keeps the place of the name from trembling."""
+
+    name: str
+    value: str
+    longest: str
+
+    def width(self, painter: Painter, ui: float) -> int:
+        fonts = painter.fonts
+        value = max(fonts.width(text, 18 * ui) for text in (self.value, self.longest))
+        return value + round(8 * ui) + fonts.width(self.name, 14 * ui)
+
+    def draw(
+        self, surface: pygame.Surface, painter: Painter, right: int, bar: pygame.Rect, ui: float
+    ) -> int:
+        """Draw it and return its left end."""
+        fonts, theme = painter.fonts, painter.theme
+        image = fonts.render(self.value, 18 * ui, theme.ink)
+        width = max(image.get_width(), fonts.width(self.longest, 18 * ui))
+        surface.blit(image, image.get_rect(midright=(right, bar.centery)))
+        label = fonts.render(self.name, 14 * ui, theme.muted)
+        place = label.get_rect(midright=(right - width - round(8 * ui), bar.centery + round(ui)))
+        surface.blit(label, place)
+        return place.left
+
+
+def _chip(
+    surface: pygame.Surface, painter: Painter, status: Status, right: int, bar: pygame.Rect,
+    ui: float,
+) -> int:  # fmt: skip
+    """Draw the status as words on a coloured plate; return its left end."""
+    tone: Tone = getattr(painter.theme, status.kind)
+    text = painter.fonts.shorten(status.text, 17 * ui, 0.45 * bar.width, bold=True)
+    image = painter.fonts.render(text, 17 * ui, tone.ink, bold=True)
+    width = max(image.get_width() + round(26 * ui), round(76 * ui))
+    plate = pygame.Rect(right - width, 0, width, round(32 * ui))
+    plate.centery = bar.centery
+    painter.panel(surface, plate, tone.pale, plate.height / 2)
+    surface.blit(image, image.get_rect(center=plate.center))
+    return plate.left
+
+
+# -- the footer -----------------------------------------------------------------------------------
+
+
+def draw_footer(
+    surface: pygame.Surface,
+    layout: Layout,
+    painter: Painter,
+    banner: Banner | None,
+    left: str,
+    hints: Sequence[tuple[str, str]] = (),
+) -> None:
+    """Draw the banner across the footer, or where there is none a quiet line of text.
+
+    left: of its parts, with dots between, as many as there is room for. hints: pairs of a key and
+    what it does, for the right end; where there is no room for all, the last ones stay.
+    """
+    ui, bar, fonts, theme = layout.ui, layout.footer, painter.fonts, painter.theme
+    if bar.height <= 0:
+        return
+    if banner is not None:
+        _draw_banner(surface, bar, painter, banner, ui)
+        return
+    pad = round(20 * ui)
+    surface.fill(theme.bar, bar)
+    surface.fill(theme.edge, (bar.left, bar.top, bar.width, 1))
+    end = _hints(surface, painter, hints, bar, ui)
+    text = left
+    while fonts.width(text, 14 * ui) > end - 2 * pad and SEPARATOR in text:
+        text = text.rpartition(SEPARATOR)[0].rstrip()
+    text = fonts.shorten(text, 14 * ui, end - 2 * pad)
+    if len(text) > 3:
+        image = fonts.render(text, 14 * ui, theme.muted)
+        surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
+
+
+def _hints(
+    surface: pygame.Surface,
+    painter: Painter,
+    hints: Sequence[tuple[str, str]],
+    bar: pygame.Rect,
+    ui: float,
+) -> int:
+    """Write keys and what they do, from the right; return the left end."""
+    fonts, theme = painter.fonts, painter.theme
+    right = bar.right - round(20 * ui)
+    for name, meaning in reversed(hints):
+        word = fonts.render(meaning, 14 * ui, theme.muted)
+        key = fonts.render(name, 14 * ui, theme.text, bold=True)
+        if right - word.get_width() - key.get_width() < bar.left + round(26 * ui):
+            break
+        place = word.get_rect(midright=(right, bar.centery))
+        surface.blit(word, place)
+        place = key.get_rect(midright=(place.left - round(6 * ui), bar.centery))
+        surface.blit(key, place)
+        right = place.left - round(20 * ui)
+    return right
+
+
+def footer_height(
+    banner: Banner | None,
+    size: tuple[int, int],
+    painter: Painter,
+    text: float = 1.0,
+    scale: float = 1.0,
+) -> float:
+    """Return how high the footer must be, points: more than one line for a long message."""
+    if banner is None:
+        return FOOTER
+    ui = interface_scale(size, text, scale)
+    lines, hint_below = _banner_lines(banner, size, painter, ui)
+    height = FOOTER + LINE * (len(lines) - 1) + (LINE if hint_below else 0.0)
+    if banner.excerpt is not None:
+        room = LARGEST_BANNER * size[1] / ui - height
+        wanted = min(CODE_LINES, len(banner.excerpt.lines))
+        height += _code_height(min(wanted, int((room - 20) / CODE_LINE)))
+    return height
+
+
+def _code_height(lines: int) -> float:
+    return CODE_LINE * lines + 20 if lines > 0 else 0.0
+
+
+def _banner_lines(
+    banner: Banner, size: tuple[int, int], painter: Painter, ui: float
+) -> tuple[list[str], bool]:
+    """Return a banner's text in lines, and whether its hint stands below them."""
+    hint = painter.fonts.width(banner.hint, 15 * ui) + 40 * ui if banner.hint else 0.0
+    below = hint > 0.4 * size[0]
+    room = size[0] - 40 * ui - (0 if below else hint)
+    code = 0.0 if banner.excerpt is None else _code_height(1)
+    fits = int((LARGEST_BANNER * size[1] / ui - (FOOTER - LINE) - code) / LINE) - below
+    most = min(max(fits, 1), BANNER_LINES)
+    return painter.fonts.wrap(banner.text, 18 * ui, room, most, bold=True), below
+
+
+def _draw_banner(
+    surface: pygame.Surface, bar: pygame.Rect, painter: Painter, banner: Banner, ui: float
+) -> None:
+    fonts, theme, pad = painter.fonts, painter.theme, round(20 * ui)
+    surface.fill(theme.failed if banner.error else theme.over, bar)
+    lines, hint_below = _banner_lines(banner, surface.get_size(), painter, ui)
+    rows = len(lines) + hint_below
+    step = LINE * ui
+    room = bar.height - (FOOTER + LINE * (rows - 1)) * ui
+    code = 0 if banner.excerpt is None else max(0, int((room - 20 * ui) / (CODE_LINE * ui) + 0.01))
+    text = pygame.Rect(bar.left, bar.top, bar.width, bar.height - round(_code_height(code) * ui))
+    y = text.centery - step * (rows - 1) / 2
+    for line in lines:
+        image = fonts.render(line, 18 * ui, theme.on_banner, bold=True)
+        surface.blit(image, image.get_rect(midleft=(pad, round(y))))
+        y += step
+    hint = fonts.render(banner.hint, 15 * ui, theme.on_banner_muted)
+    if hint_below:
+        surface.blit(hint, hint.get_rect(midleft=(pad, round(y))))
+    else:
+        surface.blit(hint, hint.get_rect(midright=(bar.right - pad, text.centery)))
+    if banner.excerpt is not None and code > 0:
+        place = pygame.Rect(pad, text.bottom, bar.width - 2 * pad, bar.bottom - text.bottom)
+        place.height -= round(12 * ui)
+        _draw_code(surface, place, painter, banner.excerpt.nearest(code), ui)
+
+
+def _draw_code(
+    surface: pygame.Surface, place: pygame.Rect, painter: Painter, excerpt: Excerpt, ui: float
+) -> None:
+    """Draw lines of code with their numbers, the one it is about marked."""
+    fonts, theme = painter.fonts, painter.theme
+    painter.panel(surface, place, theme.banner_plate, 6 * ui)
+    size, pad = 14 * ui, round(10 * ui)
+    digits = fonts.width("0" * len(str(excerpt.first + len(excerpt.lines))), size, mono=True)
+    left = place.left + pad + fonts.width("▸ ", size, mono=True) + digits
+    for k, line in enumerate(excerpt.lines):
+        row = pygame.Rect(place.left, 0, place.width, round(CODE_LINE * ui))
+        row.top = round(place.top + 4 * ui + k * CODE_LINE * ui)
+        number, here = excerpt.first + k, excerpt.first + k == excerpt.line
+        if here:
+            painter.panel(surface, row.inflate(-round(6 * ui), 0), "#ffffff30", 4 * ui)
+            mark = fonts.render("▸", size, theme.on_banner, mono=True)
+            surface.blit(mark, mark.get_rect(midleft=(place.left + pad, row.centery)))
+        color = theme.on_banner if here else theme.on_banner_muted
+        image = fonts.render(str(number), size, color, mono=True)
+        surface.blit(image, image.get_rect(midright=(left, row.centery)))
+        start = left + round(14 * ui)
+        text = fonts.shorten(line, size, place.right - pad - start, mono=True)
+        image = fonts.render(text, size, color, mono=True)
+        surface.blit(image, image.get_rect(midleft=(start, row.centery)))

@@ -1,0 +1,98 @@
+"""Where everything lies in a window or picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pygame
+
+from mars2d.output.raster.camera import Camera, Margins
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["FOOTER", "TEXT_SIZES", "Layout", "fitted", "interface_scale", "next_text_size"]
+
+TEXT_SIZES = (1.0, 1.3, 1.7, 2.2)
+"""Factors on the size of all text and lines."""
+HEADER, FOOTER, STRIP = 52.0, 44.0, 44.0
+"""The heights of header, footer and the strip with the time bar, points. A banner of one line is as
+high as the footer, in whose place it is."""
+NARROWEST = 400.0
+"""A surface is at least so many points wide: larger text would leave too little for the picture."""
+BARS = 0.45
+"""All bars together are at most such a share of the height, for the same reason."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Where everything lies on a surface; ui: pixels a point.
+
+    timebar, slider: side by side between the picture and the footer; empty where they are left out.
+    """
+
+    ui: float
+    header: pygame.Rect
+    plot: pygame.Rect
+    footer: pygame.Rect
+    timebar: pygame.Rect
+    slider: pygame.Rect
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """The surface's width and height, pixels."""
+        return self.header.width, self.footer.bottom
+
+    @classmethod
+    def of(
+        cls,
+        size: tuple[int, int],
+        footer_height: float = FOOTER,
+        *,
+        text: float = 1.0,
+        scale: float = 1.0,
+        timebar: bool = False,
+    ) -> Layout:
+        """Divide a surface of `size` pixels; `footer_height` in points.
+
+        text: a factor on all text and lines. scale: pixels that the desktop uses for one.
+        """
+        width, height = size
+        ui = interface_scale(size, text, scale)
+        top = round(HEADER * ui)
+        strip = min(round(STRIP * ui), max(0, height - top - 40)) if timebar else 0
+        bottom = min(round(footer_height * ui), max(0, height - top - strip - 40))
+        foot = height - bottom
+        right = round(min(max(0.27 * width, 170 * ui), 290 * ui, 0.38 * width)) if strip else 0
+        return cls(
+            ui,
+            pygame.Rect(0, 0, width, top),
+            pygame.Rect(0, top, width, max(1, height - top - strip - bottom)),
+            pygame.Rect(0, foot, width, bottom),
+            pygame.Rect(0, foot - strip, width - right, strip),
+            pygame.Rect(width - right, foot - strip, right, strip),
+        )
+
+
+def next_text_size(text: float) -> float:
+    """Return the next of the sizes of text, after the largest the smallest one."""
+    return next((size for size in TEXT_SIZES if size > text), TEXT_SIZES[0])
+
+
+def interface_scale(size: tuple[int, int], text: float = 1.0, scale: float = 1.0) -> float:
+    """Return the pixels a point on a surface of `size` pixels: 1 at 1280 x 720.
+
+    text, scale: as for `Layout.of`. Larger text than there is room for is made as large as can be.
+    """
+    width, height = size[0] / scale, size[1] / scale
+    own = max(0.9, float(min(width / 1280, height / 720) ** 0.8))
+    most = min(width / NARROWEST, BARS * height / (HEADER + STRIP + FOOTER))
+    return scale * max(own, min(own * text, most))
+
+
+def fitted(scenario: Scenario, size: tuple[int, int], layout: Layout) -> Camera:
+    """Return the camera that shows the whole workspace between the bars, with room for labels."""
+    ui, plot = layout.ui, layout.plot
+    margins: Margins = (
+        plot.left + 48 * ui, plot.top + 22 * ui,
+        size[0] - plot.right + 48 * ui, size[1] - plot.bottom + 34 * ui,
+    )  # fmt: skip
+    return Camera.fit(scenario.bounds, size, margins)

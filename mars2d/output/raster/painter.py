@@ -1,0 +1,443 @@
+"""Paint scenes on pygame surfaces, anti-aliased; needs no display.
+
+Shapes are drawn some times larger on a surface of their own, which `smoothscale` then averages:
+exact coverage for any shape, width and opacity. Small shapes that recur (robots, marks) are kept as
+sprites, at quarters of a pixel so that slow movement stays smooth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from math import ceil, floor
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.core.scene import (
+    Arrow,
+    Circle,
+    Image,
+    Line,
+    Polygon,
+    Shape,
+    Text,
+    arrow_outline,
+    split_wake_style,
+)
+from mars2d.output.raster import brushes
+from mars2d.output.raster.brushes import Draw, Rgba, rgba
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.clip import clip_polygon, simplified
+from mars2d.output.raster.fonts import Fonts
+from mars2d.output.raster.sprites import Sprite, Sprites
+from mars2d.output.raster.strokes import DASHES, MARK_SPACING, arc_length, dashes
+from mars2d.output.raster.theme import LIGHT, Theme
+
+__all__ = ["Painter", "rgba"]
+
+Float = NDArray[np.float64]
+Layer = tuple[Rgba, Draw, int]
+"""One colour of a sprite; the number tells how many times larger to draw it, 0 leaves it open."""
+
+PHASES = 4
+BROAD = 20.0
+"""The radius in pixels from which a ring is drawn of hair lines."""
+LARGEST_SPRITE = 160.0
+FAR = 10_000.0
+"""The pixels up to which a hair line need not be cut before it is drawn."""
+EDGE = 0.4
+"""The width of the edge round an arrow, in widths of its shaft."""
+SMALL = 10_000
+"""The area in pixels up to which fill and edge of a polygon are drawn at once."""
+FAINT = 96
+"""The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
+WIDE = 2_500
+"""The area in pixels beyond which it is."""
+UNSEEN = 0.3
+"""The pixels by which such an edge may be drawn beside where it is."""
+
+
+class Painter:
+    """Paints shapes; keeps the sprites and the texts it made from one picture to the next.
+
+    theme: what scenes' colours become, and the colours of what is drawn round them. ui: pixels a
+    point, the unit of line widths and text sizes. kept: pixels of sprites to keep, 0 for none.
+    """
+
+    def __init__(
+        self, fonts: Fonts | None = None, kept: int = 6_000_000, theme: Theme = LIGHT
+    ) -> None:
+        """Start without sprites; `fonts` may be shared."""
+        self.fonts = fonts or Fonts()
+        self.ui = 1.0
+        self.theme = theme
+        self._shade: Callable[[str], str] = theme.shade
+        self._sprites = Sprites(kept)
+        self._memory = memoryview(b"")
+
+    def paint(
+        self,
+        surface: pygame.Surface,
+        shapes: Iterable[Shape],
+        camera: Camera,
+        *,
+        shaded: bool = True,
+    ) -> None:
+        """Paint shapes in their order on a surface.
+
+        shaded: their colours are those of scenes, which the theme turns; else the theme's own.
+        """
+        self._shade = self.theme.shade if shaded else str
+        for shape in shapes:
+            if isinstance(shape, Circle):
+                self._circle(surface, shape, camera)
+            elif isinstance(shape, Line):
+                self._line(surface, shape, camera)
+            elif isinstance(shape, Polygon):
+                self._polygon(surface, shape, camera)
+            elif isinstance(shape, Arrow):
+                self._arrow(surface, shape, camera)
+            elif isinstance(shape, Image):
+                self._image(surface, shape, camera)
+            else:
+                self._text(surface, shape, camera)
+
+    # -- circles ------------------------------------------------------------------------------
+
+    def _circle(self, surface: pygame.Surface, shape: Circle, camera: Camera) -> None:
+        x = camera.x + camera.scale * shape.center[0]
+        y = camera.y - camera.scale * shape.center[1]
+        radius = camera.scale * shape.radius + shape.pixels * self.ui
+        width = shape.width * self.ui if shape.stroke else 0.0
+        reach = radius + width
+        if not (-reach < x < surface.get_width() + reach):
+            return
+        if not (-reach < y < surface.get_height() + reach):
+            return
+        radius = round(8 * radius) / 8
+        fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
+        if reach > LARGEST_SPRITE:
+            self._large_circle(surface, brushes.ring(x, y, radius), fill, stroke, width)
+            return
+        px, fx = _phase(x)
+        py, fy = _phase(y)
+        key = (fill, stroke, radius, width, fx, fy)
+        sprite = self._sprites.get(key)
+        if sprite is None:
+            layers = _disc_layers(fill, stroke, radius, width, fx, fy)
+            sprite = self._keep(key, brushes.box_round(fx, fy, reach), layers)
+        surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
+
+    def _large_circle(
+        self,
+        surface: pygame.Surface,
+        ring: Float,
+        fill: Rgba | None,
+        stroke: Rgba | None,
+        width: float,
+    ) -> None:
+        """Draw a circle as the polygon of many corners that it nearly is."""
+        if fill:
+            self._fill(surface, ring, fill)
+        if stroke:
+            brushes.stroke(surface, stroke, [ring], width)
+
+    # -- polygons -----------------------------------------------------------------------------
+
+    def _polygon(self, surface: pygame.Surface, shape: Polygon, camera: Camera) -> None:
+        points = camera.to_pixels(shape.points)
+        if len(points) == 0:
+            return
+        width = shape.width * self.ui
+        fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
+        if fill and stroke and self._small_polygon(surface, points, fill, stroke, width):
+            return
+        if fill:
+            self._fill(surface, points, fill)
+        if stroke:
+            ring = np.vstack([points, points[:1]])
+            brushes.stroke(surface, stroke, [ring], width)
+
+    def _small_polygon(
+        self, surface: pygame.Surface, points: Float, fill: Rgba, stroke: Rgba, width: float
+    ) -> bool:
+        """Draw fill and edge at once, which is quicker, if they are small and opaque."""
+        box = brushes.extent_of(points, width / 2 + 1)
+        if fill[3] < 255 or stroke[3] < 255 or box.width * box.height > SMALL:
+            return False
+        brushes.cover(surface, stroke, box, brushes.outlined(points, fill, width), factor=4)
+        return True
+
+    def _fill(self, surface: pygame.Surface, points: Float, color: Rgba) -> None:
+        visible = clip_polygon(points, brushes.in_sight(surface))
+        if len(visible) < 3:
+            return
+        box = brushes.extent_of(visible, 1.0)
+        if color[3] < FAINT and box.width * box.height > WIDE:
+            self._area(surface, visible, color, box.clip(surface.get_clip()))
+        else:
+            brushes.cover(surface, color, box, brushes.filled(visible))
+
+    def _area(self, surface: pygame.Surface, points: Float, color: Rgba, box: pygame.Rect) -> None:
+        """Fill what lies within `box` of a large faint polygon, as laser scanners sweep them.
+
+        Always in the same memory: what is fresh from the system is slow to write to.
+        """
+        size = 4 * box.width * box.height
+        if size <= 0:
+            return
+        if len(self._memory) < size:
+            self._memory = memoryview(bytearray(size))
+        area = pygame.image.frombuffer(self._memory[:size], box.size, "BGRA")
+        brushes.draw_on(area, color, box, brushes.filled(simplified(points, UNSEEN)))
+        surface.blit(area, box.topleft)
+
+    # -- lines --------------------------------------------------------------------------------
+
+    def _line(self, surface: pygame.Surface, shape: Line, camera: Camera) -> None:
+        marker, line = split_wake_style(shape.style)
+        if line == "-" and len(shape.points) == 2:
+            self._segment(surface, shape, camera)
+            return
+        points = camera.to_pixels(shape.points)
+        ink = self._shade(shape.stroke)
+        color = rgba(ink)
+        width = shape.width * self.ui
+        if line in DASHES:  # dashed before it is cut, or the dashes would crawl when panning
+            pattern = tuple(self.ui * length for length in DASHES[line])
+            brushes.stroke(surface, color, dashes(points, pattern), width)
+        elif line:
+            brushes.stroke(surface, color, [points], width)
+        if marker:
+            buckets = np.floor(arc_length(points) / (MARK_SPACING * self.ui))
+            kept = np.concatenate([[True], np.diff(buckets) > 0])
+            self.marks(surface, points[kept], marker, ink, shape.width)
+
+    def _segment(self, surface: pygame.Surface, shape: Line, camera: Camera) -> None:
+        """Draw one straight line, from a sprite if it is short."""
+        (ax, ay), (bx, by) = shape.points.tolist()
+        x, y = camera.x + camera.scale * ax, camera.y - camera.scale * ay
+        dx, dy = camera.scale * (bx - ax), camera.scale * (ay - by)
+        # A short line stays a line: a small robot's heading must not become a blob.
+        width = min(shape.width * self.ui, max(1.0, (abs(dx) + abs(dy)) / 3.5))
+        width = round(8 * width) / 8
+        color = rgba(self._shade(shape.stroke))
+        if width <= 1.0 and color[3] < 255 and max(map(abs, (x, y, dx, dy))) < FAR:
+            ink = (*color[:3], round(width * color[3]))  # thinner is fainter
+            brushes.hairline(surface, ink, x, y, x + dx, y + dy)
+            return
+        if max(abs(dx), abs(dy)) > LARGEST_SPRITE / 2:
+            brushes.stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
+            return
+        px, fx = _phase(x)
+        py, fy = _phase(y)
+        dx, dy = round(dx * PHASES) / PHASES, round(dy * PHASES) / PHASES
+        key = (color, width, fx, fy, dx, dy)
+        sprite = self._sprites.get(key)
+        if sprite is None:
+            points = np.array([(fx, fy), (fx + dx, fy + dy)])
+            box = brushes.extent_of(points, width / 2 + 1)
+            sprite = self._keep(key, box, [(color, brushes.stroked([points], width), 0)])
+        surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
+
+    def _arrow(self, surface: pygame.Surface, shape: Arrow, camera: Camera) -> None:
+        """Draw an arrow, from a sprite unless it is long."""
+        (ax, ay), (bx, by) = shape.tail, shape.tip
+        x, y = camera.x + camera.scale * ax, camera.y - camera.scale * ay
+        dx, dy = camera.scale * (bx - ax), camera.scale * (ay - by)
+        width = shape.width * self.ui
+        edge = EDGE * width if shape.stroke else 0.0
+        left, top = min(x, x + dx), min(y, y + dy)
+        around = pygame.Rect(left - 20, top - 20, abs(dx) + 40, abs(dy) + 40)
+        if not around.colliderect(surface.get_clip()):
+            return
+        fill, ink = (rgba(self._shade(color)) for color in (shape.fill, shape.stroke or shape.fill))
+        if max(abs(dx), abs(dy)) > LARGEST_SPRITE:
+            points = arrow_outline((x, y), (x + dx, y + dy), width)
+            draw = brushes.edged(points, fill, edge)
+            brushes.cover(surface, ink, brushes.extent_of(points, edge + 1), draw)
+            return
+        px, fx = _phase(x)
+        py, fy = _phase(y)
+        dx, dy = round(dx * PHASES) / PHASES, round(dy * PHASES) / PHASES
+        key = ("arrow", fill, ink, edge, width, fx, fy, dx, dy)
+        sprite = self._sprites.get(key)
+        if sprite is None:
+            points = arrow_outline((fx, fy), (fx + dx, fy + dy), width)
+            draw = brushes.edged(points, fill, edge)
+            sprite = self._keep(key, brushes.extent_of(points, edge + 1), [(ink, draw, 4)])
+        surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
+
+    def marks(
+        self, surface: pygame.Surface, points: Float, marker: str, color: str, width: float
+    ) -> None:
+        """Draw the marks ``. o x + * s`` at pixels (k, 2), in a colour as it is given."""
+        width *= self.ui
+        quarters = np.rint(points.T * PHASES).astype(int)
+        x, y = quarters % PHASES
+        phases = PHASES * x + y
+        listed = phases.tolist()
+        stamps = {k: self._mark(marker, color, width, k) for k in set(listed)}
+        corners = np.zeros((2, PHASES * PHASES), dtype=int)
+        for k, stamp in stamps.items():
+            corners[:, k] = stamp[1:]
+        # Put together without a step of Python's for each mark: there may be thousands.
+        images = {k: stamp[0] for k, stamp in stamps.items()}
+        places = (quarters // PHASES + corners[:, phases]).tolist()
+        surface.fblits(zip(map(images.__getitem__, listed), zip(*places, strict=True), strict=True))
+
+    def _mark(self, marker: str, color: str, width: float, phase: int) -> Sprite:
+        """Return a mark's sprite; phase: of the quarters of a pixel across and down."""
+        key = (marker, color, width, phase)
+        sprite = self._sprites.get(key)
+        if sprite is None:
+            x, y = (quarter / PHASES for quarter in divmod(phase, PHASES))
+            draw, reach = brushes.mark(marker, x, y, self.ui, width)
+            sprite = self._keep(key, brushes.box_round(x, y, reach), [(rgba(color), draw, 0)])
+        return sprite
+
+    # -- text ---------------------------------------------------------------------------------
+
+    def _text(self, surface: pygame.Surface, shape: Text, camera: Camera) -> None:
+        x = camera.x + camera.scale * shape.position[0]
+        y = camera.y - camera.scale * shape.position[1]
+        gap = 4 * self.ui
+        lines = shape.text.split("\n")
+        color = self._shade(shape.color)
+        images = [self.fonts.render(text, shape.size * self.ui, color) for text in lines]
+        height = sum(image.get_height() for image in images)
+        top = {"above": y - gap - height, "below": y + gap}.get(shape.anchor, y - height / 2)
+        for text, image in zip(lines, images, strict=True):
+            width = image.get_width()
+            # MARS's and matplotlib's sense: "left" puts the text's left end at the point
+            left = {"left": x + gap, "right": x - gap - width}.get(shape.anchor, x - width / 2)
+            place = (round(left), round(top))
+            if shape.halo:
+                rim = self.fonts.render(text, shape.size * self.ui, self._shade(shape.halo))
+                reach = max(1, round(1.5 * self.ui))
+                surface.fblits((rim, (place[0] + a, place[1] + b)) for a, b in _around(reach))
+            surface.blit(image, place)
+            top += image.get_height()
+
+    # -- images -------------------------------------------------------------------------------
+
+    def _image(self, surface: pygame.Surface, shape: Image, camera: Camera) -> None:
+        """Draw the part of an image that is in sight: larger pixels sharp, smaller averaged."""
+        xmin, xmax, ymin, ymax = shape.bounds
+        rows, columns, _ = shape.pixels.shape
+        sight = surface.get_clip()
+        left, wide = camera.x + camera.scale * xmin, camera.scale * (xmax - xmin) / columns
+        top, high = camera.y - camera.scale * ymax, camera.scale * (ymax - ymin) / rows
+        across = _cells(left, wide, columns, sight.left, sight.right)
+        down = _cells(top, high, rows, sight.top, sight.bottom)
+        if across is None or down is None:
+            return
+        place = across[0][0], down[0][0]
+        seen = shape.pixels[down[1]][:, across[1]].swapaxes(0, 1)
+        part = _surface_of(self.theme.shade_pixels(seen))
+        size = across[0][1] - across[0][0], down[0][1] - down[0][0]
+        if part.get_size() != size:
+            part = pygame.transform.smoothscale(part, size)
+        surface.blit(part, place)
+
+    # -- what the window's own parts are made of ----------------------------------------------
+
+    def panel(
+        self,
+        surface: pygame.Surface,
+        rect: pygame.Rect,
+        fill: str,
+        radius: float,
+        stroke: str | None = None,
+    ) -> None:
+        """Draw a box with round corners; `radius` in pixels."""
+        key = ("panel", rect.size, fill, radius, stroke)
+        sprite = self._sprites.get(key)
+        if sprite is None:
+            box = pygame.Rect(0, 0, *rect.size)
+            layers = [(rgba(stroke or fill), brushes.rounded(box, radius), 0)]
+            if stroke:
+                layers.append((rgba(fill), brushes.rounded(box.inflate(-2, -2), radius - 1), 0))
+            sprite = self._keep(key, box, layers)
+        surface.blit(sprite[0], rect.topleft)
+
+    def _ink(self, color: str | None) -> Rgba | None:
+        """Return what a shape's colour becomes, or None for none."""
+        return rgba(self._shade(color)) if color else None
+
+    def _keep(self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]) -> Sprite:
+        """Draw a sprite, its layers one over the other, and keep it."""
+        finer = _sprite_factor(box)
+        images = [
+            brushes.layer(color, box, draw, factor or finer) for color, draw, factor in layers
+        ]
+        image = images[0]
+        for above in images[1:]:
+            image.blit(above, (0, 0))
+        sprite = image, box.left, box.top
+        self._sprites.keep(key, sprite)
+        return sprite
+
+
+def _surface_of(pixels: NDArray[np.uint8]) -> pygame.Surface:
+    """Return a surface of pixels (columns, rows, 3 or 4)."""
+    opaque = pixels.shape[2] == 3
+    surface = pygame.Surface(pixels.shape[:2], 0 if opaque else pygame.SRCALPHA, 32)
+    pygame.surfarray.pixels3d(surface)[:] = pixels[..., :3]
+    if not opaque:
+        pygame.surfarray.pixels_alpha(surface)[:] = pixels[..., 3]
+    return surface
+
+
+def _cells(
+    start: float, size: float, count: int, low: int, high: int
+) -> tuple[tuple[int, int], NDArray[np.int64]] | None:
+    """Return which screen pixels (first, end) an image takes along one axis, and which of its own.
+
+    start, size: of the image's first pixel on the screen, in screen pixels. count: of the image's
+    pixels. low, high: the screen pixels in sight. Each screen pixel has one of the image's, the
+    one at its middle; where those are smaller, all are returned, to be averaged.
+    """
+    first, end = max(low, round(start)), min(high, round(start + size * count))
+    if first >= end:
+        return None
+    if size >= 1:
+        own = ((np.arange(first, end) + 0.5 - start) / size).astype(int).clip(0, count - 1)
+    else:
+        low, high = floor((first - start) / size), ceil((end - start) / size)
+        own = np.arange(max(low, 0), min(high, count))
+    return (first, end), own
+
+
+def _around(reach: int) -> list[tuple[int, int]]:
+    """Return shifts to all sides, by `reach` pixels."""
+    steps = (-reach, 0, reach)
+    return [(a, b) for a in steps for b in steps if (a, b) != (0, 0)]
+
+
+def _sprite_factor(box: pygame.Rect) -> int:
+    return 8 if box.width * box.height < 1600 else 4
+
+
+def _phase(value: float) -> tuple[int, float]:
+    """Split a pixel coordinate into a whole number and a number of quarters."""
+    quarters = round(value * PHASES)
+    return quarters // PHASES, (quarters % PHASES) / PHASES
+
+
+def _disc_layers(
+    fill: Rgba | None, stroke: Rgba | None, radius: float, width: float, x: float, y: float
+) -> list[Layer]:
+    layers: list[Layer] = []
+    broad = radius > BROAD and stroke is not None
+    if fill:
+        # The ring will cover the edge.
+        factor = 0 if not broad else 1 if fill[3] < FAINT else 2
+        layers.append((fill, brushes.disc(x, y, radius), factor))
+    if stroke:
+        draw = brushes.disc(x, y, radius + width / 2, width)
+        if broad:
+            draw = brushes.drawn_finely([brushes.ring(x, y, radius)], width)
+        layers.append((stroke, draw, 1 if broad else 0))
+    return layers

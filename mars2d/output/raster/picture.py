@@ -1,0 +1,118 @@
+"""Pictures without a window: the same drawing code, and no display needed."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pygame
+
+from mars2d.core.atomic import replacing
+from mars2d.core.errors import InputError
+from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.layers import Layers
+from mars2d.output.raster.layout import FOOTER, Layout, fitted
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.stage import Stage
+from mars2d.output.raster.theme import PRINTED
+from mars2d.record.frame import Frame
+
+__all__ = ["Artist", "paint_frame", "save_png"]
+
+
+class Artist:
+    """Paints one frame after another, keeping what does not change between them.
+
+    size: pixels. camera: where the world lies, by default so that the workspace fits. status: what
+    the chip beside the time says, as "10x". footer: reserve the strip for the message at the end.
+    grid, trails, forces, theory: None does as the scenario's animation says.
+    """
+
+    def __init__(
+        self,
+        size: tuple[int, int] = (1280, 720),
+        *,
+        camera: Camera | None = None,
+        sensors: bool = False,
+        grid: bool | None = None,
+        trails: bool | None = None,
+        forces: bool | None = None,
+        theory: bool | None = None,
+        footer: bool = True,
+        status: str = "",
+    ) -> None:
+        """Check the size; nothing is drawn yet."""
+        if not all(isinstance(side, int) and 16 <= side <= 16_384 for side in size):
+            raise InputError(f"size = {size!r}: expected (width, height) in pixels, 16 to 16384")
+        self.size = size
+        self.layout = Layout.of(size, FOOTER if footer else 0.0)
+        self.painter = Painter(theme=PRINTED)
+        self.painter.ui = self.layout.ui
+        self._stage = Stage(self.painter)
+        self._camera = camera
+        self._sensors, self._grid, self._trails = sensors, grid, trails
+        self._forces, self._theory = forces, theory
+        self._status = Status(status) if status else None
+
+    def paint(self, frame: Frame, surface: pygame.Surface | None = None) -> pygame.Surface:
+        """Return the whole picture of a frame; on `surface` of the same size, when given."""
+        if surface is None:
+            surface = pygame.Surface(self.size, 0, 32)
+        animation = frame.scenario.animation
+        layers = Layers(
+            grid=animation.grid if self._grid is None else self._grid,
+            trails=animation.wake if self._trails is None else self._trails,
+            sensors=self._sensors,
+            forces=animation.forces if self._forces is None else self._forces,
+            theory=animation.theory if self._theory is None else self._theory,
+        )
+        camera = self._camera or fitted(frame.scenario, self.size, self.layout)
+        self._stage.draw(surface, frame, camera, layers, self.layout.plot)
+        draw_header(surface, self.layout, self.painter, frame, self._status)
+        banner = Banner(frame.over_message) if frame.over_message else None
+        draw_footer(surface, self.layout, self.painter, banner, summary(frame))
+        return surface
+
+
+def summary(frame: Frame) -> str:
+    """Return the quiet line beneath a picture: the team and its timing."""
+    scenario = frame.scenario
+    count = len(scenario.robots)
+    team = "1 robot" if count == 1 else f"{count} robots"
+    return f"{team}  ·  sampling time {scenario.sampling_time:g} s"
+
+
+def paint_frame(
+    frame: Frame,
+    size: tuple[int, int] = (1280, 720),
+    *,
+    camera: Camera | None = None,
+    sensors: bool = False,
+    grid: bool | None = None,
+    trails: bool | None = None,
+    forces: bool | None = None,
+    theory: bool | None = None,
+    footer: bool = True,
+) -> pygame.Surface:
+    """Return the picture of one frame: title, time, iteration, message and all. See `Artist`."""
+    artist = Artist(
+        size,
+        camera=camera,
+        sensors=sensors,
+        grid=grid,
+        trails=trails,
+        forces=forces,
+        theory=theory,
+        footer=footer,
+    )
+    return artist.paint(frame)
+
+
+def save_png(surface: pygame.Surface, path: str | os.PathLike[str]) -> None:
+    """Write a picture as PNG. Raises InputError when it can't be written there."""
+    target = Path(path)
+    if target.suffix.lower() != ".png":
+        raise InputError(f"{target}: expected a name that ends in .png")
+    with replacing(target) as file:
+        pygame.image.save(surface, file, "x.png")

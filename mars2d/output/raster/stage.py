@@ -1,0 +1,273 @@
+"""The picture between the bars: one frame, drawn over what seldom changes."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from math import ceil, floor
+from operator import is_
+from time import perf_counter
+
+import pygame
+
+from mars2d.core.scene import Scene, Shape
+from mars2d.output.layers import parts as scenes
+from mars2d.output.layers.forces import forces
+from mars2d.output.layers.messages import messages
+from mars2d.output.layers.names import names
+from mars2d.output.layers.velocities import velocities
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.canvas import Canvas, grid_bounds
+from mars2d.output.raster.grid import labels
+from mars2d.output.raster.layers import Layers
+from mars2d.output.raster.legend import draw_legends
+from mars2d.output.raster.overlays import Labels, Links
+from mars2d.output.raster.painter import Painter
+from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["MEMORY", "Stage"]
+
+MEMORY = 100_000_000
+"""The bytes that a window uses to go back in time quickly: some twenty pictures."""
+
+PATIENCE = 0.012
+"""The seconds that drawing what stands still may take without the movement of a camera jerking."""
+
+AHEAD = 0.004
+"""The seconds of a picture in which what will be seen soon is drawn, when that takes longer."""
+
+ROUND = 0.25
+"""While the camera moves, so much more is drawn on all sides, in shares of the picture..."""
+NEAR = 0.1
+"""... and anew when so little of that is left."""
+
+
+class Stage:
+    """Draws frames of one experiment after another; used by the window, pictures and films alike.
+
+    The workspace, the grid, the obstacles and the initial poses are drawn once a camera. On a copy
+    of that the paths grow. On a copy of that is what the sensors have read, until they read again.
+    What moves is drawn anew each time.
+
+    memory: bytes that may be used to go back in time without drawing all paths from their start.
+    """
+
+    def __init__(self, painter: Painter, memory: int = 0) -> None:
+        """Start with nothing drawn."""
+        self.painter = painter
+        self.memory = memory
+        self._canvas: Canvas | None = None
+        self._next: Canvas | None = None  # what will be seen soon
+        self._key: tuple[Hashable, ...] = ()
+        self._scenario: Scenario | None = None
+        self._sensed: pygame.Surface | None = None
+        self._sensed_of: tuple[object, ...] = ()
+        self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
+        self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
+        self._numbers_of: tuple[Hashable, ...] = ()
+        self._names, self._links = Labels(), Links()
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        plot: pygame.Rect | None = None,
+        *,
+        beneath: Sequence[Shape] = (),
+        marks: Sequence[Shape] = (),
+        hurried: bool = False,
+    ) -> None:
+        """Draw a frame on the part `plot` of a surface, all of it by default.
+
+        beneath, marks: shapes to draw beneath the bodies, and over them. hurried: while the camera
+        moves. If drawing what stands still took long, the picture drawn last is enlarged or moved
+        instead, until there is time to draw it anew.
+        """
+        plot = surface.get_rect() if plot is None else plot
+        before = surface.get_clip()
+        surface.set_clip(plot)
+        canvas = self._canvas_for(surface, frame, camera, layers, plot, hurried)
+        if canvas.shows(camera, plot):
+            self._spread(surface, canvas, frame, camera, layers, plot)
+        else:
+            self._enlarge(surface, canvas, camera, layers, plot)
+            if layers.sensors:
+                self.painter.paint(surface, scenes.sensors(frame).shapes, camera)
+        if layers.messages and layers.neighbours:
+            self._links.draw(surface, self.painter, frame, camera)
+        self.painter.paint(surface, self._moving(frame, layers, beneath, marks).shapes, camera)
+        if layers.names:
+            self._names.draw(surface, self.painter, names(frame), camera)
+        surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
+        draw_legends(
+            surface, self.painter, frame.scenario, camera, plot,
+            forces=layers.forces, velocities=layers.velocities,
+        )  # fmt: skip
+        surface.set_clip(before)
+
+    def _moving(
+        self, frame: Frame, layers: Layers, beneath: Sequence[Shape], marks: Sequence[Shape]
+    ) -> Scene:
+        """Return what is drawn anew each time."""
+        moving = scenes.addons(frame) if layers.addons else Scene()
+        if layers.theory:
+            moving.extend(scenes.theory(frame).shapes)
+        if layers.messages:
+            moving.extend(messages(frame).shapes)
+        moving.extend(beneath)
+        for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):
+            moving.extend(scene.shapes)
+        moving.extend(marks)
+        if layers.velocities:
+            moving.extend(velocities(frame).shapes)
+        if layers.forces:
+            moving.extend(forces(frame).shapes)
+        return moving
+
+    # -- what stands still --------------------------------------------------------------------
+
+    def _canvas_for(
+        self,
+        surface: pygame.Surface,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        plot: pygame.Rect,
+        hurried: bool,
+    ) -> Canvas:
+        """Return what there is for a camera, or draw it; in a hurry, return what there is."""
+        size = surface.get_size()
+        key = layers.grid, size, tuple(plot), self.painter.ui, self.painter.theme
+        canvas = self._canvas
+        if key != self._key or frame.scenario is not self._scenario:
+            canvas = self._next = None
+        self._key, self._scenario = key, frame.scenario
+        slow = canvas is not None and canvas.seconds > PATIENCE
+        if canvas is not None and hurried and slow:
+            canvas = self._look_ahead(canvas, frame, camera, layers, plot)
+        elif canvas is None or not canvas.is_exact(camera) or not canvas.shows(camera, plot):
+            canvas = Canvas(
+                self.painter, frame.scenario, camera, size, plot, grid=layers.grid,
+                memory=self.memory,
+            )  # fmt: skip
+        self._canvas = canvas
+        return canvas
+
+    def _look_ahead(
+        self, canvas: Canvas, frame: Frame, camera: Camera, layers: Layers, plot: pygame.Rect
+    ) -> Canvas:
+        """Return the canvas to use while the camera moves; draw a larger one bit by bit."""
+        near = plot.inflate(2 * NEAR * plot.width, 2 * NEAR * plot.height)
+        if camera.scale != canvas.camera.scale or canvas.shows(camera, near):
+            return canvas
+        if self._next is None or not self._next.shows(camera, near):
+            wide = plot.inflate(2 * ROUND * plot.width, 2 * ROUND * plot.height)
+            own = camera.panned(-wide.left, -wide.top)
+            self._next = Canvas(
+                self.painter, frame.scenario, own, wide.size, pygame.Rect(0, 0, *wide.size),
+                grid=layers.grid, memory=self.memory,
+            )  # fmt: skip
+            return canvas
+        if layers.trails and self._next.with_paths(frame, perf_counter() + AHEAD) is None:
+            return canvas
+        following, self._next = self._next, None
+        return following
+
+    def _spread(
+        self,
+        surface: pygame.Surface,
+        canvas: Canvas,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        plot: pygame.Rect,
+    ) -> None:
+        """Draw what stands still, the paths, and what the sensors have read."""
+        picture: pygame.Surface | None = canvas.still
+        if layers.trails:
+            picture = canvas.with_paths(frame)
+        assert picture is not None
+        read: Sequence[Shape] = ()
+        if layers.sensors:
+            picture, read = self._with_sensors(picture, frame, canvas)
+        dx, dy = canvas.shift(camera)
+        surface.blit(picture, plot, plot.move(-dx, -dy))
+        self.painter.paint(surface, read, camera)
+        if layers.trails and canvas.wakes is not None:
+            poses = frame.prop_pose, frame.pose
+            for trails, pose in zip(canvas.wakes.trails, poses, strict=True):
+                trails.loose_ends(surface, pose[:2], (dx, dy))
+
+    def _enlarge(
+        self,
+        surface: pygame.Surface,
+        canvas: Canvas,
+        camera: Camera,
+        layers: Layers,
+        plot: pygame.Rect,
+    ) -> None:
+        """Draw what a canvas has as another camera sees it, roughly."""
+        last = canvas.wakes.surface if layers.trails and canvas.wakes is not None else canvas.still
+        factor = camera.scale / canvas.camera.scale
+        corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
+        # Whole pixels of the last picture, as many as are seen now.
+        seen = pygame.Rect(0, 0, ceil(plot.width / factor) + 2, ceil(plot.height / factor) + 2)
+        seen.left = floor((plot.left - corner[0]) / factor)
+        seen.top = floor((plot.top - corner[1]) / factor)
+        seen = seen.clip(canvas.area)
+        surface.fill(self.painter.theme.page, plot)
+        if seen.width > 0 and seen.height > 0:
+            size = round(seen.width * factor), round(seen.height * factor)
+            place = corner[0] + factor * seen.left, corner[1] + factor * seen.top
+            surface.blit(pygame.transform.scale(last.subsurface(seen), size), place)
+
+    def _numbers_at(
+        self,
+        scenario: Scenario,
+        camera: Camera,
+        layers: Layers,
+        size: tuple[int, int],
+        plot: pygame.Rect,
+    ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
+        """Return the numbers of the grid, and where they go."""
+        key = camera, *self._key
+        if self._numbers_of != key:
+            self._numbers_of, self._numbers = key, []
+            if layers.grid:
+                bounds, painter = grid_bounds(scenario, camera, size), self.painter
+                self._numbers = labels(
+                    plot, camera, bounds, painter.fonts, painter.ui, painter.theme
+                )
+        return self._numbers
+
+    def _with_sensors(
+        self, picture: pygame.Surface, frame: Frame, canvas: Canvas
+    ) -> tuple[pygame.Surface, Sequence[Shape]]:
+        """Return a picture with what the sensors have read on it, and what is still to be drawn.
+
+        What is seen more than once is drawn on a copy and kept. Where the last was seen only once,
+        as in a film of each control step, the next will be as well: that needs no copy.
+        """
+        sensors = (sensor for robot in frame.scenario.robots for sensor in robot.sensors)
+        stays = all(sensor.stays for sensor in sensors)
+        sensed = frame.pose if frame.sensed is None else frame.sensed
+        read = [reading for readings in frame.readings.values() for _, reading in readings]
+        made_of = picture, frame.path, sensed, None if stays else frame.pose, *read
+        if len(made_of) != len(self._sensed_of) or not all(map(is_, made_of, self._sensed_of)):
+            self._sensed_stays = self._times_seen > 1
+            self._sensed_of, self._times_seen, self._is_kept = made_of, 0, False
+        self._times_seen += 1
+        if self._is_kept and self._sensed is not None:
+            return self._sensed, ()
+        shapes = scenes.sensors(frame).shapes
+        if not shapes or not (self._sensed_stays or self._times_seen > 1):
+            return picture, shapes
+        if self._sensed is None or self._sensed.get_size() != picture.get_size():
+            self._sensed = picture.copy()
+        self._sensed.set_clip(canvas.area)
+        self._sensed.blit(picture, canvas.area, canvas.area)
+        self.painter.paint(self._sensed, shapes, canvas.camera)
+        self._is_kept = True
+        return self._sensed, ()

@@ -1,0 +1,156 @@
+"""The paths behind the robots, drawn once and then only prolonged."""
+
+from __future__ import annotations
+
+from copy import copy
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.core.scene import split_wake_style
+from mars2d.output.raster.brushes import rgba
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.strokes import DASHES, MARK_SPACING, dashes, hair_shifts, hairlines
+from mars2d.output.raster.theme import Theme, mixed
+
+__all__ = ["Trails"]
+
+Float = NDArray[np.float64]
+
+STRIDE = 2.0
+"""A path is prolonged when it has grown by so many points: no dots on top of dots."""
+
+
+class Trails:
+    """Draws growing paths on a surface that keeps them, and their loose ends on another.
+
+    style: the wake style. colors: one a robot, with opacity. width: points. The opacity is worked
+    into the colour, as over paper, since strokes that are drawn piece by piece would overlap.
+    """
+
+    def __init__(
+        self, painter: Painter, camera: Camera, style: str, colors: tuple[str, ...], width: float
+    ) -> None:
+        """Start with no path drawn."""
+        self.painter, self.camera, self.width = painter, camera, width
+        self.marker, self.line = split_wake_style(style)
+        self.colors = [_on_paper(color, painter.theme) for color in colors]
+        self.inks = [rgba(color)[:3] for color in self.colors]
+        self.drawn = 0
+        self.first: Float | None = None
+        self.last: Float | None = None
+
+    def continues(self, path: Float) -> bool:
+        """Return whether a path (k, 3, n) is what has been drawn, or begins with it."""
+        if self.first is None or self.last is None:
+            return True
+        return (
+            len(path) >= self.drawn
+            and np.array_equal(path[0, :2], self.first)
+            and np.array_equal(path[self.drawn - 1, :2], self.last)
+        )
+
+    def copy(self) -> Trails:
+        """Return one that has drawn the same, and goes on by itself."""
+        other = copy(self)
+        if self.first is not None:
+            other.pen, other.pen_along = self.pen.copy(), self.pen_along.copy()
+        return other
+
+    def prolong(self, surface: pygame.Surface, path: Float) -> None:
+        """Draw what a path (k, 3, n) has more than before."""
+        if len(path) <= self.drawn:
+            return
+        if self.first is None:
+            self.first = path[0, :2].copy()
+            start = self._pixels(self.first[None])
+            self.pen, self.tip = start[0].copy(), start[0].copy()  # (n, 2) each
+            n = len(self.pen)
+            self.pen_along, self.tip_along = np.zeros(n), np.zeros(n)
+            if self.marker:
+                for i in range(n):
+                    self._mark(surface, self.pen[i : i + 1], i)
+        new = self._pixels(path[self.drawn :, :2])  # (m, n, 2)
+        self.last = path[-1, :2].copy()
+        self.drawn = len(path)
+        steps = np.diff(np.concatenate([self.tip[None], new]), axis=0)
+        along = self.tip_along + np.cumsum(np.hypot(steps[..., 0], steps[..., 1]), axis=0)
+        kept = self._crossings(along, STRIDE * self.painter.ui)
+        marked = self._crossings(along, MARK_SPACING * self.painter.ui) if self.marker else None
+        grown = np.nonzero(kept.any(axis=0))[0]
+        if self.line == "-" and len(new) == 1:
+            self._segments(surface, grown, self.pen[grown], new[0, grown])
+        for i in grown.tolist():
+            rows = kept[:, i]
+            if self.line != "-" or len(new) > 1:
+                points = np.concatenate([self.pen[i : i + 1], new[rows, i]])
+                self._stroke(surface, points, float(self.pen_along[i]), i)
+            self.pen[i], self.pen_along[i] = new[rows, i][-1], along[rows, i][-1]
+        if marked is not None:
+            for i in np.nonzero(marked.any(axis=0))[0].tolist():
+                self._mark(surface, new[marked[:, i], i], i)
+        self.tip, self.tip_along = new[-1].copy(), along[-1].copy()
+
+    def loose_ends(
+        self, surface: pygame.Surface, position: Float, shift: tuple[int, int] = (0, 0)
+    ) -> None:
+        """Draw from where each path was last drawn to where its robot is, (2, n) metres.
+
+        shift: how far the surface that keeps the paths lies off this one, pixels.
+        """
+        if self.first is None or not self.line:
+            return
+        here, pen = self._pixels(position[None])[0] + shift, self.pen + shift
+        if self.line == "-":
+            self._segments(surface, np.arange(len(here)), pen, here)
+            return
+        for i in range(len(here)):
+            points = np.array([pen[i], here[i]])
+            self._stroke(surface, points, float(self.pen_along[i]), i)
+
+    def _pixels(self, positions: Float) -> Float:
+        """Return (m, n, 2) pixels of (m, 2, n) metres."""
+        c = self.camera
+        return np.stack([c.x + c.scale * positions[:, 0], c.y - c.scale * positions[:, 1]], axis=-1)
+
+    def _crossings(self, along: Float, stride: float) -> NDArray[np.bool_]:
+        """Return where (m, n) lengths along the paths pass a multiple of `stride`."""
+        buckets = np.floor(np.concatenate([self.tip_along[None], along]) / stride)
+        return np.diff(buckets, axis=0) > 0
+
+    def _mark(self, surface: pygame.Surface, points: Float, i: int) -> None:
+        self.painter.marks(surface, points, self.marker, self.colors[i], self.width)
+
+    def _stroke(self, surface: pygame.Surface, points: Float, start: float, i: int) -> None:
+        if not self.line:
+            return
+        pieces = [points]
+        if self.line != "-":
+            pattern = tuple(self.painter.ui * length for length in DASHES[self.line])
+            pieces = dashes(points, pattern, start)
+        for piece in pieces:
+            hairlines(surface, self.inks[i], piece, self.width * self.painter.ui)
+
+    def _segments(
+        self, surface: pygame.Surface, which: NDArray[np.intp], starts: Float, ends: Float
+    ) -> None:
+        """Draw one straight piece for each of some robots, from (m, 2) to (m, 2) pixels."""
+        steps = ends - starts
+        lengths = np.hypot(steps[:, 0], steps[:, 1])
+        keep = lengths > 0.05
+        if not keep.any():
+            return
+        starts, ends, steps = starts[keep], ends[keep], steps[keep] / lengths[keep, None]
+        normals = np.column_stack([-steps[:, 1], steps[:, 0]])
+        inks = [self.inks[i] for i in which[keep].tolist()]
+        for shift in hair_shifts(self.width * self.painter.ui, normals):
+            a, b = (starts + shift).tolist(), (ends + shift).tolist()
+            for ink, start, end in zip(inks, a, b, strict=True):
+                pygame.draw.aaline(surface, ink, start, end)
+
+
+def _on_paper(color: str, theme: Theme) -> str:
+    """Return how a colour with opacity looks on the theme's paper."""
+    return mixed(theme.shade(color), theme.paper, rgba(color)[3] / 255)

@@ -1,0 +1,116 @@
+"""One instant of an experiment as it is seen, live or recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import ceil
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.scene import Scene
+from mars2d.record.contact import CONTACT
+from mars2d.record.message import MESSAGE
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Frame", "between"]
+
+Float = NDArray[np.float64]
+
+
+def _no_contacts() -> NDArray[np.void]:
+    return np.empty(0, dtype=CONTACT)
+
+
+def _no_messages() -> NDArray[np.void]:
+    return np.empty(0, dtype=MESSAGE)
+
+
+def _no_message_log() -> tuple[NDArray[np.void], Sequence[str]]:
+    return _no_messages(), ()
+
+
+def _no_readings(name: str, robot: int) -> None:  # noqa: ARG001
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """What is seen at one instant.
+
+    pose: (3, n) now. path: (k, 3, n), the poses at all sampling times before, from the start on.
+    readings: for each sensor's name the pairs (robot index, reading). sensed: (3, n), the poses at
+    which they were read, where these are others than `pose`. draw_addons: adds the add-ons' shapes
+    to a scene, where they are alive. prop_pose: (3, p). contacts: those of the control step that
+    led here, and effort (n,) of the drives in it. contact_log: returns all contacts so far.
+    prop_path: (k, 3, p), effort_path: (k, n) and command_path: (k, 2, n), as path; they may be left
+    empty. messages: those that were under way in the control step that led here. message_log:
+    returns all so far, and the texts that their field `content` numbers. reading_path: returns what
+    a sensor, by its name, read on a robot at the times of `path`, (k, ...), or None where that is
+    not known.
+    """
+
+    scenario: Scenario
+    time: float
+    iteration: int
+    pose: Float
+    path: Float
+    readings: Mapping[str, Sequence[tuple[int, Any]]] = field(default_factory=dict)
+    over_message: str = ""
+    sensed: Float | None = None
+    draw_addons: Callable[[Scene], None] | None = None
+    prop_pose: Float = field(default_factory=lambda: np.empty((3, 0)))
+    contacts: NDArray[np.void] = field(default_factory=_no_contacts)
+    effort: Float = field(default_factory=lambda: np.empty(0))
+    contact_log: Callable[[], NDArray[np.void]] = _no_contacts
+    prop_path: Float = field(default_factory=lambda: np.empty((0, 3, 0)))
+    effort_path: Float = field(default_factory=lambda: np.empty((0, 0)))
+    messages: NDArray[np.void] = field(default_factory=_no_messages)
+    command_path: Float = field(default_factory=lambda: np.empty((0, 2, 0)))
+    message_log: Callable[[], tuple[NDArray[np.void], Sequence[str]]] = _no_message_log
+    reading_path: Callable[[str, int], NDArray[Any] | None] = _no_readings
+
+    @property
+    def velocity(self) -> Float:
+        """The mean velocities (3, n + p) of robots and props: x', y' [m/s], theta' [rad/s].
+
+        Over the control step that led here, as far as it has got; 0 where that is not known.
+        """
+        velocity = np.zeros((3, self.pose.shape[1] + self.prop_pose.shape[1]))
+        dt = self.scenario.sampling_time
+        row = ceil(self.time / dt - 1e-6) - 1  # at which the control step began
+        spent, n = self.time - row * dt, self.pose.shape[1]
+        if 0 <= row < len(self.path):
+            velocity[:, :n] = (self.pose - self.path[row]) / spent
+        if 0 <= row < len(self.prop_path):
+            velocity[:, n:] = (self.prop_pose - self.prop_path[row]) / spent
+        return velocity
+
+
+def between(first: Frame, second: Frame, time: float) -> Frame:
+    """Return what is seen at a time [s] between two frames: poses linear, all else of the first.
+
+    Only contacts, efforts and messages are the second's: those of the control step that leads
+    there. A time before or after both is taken as the first's or the second's.
+    """
+    span = second.time - first.time
+    if span <= 0 or time >= second.time:
+        return second
+    share = max(0.0, (time - first.time) / span)
+    return replace(
+        first,
+        time=max(time, first.time),
+        pose=first.pose + share * (second.pose - first.pose),
+        sensed=first.pose,
+        path=second.path,
+        prop_pose=first.prop_pose + share * (second.prop_pose - first.prop_pose),
+        prop_path=second.prop_path,
+        contacts=second.contacts,
+        effort=second.effort,
+        contact_log=second.contact_log,
+        effort_path=second.effort_path,
+        command_path=second.command_path,
+        messages=second.messages,
+    )

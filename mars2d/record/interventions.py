@@ -1,0 +1,139 @@
+"""What was done to a running world from outside: bodies put elsewhere or pulled, parts changed.
+
+Each has its `row`: it was done at that row of the record, before its commands took effect. With
+the commands they make a run again, to the bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, fields
+from math import isfinite
+from typing import Any
+
+from mars2d.core.plane import Point
+from mars2d.scenario import serialize
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Change", "Intervention", "Place", "Pull", "Steer", "check", "of_plain", "to_plain"]
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A body was put at a pose (x, y [m], theta [rad]); it stood still then.
+
+    body: its index in `Scenario.bodies`.
+    """
+
+    row: int
+    body: int
+    pose: Triple
+
+
+@dataclass(frozen=True, slots=True)
+class Pull:
+    """A body was pulled by a spring of limited force, until another word of it.
+
+    grip: the point of the body that is held, in its own frame [m]. target: where it is pulled to
+    [m]; None: it was let go. force: the most that the spring pulls with [N]. speed: the most at
+    which it draws [m/s].
+    """
+
+    row: int
+    body: int
+    grip: Point
+    target: Point | None
+    force: float
+    speed: float
+
+
+@dataclass(frozen=True, slots=True)
+class Steer:
+    """A robot was driven by hand from here on, or no more; the commands tell how.
+
+    robot: its index.
+    """
+
+    row: int
+    robot: int
+    driven: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """The scenario was changed: obstacles, workspace, add-ons that only draw, laws.
+
+    moved: bodies that were put elsewhere with it, by index in `Scenario.bodies`, and their poses.
+    control: the law of the team from then on, which a file does not keep.
+    """
+
+    row: int
+    scenario: Scenario
+    moved: tuple[tuple[int, Triple], ...] = ()
+    control: Callable[[Any], Any] | None = field(default=None, compare=False)
+
+
+Intervention = Place | Pull | Steer | Change
+
+
+def to_plain(intervention: Intervention) -> dict[str, Any]:
+    """Return an intervention as dicts, lists, text and numbers."""
+    kept = [each.name for each in fields(intervention) if each.name != "control"]
+    values = {name: serialize.from_description(getattr(intervention, name)) for name in kept}
+    return {"type": type(intervention).__name__, **values}
+
+
+def of_plain(data: Any) -> Intervention:
+    """Return the intervention that `to_plain` made plain; raises what it may if that is none."""
+    values = {name: _read(value) for name, value in data.items() if name != "type"}
+    return _KINDS[data["type"]](**values)
+
+
+def check(done: Sequence[Intervention], scenario: Scenario, rows: int) -> None:
+    """Raise ValueError for what can't have been done in a run of so many rows, in this order."""
+    robots, bodies = len(scenario.robots), len(scenario.bodies)
+    before = 0
+    for each in done:
+        if isinstance(each, Place):
+            sound = _is_index(each.body, bodies) and _are_numbers(each.pose, 3)
+        elif isinstance(each, Pull):
+            aimed = each.target is None or _are_numbers(each.target, 2)
+            held = _are_numbers(each.grip, 2) and _are_numbers((each.force, each.speed), 2)
+            sound = _is_index(each.body, bodies) and held and aimed
+        elif isinstance(each, Steer):
+            sound = _is_index(each.robot, robots) and isinstance(each.driven, bool)
+        else:
+            sound = isinstance(each.scenario, Scenario) and all(
+                _is_index(body, bodies) and _are_numbers(pose, 3) for body, pose in each.moved
+            )
+            sound &= [body.name for body in each.scenario.bodies] == [
+                body.name for body in scenario.bodies
+            ]
+        if not (sound and _is_index(each.row, rows + 1) and each.row >= before):
+            raise ValueError(type(each).__name__)
+        before = each.row
+
+
+def _is_index(value: object, end: int) -> bool:
+    return type(value) is int and 0 <= value < end
+
+
+def _are_numbers(values: object, count: int) -> bool:
+    return (
+        isinstance(values, tuple)
+        and len(values) == count
+        and all(type(value) in (int, float) and isfinite(value) for value in values)
+    )
+
+
+def _read(value: Any) -> Any:
+    if isinstance(value, dict):
+        return serialize.to_scenario(value)[0]
+    return tuple(map(_read, value)) if isinstance(value, list) else value
+
+
+_KINDS: dict[str, type[Intervention]] = {
+    kind.__name__: kind for kind in (Place, Pull, Steer, Change)
+}

@@ -1,0 +1,149 @@
+"""Messages as data: who told whom what, when, and whether it arrived."""
+
+from __future__ import annotations
+
+import json
+from bisect import bisect_left
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import LawError, shown
+
+__all__ = [
+    "DELIVERED",
+    "LOST",
+    "MESSAGE",
+    "ON_ITS_WAY",
+    "OUT_OF_REACH",
+    "OVER_BANDWIDTH",
+    "STATUS",
+    "Message",
+    "as_of",
+    "as_text",
+    "in_flight",
+]
+
+STATUS = ("on its way", "delivered", "lost", "out of reach", "over the bandwidth")
+"""What became of a message, by the number in the field `status`."""
+
+ON_ITS_WAY, DELIVERED, LOST, OUT_OF_REACH, OVER_BANDWIDTH = range(len(STATUS))
+
+MESSAGE = np.dtype(
+    [
+        ("time", "f8"),  # s, when it was sent
+        ("arrival", "f8"),  # s, of the control step that has it in the inbox; nan if none will
+        ("sender", "i4"),  # index of a robot
+        ("receiver", "i4"),  # index of another one
+        ("size", "i4"),  # bytes
+        ("content", "i4"),  # index of its text in the record's contents
+        ("status", "u1"),  # index of a word of STATUS
+    ]
+)
+"""One row a message and receiver."""
+
+MOST_BYTES = 65_536
+"""The largest content."""
+
+DEEPEST = 32
+"""How deep lists and dicts may lie in each other."""
+
+ALLOWED = (
+    "a message holds None, True and False, numbers, text, arrays of these, and lists, tuples and "
+    "dicts (with text as keys) of these"
+)
+
+
+class Message(NamedTuple):
+    """A message as its receiver has it.
+
+    sender: the index of the robot that sent it, and name its name. time: when it was sent, s.
+    content: a copy of what was sent, of the receiver's own; arrays and tuples arrive as lists.
+    """
+
+    sender: int
+    name: str
+    time: float
+    content: Any
+
+
+def as_text(content: Any) -> str:
+    """Return a message's content as it is recorded and measured: as compact JSON.
+
+    NaN and infinities are written ``NaN``, ``Infinity`` and ``-Infinity``, as Python's json reads
+    them. Raises LawError for whatever can't be recorded, and for more than `MOST_BYTES`.
+
+    >>> as_text({"goal": (1.5, 2), "free": True})
+    '{"goal":[1.5,2],"free":true}'
+    """
+    plain = _plain(content, "content", ())
+    try:
+        text = json.dumps(plain, ensure_ascii=False, separators=(",", ":"))
+        size = len(text.encode())
+    except UnicodeEncodeError:
+        raise _unfit("content", content, "half a character, which no file can hold") from None
+    except ValueError:
+        raise _unfit("content", content, "a whole number of too many digits") from None
+    if size > MOST_BYTES:
+        raise _unfit("content", content, f"{size} bytes, of at most {MOST_BYTES}")
+    return text
+
+
+def _plain(value: Any, where: str, within: tuple[Any, ...]) -> Any:
+    """Return a content, or the part of it at `where`, as None, bools, numbers, text, lists, dicts.
+
+    within: the lists and dicts that it lies in.
+    """
+    if isinstance(value, np.generic):
+        value = float(value) if isinstance(value, np.floating) else value.item()
+    if value is None or isinstance(value, bool):
+        return value
+    for kind in (int, float, str):
+        if isinstance(value, kind):
+            return kind(value)
+    if isinstance(value, np.ndarray) and value.dtype.kind in "biufU":
+        return value.astype(float).tolist() if value.dtype.kind == "f" else value.tolist()
+    if not isinstance(value, (list, tuple, dict)):
+        raise _unfit(where, value, ALLOWED)
+    if any(value is outer for outer in within):
+        raise _unfit(where, value, "it holds itself")
+    if len(within) == DEEPEST:
+        raise _unfit(where, value, f"more than {DEEPEST} lists and dicts in each other")
+    within = (*within, value)
+    if not isinstance(value, dict):
+        return [_plain(item, f"{where}[{i}]", within) for i, item in enumerate(value)]
+    for key in value:
+        if not isinstance(key, str):
+            raise _unfit(f"a key of {where}", key, ALLOWED)
+    return {str(k): _plain(item, f"{where}[{k!r}]", within) for k, item in value.items()}
+
+
+def _unfit(where: str, value: Any, why: str) -> LawError:
+    return LawError(f"robot.send: {where} = {shown(value)} can't be recorded: {why}")
+
+
+def as_of(messages: NDArray[np.void], time: float) -> NDArray[np.void]:
+    """Return a copy of messages (m,) with the `status` that they have at a time, s."""
+    result = messages.copy()
+    sent = messages["status"] <= DELIVERED
+    arrived = messages["arrival"] <= time  # never for nan
+    result["status"][sent & arrived] = DELIVERED
+    result["status"][sent & ~arrived] = ON_ITS_WAY
+    return result
+
+
+def in_flight(
+    messages: NDArray[np.void], time: float, sampling_time: float, delay: float
+) -> NDArray[np.void]:
+    """Return the messages that were under way in the control step that led to a time, s.
+
+    messages: (m,), by time sent. delay: s, for how long they are under way at most. Those that
+    never arrive are in it in the step in which they were sent.
+    """
+    rounding = 1e-6 * sampling_time
+    oldest = time - max(delay, sampling_time) - sampling_time
+    first, end = (bisect_left(messages["time"], t - rounding) for t in (oldest, time))
+    near = messages[first:end]
+    fresh = near["time"] > time - sampling_time - rounding
+    return as_of(near[fresh | (near["arrival"] > time - rounding)], time)

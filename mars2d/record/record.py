@@ -1,0 +1,312 @@
+"""What happened: the columns of a run over time, and how they are kept."""
+
+from __future__ import annotations
+
+import hashlib
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import counted
+from mars2d.core.scene import Scene
+from mars2d.record.columns import Texts, blocks
+from mars2d.record.contact import CONTACT, rows_of
+from mars2d.record.frame import Frame
+from mars2d.record.interventions import Change, Intervention
+from mars2d.record.message import MESSAGE, in_flight
+from mars2d.scenario.scenario import Scenario
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
+    from pandas import DataFrame
+    from xarray import Dataset
+
+__all__ = ["COLUMNS", "Record", "load"]
+
+Float = NDArray[np.float64]
+
+COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
+"""The columns that each record has, one row a control step."""
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """All data of a run. Row k of a column is the world at ``time[k]`` = k sampling times.
+
+    time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, 2, n), issued at
+    ``time``, after saturation; it takes effect at command_time (T,). prop_pose: (T, 3, p). effort:
+    (T, n), the largest share of its bounds that a drive used in the control step before. sensors:
+    for each sensor's name an array (T, m, ...) of readings, of the m robots in
+    ``sensor_robots[name]``. contacts: one row a pair and control step, with the fields of
+    `mars2d.record.CONTACT`. messages: one row a message and receiver, with the fields of
+    `mars2d.record.MESSAGE`; contents: the JSON texts of what was sent, which their field `content`
+    numbers. over_message: why the run ended. finished: False when an error or Ctrl-C ended it, or
+    while it is not over. drawn: what the add-ons drew at its end, which a file does not keep.
+    missing: parts of the user's own that a file did not hold. interventions: what was done to the
+    world from outside, in order; `scenario` is what it was at the start. branches: what was run in
+    a window and left for this, which is kept in files of its own.
+    """
+
+    scenario: Scenario
+    seed: int
+    time: Float
+    pose: Float
+    command: Float
+    command_time: Float
+    prop_pose: Float
+    effort: Float
+    sensors: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    sensor_robots: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    contacts: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=CONTACT))
+    messages: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=MESSAGE))
+    contents: Sequence[str] = ()
+    over_message: str = ""
+    finished: bool = True
+    filename: str = ""
+    versions: Mapping[str, str] = field(default_factory=dict)
+    drawn: Scene = field(default_factory=Scene, repr=False)
+    missing: tuple[str, ...] = ()
+    interventions: tuple[Intervention, ...] = ()
+    branches: tuple[Record, ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        for name in (*COLUMNS, "contacts", "messages"):
+            object.__setattr__(self, name, _unwritable(getattr(self, name)))
+        sensors = {name: _unwritable(values) for name, values in self.sensors.items()}
+        object.__setattr__(self, "sensors", sensors)
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        size = f"{counted(len(self), 'row')}, {counted(len(self.scenario.robots), 'robot')}"
+        return f"<Record of {self.scenario.title!r}: {size}, {self.over_message!r}>"
+
+    @cached_property
+    def digest(self) -> str:
+        """The sha256 over all columns: the same for the same run, to the last bit."""
+        sha = hashlib.sha256()
+        for name, column in self.columns().items():
+            sha.update(f"{name} {column.dtype.str} {column.shape} ".encode())
+            for block in blocks(column):
+                sha.update(block.tobytes())
+        sha.update(self.over_message.encode())
+        return sha.hexdigest()
+
+    @property
+    def collisions(self) -> int:
+        """How many times two bodies came to touch."""
+        return sum(int(block["began"].sum()) for block in blocks(self.contacts))
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Return all columns as plain arrays, under the names that they have in a file.
+
+        Those of sensors, contacts and messages are ``sensor:NAME``, ``contact:FIELD`` and
+        ``message:FIELD``; the texts of messages are ``contents`` (UTF-8, one after the other) and
+        ``content_sizes`` (bytes of each).
+        """
+        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in COLUMNS}
+        columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
+        # Field by field, since a structured array holds undefined bytes between its fields.
+        columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
+        if self.contents:
+            columns |= {f"message:{name}": self.messages[name] for name in MESSAGE.names or ()}
+            texts = Texts.of(self.contents)
+            columns |= {"contents": texts.data, "content_sizes": texts.sizes}
+        return columns
+
+    def frame(self, row: int) -> Frame:
+        """Return what was seen at row `row`, negative ones counting from the end."""
+        row = range(len(self))[row]
+        last = row == len(self) - 1
+        readings = {
+            name: [(robot, values[row, k]) for k, robot in enumerate(self.sensor_robots[name])]
+            for name, values in self.sensors.items()
+        }
+        return Frame(
+            scenario=self.scenario_at(row),
+            time=float(self.time[row]),
+            iteration=row,
+            pose=self.pose[row],
+            path=self.pose[:row],
+            readings=readings,
+            over_message=self.over_message if last else "",
+            prop_pose=self.prop_pose[row],
+            contacts=self._contacts_before(row),
+            effort=self.effort[row],
+            prop_path=self.prop_pose[:row],
+            effort_path=self.effort[:row],
+            contact_log=lambda: self.contacts[: np.searchsorted(self.contact_rows, row, "right")],
+            messages=self._messages_before(row),
+            command_path=self.command[:row],
+            message_log=lambda: (self.messages, self.contents),
+            reading_path=lambda name, robot: self._readings_before(row, name, robot),
+            draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
+        )
+
+    def scenario_at(self, row: int) -> Scenario:
+        """Return the scenario as it was at row `row`, after what was changed there."""
+        k = bisect_right(self.changes, row, key=lambda change: change.row)
+        return self.changes[k - 1].scenario if k else self.scenario
+
+    @cached_property
+    def changes(self) -> tuple[Change, ...]:
+        """Those of the interventions that changed the scenario, in order."""
+        return tuple(each for each in self.interventions if isinstance(each, Change))
+
+    @cached_property
+    def contact_rows(self) -> NDArray[np.intp]:
+        """The row that each contact's control step led to, (c,), see `rows_of`."""
+        return rows_of(self.contacts, self.time, self.scenario.sampling_time)
+
+    def _contacts_before(self, row: int) -> NDArray[np.void]:
+        """Return the contacts of the control step that led to a row."""
+        ends = np.searchsorted(self.contact_rows, [row, row + 1])
+        return self.contacts[ends[0] : ends[1]]
+
+    def _messages_before(self, row: int) -> NDArray[np.void]:
+        """Return the messages that were under way in the control step that led to a row."""
+        time, dt = float(self.time[row]), self.scenario.sampling_time
+        return in_flight(self.messages, time, dt, self._longest_flight)
+
+    def _readings_before(self, row: int, name: str, robot: int) -> NDArray[Any] | None:
+        """Return what a sensor read on a robot before a row, (row, ...), if it is recorded."""
+        robots = self.sensor_robots.get(name, ())
+        return self.sensors[name][:row, robots.index(robot)] if robot in robots else None
+
+    @cached_property
+    def _longest_flight(self) -> float:
+        flight = self.messages["arrival"] - self.messages["time"]
+        return float(np.nanmax(flight, initial=0.0))
+
+    # -- what people look at ------------------------------------------------------------------
+
+    def plot(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+        """Draw the paths: initial poses hollow, final poses filled, obstacles and grid.
+
+        ax: matplotlib axes to draw on; by default those of a new figure. style: "screen", "print"
+        or "projector", see `mars2d.output.figures.style`. Returns the axes.
+        """
+        from mars2d.output.figures.figure import plot_paths
+
+        return plot_paths(self, ax, style=style)
+
+    def plot_snapshots(
+        self, times: ArrayLike, figure: Figure | None = None, *, style: str = "screen"
+    ) -> Figure:
+        """Draw the paths until each of some times [s], one panel a time; return the figure."""
+        from mars2d.output.figures.figure import plot_snapshots
+
+        return plot_snapshots(self, times, figure, style=style)
+
+    def plot_signals(
+        self,
+        *columns: str,
+        robots: Sequence[str | int] | None = None,
+        axes: Sequence[Axes] | None = None,
+        start: float | None = None,
+        end: float | None = None,
+        style: str = "screen",
+    ) -> list[Axes]:
+        """Draw columns over time, one panel a column; see `figures.signals.plot_signals`."""
+        from mars2d.output.figures.signals import plot_signals
+
+        return plot_signals(self, columns, robots, axes, start=start, end=end, style=style)
+
+    def plot_contacts(
+        self, axes: Sequence[Axes] | None = None, *, style: str = "screen"
+    ) -> list[Axes]:
+        """Draw who touched whom when, and how hard; see `figures.contacts.plot_contacts`."""
+        from mars2d.output.figures.contacts import plot_contacts
+
+        return plot_contacts(self, axes, style=style)
+
+    def plot_distances(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+        """Draw distances over time; see `mars2d.output.figures.distances.plot_distances`."""
+        from mars2d.output.figures.distances import plot_distances
+
+        return plot_distances(self, ax, style=style)
+
+    def film(
+        self,
+        path: str | Path,
+        *,
+        speed: float = 1.0,
+        size: tuple[int, int] = (1280, 720),
+        fps: float = 25,
+        start: float | None = None,
+        end: float | None = None,
+    ) -> Path:
+        """Make a film, .gif or .mp4, of a part of the run; see `films.film.film_record`."""
+        from mars2d.output.films.film import film_record
+
+        return film_record(self, path, speed=speed, size=size, fps=fps, start=start, end=end)
+
+    def save_html(self, path: str | Path) -> Path:
+        """Write a replay as one HTML file, which any browser plays without a network."""
+        from mars2d.output.pages.replay import save_html
+
+        return save_html(self, path)
+
+    def _repr_html_(self) -> str:
+        """Return an inline replay, for a notebook."""
+        from mars2d.output.pages.notebook import record_html
+
+        return record_html(self)
+
+    def _repr_svg_(self) -> str:
+        """Return a picture of the end, for what shows notebooks without scripts."""
+        from mars2d.output.pages.notebook import record_svg
+
+        return record_svg(self)
+
+    # -- what programs read -------------------------------------------------------------------
+
+    def to_frame(self, table: str = "bodies") -> DataFrame:
+        """Return a table of pandas: "bodies", "contacts" or "messages"; see `formats.frame`."""
+        from mars2d.output.formats.frame import to_frame
+
+        return to_frame(self, table)
+
+    def to_xarray(self) -> Dataset:
+        """Return all columns as a dataset of xarray, with units; see `output.formats.dataset`."""
+        from mars2d.output.formats.dataset import to_xarray
+
+        return to_xarray(self)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the record to a file and return its path; the ending says in which format.
+
+        ``.npz`` numpy, ``.mat`` Matlab and Octave, ``.csv`` a long table, ``.nc`` netCDF, ``.mcap``
+        a log for Foxglove. Each can be read again by `load`, with the same digest. Raises
+        InputError where it can't be written, MissingExtraError where a library is missing.
+        """
+        from mars2d.output import formats
+
+        return formats.save(self, path)
+
+
+def load(path: str | Path, largest: float = 2**31) -> Record:
+    """Read a record that `Record.save` wrote, or the log of a run, whole or broken off.
+
+    largest: the most data that are read, bytes; a file that holds or claims more is refused before
+    memory is taken. Raises InputError for that, and for anything else that is not such a file.
+    """
+    from mars2d.output import formats
+
+    return formats.load(path, largest)
+
+
+def _unwritable(array: NDArray[Any]) -> NDArray[Any]:
+    """Return a view that can't be written: a digest holds for what it was made of."""
+    view = array.view()
+    view.flags.writeable = False
+    return view

@@ -1,0 +1,278 @@
+"""The record while it grows: columns written in place, row by row."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.description import whole
+from mars2d.core.errors import LawError, shown
+from mars2d.core.scene import Scene
+from mars2d.core.usercode import called
+from mars2d.record.columns import Column, DiskError, Storage, Texts, blocks
+from mars2d.record.contact import CONTACT
+from mars2d.record.interventions import Intervention
+from mars2d.record.message import MESSAGE, as_of, in_flight
+from mars2d.record.record import Record
+from mars2d.scenario.scenario import Scenario
+from mars2d.sensors.error_model import as_numbers
+
+__all__ = ["History", "Recorder"]
+
+Float = NDArray[np.float64]
+
+
+class History:
+    """What has been recorded so far, as views: time (k,), pose (k, 3, n), command (k, 2, n)."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+
+    @property
+    def time(self) -> Float:
+        """Times of the rows, (k,) seconds."""
+        return self._recorder.column("time")
+
+    @property
+    def pose(self) -> Float:
+        """Poses, (k, 3, n)."""
+        return self._recorder.column("pose")
+
+    @property
+    def command(self) -> Float:
+        """Commands issued, (k, 2, n)."""
+        return self._recorder.column("command")
+
+    @property
+    def command_time(self) -> Float:
+        """When each command takes effect, (k,) seconds."""
+        return self._recorder.column("command_time")
+
+    @property
+    def prop_pose(self) -> Float:
+        """Poses of the props, (k, 3, p)."""
+        return self._recorder.column("prop_pose")
+
+    @property
+    def effort(self) -> Float:
+        """The drives' efforts, (k, n); see `World.effort`."""
+        return self._recorder.column("effort")
+
+    def __len__(self) -> int:
+        return self._recorder.rows
+
+
+class Recorder:
+    """Writes the rows of one run.
+
+    scenario: what it was at the start. rows: how many there are. sensor_robots: the robots that
+    carry each sensor that is recorded.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        storage: Storage = Column,
+        versions: Callable[[], Mapping[str, str]] = dict,
+    ) -> None:
+        """Take the scenario, which says how many robots and sensors there are.
+
+        storage: makes the columns, in memory or in files. versions: returns the versions of the
+        software that the numbers depend on, for the record.
+        """
+        self.versions = versions
+        n, props = len(scenario.robots), len(scenario.props)
+        capacity = min(scenario.last_iteration + 1, 4096)
+        self._columns = {
+            "time": storage((), float, capacity),
+            "pose": storage((3, n), float, capacity),
+            "command": storage((2, n), float, capacity),
+            "command_time": storage((), float, capacity),
+            "prop_pose": storage((3, props), float, capacity),
+            "effort": storage((n,), float, capacity),
+        }
+        self._capacity = capacity
+        self._storage = storage
+        self.scenario = scenario
+        self._sensors: dict[str, Column] = {}
+        self._contacts = storage((), CONTACT, 64)
+        self._messages = storage((), MESSAGE, 64)
+        self._contact_count, self._message_count, self._longest_flight = 0, 0, 0.0
+        self._contents = Texts(storage)
+        self.rows = 0
+        self.sensor_robots: dict[str, tuple[int, ...]] = {}
+        self._reads: dict[str, Callable[..., Any]] = {}
+        for i, robot in enumerate(scenario.robots):
+            for sensor in robot.sensors:
+                if sensor.recorded:
+                    self.sensor_robots[sensor.key] = (*self.sensor_robots.get(sensor.key, ()), i)
+                    self._reads.setdefault(sensor.key, sensor.read)
+
+    def write(
+        self,
+        time: float,
+        *,
+        readings: Mapping[str, Sequence[Any] | NDArray[Any]],
+        **columns: Float | float,
+    ) -> None:
+        """Write one row: the world at `time`. columns: the rows of the other columns, by name."""
+        row = self.rows
+        self._columns["time"].write(row, time)
+        for name, value in columns.items():
+            self._columns[name].write(row, value)
+        for name, values in readings.items():
+            with called(f"sensor {name!r}", self._reads[name]):  # which is at fault, if one is
+                self._write_readings(row, name, values)
+        self.rows += 1
+
+    def _write_readings(self, row: int, name: str, values: Sequence[Any] | NDArray[Any]) -> None:
+        given = _as_reading(name, values)
+        # A first reading of 3 may be followed by 3.5: whole numbers are kept as floats.
+        dtype = bool if given.dtype.kind == "b" else float
+        column = self._sensors.get(name)
+        if column is None:
+            column = self._sensors[name] = self._storage(given.shape, dtype, self._capacity)
+        if given.shape != column.shape or dtype != column.dtype:
+            raise LawError(
+                f"sensor {name!r} read {shown(values)}: the shape and kind of a reading can't "
+                f"change; it was {_kind(column.dtype, column.shape)}, now it is "
+                f"{_kind(given.dtype, given.shape)}"
+            )
+        column.write(row, given)
+
+    def write_contacts(self, contacts: NDArray[np.void]) -> None:
+        """Write the contacts of one control step."""
+        if len(contacts):
+            self._contacts.write_block(self._contact_count, contacts)
+            self._contact_count += len(contacts)
+
+    def contacts(self) -> NDArray[np.void]:
+        """Return all contacts so far."""
+        return self._contacts.upto(self._contact_count)
+
+    def write_messages(self, text: str, rows: NDArray[np.void]) -> None:
+        """Write one content that was sent, and its rows (k,) of MESSAGE, one a receiver.
+
+        Which content it is, their field `content`, is filled in here.
+        """
+        rows["content"] = len(self._contents)
+        self._contents.append(text)
+        self._messages.write_block(self._message_count, rows)
+        self._message_count += len(rows)
+        flights = rows["arrival"] - rows["time"]
+        self._longest_flight = float(np.fmax.reduce(flights, initial=self._longest_flight))
+
+    def in_flight(self, time: float) -> NDArray[np.void]:
+        """Return the messages that were under way in the control step that led to a time, s."""
+        messages = self._messages.upto(self._message_count)
+        return in_flight(messages, time, self.scenario.sampling_time, self._longest_flight)
+
+    def messages(self) -> tuple[NDArray[np.void], Sequence[str]]:
+        """Return all messages so far, and the texts that their field `content` numbers."""
+        return self._messages.upto(self._message_count), self._contents
+
+    def readings(self, rows: int, name: str, robot: int) -> NDArray[Any] | None:
+        """Return what a sensor has read on a robot, (rows, ...), if that is recorded."""
+        column, robots = self._sensors.get(name), self.sensor_robots.get(name, ())
+        if column is None or robot not in robots:
+            return None
+        return column.upto(rows)[:, robots.index(robot)]
+
+    def sensors(self) -> dict[str, NDArray[Any]]:
+        """Return the readings so far by the sensors' names, as `Record.sensors`."""
+        return {name: column.upto(self.rows) for name, column in self._sensors.items()}
+
+    @property
+    def counts(self) -> tuple[int, int, int, int]:
+        """How many rows, contacts, messages and contents there are."""
+        return self.rows, self._contact_count, self._message_count, len(self._contents)
+
+    def row(self, row: int) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return one row of all columns by their names, and of all sensors by theirs."""
+        return (
+            {name: column.row(row) for name, column in self._columns.items()},
+            {name: column.row(row) for name, column in self._sensors.items()},
+        )
+
+    def column(self, name: str) -> NDArray[Any]:
+        """Return a column so far, as a view that can't be written."""
+        return self._columns[name].upto(self.rows)
+
+    def record(
+        self,
+        seed: int,
+        over_message: str,
+        finished: bool,
+        filename: str,
+        drawn: Scene,
+        interventions: Sequence[Intervention] = (),
+    ) -> Record:
+        """Return the record so far; what is written later does not change it."""
+        now = float(self.column("time")[-1]) if self.rows else 0.0
+        return Record(
+            scenario=self.scenario,
+            seed=seed,
+            time=self.column("time"),
+            pose=self.column("pose"),
+            command=self.column("command"),
+            command_time=self.column("command_time"),
+            prop_pose=self.column("prop_pose"),
+            effort=self.column("effort"),
+            sensors=self.sensors(),
+            sensor_robots={k: v for k, v in self.sensor_robots.items() if k in self._sensors},
+            contacts=self.contacts(),
+            messages=self._messages_as_of(now),
+            contents=self._contents.snapshot(),
+            over_message=whole(over_message),
+            finished=finished,
+            filename=whole(filename),
+            versions=self.versions(),
+            drawn=drawn,
+            interventions=tuple(each for each in interventions if each.row < self.rows),
+        )
+
+    def _messages_as_of(self, now: float) -> NDArray[np.void]:
+        """Return a copy of all messages, with the status that they have at a time, s."""
+        try:
+            return self._copied_messages(self._storage, now)
+        except DiskError:  # which has ended the run: what was recorded must not be lost by it
+            return self._copied_messages(Column, now)
+
+    def _copied_messages(self, storage: Storage, now: float) -> NDArray[np.void]:
+        copied = storage((), MESSAGE, self._message_count)
+        count = 0
+        for block in blocks(self._messages.upto(self._message_count)):
+            copied.write_block(count, as_of(block, now))
+            count += len(block)
+        return copied.upto(count)
+
+
+def _as_reading(name: str, values: Sequence[Any] | NDArray[Any]) -> NDArray[Any]:
+    """Return the readings of the robots that carry sensor `name` as one array (m, ...)."""
+    if isinstance(values, np.ndarray) and values.dtype == float:
+        return values
+    given = as_numbers(
+        name, values,
+        "a number, True or False, or an array of them, of the same shape on each robot (else give "
+        "the sensors other names)",
+    )  # fmt: skip
+    if given.dtype != bool and any(_is_flag(value) for value in values):
+        raise LawError(
+            f"sensor {name!r} read {shown(values)}: True or False on one robot and numbers on "
+            "another; give the sensors other names"
+        )
+    return given
+
+
+def _is_flag(value: Any) -> bool:
+    return isinstance(value, (bool, np.bool_)) or (
+        isinstance(value, np.ndarray) and value.dtype.kind == "b"
+    )
+
+
+def _kind(dtype: np.dtype[Any], shape: tuple[int, ...]) -> str:
+    what = "True or False" if dtype.kind == "b" else "numbers"
+    return f"{what} of shape {shape[1:]}" if len(shape) > 1 else what

@@ -1,0 +1,1 @@
+"""Reports: the figures of the MARS paper, the speed bench, the doctor."""

@@ -1,0 +1,133 @@
+"""What this machine offers to MARS2D, and whether the installation works."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import platform
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+__all__ = ["Finding", "examine"]
+
+LIBRARIES = (
+    "pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow", "ezdxf",
+    "svgelements", "pyyaml",
+)  # fmt: skip
+
+
+class Extra(NamedTuple):
+    """An extra of the installation: what it is for, what there is without it, what it adds."""
+
+    extra: str
+    name: str
+    always: str
+    more: str
+    packages: tuple[str, ...]
+
+
+EXTRAS = (
+    Extra("video", "films", ".gif", ".mp4", ("av",)),
+    Extra("data", "records", ".npz, .mat, .csv", ".nc, pandas, xarray", ("pandas", "xarray")),
+    Extra("log", "logs", "", ".mcap", ("mcap", "foxglove-schemas-protobuf")),
+    Extra("cluster", "workers", "all cores of this machine", "Dask clusters", ("distributed",)),
+)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was looked at; `ok` is None where it is a matter of taste."""
+
+    name: str
+    text: str
+    ok: bool | None = True
+
+
+def examine() -> Iterator[Finding]:
+    """Yield what was found, one thing after the other."""
+    from mars2d import __version__
+
+    yield Finding("mars2d", __version__)
+    yield Finding("python", f"{platform.python_version()}, {sys.executable}")
+    yield Finding("system", f"{platform.system()} {platform.release()}, {platform.machine()}")
+    for name in LIBRARIES:
+        yield _library(name)
+    yield _display()
+    yield from map(_extra, EXTRAS)
+    yield _kernel()
+    yield from _plugins()
+    yield _physics()
+
+
+def _library(name: str) -> Finding:
+    try:
+        return Finding(name, importlib.metadata.version(name))
+    except importlib.metadata.PackageNotFoundError:
+        return Finding(name, "is missing: pip install --force-reinstall mars2d", ok=False)
+
+
+def _display() -> Finding:
+    from mars2d.window.display import display_available
+
+    if display_available():
+        return Finding("display", "yes: windows open")
+    return Finding("display", "none: runs are without a window, pictures and films work", ok=None)
+
+
+def _extra(extra: Extra) -> Finding:
+    """Say what an extra's packages offer, or the line that installs them."""
+    found = []
+    for package in extra.packages:
+        try:
+            found.append(f"{package} {importlib.metadata.version(package)}")
+        except importlib.metadata.PackageNotFoundError:
+            line = f'for {extra.more}: pip install "mars2d[{extra.extra}]"'
+            return Finding(extra.name, "; ".join(filter(None, [extra.always, line])), ok=None)
+    offered = ", ".join(filter(None, [extra.always, extra.more]))
+    return Finding(extra.name, f"{offered} ({', '.join(found)})")
+
+
+def _kernel() -> Finding:
+    from mars2d.physics.kernel import reason_without
+
+    why = reason_without()
+    if why:
+        text = f"not in use, and large teams take several times longer: {why}"
+        return Finding("kernel", text, ok=None)
+    return Finding("kernel", "compiled, and rounds as numpy does")
+
+
+def _plugins() -> Iterator[Finding]:
+    """Say what other packages ship; that one of theirs is broken is not a fault of MARS2D's."""
+    from mars2d.core.registry import BASES, misspelt_groups, plugins
+
+    for part in (part for family in BASES for part in plugins(family)):
+        text = f"{part.name}, {part.family}, of {part.package} {part.version}"
+        problem = f": not usable: {part.problem}" if part.problem else ""
+        yield Finding("plug-in", text + problem, ok=None if problem else True)
+    for group in misspelt_groups():
+        yield Finding("plug-in", f"an entry point of the group {group}", ok=None)
+
+
+def _physics() -> Finding:
+    """Drive one robot along an arc, and compare with the closed form."""
+    from mars2d.scenario.robot import Robot
+    from mars2d.scenario.scenario import Scenario
+    from mars2d.world.world import World
+
+    v, omega, steps = 0.2, 0.5, 1000
+    scenario = Scenario(robots=[Robot(pose=(0, 0, 0))], sampling_time=0.1, stop_time=1e3)
+    world = World(scenario)
+    start = time.perf_counter()
+    for _ in range(steps):
+        world.step([[v], [omega]])
+    rate = steps / (time.perf_counter() - start)
+    angle = omega * world.time
+    exact = np.array([v / omega * np.sin(angle), v / omega * (1 - np.cos(angle)), angle])
+    error = float(np.abs(world.pose[:, 0] - exact).max())
+    text = f"an arc of {steps} steps is off by {error:.1e} m; {rate:,.0f} steps/s"
+    return Finding("physics", text, ok=error < 1e-9)

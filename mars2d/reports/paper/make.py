@@ -1,0 +1,102 @@
+"""Make one figure: run its experiments, draw them, and compare them with theory."""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from mars2d.core.errors import described
+from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_drawing
+from mars2d.record.record import Record
+from mars2d.reports.paper.figure import Figure, Run, Study
+from mars2d.reports.paper.result import Picture, Result
+from mars2d.scenario.experiment import Experiment, open_experiment, open_module
+from mars2d.world.loop import simulate
+
+__all__ = ["make"]
+
+
+def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
+    """Make all pictures of a figure in a folder and return what was made.
+
+    What fails is said in the result's problems; the rest is made all the same.
+    """
+    pictures: list[Picture] = []
+    records: list[Record] = []
+    problems: list[str] = []
+    setting = ""
+    for run in figure.runs:
+        try:
+            experiment = open_experiment(run.experiment, {**run.options, "animation.theory": True})
+            setting = setting or _setting(run.experiment)
+            record = simulate(experiment, seed).record
+            pictures.append(_of_run(run, experiment, record, figure.number, folder))
+            records.append(record)
+        except Exception as error:  # one figure less, and the page says so
+            problems.append(f"{run.experiment}: {described(error)}")
+    for name, study in figure.studies.items():
+        if len(records) < len(figure.runs):
+            problems.append(f"{name}: not made, since it needs a run that failed")
+            continue
+        try:
+            stem = f"fig{figure.number}_{name}"
+            pictures.append(_of_study(study, records, folder / stem))
+        except Exception as error:
+            problems.append(f"{name}: {described(error)}")
+    return Result(figure.number, setting, tuple(pictures), tuple(problems))
+
+
+def _of_run(run: Run, experiment: Experiment, record: Record, number: int, folder: Path) -> Picture:
+    stem, end = run.stem(number), float(record.time[-1])
+    times = run.times_until(end)
+
+    def draw() -> Any:
+        return plot_snapshots(record, times) if times else plot_paths(record).get_figure()
+
+    when = f"at {', '.join(f'{moment:.4g}' for moment in times)} s" if times else f"in {end:.4g} s"
+    team = len(record.scenario.robots)
+    return Picture(
+        stem=stem,
+        title=run.title,
+        alt=f"Paths of {team} robots {when}. {run.shows}",
+        caption=run.shows,
+        size=_save(draw, folder / stem),
+        command=run.command(stem, record.seed, end),
+        outcome=record.over_message,
+        digest=record.digest,
+        predictions=experiment.predictions(record),
+    )
+
+
+def _of_study(
+    study: Callable[[Sequence[Record]], Study], records: Sequence[Record], path: Path
+) -> Picture:
+    made = study(records)
+    return Picture(
+        stem=path.name,
+        title=made.title,
+        alt=made.alt,
+        caption=made.shows,
+        size=_save(made.draw, path),
+        predictions=made.predictions,
+        columns=made.columns,
+    )
+
+
+def _save(draw: Callable[[], Any], path: Path) -> tuple[int, int]:
+    """Save a drawing as .pdf and .png and return the pixels of the latter."""
+    save_drawing(draw, path.with_suffix(".pdf"))
+    png = save_drawing(draw, path.with_suffix(".png"))
+    with png.open("rb") as file:
+        width, height = struct.unpack(">II", file.read(24)[16:])  # of its first chunk
+    return width, height
+
+
+def _setting(experiment: str) -> str:
+    """Return what an experiment's file says of its setting, or an empty text."""
+    doc = open_module(experiment).__doc__ or ""
+    found = re.search(r"^Setting: (.+?)(?=[.:](?:\s|$)|\n\n|\Z)", doc, flags=re.M | re.S)
+    return " ".join(found[1].split()) if found else ""

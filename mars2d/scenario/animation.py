@@ -1,0 +1,51 @@
+"""The frozen description of how an experiment looks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mars2d.core.description import Description, entry, flag, real, wrong
+from mars2d.core.scene import PALETTE, color, wake_style
+
+__all__ = ["Animation", "playback_speed"]
+
+
+def playback_speed(name: str, value: object) -> float | str:
+    """Check a playback speed: a factor of real time, 0 for one step a key press, or "max"."""
+    expected = "a factor of real time (1 is real time), 0 for one step a key press, or 'max'"
+    if isinstance(value, str) and value == "max":
+        return "max"
+    factor = real(name, value, expected)
+    if not 0 <= factor <= 1e6:
+        raise wrong(name, value, expected)
+    return factor
+
+
+def _colors(name: str, value: object) -> tuple[str, ...]:
+    if isinstance(value, str) or not isinstance(value, (list, tuple)) or not value:
+        raise wrong(name, value, "a list of colours, as ['#0072b2', 'orange']")
+    return tuple(color(f"{name}[{i}]", item) for i, item in enumerate(value))
+
+
+class Animation(Description):
+    """How an experiment looks when it is drawn: the Animation fields of the paper's Table 1."""
+
+    grid: bool = flag(default=True, doc="draw the grid")
+    show_initial_pose: bool = flag(default=True, doc="draw where the robots started")
+    show_real_shape: bool = flag(default=True, doc="draw robots to scale, else as points")
+    wake: bool = flag(default=True, doc="draw the paths behind the robots")
+    forces: bool = flag(default=False, doc="draw the forces of contacts, and which drives slip")
+    theory: bool = flag(default=False, doc="draw what theory predicts, where add-ons do so")
+    wake_style: str = entry(
+        default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"
+    )
+    playback_speed: float | str = entry(
+        default=1.0,
+        check=playback_speed,
+        doc="1 is real time, 0 one step a key press, 'max' as fast as it goes",
+    )
+    base_colors: Sequence[str] = entry(
+        default=PALETTE,
+        check=_colors,
+        doc="the robots' colours, cycled",
+    )

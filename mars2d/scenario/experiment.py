@@ -1,0 +1,401 @@
+"""Experiments: from a file, a shipped example, a module or a Scenario to what can be run."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import importlib.util
+import inspect
+import itertools
+import numbers
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, cast
+
+from mars2d.core import checks
+from mars2d.core.description import wrong
+from mars2d.core.errors import InputError, LawError, Mars2dError, described, nearest, shown
+from mars2d.core.usercode import called, file_beside, files_read, note_file
+from mars2d.scenario.map_option import MapOption, reading_options
+from mars2d.scenario.options import override
+from mars2d.scenario.prediction import Prediction
+from mars2d.scenario.scenario import Scenario
+
+if TYPE_CHECKING:
+    from mars2d.record.record import Record
+
+__all__ = [
+    "Experiment",
+    "examples",
+    "load_law",
+    "open_experiment",
+    "open_module",
+]
+
+_counter = itertools.count()
+
+LONGEST = 100
+"""Characters of a line of code that an error shows."""
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A scenario, the law of its team, and what its file says of it.
+
+    filename: the file's name, or empty. checks: the function of the record that compares a run with
+    theory, or None. summary: the first line of the file's docstring, or empty. path: where the file
+    lies, or None. opened: opens the experiment anew, with laws that share nothing with these; None
+    where it does not come from a file alone. files: all that was read for it. functions: the public
+    functions that its file defines, by name.
+    """
+
+    scenario: Scenario
+    control: Callable[[Any], Any] | None = None
+    filename: str = ""
+    checks: Callable[[Any], Any] | None = None
+    summary: str = ""
+    path: Path | None = None
+    opened: Callable[[], Experiment] | None = None
+    files: frozenset[Path] = frozenset()
+    functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
+
+    def reopened(self) -> Experiment:
+        """Return the experiment opened anew, or itself where it does not come from a file.
+
+        Raises InputError, as `open_experiment` does, where the file has changed for the worse.
+        """
+        return self if self.opened is None else self.opened()
+
+    def redrawn(self, scenario: Scenario) -> Experiment:
+        """Return the experiment with another scenario, robots of the same names with their laws."""
+        laws = {robot.name: robot.controller for robot in self.scenario.robots}
+        robots = [r.replace(controller=laws.get(r.name, r.controller)) for r in scenario.robots]
+        opened = self.opened
+        return dataclasses.replace(
+            self,
+            scenario=scenario.replace(robots=robots),
+            opened=None if opened is None else lambda: opened().redrawn(scenario),
+        )
+
+    def predictions(self, record: Record) -> tuple[Prediction, ...]:
+        """Return what `checks` makes of a run; nothing without checks, or of a run cut short.
+
+        Nor is there anything to compare in a run without a single step, or changed by hand.
+
+        Raises LawError, which points at file and line, where `checks` raises or returns anything
+        but predictions.
+        """
+        if self.checks is None or not record.finished or record.interventions or len(record) < 2:
+            return ()
+        expected = "expected a list of Prediction(name, predicted, measured, tolerance)"
+        with called("checks", self.checks):
+            made = self.checks(record)
+            if made is None:
+                raise LawError(f"checks returned nothing: {expected}")
+            if isinstance(made, (str, bytes, Mapping)) or not isinstance(made, Iterable):
+                raise LawError(f"checks returned {shown(made)}: {expected}")
+            predictions = tuple(made)  # which runs a generator
+            for k, prediction in enumerate(predictions):
+                if not isinstance(prediction, Prediction):
+                    raise LawError(f"checks returned {shown(prediction)} as item {k}: {expected}")
+        return predictions
+
+
+def examples() -> dict[str, Path]:
+    """Return the shipped examples: name to file."""
+    package = Path(__file__).parents[1]
+    for folder in (package / "examples", package.parent / "examples"):  # a wheel's, a checkout's
+        if folder.is_dir():
+            files = sorted(folder.glob("*.py"))
+            return {file.stem: file for file in files if not file.stem.startswith("_")}
+    return {}
+
+
+def open_experiment(
+    source: str | Path | ModuleType | Scenario,
+    options: Mapping[str, Any] | None = None,
+    control: Callable[[Any], Any] | None = None,
+    seed: int | None = None,
+) -> Experiment:
+    """Return the experiment that `source` names, with its fields overridden by `options`.
+
+    source: a file (.py, or .toml of a scenario), the name of a shipped example, a module, or a
+    Scenario. options: dotted names of fields, or keyword parameters of a scenario function, with
+    their values; ``map`` is a file whose walls take the place of the experiment's, or a Map, and
+    ``map.unit`` and the like are how it is read. control: the law of the team, in place of the
+    experiment's own. seed: of the run; a scenario function gets it that has a parameter ``seed``,
+    unless the options set that: so starts may be drawn at random. Raises InputError, which points
+    at file and line.
+    """
+    if options is not None and not isinstance(options, Mapping):
+        raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
+    given = options or {}
+    with files_read() as files:
+        experiment = _opened(source, given, control, seed)
+    if control is None and isinstance(source, (str, Path)):
+        opened = partial(open_experiment, source, dict(given), seed=seed)
+        return dataclasses.replace(experiment, opened=opened, files=frozenset(files))
+    return experiment
+
+
+def _opened(
+    source: str | Path | ModuleType | Scenario,
+    given: Mapping[str, Any],
+    control: Callable[[Any], Any] | None,
+    seed: int | None,
+) -> Experiment:
+    options = dict(given)
+    if isinstance(source, Scenario):
+        chart = MapOption.popped(options, Path())
+        return Experiment(_set(source, options, chart), control)
+    if isinstance(source, ModuleType):
+        module, name = source, getattr(source, "__file__", None) or source.__name__
+    elif isinstance(source, (str, Path)):
+        path = _find(source)
+        if path.suffix.lower() == ".toml":
+            return _of_scenario_file(path, given, control)
+        module, name = _load(path), str(path)
+    else:
+        raise InputError(
+            f"experiment = {shown(source)}: expected a file, the name of an example, or a Scenario"
+        )
+    try:
+        scenario = _scenario_of(module, options, Path(name), seed)
+        own = getattr(module, "control", None)
+        if own is not None:
+            checks.law("control", own, "the world")
+        check = getattr(module, "checks", None)
+        if check is not None:
+            checks.law("checks", check, "the record")
+    except Mars2dError as error:
+        error.where = error.where or Path(name).name
+        raise
+    law = own if control is None else control
+    summary = (module.__doc__ or "").strip().partition("\n")[0]
+    lies = Path(name).absolute() if isinstance(source, (str, Path)) else None
+    functions = {
+        key: value
+        for key, value in vars(module).items()
+        if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
+    }
+    return Experiment(
+        scenario, law, Path(name).name, check, summary, path=lies, functions=functions
+    )
+
+
+def _of_scenario_file(
+    path: Path, options: Mapping[str, Any], control: Callable[[Any], Any] | None
+) -> Experiment:
+    from mars2d.scenario import toml_file
+
+    note_file(path)
+    scenario, own = toml_file.read(path)
+    rest = dict(options)
+    try:
+        scenario = _set(scenario, rest, MapOption.popped(rest, path))
+    except Mars2dError as error:
+        error.where = error.where or path.name
+        raise
+    law = own if control is None else control
+    return Experiment(scenario, law, path.name, path=path.absolute())
+
+
+def open_module(source: str | Path) -> ModuleType:
+    """Run a file, or the shipped example of that name, and return it as a module."""
+    return _load(_find(source))
+
+
+def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
+    """Return the law called `name` from a file of its own: a function or generator of the robot.
+
+    path: a relative one is looked for beside the file that calls this, then in the current folder.
+    Each call runs the file anew, so that robots with the same law share nothing. Raises InputError,
+    which points at file and line.
+    """
+    if not isinstance(path, (str, Path)):
+        raise wrong("load_law(path)", path, "the name of a law's file, as 'my_law.py'")
+    if not isinstance(name, str):
+        raise wrong("load_law(name)", name, "the name of a function, as 'control'")
+    caller = Path(sys._getframe(1).f_code.co_filename)
+    return law_in(file_beside(Path(path), caller, "a law", [".py"]), name)
+
+
+def law_in(file: Path, name: str, subject: str = "the robot") -> Callable[[Any], Any]:
+    """Return the law called `name` in a file, which is run anew; `subject` is what it is of."""
+    module = _load(file, "a law")
+    try:
+        return _law_of(module, name, subject)
+    except InputError as error:
+        error.where = file.name
+        raise
+
+
+def _law_of(module: ModuleType, name: str, subject: str) -> Callable[[Any], Any]:
+    law = getattr(module, name, None)
+    if law is None:
+        functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
+        raise InputError(f"has no law {name!r}{nearest(name, functions)}")
+    checks.law(name, law, subject)
+    return cast("Callable[[Any], Any]", law)
+
+
+def _scripts(path: Path) -> list[Path]:
+    """Return the experiments beside a path, written in Python or as scenario files."""
+    files = path.parent.iterdir() if path.parent.is_dir() else ()
+    return [file for file in files if file.suffix in (".py", ".toml")]
+
+
+def _find(source: str | Path) -> Path:
+    path = Path(source)
+    if path.is_file():
+        return path
+    known = examples()
+    if str(source) in known:
+        return known[str(source)]
+    if path.is_dir():
+        raise InputError(
+            f"{path}: a folder; expected an experiment, a file that ends in .py or .toml"
+        )
+    beside = [str(file) for file in _scripts(path)]
+    kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
+    raise InputError(f"{source}: there is no such {kind}{nearest(source, [*beside, *known], 0.75)}")
+
+
+def _load(path: Path, what: str = "an experiment") -> ModuleType:
+    """Run a file as a module of its own, which no other one can see."""
+    if path.suffix != ".py":
+        or_toml = " or .toml" if what == "an experiment" else ""
+        raise InputError(f"{path}: expected {what}, a file that ends in .py{or_toml}")
+    note_file(path)
+    name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    before = set(sys.modules)
+    sys.modules[name] = module  # dataclasses look a class's module up by its name
+    folder = str(path.parent.absolute())
+    sys.path.insert(0, folder)  # an experiment may import what lies beside it
+    # Compiled code that is kept is taken for new if a file is saved twice within a second.
+    keeps, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    try:
+        spec.loader.exec_module(module)
+    except SyntaxError as error:
+        line = (error.text or "").strip()
+        line = line if len(line) <= LONGEST else line[: LONGEST - 3] + "..."
+        problem = InputError(": ".join(filter(None, [error.msg, line])))
+        note_file(Path(error.filename or path))
+        place = Path(error.filename or path).name
+        problem.where = f"{place}, line {error.lineno}" if error.lineno else place
+        raise problem from error
+    except (Exception, SystemExit) as error:
+        problem = InputError(described(error))
+        problem.where = _line_in(error, path)
+        raise problem from error
+    finally:
+        sys.path.remove(folder)
+        sys.dont_write_bytecode = keeps
+        _forget_modules(before, folder)
+    return module
+
+
+def _forget_modules(before: set[str], folder: str) -> None:
+    """Forget the modules that came from a folder, so that another one's are not taken for them."""
+    for name in set(sys.modules) - before:
+        file = getattr(sys.modules[name], "__file__", None)
+        if file is not None and str(Path(file).parent) == folder:
+            note_file(Path(file))
+            del sys.modules[name]
+
+
+def _line_in(error: BaseException, path: Path) -> str:
+    """Return the place in `path` that an error passed through."""
+    lines = [
+        step.lineno
+        for step in traceback.extract_tb(error.__traceback__)
+        if Path(step.filename).absolute() == path.absolute()
+    ]
+    return f"{path.name}, line {lines[-1]}" if lines else path.name
+
+
+def _scenario_of(
+    module: ModuleType, options: dict[str, Any], path: Path, seed: int | None
+) -> Scenario:
+    """Return a module's scenario, made by its scenario function if it has one."""
+    names = [name for name in vars(module) if not name.startswith("__")]
+    if not hasattr(module, "scenario"):
+        close = difflib.get_close_matches("scenario", set(names) - {"Scenario"}, n=1)
+        hint = f"; it has a {close[0]!r}" if close else ""
+        raise InputError(
+            f"has no `scenario`: an experiment's file needs `scenario = Scenario(...)`{hint}"
+        )
+    scenario = module.scenario
+    chart = MapOption.popped(options, path)
+    if isinstance(scenario, type):
+        kind = scenario.__name__
+        raise InputError(f"scenario = {kind}: expected an object; write {kind}(...)")
+    if callable(scenario) and not isinstance(scenario, Scenario):
+        parameters = inspect.signature(scenario).parameters
+        if chart is not None and "map" in parameters:
+            options["map"] = chart.value_for(parameters["map"].default)
+            chart = None
+        if seed is not None and "seed" in parameters:
+            options.setdefault("seed", seed)
+        scenario = _call_scenario(scenario, options)
+    if not isinstance(scenario, Scenario):
+        raise InputError(f"scenario = {shown(scenario)}: expected a Scenario, or a function of one")
+    return _set(scenario, options, chart)
+
+
+def _set(scenario: Scenario, options: Mapping[str, Any], chart: MapOption | None) -> Scenario:
+    """Return the scenario with the options set, and on a map if one is given."""
+    return override(scenario, options) if chart is None else chart.override(scenario, options)
+
+
+def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any:
+    """Call a scenario function with those of the options that are its parameters."""
+    parameters = inspect.signature(function).parameters
+    chosen = {name: options.pop(name) for name in list(options) if name in parameters}
+    fields = {f.name for f in dataclasses.fields(Scenario)}
+    for name in options:
+        if name.partition(".")[0] not in fields:
+            known = [*parameters, *fields, *(f"map.{option}" for option in reading_options())]
+            raise InputError(f"there is no option {name!r}{nearest(name, known)}")
+    missing = [
+        name
+        for name, p in parameters.items()
+        if p.default is p.empty
+        and name not in chosen
+        and p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)
+    ]
+    if missing:
+        raise InputError(
+            f"scenario({', '.join(parameters)}) needs {missing[0]!r}: give it a default, "
+            f"or set it with --set {missing[0]}=..."
+        )
+    for name, value in chosen.items():
+        _check_kind(name, value, parameters[name].default)
+    try:
+        return function(**chosen)
+    except (Exception, SystemExit) as error:
+        problem = error if isinstance(error, Mars2dError) else InputError(described(error))
+        code = getattr(function, "__code__", None)
+        if code is not None and problem.where is None:
+            unsaid = {k: v for k, v in chosen.items() if str(v) not in str(problem)}
+            given = "".join(f", with {name} = {shown(value)}" for name, value in unsaid.items())
+            problem.where = f"{_line_in(error, Path(code.co_filename))}{given}"
+        raise problem from error
+
+
+def _check_kind(name: str, value: Any, default: Any) -> None:
+    """Refuse what is not a number for a parameter whose default is one, and text for a truth."""
+    if isinstance(default, bool):
+        if isinstance(value, str):
+            raise wrong(f"scenario({name})", value, f"True or False; its default is {default}")
+    elif isinstance(default, numbers.Real) and not isinstance(value, numbers.Real):
+        raise wrong(f"scenario({name})", value, f"a number; its default is {default}")

@@ -1,0 +1,67 @@
+"""Laws by where they stand: ``walk.py:walk``, as a scenario's file names them."""
+
+from __future__ import annotations
+
+import inspect
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple, Self
+
+from mars2d.core.description import wrong
+
+__all__ = ["Reference", "seen_from"]
+
+EXPECTED = "where a law stands, as 'walk.py:walk': a file of Python, and a function in it"
+
+HIGHEST = 2
+"""How many folders up a file may lie that is named relative to another."""
+
+
+class Reference(NamedTuple):
+    """A function by its file and its name there.
+
+    >>> Reference.read("control", "team.py")
+    Reference(file='team.py', name='control')
+    """
+
+    file: str
+    name: str
+
+    @classmethod
+    def of(cls, function: Callable[..., Any] | None) -> Self | None:
+        """Return where a function stands, its file as an absolute path.
+
+        None for what can't be found again under a name: lambdas, closures, partials, objects.
+        """
+        if not inspect.isfunction(function):
+            return None
+        file, name = Path(function.__code__.co_filename), function.__name__
+        if function.__globals__.get(name) is not function or file.suffix != ".py":
+            return None
+        return cls(str(file.absolute()), name) if file.is_file() else None
+
+    @classmethod
+    def read(cls, field: str, value: object) -> Self:
+        """Return what ``FILE:FUNCTION`` names; a file alone means its `control`.
+
+        Raises InputError, which begins with `field`, for anything else.
+        """
+        if not isinstance(value, str):
+            raise wrong(field, value, EXPECTED)
+        file, colon, name = value.rpartition(":")
+        if not colon or value.endswith(".py"):  # a colon may be that of C:\walk.py
+            file, name = value, "control"
+        if not file.endswith(".py") or not name.isidentifier():
+            raise wrong(field, value, EXPECTED)
+        return cls(file, name)
+
+
+def seen_from(file: str, folder: Path) -> str:
+    """Return an absolute name as a file in `folder` writes it: relative unless it is far off."""
+    try:
+        relative = os.path.relpath(file, folder.absolute())
+    except ValueError:  # on another drive
+        return Path(file).as_posix()
+    near = Path(relative).parts.count("..") <= HIGHEST
+    return Path(relative if near else file).as_posix()

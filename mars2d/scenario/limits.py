@@ -1,0 +1,259 @@
+"""What contacts and joints can hold: masses, moments, sizes, speeds, stiffness.
+
+What lies beyond would let bodies pass through walls, or need so many substeps that a run would
+never end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from math import hypot, isfinite, sqrt
+
+import numpy as np
+
+from mars2d.bodies.attached_joint import Tie
+from mars2d.bodies.drives.base import Drive
+from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.joints.hinge import Hinge
+from mars2d.bodies.joints.rod import Rod
+from mars2d.bodies.joints.rope import Rope
+from mars2d.bodies.joints.spring import Spring
+from mars2d.bodies.rigid import Rigid
+from mars2d.core.description import wrong
+from mars2d.core.errors import InputError, nearest
+from mars2d.geometry.shapes import Disc, Shape
+
+__all__ = [
+    "check_bodies",
+    "check_centred",
+    "check_drive",
+    "check_ends",
+    "check_forces",
+    "check_tie",
+    "corner",
+]
+
+MASS_RATIO = 10.0
+"""The largest ratio of masses that contacts hold; at 100, crowds push robots through walls."""
+
+SIZE_RATIO = 1e4
+"""The largest ratio of a body's length to another one's thickness."""
+
+LIGHTEST, HEAVIEST = 1e-6, 1e6
+
+FASTEST = 100.0
+"""How fast a point of a body may be at the start, or by a spring or a spin, m/s."""
+
+CROSSING = 1e-6
+"""At the start nothing may cross the largest overlap in less, seconds."""
+
+STRONGEST = 1e9
+"""How strongly a drive may push the lightest body, m/s^2 for each metre of the largest overlap."""
+
+QUICKEST = 1e3
+"""The largest angular frequency of a spring, rad/s; quicker ones need ever more substeps."""
+
+REACH = 10.0
+"""How far off a body a joint may hold it, in greatest distances of the body from its origin."""
+
+SHORTEST = 1e-3
+"""The shortest rope and rod, metres."""
+
+
+def check_centred(name: str, shape: Shape) -> None:
+    """Refuse the shape of a prop whose pose is not that of its centre of mass."""
+    x, y = shape.centroid
+    if hypot(x, y) > 1e-6 * shape.reach:
+        raise InputError(
+            f"{name}: its centre of mass lies at ({x:.4g}, {y:.4g}); expected (0, 0), as "
+            "shape.moved(-x, -y) makes it"
+        )
+
+
+def check_bodies(bodies: Sequence[Rigid], material: Mapping[str, str], max_overlap: float) -> None:
+    """Refuse bodies that contacts can't hold.
+
+    material: of those whose masses come of it, by their names. max_overlap: metres.
+    """
+    for body in bodies:
+        _check_mass(body, material)
+        _check_motion(body, min(FASTEST, max_overlap / CROSSING))
+    lightest = min(bodies, key=lambda body: body.inertia.mass)
+    heaviest = max(bodies, key=lambda body: body.inertia.mass)
+    if heaviest.inertia.mass > MASS_RATIO * lightest.inertia.mass * (1 + 1e-12):
+        hint = _by_material(heaviest, lightest, material)
+        raise InputError(
+            f"{heaviest.kind}.mass: {heaviest.name} has {heaviest.inertia.mass:g} kg and "
+            f"{lightest.name} {lightest.inertia.mass:g} kg; "
+            f"contacts hold a ratio of at most {MASS_RATIO:g}{hint}"
+        )
+    thinnest = min(bodies, key=lambda body: body.shape.thickness)
+    largest = max(bodies, key=lambda body: body.shape.bound[1])
+    if 2 * largest.shape.bound[1] > SIZE_RATIO * thinnest.shape.thickness:
+        raise InputError(
+            f"{largest.kind} {largest.name} is {2 * largest.shape.bound[1]:g} m long and "
+            f"{thinnest.kind} {thinnest.name} {thinnest.shape.thickness:g} m thin; "
+            f"contacts hold a ratio of at most {SIZE_RATIO:g}"
+        )
+
+
+def _check_mass(body: Rigid, material: Mapping[str, str]) -> None:
+    """Refuse a mass or moment that no thing of that shape can have."""
+    mass, moment = body.inertia
+    if not LIGHTEST <= mass <= HEAVIEST:
+        made_of = material.get(body.name)
+        hint = "" if made_of is None else f", that of {made_of}; give it, or another height"
+        raise wrong(
+            f"{body.kind}.mass of {body.name}", mass,
+            f"a mass >= {LIGHTEST:g} and <= {HEAVIEST:g} [kg]{hint}",
+        )  # fmt: skip
+    most = mass * body.shape.reach**2
+    if not 1e-3 * most <= moment <= most * (1 + 1e-9):
+        raise wrong(
+            f"{body.kind}.moment of {body.name}", moment,
+            f"at least {1e-3 * most:.3g} and at most mass x (greatest distance)^2, "
+            f"{most:.3g} kg m^2",
+        )  # fmt: skip
+
+
+def _check_motion(body: Rigid, fastest: float) -> None:
+    """Refuse a surface that a user's own prop has made up, and what starts too fast."""
+    friction, restitution = body.surface
+    if not (0 <= friction <= 1e3 and 0 <= restitution <= 1):
+        raise wrong(
+            f"{body.kind}.surface of {body.name}", (friction, restitution),
+            "friction >= 0 and <= 1000, restitution >= 0 and <= 1",
+        )  # fmt: skip
+    vx, vy, omega = body.velocity
+    speed = hypot(vx, vy) + abs(omega) * body.shape.reach
+    if not speed <= fastest:
+        why = "" if fastest == FASTEST else f", as max_overlap is {fastest * CROSSING:g} m"
+        raise wrong(
+            f"{body.kind}.velocity of {body.name}", body.velocity,
+            f"no point of it faster than {fastest:g} m/s{why}; one has {speed:.4g} m/s",
+        )  # fmt: skip
+
+
+def _by_material(heaviest: Rigid, lightest: Rigid, material: Mapping[str, str]) -> str:
+    """Return how a mass that comes of a material can be changed."""
+    if heaviest.name in material:
+        times = 1.05 * heaviest.inertia.mass / lightest.inertia.mass / MASS_RATIO
+        return (
+            f". {heaviest.name} is of {material[heaviest.name]}: give its mass, "
+            f"or make its height {times:.2g} times smaller"
+        )
+    if lightest.name in material:
+        return f". {lightest.name} is of {material[lightest.name]}: give its mass, or more height"
+    return ""
+
+
+def corner(shape: Shape) -> float:
+    """Return how far from the origin a corner of a shape lies, metres; a centred disc has none."""
+    centred_disc = isinstance(shape, Disc) and shape.center == (0.0, 0.0)
+    return 0.0 if centred_disc else shape.reach
+
+
+def check_drive(name: str, drive: Drive, arm: float) -> None:
+    """Refuse a drive that could swing a corner, or a joint's end, faster than can be followed.
+
+    arm: metres, from the centre of rotation to it.
+    """
+    if arm == 0 or not type(drive).__module__.startswith("mars2d."):
+        return  # at one of the user's own the world looks when it is asked
+    hard = np.array([[a, b] for a in (-1e9, 0.0, 1e9) for b in (-1e9, 0.0, 1e9)]).T
+    spin = float(np.abs(drive.twist(drive.saturate(hard))[2]).max())
+    if not spin * arm <= FASTEST:
+        raise InputError(
+            f"{name}.drive: {type(drive).__name__} turns at up to {spin:.4g} rad/s; what lies "
+            f"{arm:.4g} m off the centre of rotation goes at {spin * arm:.4g} m/s then, and "
+            f"{FASTEST:g} m/s is the most"
+        )
+
+
+def check_forces(bodies: Sequence[Rigid], drives: Sequence[Drive], max_overlap: float) -> None:
+    """Refuse an overlap so small that the drives' forces would need ever more substeps for it."""
+    lightest = min(bodies, key=lambda body: body.inertia.mass)
+    force = max(drive.max_force for drive in drives)
+    least = force / lightest.inertia.mass / STRONGEST
+    if max_overlap < least:
+        raise wrong(
+            "Scenario.max_overlap", max_overlap,
+            f"at least {least:.3g} m where a drive may push with {force:g} N and {lightest.name} "
+            f"has {lightest.inertia.mass:g} kg",
+        )  # fmt: skip
+
+
+def check_ends(where: str, joint: Joint, names: Collection[str]) -> None:
+    """Refuse a joint of bodies that are not there, of one with itself, or of no known kind."""
+    if not isinstance(joint, (Rope, Rod, Spring, Hinge)):
+        raise wrong(where, joint, "a Rope, Rod, Spring or Hinge, or a class derived from one")
+    for field in ("a", "b"):
+        name = getattr(joint, field)
+        if name is not None and name not in names:
+            hint = nearest(name, names)
+            raise wrong(f"{where}.{field}", name, f"the name of a robot or prop{hint}")
+    if joint.a == joint.b:
+        raise wrong(f"{where}.b", joint.b, f"another body than a, {joint.a!r}")
+
+
+def check_tie(where: str, tie: Tie, bodies: Sequence[Rigid]) -> None:
+    """Refuse a joint that would pull its bodies at once, or more quickly than can be followed."""
+    for field, index in (("a", tie.a), ("b", tie.b)):
+        anchor = getattr(tie.joint, f"anchor_{field}")
+        if index >= 0 and not hypot(*anchor) <= REACH * bodies[index].shape.reach:
+            most = REACH * bodies[index].shape.reach
+            raise wrong(
+                f"{where}.anchor_{field}", anchor,
+                f"a point within {most:.4g} m of {bodies[index].name}'s centre of mass",
+            )  # fmt: skip
+    apart = tie.apart(bodies)
+    if isinstance(tie.joint, Hinge) and apart > 1e-6:
+        raise InputError(
+            f"{where}: its anchors, {_ends(tie, bodies)}, lie {apart:.3g} m apart at the start; "
+            "a hinge is one point"
+        )
+    if isinstance(tie.joint, (Rope, Rod)):
+        _check_length(where, tie, apart, bodies)
+    if isinstance(tie.joint, (Spring, Hinge)):
+        _check_spring(where, tie, apart, bodies)
+
+
+def _ends(tie: Tie, bodies: Sequence[Rigid]) -> str:
+    a, b = ("({:.6g}, {:.6g})".format(*end) for end in tie.ends(bodies))
+    return f"{a} and {b} in the world"
+
+
+def _check_length(where: str, tie: Tie, apart: float, bodies: Sequence[Rigid]) -> None:
+    """Refuse a rope or rod that does not reach from end to end."""
+    too_short = apart > tie.length * (1 + 1e-9) + 1e-9
+    too_long = apart < tie.length * (1 - 1e-9) - 1e-9
+    if tie.length < SHORTEST:
+        if tie.joint.length is None:  # type: ignore[attr-defined]
+            raise InputError(f"{where}: its ends start at one point; use a Hinge, or give a length")
+        raise wrong(f"{where}.length", tie.length, f"a number >= {SHORTEST:g} [m]; or use a Hinge")
+    if too_short or (too_long and isinstance(tie.joint, Rod)):
+        least = "at least that" if isinstance(tie.joint, Rope) else "just that"
+        raise InputError(
+            f"{where}.length = {tie.length:g}: its ends, {_ends(tie, bodies)}, start "
+            f"{apart:.6g} m apart; expected {least}, or None"
+        )
+
+
+def _check_spring(where: str, tie: Tie, apart: float, bodies: Sequence[Rigid]) -> None:
+    """Refuse a spring that swings, or throws, more quickly than substeps can follow."""
+    stiffness = tie.joint.stiffness  # type: ignore[attr-defined]
+    quick = sqrt(stiffness * tie.lightness(bodies))
+    if not quick <= QUICKEST:
+        most = stiffness * (QUICKEST / quick) ** 2
+        raise wrong(
+            f"{where}.stiffness", stiffness,
+            f"at most {most:.3g} for bodies as light as these: they would swing at "
+            f"{quick:.3g} rad/s",
+        )  # fmt: skip
+    speed = abs(apart - tie.length) * quick
+    if isinstance(tie.joint, Spring) and not (isfinite(speed) and speed <= FASTEST):
+        raise wrong(
+            f"{where}.rest_length", tie.length,
+            f"nearer to the {apart:.4g} m at the start: it would throw its bodies at "
+            f"{speed:.3g} m/s, and {FASTEST:g} m/s is the most",
+        )  # fmt: skip

@@ -1,0 +1,411 @@
+"""Who is whose neighbour: everyone, those within range, the nearest, Delaunay's, a graph's."""
+
+from __future__ import annotations
+
+import functools
+import numbers
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import pairwise
+from math import hypot
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.description import Description, entry, integer, number, wrong
+from mars2d.core.errors import InputError, LawError, counted, shown
+
+__all__ = [
+    "Delaunay",
+    "Everyone",
+    "Graph",
+    "Nearest",
+    "Neighbourhood",
+    "Within",
+    "neighbourhood",
+    "within",
+]
+
+Float = NDArray[np.float64]
+Neighbours = Sequence[Sequence[int]]
+Edges = tuple[tuple[int, int], ...]
+
+FLAT = 1e-9
+"""Robots that lie off a line by less than this share of its length stand on it."""
+
+ROUNDING = 1e-9
+"""Distances that differ by less than this share of them may be one, but for rounding."""
+
+FEW = 64
+"""Of so many robots all are sorted, as that is quicker than to look for the near ones."""
+
+
+class Neighbourhood(Description):
+    """The base of all rules that say who is whose neighbour: derive and write `of`.
+
+    >>> class Ring(Neighbourhood):
+    ...     def of(self, position):
+    ...         n = position.shape[1]
+    ...         return [[(i + 1) % n] for i in range(n)]
+    >>> Ring().of(np.zeros((2, 3)))
+    [[1], [2], [0]]
+
+    What a user's `of` returns is checked: for each robot a list of others' indices, each once.
+    """
+
+    fixed: ClassVar[bool] = False
+    """Whether it gives the same at all positions, so that it is asked once."""
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        if "of" in vars(cls) and cls.__module__ != __name__:  # of the user's own
+            cls.of = _checked(cls.of)  # type: ignore[method-assign, assignment]
+
+    def of(self, position: Float) -> Neighbours:
+        """Return, for each robot, the indices of its neighbours in order.
+
+        position: (2, n) of the robots now, metres.
+        """
+        raise NotImplementedError(f"{type(self).__name__} needs a method of(self, position)")
+
+    def check_size(self, robots: int) -> None:
+        """Raise InputError if the rule is for another number of robots."""
+
+
+def _checked(of: Callable[[Any, Float], Neighbours]) -> Callable[[Any, Float], Neighbours]:
+    """Wrap a rule's `of` so that what can't be used is a LawError; returns lists of its own."""
+
+    @functools.wraps(of)
+    def checked(self: Neighbourhood, position: Float) -> Neighbours:
+        name, n = f"{type(self).__name__}.of(position)", position.shape[1]
+        found = of(self, position)
+        try:
+            rows = [list(row) for row in found]
+        except TypeError:
+            raise LawError(
+                f"{name} returned {shown(found)}: expected for each robot a list of its "
+                "neighbours' indices"
+            ) from None
+        if len(rows) != n:
+            raise LawError(f"{name} returned {len(rows)} lists: expected {n}, one for each robot")
+        return [_indices(f"{name} for robot {i}", i, row, n) for i, row in enumerate(rows)]
+
+    return checked
+
+
+def _indices(name: str, robot: int, row: list[Any], robots: int) -> list[int]:
+    """Return a robot's neighbours as integers. Raises LawError for anything else."""
+    for j in row:
+        whole = isinstance(j, numbers.Integral) and not isinstance(j, bool)
+        if not whole or not 0 <= j < robots:
+            raise LawError(f"{name} lists {shown(j)}: expected an index from 0 to {robots - 1}")
+        if j == robot:
+            raise LawError(f"{name} lists {j}: no robot is its own neighbour")
+    if len(set(row)) < len(row):
+        raise LawError(f"{name} lists {shown(row)}: expected each neighbour once")
+    return [int(j) for j in row]
+
+
+class Everyone(Neighbourhood):
+    """All other robots are neighbours."""
+
+    fixed = True
+
+    def of(self, position: Float) -> Neighbours:
+        """Return all but oneself."""
+        return _Others(position.shape[1])
+
+
+class _Others(Sequence[Sequence[int]]):
+    """For each of n robots all others, listed when they are asked for: they are n^2 in all."""
+
+    def __init__(self, n: int) -> None:
+        self._n = n
+        self._listed: dict[int, Sequence[int]] = {}
+
+    def __len__(self) -> int:
+        return self._n
+
+    def __getitem__(self, i: Any) -> Any:
+        if not 0 <= i < self._n:
+            raise IndexError(i)
+        if i not in self._listed:
+            self._listed[i] = (*range(i), *range(i + 1, self._n))
+        return self._listed[i]
+
+
+def within(dx: Float, dy: Float, distance: float) -> NDArray[np.bool_]:
+    """Return which vectors (k,), (k,) [m] are no longer than a distance, the bound included.
+
+    Where rounding decides, Python's hypot does, whose result is the same wherever it runs.
+    """
+    apart = np.hypot(dx, dy)
+    near = np.asarray(apart <= distance)
+    for k in np.flatnonzero(np.abs(apart - distance) <= ROUNDING * distance).tolist():
+        near[k] = hypot(dx[k], dy[k]) <= distance
+    return near
+
+
+class Within(Neighbourhood):
+    """Those whose poses lie within a range [m]: the disc graph."""
+
+    range: float = number(above=0, high=1e6, unit="m", kw_only=False, doc="the largest distance")
+
+    def of(self, position: Float) -> Neighbours:
+        """Return those within range, the bound included, by their indices."""
+        from scipy.spatial import cKDTree
+
+        # The tree compares squares, which are rounded otherwise than distances.
+        tree = cKDTree(position.T)
+        pairs = tree.query_pairs(self.range * (1 + ROUNDING), output_type="ndarray")
+        dx, dy = position[:, pairs[:, 1]] - position[:, pairs[:, 0]]
+        found: list[list[int]] = [[] for _ in range(position.shape[1])]
+        for i, j in pairs[within(dx, dy, self.range)].tolist():
+            found[i].append(j)
+            found[j].append(i)
+        return [sorted(others) for others in found]
+
+
+class Nearest(Neighbourhood):
+    """The k nearest robots, nearest first; of those equally far the one of lower index."""
+
+    count: int = integer(low=1, high=10_000, kw_only=False, doc="how many")
+
+    def of(self, position: Float) -> Neighbours:
+        """Return the nearest ones; all others, where they are fewer."""
+        x, y = position
+        k = min(self.count, len(x) - 1)
+        result = []
+        for i, near in enumerate(_candidates(position, k)):
+            apart = np.hypot(x[near] - x[i], y[near] - y[i])
+            apart[near == i] = np.inf
+            result.append(near[np.argsort(apart, kind="stable")[:k]].tolist())
+        return result
+
+
+def _candidates(position: Float, k: int) -> Iterator[NDArray[np.int64]]:
+    """Yield, for each robot, indices in order with itself and its k nearest robots among them.
+
+    So all that are as far away as the last of them are in it, too.
+    """
+    n = position.shape[1]
+    if n <= FEW or 4 * k > n:
+        yield from [np.arange(n)] * n
+        return
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(position.T)
+    far = np.asarray(tree.query(position.T, k=[k + 1])[0])[:, 0]  # the nearest is oneself
+    # The tree compares squares, which are rounded otherwise than distances, and may be 0.
+    reach = far * (1 + ROUNDING) + 1e-150
+    for near in tree.query_ball_point(position.T, reach, return_sorted=True):
+        yield np.array(near, dtype=np.int64)
+
+
+class Delaunay(Neighbourhood):
+    """Those whose Voronoi cells share an edge with one's own: the edges of Delaunay's triangles.
+
+    The cells are those of the whole plane, so that robots at the rim have neighbours far away, too.
+    Robots on one line are neighbours in their order, those in one place by their indices; so they
+    are if all are in one place. Else, of several robots in one place, all but one have only that
+    one. Where more than three cells meet in a point, which of the opposite ones are neighbours is
+    up to the triangulation.
+
+    Source: de Berg et al., Computational Geometry (2008), chapters 7 and 9.
+    """
+
+    def of(self, position: Float) -> Neighbours:
+        """Return the neighbours in Delaunay's triangulation, by their indices."""
+        found: list[set[int]] = [set() for _ in range(position.shape[1])]
+        for i, j in _delaunay_edges(position):
+            found[i].add(j)
+            found[j].add(i)
+        return [sorted(others) for others in found]
+
+
+def _delaunay_edges(position: Float) -> list[tuple[int, int]]:
+    from scipy.spatial import Delaunay as Triangles
+
+    x, y = position - position[:, :1]
+    far = int(np.argmax(np.hypot(x, y)))
+    length = float(np.hypot(x[far], y[far]))
+    if np.abs(x * y[far] - y * x[far]).max() <= FLAT * length**2:  # all on one line
+        order = np.argsort(x * x[far] + y * y[far], kind="stable").tolist()
+        return list(pairwise(order))
+    points = np.array([x, y]).T
+    triangles = Triangles(points)
+    edges = _without_flat(triangles.simplices, points, FLAT * length)
+    # Robots in one place: all but one of them are left out of the triangles.
+    return edges + [(i, k) for i, _, k in triangles.coplanar.tolist()]
+
+
+def _without_flat(simplices: NDArray[Any], points: Float, least: float) -> list[tuple[int, int]]:
+    """Return the edges of triangles (m, 3), but for the long sides of flat ones at the rim.
+
+    Rounding makes such triangles of robots in a row: cells that meet a million kilometres away.
+    least: the height of a triangle that is not flat, metres.
+    """
+    owners: dict[tuple[int, int], set[int]] = {}
+    flat: dict[int, list[tuple[int, int]]] = {}  # their sides, the longest first
+    for t, (a, b, c) in enumerate(np.sort(simplices).tolist()):
+        (ax, ay), (bx, by), (cx, cy) = points[[a, b, c]].tolist()
+        sides = {
+            (a, b): hypot(bx - ax, by - ay),
+            (b, c): hypot(cx - bx, cy - by),
+            (a, c): hypot(cx - ax, cy - ay),
+        }
+        for edge in sides:
+            owners.setdefault(edge, set()).add(t)
+        ordered = sorted(sides, key=sides.__getitem__, reverse=True)
+        height = abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / sides[ordered[0]]
+        if height <= least:
+            flat[t] = ordered
+    todo = list(flat)
+    while todo:
+        t = todo.pop()
+        if t in flat and owners[flat[t][0]] == {t}:
+            long, *others = flat.pop(t)
+            del owners[long]
+            for edge in others:
+                owners[edge].discard(t)
+                todo += owners[edge]
+    return list(owners)
+
+
+EXPECTED = (
+    "an adjacency matrix (n, n) of numbers, a networkx graph of the nodes 0 to n - 1, or a pair "
+    "(n, edges)"
+)
+
+
+def _edges(name: str, value: Any) -> tuple[int, Edges]:
+    """Check a graph, and return the number of its nodes and its edges in order."""
+    if hasattr(value, "nodes") and hasattr(value, "is_directed"):
+        return _of_networkx(name, value)
+    if isinstance(value, (list, tuple)) and len(value) == 2 and _whole(value[0]):
+        return _of_pairs(name, *value)
+    return _of_matrix(name, value)
+
+
+def _of_matrix(name: str, value: Any) -> tuple[int, Edges]:
+    try:
+        matrix = np.asarray(value)
+    except (TypeError, ValueError):  # such as rows of different lengths
+        raise wrong(name, value, EXPECTED) from None
+    if matrix.dtype.kind not in "biuf" or matrix.ndim != 2:
+        raise wrong(name, value, EXPECTED)
+    n, columns = matrix.shape
+    if n != columns or n == 0:
+        raise InputError(f"{name}: a matrix {n} x {columns}: expected as many columns as rows")
+    for i, j in np.argwhere(~np.isfinite(matrix))[:1].tolist():
+        raise wrong(f"{name}[{i}][{j}]", matrix[i, j].item(), "a finite number, 0 for no edge")
+    return _of_pairs(name, n, np.argwhere(matrix != 0).tolist())
+
+
+def _of_networkx(name: str, graph: Any) -> tuple[int, Edges]:
+    try:
+        nodes, edges = list(graph.nodes), [(i, j) for i, j in graph.edges()]
+        directed = bool(graph.is_directed())
+    except (TypeError, ValueError, AttributeError):  # of something that only looks like one
+        raise wrong(name, graph, EXPECTED) from None
+    n = len(nodes)
+    if not all(map(_whole, nodes)) or {int(v) for v in nodes} != {*range(n)} or n == 0:
+        raise InputError(
+            f"{name}: its nodes are {shown(nodes)}: expected 0, 1, 2, ..., the robots' indices; "
+            "networkx.convert_node_labels_to_integers makes them so"
+        )
+    if not directed:
+        edges += [(j, i) for i, j in edges]
+    return _of_pairs(name, n, edges)
+
+
+def _of_pairs(name: str, nodes: Any, edges: Any) -> tuple[int, Edges]:
+    n = int(nodes)
+    if n < 1:
+        raise wrong(name, (nodes, edges), "at least one node")
+    expected = f"a list of edges (i, j), with i and j from 0 to {n - 1}"
+    if isinstance(edges, (str, bytes, dict)) or not isinstance(edges, Iterable):
+        raise wrong(f"{name}: edges", edges, expected)
+    found = set()
+    for edge in edges:
+        try:
+            i, j = edge
+        except (TypeError, ValueError):
+            raise wrong(f"{name}: edge", edge, expected) from None
+        if not (_whole(i) and _whole(j) and 0 <= i < n and 0 <= j < n):
+            raise wrong(f"{name}: edge", edge, expected)
+        if i == j:
+            raise InputError(f"{name}: an edge from {i} to {j}: no robot is its own neighbour")
+        found.add((int(i), int(j)))
+    return n, tuple(sorted(found))
+
+
+def _whole(value: object) -> bool:
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
+
+
+class Graph(Neighbourhood):
+    """A fixed graph: an adjacency matrix (n, n), a networkx graph, or the edges.
+
+    >>> Graph([[0, 1, 0], [1, 0, 1], [0, 1, 0]]).of(np.zeros((2, 3)))
+    [[1], [0, 2], [1]]
+
+    Entry (i, j) of the matrix is not zero where robot j is a neighbour of robot i, which sees it,
+    and may talk to it. A networkx graph has the nodes 0 to n - 1; an edge of a directed one goes
+    from the robot that sees to the one that is seen. The third form is a pair (n, edges), each edge
+    so directed; as that it is kept.
+
+    >>> Graph((3, [(0, 1), (2, 1)])).of(np.zeros((2, 3)))
+    [[1], [], [1]]
+    """
+
+    fixed = True
+
+    graph: Any = entry(check=_edges, kw_only=False, doc="who sees whom")
+
+    def of(self, position: Float) -> Neighbours:  # noqa: ARG002
+        """Return those that a robot has an edge to, by their indices."""
+        nodes, edges = self.graph
+        found: list[list[int]] = [[] for _ in range(nodes)]
+        for i, j in edges:
+            found[i].append(j)
+        return found
+
+    def check_size(self, robots: int) -> None:
+        """Raise InputError if the graph has another number of nodes than there are robots."""
+        if self.graph[0] != robots:
+            raise InputError(
+                f"Scenario.neighbours: the graph has {counted(self.graph[0], 'node')}, and there "
+                f"{'is' if robots == 1 else 'are'} {counted(robots, 'robot')}: expected one node "
+                "for each"
+            )
+
+
+WRITTEN = {
+    "Everyone": "Everyone()",
+    "Within": "Within(2.0)",
+    "Nearest": "Nearest(3)",
+    "Delaunay": "Delaunay()",
+    "Graph": "Graph([[0, 1], [1, 0]])",
+}
+"""How the rules are written, for messages."""
+
+
+def neighbourhood(name: str, value: object) -> Neighbourhood:
+    """Check a rule of who is whose neighbour; of what is nearly one, say how it is written."""
+    if isinstance(value, Neighbourhood):
+        return value
+    if isinstance(value, type) and issubclass(value, Neighbourhood):
+        example = WRITTEN.get(value.__name__, f"{value.__name__}(...)")
+        raise InputError(f"{name} = {value.__name__}: expected an object; write {example}")
+    if isinstance(value, str) and "(" in value:
+        raise wrong(
+            name, value,
+            "an object, and this is text: --set can't make one. Give it in the experiment, and "
+            "change its fields by --set, as neighbours.range=3",
+        )  # fmt: skip
+    if isinstance(value, str) and value.strip().lower() in map(str.lower, WRITTEN):
+        raise wrong(name, value, f"an object; write {WRITTEN[value.strip().capitalize()]}")
+    if hasattr(value, "nodes") or isinstance(value, (np.ndarray, list, tuple)):
+        raise wrong(name, value, "a rule; write Graph(...) of a graph")
+    raise wrong(name, value, "a rule, as Within(2.0), Nearest(3), Delaunay() or Graph(...)")

@@ -1,0 +1,92 @@
+"""Options: the fields of a scenario by their dotted names, with other values."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+from mars2d.core.description import Description
+from mars2d.core.errors import InputError, nearest, shown
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["override", "parse_setting"]
+
+
+def override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
+    """Return the scenario with all options set at once: they are only checked together.
+
+    options: values by dotted names, as ``robots.*.diameter``. Raises InputError for unknown names.
+    """
+    tree: dict[str, Any] = {}
+    for name, value in options.items():
+        *path, last = str(name).split(".")
+        branch = tree
+        for part in path:
+            branch = branch.setdefault(part, {})
+            if not isinstance(branch, dict):
+                raise InputError(f"the options set {part!r} and a field of it, in {name!r}")
+        branch[last] = _Leaf(value)
+    return scenario if not tree else _replaced(scenario, tree, ())
+
+
+class _Leaf:
+    """A value that an option sets, at the end of its path."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
+
+
+def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
+    """Return `target` with its fields set as the tree says; ``*`` is all items of a list."""
+    if isinstance(tree, _Leaf):
+        return tree.value
+    if isinstance(target, tuple):
+        items = list(target)
+        for part, branch in tree.items():
+            if part == "*" and not items:
+                option = ".".join((*path, part))
+                raise InputError(f"there is no option {option!r}: this scenario has no {path[-1]}")
+            chosen = range(len(items)) if part == "*" else [_index(part, len(items), path)]
+            for i in chosen:
+                items[i] = _replaced(items[i], branch, (*path, part))
+        return tuple(items)
+    if isinstance(target, Description):
+        fields = [f.name for f in dataclasses.fields(target)]
+        for part in tree:
+            if part not in fields:
+                raise InputError(
+                    f"there is no option {'.'.join((*path, part))!r}: {type(target).__name__} has "
+                    f"no field {part!r}{nearest(part, fields)}"
+                )
+        changes = {
+            part: _replaced(getattr(target, part), branch, (*path, part))
+            for part, branch in tree.items()
+        }
+        return target.replace(**changes)
+    option = ".".join((*path, next(iter(tree))))
+    raise InputError(f"there is no option {option!r}: {shown(target)} has no fields")
+
+
+def _index(text: str, length: int, path: tuple[str, ...]) -> int:
+    if not text.isdigit() or int(text) >= length:
+        option = ".".join((*path, text))
+        raise InputError(
+            f"there is no option {option!r}: expected * or 0 to {length - 1}, not {text!r}"
+        )
+    return int(text)
+
+
+def parse_setting(text: str) -> tuple[str, Any]:
+    """Return (name, value) of a setting ``name=value`` from the command line.
+
+    The value is a Python literal, as ``0.5``, ``True`` or ``(1, 2)``; anything else is text.
+    """
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip():
+        raise InputError(f"--set {text}: expected NAME=VALUE, as --set sampling_time=0.5")
+    try:
+        return name.strip(), ast.literal_eval(value.strip())
+    except (ValueError, SyntaxError, MemoryError, RecursionError):
+        return name.strip(), value.strip()

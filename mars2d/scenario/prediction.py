@@ -1,0 +1,172 @@
+"""Predictions: what a formula says, what a run measured, and whether they agree."""
+
+from __future__ import annotations
+
+import math
+import numbers
+import textwrap
+from collections.abc import Sequence
+from typing import Any, Self
+
+from mars2d.core.description import Description, entry, real, wrong
+from mars2d.core.errors import InputError, counted
+
+__all__ = ["Prediction", "number", "table"]
+
+WIDTH = 80
+"""Columns of a terminal, which a table keeps to."""
+
+DIGITS = 12
+"""Significant digits that a table shows at most."""
+
+FEW = 6
+"""So many decimals may an exact 0 have."""
+
+
+def _line(name: str, value: object) -> str:
+    if not isinstance(value, str) or len(value.splitlines()) > 1:
+        raise wrong(name, value, "one line of text")
+    return value.strip()
+
+
+def _named(name: str, value: object) -> str:
+    text = _line(name, value)
+    if not text:
+        raise wrong(name, value, "what is predicted, in a few words")
+    return text
+
+
+def _measured(name: str, value: object) -> float:
+    """Check a number that may be NaN or infinite: a measurement can fail."""
+    expected = "a number, or nan where nothing was measured"
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise wrong(name, value, expected)
+    try:
+        return float(value)
+    except OverflowError:
+        raise wrong(name, value, expected) from None
+
+
+def _tolerance(name: str, value: object) -> float:
+    expected = "a number >= 0, in the prediction's unit"
+    tolerance = real(name, value, expected)
+    if tolerance < 0:
+        raise wrong(name, value, expected)
+    return tolerance
+
+
+class Prediction(Description):
+    """A number that a formula predicts, beside the one that a run measured.
+
+    `measured` may be NaN or infinite where nothing could be measured: that is never ok. Raises
+    InputError for other fields that are not finite, and for a tolerance below 0.
+
+    >>> fall = Prediction("time to fall", 0.45, 0.448, 0.01, "s")
+    >>> fall.ok
+    True
+    """
+
+    name: str = entry(check=_named, kw_only=False, doc="what is predicted, in a few words")
+    predicted: float = entry(check=real, kw_only=False, doc="the number by the formula")
+    measured: float = entry(check=_measured, kw_only=False, doc="the number found in the record")
+    tolerance: float = entry(
+        check=_tolerance, kw_only=False, doc="how far apart they may be, in the same unit"
+    )
+    unit: str = entry(
+        default="", check=_line, kw_only=False, doc="of all three numbers, empty for counts, ratios"
+    )
+
+    @classmethod
+    def within(
+        cls, name: str, predicted: float, measured: float, percent: float, unit: str = ""
+    ) -> Self:
+        """Return a prediction whose tolerance is a share of the predicted number.
+
+        percent: > 0. Raises InputError where the prediction is 0, of which all shares are 0.
+
+        >>> Prediction.within("speed", 0.5, 0.49, percent=4, unit="m/s").tolerance
+        0.02
+        """
+        share = real("Prediction.within(percent)", percent, "a number > 0")
+        if share <= 0:
+            raise wrong("Prediction.within(percent)", percent, "a number > 0")
+        if real("Prediction.predicted", predicted) == 0:
+            raise InputError(
+                f"Prediction.within({name!r}): {share:g} % of a predicted 0 is 0; "
+                "write Prediction(...) with a tolerance"
+            )
+        return cls(name, predicted, measured, abs(float(predicted)) * share / 100, unit)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the measured number is within the tolerance of the predicted one."""
+        return abs(self.measured - self.predicted) <= self.tolerance
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return name, predicted, measured, tolerance and ok, as JSON knows them.
+
+        A measured number that is NaN or infinite, which JSON has no word for, is None.
+        """
+        return {
+            "name": self.name,
+            "predicted": self.predicted,
+            "measured": self.measured if math.isfinite(self.measured) else None,
+            "tolerance": self.tolerance,
+            "ok": self.ok,
+        }
+
+
+def table(predictions: Sequence[Prediction]) -> str:
+    """Return predictions as a table of text, 80 columns wide; an empty text if there are none.
+
+    Numbers have so many digits that the tolerance shows. Long names go over several lines.
+    """
+    if not predictions:
+        return ""
+    rows = [("predicted", "measured", "tolerance", "", "")]
+    rows += [
+        (
+            number(p.predicted, p.tolerance),
+            number(p.measured, p.tolerance),
+            f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}",
+            p.unit,
+            "ok" if p.ok else "NOT OK",
+        )
+        for p in predictions
+    ]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    room = max(WIDTH - sum(widths) - 2 * len(widths), 8)
+    names = [[""], *(textwrap.wrap(p.name, room) for p in predictions)]
+    first = max(len(line) for name in names for line in name)
+    lines = []
+    for name, row in zip(names, rows, strict=True):
+        *above, last = name
+        cells = [cell.rjust(w) for cell, w in zip(row[:3], widths, strict=False)]
+        cells += [row[3].ljust(widths[3]), row[4]]
+        lines += [*above, "  ".join([last.ljust(first), *cells]).rstrip()]
+    held = sum(p.ok for p in predictions)
+    lines.append(f"{held} of {counted(len(predictions), 'prediction')} ok")
+    return "\n".join(lines)
+
+
+def number(value: float, tolerance: float) -> str:
+    """Return a number as text with the digits that count: two of the tolerance's, 12 at most."""
+    if math.isnan(value):
+        return "not a number"
+    if math.isinf(value):
+        return "infinite" if value > 0 else "-infinite"
+    if tolerance == 0:
+        return f"{value:.{DIGITS}g}"
+    last = _exponent(tolerance) - 1  # the power of ten of the last digit
+    first = _exponent(value) if value else 0
+    decimals = max(-last, 0)
+    if value == 0 and decimals > FEW:
+        return "0"
+    if decimals < DIGITS and max(first, 0) + 1 + decimals <= DIGITS:
+        return f"{value:z.{decimals}f}"
+    significant = min(max(first - last + 1, 2), DIGITS)
+    return f"{value:#.{significant}g}".removesuffix(".")
+
+
+def _exponent(value: float) -> int:
+    return math.floor(math.log10(abs(value)))

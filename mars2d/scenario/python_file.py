@@ -1,0 +1,147 @@
+"""A scenario as Python that makes an equal one."""
+
+from __future__ import annotations
+
+import dataclasses
+import sys
+from collections import defaultdict
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from mars2d.core.description import Description
+from mars2d.core.registry import BASES
+from mars2d.core.usercode import name_of
+from mars2d.scenario import serialize
+from mars2d.scenario.law_reference import Reference, seen_from
+from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["as_python"]
+
+Law = Callable[[Any], Any]
+
+TITLE = 90
+"""Characters of a title in a docstring, at most."""
+
+
+def as_python(
+    scenario: Scenario, control: Law | None = None, folder: Path | str | None = None
+) -> str:
+    r"""Return a file of Python that makes a scenario, as `mars2d run` takes it.
+
+    Only what differs from its default is written. Laws are loaded from where they stand, if they
+    are functions at the top of a file. What else is code is left out, or replaced as in a record
+    that is loaded, and named in a comment. control: the law of the team. folder: where the file is
+    to lie; laws near it then have relative paths.
+
+    >>> print(as_python(Scenario(title="Alone", stop_time=5.0)).partition("\n\n")[2])
+    from mars2d import Robot, Scenario
+    <BLANKLINE>
+    scenario = Scenario(title="Alone", robots=[Robot()], stop_time=5.0)
+    <BLANKLINE>
+    """
+    kept, missing = serialize.without_code(scenario)
+    lister = _Lister(None if folder is None else Path(folder))
+    body = [laid_out(_named("scenario = ", lister.call(kept)))]
+    if control is not None:
+        body.append(f"control = {lister.law(control)}")
+    lost = [*missing, *(f"law {name_of(law)}" for law in lister.lost)]
+    notes = [comment(f"{serialize.LOST}: {name}") for name in dict.fromkeys(lost)]
+    title = comment(kept.title)[2:][:TITLE].replace("\\", "/").replace('"', "'").strip()
+    head = [f'"""{title or "A scenario."}"""', "", *lister.imports(), ""]
+    return "\n".join([*head, *notes, *body]) + "\n"
+
+
+class _Lister:
+    """Writes parts as calls of their classes, and keeps what is to be imported for that.
+
+    lost: laws that can't be found again.
+    """
+
+    def __init__(self, folder: Path | None) -> None:
+        self.folder = folder
+        self.lost: list[Law] = []
+        self._names: dict[str, tuple[str, str]] = {}  # as they are called: module and name there
+
+    def call(self, part: Description, index: int = 0) -> Brackets:
+        """Return the call that makes a part; index: where it stands in its list."""
+        kind = type(part)
+        first = next((f.name for f in dataclasses.fields(kind) if not f.kw_only), None)
+        values = serialize.changed(part, index)
+        items = []
+        for name in sorted(values, key=lambda name: (name != first, name != "name")):
+            node = self._node(kind, name, values[name])
+            items.append(node if name == first else _named(f"{name}=", node))
+        return Brackets(f"{self._class(kind)}(", items, ")")
+
+    def _node(self, kind: type[Description], name: str, value: Any) -> Node:
+        """Return the value of a field."""
+        place = serialize.parts_of(kind).get(name)
+        if place is not None and place.many:
+            return Brackets("[", [self.call(item, i) for i, item in enumerate(value)], "]")
+        return self._plain(value)
+
+    def _plain(self, value: Any) -> Node:
+        if isinstance(value, Description):
+            return self.call(value)
+        if callable(value):
+            return self.law(value)
+        if isinstance(value, str):
+            return quoted(value)
+        if value is None or isinstance(value, bool):
+            return repr(value)
+        if isinstance(value, (int, float)):
+            return numeral(value)
+        items = [self._plain(item) for item in value]
+        if items and all(isinstance(item, (int, float)) for item in value):  # a point, a pose
+            return Brackets("(", items, ",)" if len(items) == 1 else ")", filled=True)
+        return Brackets("[", items, "]", filled=True)
+
+    def law(self, law: Law) -> str:
+        """Return the call that loads a law; None for one that can't be found again."""
+        found = Reference.of(law)
+        if found is None:
+            self.lost.append(law)
+            return "None"
+        file = found.file if self.folder is None else seen_from(found.file, self.folder)
+        name = "" if found.name == "control" else f", {quoted(found.name)}"
+        self._names["load_law"] = "mars2d", "load_law"
+        return f"load_law({quoted(file)}{name})"
+
+    def _class(self, kind: type[Description]) -> str:
+        """Return what a class is called; of two with one name the later gets its family's, too."""
+        source = _public_module(kind), kind.__name__
+        name = kind.__name__
+        if self._names.get(name, source) != source:
+            name += next(base.__name__ for base in kind.__mro__ if base.__name__ in BASES.values())
+        self._names[name] = source
+        return name
+
+    def imports(self) -> list[str]:
+        """Return the lines that import what was used."""
+        modules = defaultdict(list)
+        lines = []
+        for alias, (module, name) in self._names.items():
+            if alias == name:
+                modules[module].append(name)
+            else:
+                lines.append(f"from {module} import {name} as {alias}")
+        for module, names in modules.items():
+            line = f"from {module} import {', '.join(sorted(names))}"
+            broken = Brackets(f"from {module} import (", sorted(names), ")", filled=True)
+            lines.append(line if len(line) <= WIDTH else laid_out(broken))
+        return sorted(lines)
+
+
+def _public_module(kind: type) -> str:
+    """Return the package nearest to the top that has a class among its names."""
+    names = kind.__module__.split(".")
+    above = (".".join(names[:depth]) for depth in range(1, len(names)))
+    public = (p for p in above if getattr(sys.modules[p], kind.__name__, None) is kind)
+    return next(public, kind.__module__)
+
+
+def _named(name: str, node: Node) -> Node:
+    """Return a node with a name in front."""
+    return name + node if isinstance(node, str) else node._replace(opening=name + node.opening)

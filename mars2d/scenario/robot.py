@@ -1,0 +1,152 @@
+"""The frozen description of one robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from math import cos, sin
+from typing import Any, Self
+
+from mars2d.bodies.drives.base import Drive
+from mars2d.bodies.drives.unicycle import Unicycle
+from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
+from mars2d.core import checks
+from mars2d.core.description import Description, choice, entry, number, text, wrong
+from mars2d.core.materials import surface_friction, surface_restitution
+from mars2d.core.plane import Point
+from mars2d.core.scene import optional_color
+from mars2d.geometry.shapes import Disc, Shape, known_shape
+from mars2d.sensors.base import Sensor
+
+__all__ = ["Robot"]
+
+DIAMETER = 0.3
+"""That of a robot of which nothing else is said, metres."""
+
+ACCELERATION = 1e5
+"""How strongly a drive may accelerate its robot, m/s^2; more needs ever more substeps."""
+
+
+def _controller(name: str, value: object) -> object:
+    return None if value is None else checks.law(name, value, "the robot")
+
+
+def _optional_shape(name: str, value: object) -> object:
+    example = "Polygon([(-0.2, -0.1), (0.2, 0), (-0.2, 0.1)])"
+    return None if value is None else known_shape(name, value, example)
+
+
+class Robot(Description):
+    """One robot: a body that its drive moves, with sensors and perhaps a law of its own.
+
+    >>> Robot(diameter=0.2).at(1, 2, 0).pose
+    (1.0, 2.0, 0.0)
+    """
+
+    pose: tuple[float, float, float] = entry(
+        default=(0.0, 0.0, 0.0),
+        check=checks.pose,
+        unit="m, m, rad",
+        doc="initial pose (x, y, theta)",
+    )
+    drive: Drive = entry(
+        check=checks.instance(Drive, "Unicycle()"), factory=Unicycle, doc="how it moves"
+    )
+    diameter: float = number(
+        default=DIAMETER, low=1e-3, high=1e3, unit="m", doc="diameter of the chassis, a disc"
+    )
+    shape: Shape | None = entry(
+        default=None, check=_optional_shape,
+        doc="its chassis if that is no disc, about the geometric centre, x ahead",
+    )  # fmt: skip
+    mass: float = number(default=1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
+    moment: float | None = number(
+        default=None, above=0, high=1e12, unit="kg m^2", optional=True,
+        doc="moment of inertia about the centre of rotation; None: that of a plate",
+    )  # fmt: skip
+    friction: float = entry(
+        default=0.5, check=surface_friction,
+        doc="coefficient of friction, or a material's name; a contact has the product of both",
+    )  # fmt: skip
+    restitution: float = entry(
+        default=0.0, check=surface_restitution,
+        doc="0 stops, 1 bounces back; or a material's name; a contact has the product of both",
+    )  # fmt: skip
+    center_offset: float = number(
+        default=0.0, low=-1e3, high=1e3, unit="m",
+        doc="how far the centre of rotation lies ahead of the geometric centre",
+    )  # fmt: skip
+    sensors: Sequence[Sensor] = entry(
+        default=(),
+        check=checks.listing(Sensor, "Proximity(range=0.3)"),
+        doc="what it perceives with",
+    )
+    controller: Callable[[Any], Any] | None = entry(
+        default=None, check=_controller, doc="its own law, a function or generator of the robot"
+    )
+    sees: str = choice(
+        default="full", of=("full", "partial", "positions", "sensors"),
+        doc="what its law may see: all; itself and its neighbours; itself and their positions; "
+        "or only what it senses",
+    )  # fmt: skip
+    name: str | None = text(default=None, optional=True, doc="its name, else robot0, robot1, ...")
+    color: str | None = entry(
+        default=None, check=optional_color, doc="its colour, else from base_colors"
+    )
+
+    def at(self, x: float, y: float, theta: float = 0.0) -> Self:
+        """Return a copy of this robot at pose (x [m], y [m], theta [rad])."""
+        return self.replace(pose=(x, y, theta))
+
+    def sensor(self, key: str) -> Sensor | None:
+        """Return the sensor of a name; a loaded record's robot lacks those of the user's own."""
+        return next((sensor for sensor in self.sensors if sensor.key == key), None)
+
+    @property
+    def radius(self) -> float:
+        """Of a disc half the diameter, else that of a circle round the shape, metres."""
+        return self.diameter / 2 if self.shape is None else self.shape.bound[1]
+
+    @property
+    def center(self) -> Point:
+        """The geometric centre at the start: `center_offset` behind the centre of rotation."""
+        x, y, theta = self.pose
+        return x - self.center_offset * cos(theta), y - self.center_offset * sin(theta)
+
+    @cached_property
+    def chassis(self) -> Shape:
+        """Its shape about the centre of rotation, which is its centre of mass, too."""
+        shape = Disc(self.diameter) if self.shape is None else self.shape
+        return shape.moved(-self.center_offset, 0.0) if self.center_offset else shape
+
+    @property
+    def inertia(self) -> Inertia:
+        """Its mass [kg], and its moment of inertia about the centre of rotation [kg m^2]."""
+        return inertia_of(self.chassis, self.mass, self.moment)
+
+    @property
+    def surface(self) -> Surface:
+        """The friction and restitution of its sides."""
+        return Surface(self.friction, self.restitution)
+
+    @property
+    def rigid(self) -> Rigid:
+        """The body that it is at the start."""
+        still = (0.0, 0.0, 0.0)
+        shape, inertia, surface = self.chassis, self.inertia, self.surface
+        return Rigid("Robot", str(self.name), self.pose, still, shape, inertia, surface)
+
+    def _validate(self) -> None:
+        if self.drive.max_force > ACCELERATION * self.mass:
+            raise wrong(
+                "Robot.drive.max_force", self.drive.max_force,
+                f"at most {ACCELERATION:g} m/s^2 times the mass, {self.mass:g} kg",
+            )  # fmt: skip
+        if self.shape is not None and self.diameter != DIAMETER:
+            raise wrong("Robot.diameter", self.diameter, "no diameter, as a shape is given")
+        reach = self.radius if self.shape is None else self.shape.reach
+        if abs(self.center_offset) > reach:
+            raise wrong(
+                "Robot.center_offset", self.center_offset, f"within the radius, {reach:g} m"
+            )
+        checks.unique("Robot.sensors", [sensor.key for sensor in self.sensors])

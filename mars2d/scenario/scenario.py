@@ -1,0 +1,376 @@
+"""The frozen description of an experiment: robots, workspace, timing, physics, looks."""
+
+from __future__ import annotations
+
+import numbers
+import sys
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from math import cos, floor, hypot, pi, sin
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.addons.base import Addon
+from mars2d.addons.communication import Communication
+from mars2d.bodies.attached_joint import Tie
+from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.joints.hinge import Hinge
+from mars2d.bodies.props.base import Prop
+from mars2d.bodies.rigid import Rigid
+from mars2d.core import checks
+from mars2d.core.description import Description, choice, entry, number, text, wrong
+from mars2d.core.errors import InputError, nearest
+from mars2d.core.plane import Outline, bounds_of
+from mars2d.core.registry import snake_case
+from mars2d.core.usercode import called, file_beside
+from mars2d.geometry.shapes import known_shape
+from mars2d.scenario import limits, starts
+from mars2d.scenario.animation import Animation
+from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
+from mars2d.scenario.robot import Robot
+
+__all__ = ["Obstacle", "Scenario"]
+
+PHYSICS = ("contact", "stop", "ideal")
+
+ROW_LIMIT = 100_000_000
+
+
+def _outlines(addon: Addon) -> tuple[Outline, ...]:
+    """Return an add-on's obstacles, checked: it may be of the user's own."""
+    with called(f"add-on {addon.key!r}", addon.obstacles):
+        found = addon.obstacles()
+    return checks.outlines(f"{type(addon).__name__}.obstacles()", found)
+
+
+class Obstacle(NamedTuple):
+    """Something fixed: its outline [m], coefficient of friction and restitution."""
+
+    outline: Outline
+    friction: float
+    restitution: float
+
+
+def _robots(name: str, value: object) -> object:
+    """Check a list of robots; a number n stands for n default robots, placed by the scenario."""
+    if isinstance(value, numbers.Integral) and not isinstance(value, bool):
+        if not 1 <= int(value) <= 10_000:
+            raise wrong(name, value, "a list of robots, or how many")
+        return int(value)
+    robots = checks.listing(Robot, "Robot(pose=(0, 0, 0))")(name, value)
+    if not robots:
+        raise wrong(name, value, "at least one robot, as [Robot(pose=(0, 0, 0))]")
+    return robots
+
+
+def _workspace(name: str, value: object) -> Outline | None:
+    return None if value is None else checks.outline(name, value, least=3)
+
+
+class Scenario(Description):
+    """Everything about an experiment but its laws: frozen, validated, in SI units.
+
+    >>> Scenario(robots=[Robot(pose=(0, 0, 0))]).bounds
+    (-5.0, 5.0, -5.0, 5.0)
+
+    Raises InputError for whatever the engine could not simulate truthfully: robots that start
+    inside an obstacle, inside each other or outside the workspace, polygons that cross themselves,
+    numbers out of range.
+    """
+
+    title: str = text(default="[Simulation]", doc="the title shown")
+    robots: Sequence[Robot] = entry(
+        default=1, check=_robots, doc="the team, or how many default robots"
+    )
+    props: Sequence[Prop] = entry(
+        default=(), check=checks.listing(Prop, "Box(pose=(1, 0, 0))"), doc="what can be moved"
+    )
+    joints: Sequence[Joint] = entry(
+        default=(), check=checks.listing(Joint, "Rope(a='robot0', b='box0')"),
+        doc="what ties robots and props together",
+    )  # fmt: skip
+    workspace: Outline | None = entry(
+        default=((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)),
+        check=_workspace, unit="m", doc="the polygon in which the robots move; None: no limits",
+    )  # fmt: skip
+    on_exit: str = choice(
+        default="stop", of=("stop", "wall", "ignore"),
+        doc="at the workspace's edge: the experiment is over, a wall stands there, or nothing",
+    )  # fmt: skip
+    sampling_time: float = number(
+        default=0.1, low=1e-6, high=1e4, unit="s", doc="time between commands"
+    )
+    stop_time: float = number(
+        default=100.0,
+        low=0,
+        high=1e12,
+        unit="s",
+        doc="the longest duration; the last step is the last multiple of the sampling time",
+    )
+    command_delay: float = number(
+        default=0.0, low=0, high=1e6, unit="s", doc="from a command's issue to its effect"
+    )
+    physics: str = choice(
+        default="contact", of=PHYSICS,
+        doc="when things touch: forces act, a robot stops, or nothing happens",
+    )  # fmt: skip
+    max_overlap: float = number(
+        default=1e-3, low=1e-5, high=1.0, unit="m", doc="how deep bodies may overlap for an instant"
+    )
+    addons: Sequence[Addon] = entry(
+        default=(), check=checks.listing(Addon, "Map([...])"), doc="maps, measures, games"
+    )
+    sees: str = choice(
+        default="full", of=("full", "positions"),
+        doc="what the team's law may see: all, or only positions",
+    )  # fmt: skip
+    neighbours: Neighbourhood = entry(
+        check=neighbourhood, factory=Everyone, doc="whom `robot.neighbours` lists"
+    )
+    animation: Animation = entry(
+        check=checks.instance(Animation, "Animation()"), factory=Animation, doc="how it is drawn"
+    )
+
+    def _validate(self) -> None:
+        if isinstance(self.robots, int):
+            object.__setattr__(self, "robots", self._circle_of_robots(self.robots))
+        taken = {robot.name for robot in self.robots} | {prop.name for prop in self.props}
+        robots = tuple(_named(robot, "robot", i, taken) for i, robot in enumerate(self.robots))
+        props = tuple(
+            _named(prop, snake_case(type(prop).__name__), i, taken)
+            for i, prop in enumerate(self.props)
+        )
+        object.__setattr__(self, "robots", robots)
+        object.__setattr__(self, "props", props)
+        checks.unique("Scenario.robots", [str(robot.name) for robot in robots])
+        names = [str(robot.name) for robot in robots] + [str(prop.name) for prop in props]
+        checks.unique("Scenario.robots and props", names)
+        checks.unique("Scenario.addons", [addon.key for addon in self.addons])
+        if sum(isinstance(addon, Communication) for addon in self.addons) > 1:
+            raise InputError("Scenario.addons: two are Communication, and robots talk over one")
+        if self.stop_time / self.sampling_time > ROW_LIMIT:
+            raise wrong(
+                "Scenario.stop_time", self.stop_time,
+                f"at most {ROW_LIMIT:g} sampling times of {self.sampling_time:g} s",
+            )  # fmt: skip
+        if self.command_delay / self.sampling_time > 1e6:
+            raise wrong(
+                "Scenario.command_delay", self.command_delay,
+                f"at most a million sampling times of {self.sampling_time:g} s",
+            )  # fmt: skip
+        self._check_sensors()
+        self.neighbours.check_size(len(self.robots))
+        self._check_bodies()
+        self._check_joints()
+        self._check_starts()
+
+    @staticmethod
+    def from_file(path: str | Path) -> Scenario:
+        """Return the scenario in a .toml file, as `save` writes it and people write it.
+
+        path: a relative one is looked for beside the file that calls this, then in the current
+        folder. Raises InputError, which points at the line. The law of the team, if the file names
+        one, is not part of a scenario: `mars2d.run` and `open_experiment` take the file with it.
+        """
+        from mars2d.scenario import toml_file
+
+        if not isinstance(path, (str, Path)):
+            raise wrong("Scenario.from_file(path)", path, "the name of a file, as 'room.toml'")
+        caller = Path(sys._getframe(1).f_code.co_filename)
+        file = file_beside(Path(path), caller, "a scenario", [toml_file.SUFFIX])
+        return toml_file.read(file)[0]
+
+    def save(
+        self, path: str | Path, control: Callable[[Any], Any] | str | None = None
+    ) -> tuple[str, ...]:
+        """Write it to a .toml file, over what is there; return what could not be written.
+
+        control: the law of the team, as a function of a file or as ``team.py:control``. Of laws the
+        place is written, code of one's own is not. Raises InputError if the file can't be written.
+        """
+        from mars2d.scenario import toml_file
+
+        return toml_file.save(self, path, control)
+
+    def _repr_svg_(self) -> str:
+        """Return a picture of the start, for a notebook."""
+        from mars2d.output.pages.notebook import scenario_svg
+
+        return scenario_svg(self)
+
+    def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
+        """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
+        xmin, xmax, ymin, ymax = self.bounds
+        x, y = (xmin + xmax) / 2, (ymin + ymax) / 2
+        radius = 0.7 * min(xmax - xmin, ymax - ymin) / 2 if count > 1 else 0.0
+        angles = [2 * pi * i / count for i in range(count)]
+        return tuple(
+            Robot(pose=(x + radius * cos(a), y + radius * sin(a), a + pi if count > 1 else 0.0))
+            for a in angles
+        )
+
+    def _check_sensors(self) -> None:
+        """Refuse sensors that would measure between control steps, or hold too much back."""
+        for robot in self.robots:
+            for sensor in robot.sensors:
+                sensor.check_timing(f"{type(sensor).__name__} of {robot.name}", self.sampling_time)
+
+    def _check_bodies(self) -> None:
+        """Refuse bodies that contacts can't hold."""
+        for robot in self.robots:
+            limits.check_drive(str(robot.name), robot.drive, limits.corner(robot.chassis))
+        for prop in self.props:
+            with called(f"prop {prop.name!r}", type(prop)):
+                shape, _, _ = prop.shape, prop.inertia, prop.surface
+            where = f"{type(prop).__name__}.shape of {prop.name}"
+            limits.check_centred(where, known_shape(where, shape))
+        of_material = {
+            str(p.name): p.material for p in self.props if p.mass is None and p.material is not None
+        }
+        limits.check_bodies(self.bodies, of_material, self.max_overlap)
+        drives = [robot.drive for robot in self.robots]
+        limits.check_forces(self.bodies, drives, self.max_overlap)
+
+    def _check_joints(self) -> None:
+        """Refuse joints of bodies that are not there, or that would pull them at once."""
+        named = [(f"Scenario.joints[{i}]", joint) for i, joint in enumerate(self.joints)]
+        for prop in self.props:
+            with called(f"{type(prop).__name__}.joints()", prop.joints):
+                brought = checks.listing(Joint, "Hinge(a='gate0')")("joints()", prop.joints())
+            named += [(f"{type(prop).__name__} {prop.name}", joint) for joint in brought]
+        for where, joint in named:
+            limits.check_ends(where, joint, self._indices)
+        for (where, _), tie in zip(named, self.ties, strict=True):
+            limits.check_tie(where, tie, self.bodies)
+            for index, anchor in ((tie.a, tie.joint.anchor_a), (tie.b, tie.joint.anchor_b)):
+                if 0 <= index < len(self.robots):
+                    robot = self.robots[index]
+                    limits.check_drive(str(robot.name), robot.drive, hypot(*anchor))
+
+    def _check_starts(self) -> None:
+        """Refuse bodies that start outside the workspace, in an obstacle or in each other."""
+        obstacles = self.obstacles
+        if self.workspace is not None and self.on_exit != "ignore":
+            starts.check_in_workspace(self.bodies[: len(self.robots)], self.workspace)
+        if self.workspace is not None and self.on_exit == "wall":
+            starts.check_off_walls(self.bodies, self.workspace, self.max_overlap)
+        if obstacles:
+            starts.check_off_obstacles(self.bodies, obstacles, self.max_overlap)
+        starts.check_apart(self.bodies, self.max_overlap, self.joined)
+
+    @cached_property
+    def bodies(self) -> tuple[Rigid, ...]:
+        """All bodies that move, as the physics takes them: the robots, then the props."""
+        return (*(robot.rigid for robot in self.robots), *(prop.rigid for prop in self.props))
+
+    @cached_property
+    def _indices(self) -> dict[str, int]:
+        return {body.name: i for i, body in enumerate(self.bodies)}
+
+    @cached_property
+    def ties(self) -> tuple[Tie, ...]:
+        """All joints, those that props bring included, with the bodies that they hold."""
+        joints = [*self.joints, *(joint for prop in self.props for joint in prop.joints())]
+        result = []
+        for joint in joints:
+            a = self._indices[joint.a]
+            b = -1 if joint.b is None else self._indices[joint.b]
+            result.append(Tie.of(joint, a, b, self.bodies))
+        return tuple(result)
+
+    @cached_property
+    def joined(self) -> frozenset[tuple[int, int]]:
+        """Pairs (i, j), i < j, of bodies that share a hinge, and so don't collide."""
+        return frozenset(
+            (min(tie.a, tie.b), max(tie.a, tie.b))
+            for tie in self.ties
+            if isinstance(tie.joint, Hinge) and tie.b >= 0
+        )
+
+    @cached_property
+    def surfaces(self) -> tuple[Obstacle, ...]:
+        """What stands in the way: the add-ons' obstacles, then the workspace where it is a wall."""
+        found = [
+            Obstacle(outline, addon.friction, addon.restitution)
+            for addon in self.addons
+            for outline in _outlines(addon)
+        ]
+        if self.on_exit == "wall" and self.workspace is not None:
+            found.append(Obstacle(self.workspace, 1.0, 1.0))
+        return tuple(found)
+
+    @property
+    def obstacles(self) -> tuple[Outline, ...]:
+        """The outlines of the add-ons' obstacles, in order."""
+        walled = self.on_exit == "wall" and self.workspace is not None
+        found = self.surfaces[:-1] if walled else self.surfaces
+        return tuple(obstacle.outline for obstacle in found)
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """(xmin, xmax, ymin, ymax) of the workspace [m]; without one, of robots and obstacles."""
+        if self.workspace is not None:
+            return bounds_of(self.workspace)
+        if isinstance(self.robots, int):
+            return -5.0, 5.0, -5.0, 5.0
+        points = [body.bound[0] for body in self.bodies]
+        points += [vertex for outline in self.obstacles for vertex in outline]
+        xmin, xmax, ymin, ymax = bounds_of(points)
+        return xmin - 1, xmax + 1, ymin - 1, ymax + 1
+
+    @property
+    def initial_pose(self) -> NDArray[np.float64]:
+        """The poses at the start, (3, n)."""
+        return np.array([robot.pose for robot in self.robots]).T
+
+    def index_of(self, field: str, robot: str | int) -> int:
+        """Return the index of a robot that is given by its name, or by its index.
+
+        Raises InputError, which begins with `field`, for one that is not there.
+        """
+        return _index_of(field, "robot", robot, [str(each.name) for each in self.robots])
+
+    def body_index_of(self, field: str, body: str | int) -> int:
+        """Return the index in `bodies` of a robot or prop that is given as in `index_of`."""
+        return _index_of(field, "body", body, [rigid.name for rigid in self.bodies])
+
+    def body_name(self, body: int) -> str:
+        """Return what a body of a contact is called; -1 - k is obstacle k, or the wall."""
+        if body >= 0:
+            return self.bodies[body].name
+        walled = len(self.surfaces) > len(self.obstacles)
+        return "wall" if walled and body == -len(self.surfaces) else f"obstacle {-1 - body}"
+
+    @property
+    def last_iteration(self) -> int:
+        """The iteration at the stop time: the run has this many sampling times."""
+        return floor(self.stop_time / self.sampling_time * (1 + 1e-12) + 1e-9)
+
+    @cached_property
+    def colors(self) -> tuple[str, ...]:
+        """The robots' colours, each its own or the next of the animation's base colours."""
+        base = self.animation.base_colors
+        return tuple(robot.color or base[i % len(base)] for i, robot in enumerate(self.robots))
+
+
+def _index_of(field: str, kind: str, wanted: str | int, names: list[str]) -> int:
+    if isinstance(wanted, str):
+        if wanted not in names:
+            raise InputError(f"{field}: there is no {kind} {wanted!r}{nearest(wanted, names)}")
+        return names.index(wanted)
+    if not 0 <= wanted < len(names):
+        raise InputError(f"{field}: there is no {kind} {wanted}; they are 0 to {len(names) - 1}")
+    return int(wanted)
+
+
+def _named(part: Any, kind: str, index: int, taken: set[str | None]) -> Any:
+    """Return a robot or prop with a name that no other has, unless it has one."""
+    if part.name is not None:
+        return part
+    name = f"{kind}{index}"
+    while name in taken:
+        name += "_"
+    return part.replace(name=name)

@@ -1,0 +1,312 @@
+"""Scenarios as plain data: what a file can hold, without code."""
+
+from __future__ import annotations
+
+import dataclasses
+from functools import cache
+from typing import Any, NamedTuple
+
+from mars2d.addons.base import Addon
+from mars2d.addons.communication import Communication
+from mars2d.addons.gilbert_elliott import Burst
+from mars2d.addons.map import Map
+from mars2d.bodies.drives.base import Drive
+from mars2d.bodies.drives.unicycle import Unicycle
+from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.props.base import Prop
+from mars2d.bodies.props.solid import Solid
+from mars2d.core.description import Description
+from mars2d.core.errors import InputError
+from mars2d.core.registry import family_of, members, package_of, plugin, snake_case
+from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
+from mars2d.scenario.animation import Animation
+from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+from mars2d.sensors.base import Sensor
+
+__all__ = [
+    "LOST",
+    "MOVING",
+    "PARTS",
+    "Place",
+    "changed",
+    "from_description",
+    "kinds_of",
+    "parts_of",
+    "to_scenario",
+    "to_value",
+    "without_code",
+]
+
+
+class Place(NamedTuple):
+    """What a field holds: parts that derive from `base`, one of them or a list.
+
+    default: which one is meant where nothing is said, None if that must be said.
+    """
+
+    base: type[Description]
+    many: bool = False
+    default: type[Description] | None = None
+
+
+PARTS: dict[type[Description], dict[str, Place]] = {
+    Scenario: {
+        "robots": Place(Robot, many=True, default=Robot),
+        "props": Place(Prop, many=True),
+        "joints": Place(Joint, many=True),
+        "addons": Place(Addon, many=True),
+        "neighbours": Place(Neighbourhood),
+        "animation": Place(Animation, default=Animation),
+    },
+    Robot: {
+        "drive": Place(Drive, default=Unicycle),
+        "shape": Place(Shape),
+        "sensors": Place(Sensor, many=True),
+    },
+    Solid: {"shape": Place(Shape)},
+    Compound: {"parts": Place(Shape, many=True)},
+    Communication: {"burst": Place(Burst, default=Burst)},
+}
+"""Which fields hold parts."""
+
+
+def parts_of(kind: type[Description]) -> dict[str, Place]:
+    """Return which fields of a class hold parts, those that it inherits included."""
+    return {name: at for base in kind.__mro__ for name, at in PARTS.get(base, {}).items()}
+
+
+def kinds_of(base: type[Description]) -> dict[str, type[Description]]:
+    """Return all classes by name that a file may hold where a `base` is expected."""
+    return {kind.__name__: kind for kind in _kinds().values() if issubclass(kind, base)}
+
+
+def changed(part: Description, index: int = 0) -> dict[str, Any]:
+    """Return the fields of a part that differ from their defaults, in order.
+
+    index: where it stands in its list. The name that a scenario gives a robot or prop there anyway
+    is left out.
+
+    >>> changed(Robot(mass=2.0, diameter=0.3, name="robot0"))
+    {'mass': 2.0}
+    """
+    found = {}
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        anyway = field.name == "name" and value == _name_anyway(part, index)
+        if not (anyway or _is_default(field, value)):
+            found[field.name] = value
+    return found
+
+
+def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
+    if field.default_factory is not dataclasses.MISSING:
+        return bool(field.default_factory() == value)
+    return bool(field.default == value)  # of a field without one, MISSING equals nothing
+
+
+def _name_anyway(part: Description, index: int) -> str | None:
+    if isinstance(part, Robot):
+        return f"robot{index}"
+    return f"{snake_case(type(part).__name__)}{index}" if isinstance(part, Prop) else None
+
+
+def from_description(value: Any) -> Any:
+    """Return a description as dicts, lists, text and numbers; of a function there is its name."""
+    if isinstance(value, Description):
+        kind = type(value)
+        if kind.__module__.startswith("mars2d."):
+            return {"type": _type_of(kind), **_fields(value)}
+        for base in (Scenario, Robot, Animation):  # one derived from these is one of them
+            if isinstance(value, base):
+                return {"type": base.__name__, **_fields(value, base)}
+        family = next(name for name, base in _FAMILIES.items() if isinstance(value, base))
+        package = package_of(_FOLDERS[family], kind) if family in _FOLDERS else None
+        shipped = {} if package is None else {"from": package}
+        own = {"type": kind.__name__, "own": family, **shipped}
+        return own | _fields(value) | _moving(value)
+    if isinstance(value, (list, tuple)):
+        return [from_description(item) for item in value]
+    if value is None or isinstance(value, (bool, int, float, str)):
+        return value
+    return {"function": getattr(value, "__name__", type(value).__name__)}
+
+
+def _fields(value: Description, kind: type[Description] | None = None) -> dict[str, Any]:
+    """Return the fields of a description made plain, or those of a class that it derives from."""
+    fields = dataclasses.fields(kind or type(value))
+    return {f.name: from_description(getattr(value, f.name)) for f in fields}
+
+
+def _moving(value: Description) -> dict[str, Any]:
+    """Return what of a part of the user's own matters to motion; its code is not in the file."""
+    if isinstance(value, Addon):
+        return {"obstacles": from_description(value.obstacles())}
+    if isinstance(value, Prop):
+        mass, moment = value.inertia
+        friction, restitution = value.surface
+        return {
+            "shape": from_description(value.shape), "mass": mass, "moment": moment,
+            "friction": friction, "restitution": restitution,
+            "joints": from_description(value.joints()),
+        }  # fmt: skip
+    if isinstance(value, Shape):
+        parts = [
+            Disc(2 * radius, center=points[0]) if radius else Polygon(points)
+            for points, radius in value.rims
+        ]
+        return {"parts": from_description(parts)}
+    return {}
+
+
+_FAMILIES: dict[str, type[Description]] = {
+    "drive": Drive,
+    "prop": Prop,
+    "joint": Joint,
+    "shape": Shape,
+    "add-on": Addon,
+    "neighbourhood": Neighbourhood,
+    "sensor": Description,
+}
+"""What parts of the user's own are called."""
+
+_FOLDERS = {
+    "drive": "bodies", "prop": "props", "joint": "joints", "add-on": "addons", "sensor": "sensors",
+}  # fmt: skip
+"""Of those, the families in which another package can ship a part by an entry point."""
+
+LOST = "This is code, which is not written down"
+"""What files say of parts that they do not hold."""
+
+MOVING = ("drive", "joint", "shape")
+"""Without such parts of the user's own a scenario does not move as it did."""
+
+
+def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
+    """Return the scenario that `from_description` made plain, and what is missing of it.
+
+    Laws do not come back, nor do parts that hold a function of the user's own, nor what is of the
+    user's own itself: sensors and joints are left out, of add-ons only the obstacles stay. A prop
+    is replaced by a Solid of its shape, mass and surface, a shape by the parts that were drawn of
+    it, a drive by a Unicycle, a neighbourhood by Everyone.
+    All are named in the second value, as ``sensor Eyes``. A part that a package ships by an entry
+    point comes back where that package is installed, else it is named with it, as
+    ``sensor Lidar (of the package acme)``. Raises InputError for anything that is no scenario.
+    """
+    missing: list[str] = []
+    result = _to_description(data, missing)
+    if not isinstance(result, Scenario):
+        raise InputError(f"expected a scenario, found {type(result).__name__}")
+    return result, tuple(dict.fromkeys(missing))
+
+
+def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
+    """Return a scenario without code of the user's own but for laws, and what is missing of it.
+
+    What is missing, and what stands in for it, is as after `to_scenario`.
+    """
+    kept, missing = to_scenario(from_description(scenario))
+    pairs = zip(kept.robots, scenario.robots, strict=True)
+    robots = [robot.replace(controller=original.controller) for robot, original in pairs]
+    return kept.replace(robots=robots), missing
+
+
+def to_value(data: Any) -> Any:
+    """Return what `from_description` made plain of one field; LookupError if that is lost."""
+    missing: list[str] = []
+    value = _to_description(data, missing)
+    if missing:
+        raise LookupError(", ".join(missing))
+    return value
+
+
+def _to_description(value: Any, missing: list[str]) -> Any:
+    if isinstance(value, list):
+        items = [_to_description(item, missing) for item in value]
+        return [item for item in items if item is not _LEFT_OUT]
+    if not isinstance(value, dict):
+        return value
+    if _is_function(value):
+        return value["function"]
+    if "from" in value:
+        shipped = _shipped(value, missing)
+        if shipped is not None:
+            return shipped
+    unread = ("type", "own", "from", "controller")
+    functions = [v["function"] for k, v in value.items() if k not in unread and _is_function(v)]
+    if functions and "own" not in value:
+        missing.append(f"{value['type']}, with its function {functions[0]}")
+        return _LEFT_OUT
+    fields = {k: _to_description(v, missing) for k, v in value.items() if k not in unread}
+    if "own" in value:
+        package = f" (of the package {value['from']})" if "from" in value else ""
+        missing.append(f"{value['own']} {value['type']}{package}")
+        if value["own"] == "prop":
+            missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
+        return _stand_in(value["own"], fields)
+    return _kinds()[value["type"]](**fields)
+
+
+def _is_function(value: Any) -> bool:
+    return isinstance(value, dict) and [*value] == ["function"]
+
+
+def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:
+    """Return a part of another package; None if it is not installed, or has other fields now."""
+    kind = plugin(_FOLDERS[value["own"]], value["type"], value["from"])
+    if kind is None:
+        return None
+    lost: list[str] = []
+    fields = {
+        f.name: _to_description(value[f.name], lost)
+        for f in dataclasses.fields(kind)
+        if f.name in value
+    }
+    try:
+        part = kind(**fields)
+    except Exception:  # another version's fields, or checks
+        return None
+    missing.extend(lost)
+    return part
+
+
+@cache
+def _kinds() -> dict[str, type[Description]]:
+    kinds: dict[str, type[Description]] = {kind.__name__: kind for kind in _KNOWN}
+    for family in ("bodies", "sensors", "addons", "props", "joints"):
+        for name, kind in members(family).items():
+            kinds[f"{family}.{name}" if name in kinds else name] = kind
+    return kinds
+
+
+def _type_of(kind: type[Description]) -> str:
+    """Return how a class is called in a file: its name, with its family if two have the name."""
+    own = f"{family_of(kind)}.{kind.__name__}"
+    return own if own in _kinds() else kind.__name__
+
+
+_KNOWN = (
+    Scenario, Robot, Animation, Disc, Polygon, Compound, Burst,
+    Everyone, Within, Nearest, Delaunay, Graph,
+)  # fmt: skip
+
+
+def _stand_in(family: str, fields: dict[str, Any]) -> Any:
+    """Return what stands for a part of the user's own, or that it is left out."""
+    if family == "drive":
+        return Unicycle(**{f.name: fields[f.name] for f in dataclasses.fields(Drive)})
+    if family == "prop":
+        kept = {f.name: fields[f.name] for f in dataclasses.fields(Prop)}
+        return Solid(fields["shape"], **kept)
+    if family == "shape":
+        return Compound(fields["parts"])
+    if family == "neighbourhood":
+        return Everyone()
+    if family == "add-on" and fields["obstacles"]:
+        kept = {f.name: fields[f.name] for f in dataclasses.fields(Addon)}
+        return Map(fields["obstacles"], **kept)
+    return _LEFT_OUT
+
+
+_LEFT_OUT = object()

@@ -1,0 +1,151 @@
+"""Whether bodies start where they can: within the workspace, off obstacles, apart."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mars2d.bodies.rigid import Rigid
+from mars2d.core.errors import InputError, shown
+from mars2d.core.plane import Outline, distance_to_ring, lines_and_areas, outside_polygon
+
+if TYPE_CHECKING:
+    import shapely
+
+__all__ = ["check_apart", "check_in_workspace", "check_off_obstacles", "check_off_walls"]
+
+SMOOTH = 64
+"""Corners a quarter of a circle, where a disc is compared with a polygon."""
+
+
+def check_in_workspace(robots: Sequence[Rigid], workspace: Outline) -> None:
+    """Refuse robots whose pose lies outside the workspace."""
+    x, y, _ = np.array([robot.pose for robot in robots]).T
+    for i in np.flatnonzero(outside_polygon(x, y, np.array(workspace))).tolist():
+        raise InputError(
+            f"{_pose(robots[i])}: starts outside the workspace"
+            " (Scenario.workspace, or on_exit='ignore' to let it)"
+        )
+
+
+def check_off_walls(bodies: Sequence[Rigid], workspace: Outline, overlap: float) -> None:
+    """Refuse bodies that start in or beyond the wall round the workspace."""
+    corners = np.array(workspace)
+    discs = [body for body in bodies if body.is_disc]
+    if discs:
+        x, y = np.array([body.bound[0] for body in discs]).T
+        gaps = distance_to_ring(x, y, corners)
+        outside = outside_polygon(x, y, corners)
+        for body, gap, out in zip(discs, gaps.tolist(), outside.tolist(), strict=True):
+            radius = body.bound[1]
+            if out or gap < radius - _allowed(body, overlap):
+                raise InputError(
+                    f"{_pose(body)}: starts in the workspace's wall, "
+                    f"{gap:.3g} m from its centre; its radius is {radius:g} m"
+                )
+    if len(discs) == len(bodies):
+        return
+    import shapely
+
+    room = shapely.Polygon(workspace)
+    for body in bodies:
+        if not body.is_disc and not room.contains(_core(body, overlap)):
+            raise InputError(f"{_pose(body)}: starts in the workspace's wall, or outside")
+
+
+def check_off_obstacles(
+    bodies: Sequence[Rigid], outlines: Sequence[Outline], overlap: float
+) -> None:
+    """Refuse bodies that start inside an obstacle, or cut into one."""
+    import shapely
+
+    shapes = lines_and_areas(outlines)
+    tree = shapely.STRtree(shapes)
+    for body in bodies:
+        middle, radius = body.bound
+        center = shapely.Point(middle)
+        if body.is_disc:
+            found = tree.query(center, "dwithin", radius - _allowed(body, overlap))
+        else:
+            found = tree.query(_core(body, overlap), "intersects")
+        for k in sorted(found):
+            solid = len(outlines[k]) > 2 and shapes[k].contains(center)
+            hint = " (if it is a room, draw it as walls of two points)" if solid else ""
+            raise InputError(
+                f"{_pose(body)}: starts {'inside' if solid else 'in contact with'} obstacle {k}, "
+                f"{shown(outlines[k], 80)}{hint}"
+            )
+
+
+def check_apart(
+    bodies: Sequence[Rigid], overlap: float, joined: Collection[tuple[int, int]] = ()
+) -> None:
+    """Refuse bodies that start inside each other, unless they share a hinge.
+
+    joined: pairs (i, j), i < j, of bodies that may overlap.
+    """
+    centers = np.array([body.bound[0] for body in bodies])
+    radii = np.array([body.bound[1] for body in bodies])
+    allowed = min(_allowed(body, overlap) for body in bodies)
+    # Sweep along the longer side: who comes later than the reach is too far away.
+    along = centers[:, np.argmax(np.ptp(centers, axis=0))]
+    order = np.argsort(along, kind="stable")
+    ends = np.searchsorted(along[order], along[order] + 2 * radii.max(), side="right")
+    for place, i in enumerate(order):
+        others = order[place + 1 : ends[place]]
+        gaps = np.hypot(*(centers[others] - centers[i]).T) - radii[others] - radii[i]
+        for k in np.flatnonzero(gaps < -allowed):
+            a, b = sorted((int(i), int(others[k])))
+            if (a, b) in joined:
+                continue
+            depth = _depth(bodies[a], bodies[b], float(-gaps[k]), overlap)
+            if depth > 0:
+                raise InputError(
+                    f"{_pose(bodies[a])} and of {bodies[b].name} = {bodies[b].pose}: "
+                    f"they start {depth:.3g} m inside each other"
+                )
+
+
+def _depth(a: Rigid, b: Rigid, of_bounds: float, overlap: float) -> float:
+    """Return about how deep two bodies overlap, metres; 0 if they do not, or no deeper than may be.
+
+    of_bounds: how deep the circles round them do.
+    """
+    if a.is_disc and b.is_disc:
+        return of_bounds
+    import shapely
+
+    common = shapely.intersection(_core(a, overlap), footprint(b))
+    if common.is_empty:
+        return 0.0
+    return float(max(overlap, 2 * shapely.maximum_inscribed_circle(common).length))
+
+
+def footprint(body: Rigid) -> shapely.Geometry:
+    """Return the ground that a body covers at the start."""
+    import shapely
+
+    parts = []
+    for rim in body.shape.rims:
+        points = [body.to_world(point) for point in rim.points]
+        if len(points) == 1:
+            parts.append(shapely.Point(points[0]).buffer(rim.radius, quad_segs=SMOOTH))
+        else:
+            parts.append(shapely.Polygon(points))
+    return shapely.union_all(parts)
+
+
+def _core(body: Rigid, overlap: float) -> shapely.Geometry:
+    """Return a body's ground without the rim that may overlap."""
+    return footprint(body).buffer(-_allowed(body, overlap), join_style="mitre")
+
+
+def _allowed(body: Rigid, overlap: float) -> float:
+    """Return how deep a body may start in something, metres."""
+    return min(overlap, body.shape.thickness / 8)
+
+
+def _pose(body: Rigid) -> str:
+    return f"{body.kind}.pose of {body.name} = {body.pose}"

@@ -1,0 +1,456 @@
+"""Scenarios as TOML files, which people read and edit.
+
+``format = 1`` stands first, then the scenario's fields by their names. A part is a table with its
+`type`; robots and other lists are tables in ``[[ ]]``. A law is named as ``walk.py:walk``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from mars2d.core.atomic import replacing
+from mars2d.core.description import Check, Description, wrong
+from mars2d.core.errors import InputError, described, nearest, shown
+from mars2d.core.picture import image_file
+from mars2d.core.usercode import file_beside, name_of
+from mars2d.scenario import serialize
+from mars2d.scenario.experiment import law_in
+from mars2d.scenario.law_reference import Reference, seen_from
+from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.serialize import Place
+
+__all__ = ["FORMAT", "SUFFIX", "read", "save"]
+
+SUFFIX = ".toml"
+
+FORMAT = 1
+
+LARGEST = 5_000_000
+"""Bytes of a file."""
+
+MOST = 10_000
+"""Parts in one list."""
+
+DEEP = re.compile(r"""(?:\.[ \t]*+(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')[ \t]*+){20}""")
+"""A name within a name, and so on: the time to read one grows with the square of its depth."""
+
+LONG = re.compile(r"[=\[,][ \t]*+[+-]?(?:0[xob])?[\da-fA-F_]{1000}")
+"""A number whose digits would fill the memory while they are read."""
+
+NONE = "none"
+"""What stands for None."""
+
+Law = Callable[[Any], Any]
+
+
+# -- writing -----------------------------------------------------------------------------------
+
+
+def save(scenario: Scenario, path: str | Path, control: Law | str | None = None) -> tuple[str, ...]:
+    """Write a scenario to a file, and return what could not be written, as ``add-on Lamps``.
+
+    control: the law of the team, a function or ``team.py:control``. Of a law the file names the
+    place: only a function at the top of a file can be found again. What else is code is left out,
+    or replaced as in a record that is loaded (see `Record.missing`); comments in the file say so.
+    What was in the file before is lost. Raises InputError where it can't be written.
+    """
+    path = Path(path)
+    if path.suffix.lower() != SUFFIX:
+        raise InputError(f"{path}: a scenario is saved as {SUFFIX}, this ends in {path.suffix!r}")
+    writer = _Writer(path.parent)
+    try:
+        text = writer.text(scenario, path.name, control).encode()
+    except UnicodeEncodeError as error:
+        line = shown(error.object[: error.end].rpartition("\n")[2])
+        raise InputError(f"{path}: half a character can't be written, in {line}") from None
+    with replacing(path) as file:
+        file.write(text)
+    return tuple(dict.fromkeys(writer.missing))
+
+
+class _Writer:
+    """Writes a scenario as the text of a file in a folder.
+
+    missing: what could not be written.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.missing: list[str] = []
+
+    def text(self, scenario: Scenario, filename: str, control: Law | str | None) -> str:
+        """Return the whole file."""
+        kept, lost = serialize.without_code(scenario)
+        self.missing += lost
+        head = [comment(f"A scenario of MARS2D. Run it: mars2d run {filename}")]
+        head += [comment(f"{serialize.LOST}: {name}") for name in lost]
+        team = [] if control is None else [self._law("control", control)]
+        if control is None and not any(robot.controller for robot in kept.robots):
+            team = [
+                '# control = "my_law.py:control"  # a law of the team; without one it stands still'
+            ]
+        return "\n".join([*head, "", f"format = {FORMAT}", *team, *self._table(kept, "")]) + "\n"
+
+    def _table(self, part: Description, path: str, index: int = 0) -> list[str]:
+        """Return the lines of a part's table, but for its header.
+
+        path: its name with a full stop, nothing for the scenario. index: where it is in its list.
+        """
+        lines, below = [], []
+        fields, places = serialize.changed(part, index), serialize.parts_of(type(part))
+        for name in sorted(fields, key=lambda field: field != "name"):
+            value, place = fields[name], places.get(name)
+            if place is None or value is None:
+                lines.append(self._line(part, name, value))
+            elif place.many:
+                for i, item in enumerate(value):
+                    below += ["", f"[[{path}{name}]]", *_type(place, item)]
+                    below += self._table(item, f"{path}{name}.", i)
+            else:
+                line = f"{name} = {laid_out(self._in_line(place, value), width=LARGEST)}"
+                if len(line) <= WIDTH and (path or "{" not in line):
+                    lines.append(line)
+                else:
+                    below += ["", f"[{path}{name}]", *_type(place, value)]
+                    below += self._table(value, f"{path}{name}.")
+        return lines + below
+
+    def _line(self, part: Description, name: str, value: Any) -> str:
+        """Return the line of a field, or the lines."""
+        if callable(value):
+            return self._law(name, value)
+        node = self._node(part, name, value)
+        if isinstance(node, Brackets):
+            return laid_out(node._replace(opening=f"{name} = {node.opening}"))
+        return f"{name} = {node}"
+
+    def _law(self, field: str, law: Law | str) -> str:
+        """Return the line that names a law, or a comment that says why there is none."""
+        if isinstance(law, str):
+            Reference.read(field, law)
+            return f"{field} = {quoted(law)}"
+        found = Reference.of(law)
+        if found is None:
+            self.missing.append(f"law {name_of(law)}")
+            hint = f'add {field} = "file.py:function"'
+            return comment(f"law: {name_of(law)} can't be written down; {hint}")
+        return f"{field} = {quoted(f'{seen_from(found.file, self.folder)}:{found.name}')}"
+
+    def _in_line(self, place: Place, part: Description) -> Node:
+        """Return a part as a table in one line; its type alone if it has nothing else to say."""
+        places = serialize.parts_of(type(part))
+        items: list[Node] = [*_type(place, part)]
+        for name, value in serialize.changed(part).items():
+            inner = places.get(name)
+            if inner is None or value is None:
+                node = self._node(part, name, value)
+            elif inner.many:
+                node = Brackets("[", [self._in_line(inner, item) for item in value], "]")
+            else:
+                node = self._in_line(inner, value)
+            items.append(Brackets(f"{name} = ", [node], ""))
+        if items == [*_type(place, part)]:
+            return quoted(type(part).__name__)
+        return Brackets("{ ", items, " }")
+
+    def _node(self, part: Description, name: str, value: Any) -> Node:
+        """Return the value of a field that holds no parts."""
+        check = type(part).__dataclass_fields__[name].metadata.get("check")
+        if check is image_file and value is not None and Path(value).is_absolute():
+            return quoted(seen_from(value, self.folder))
+        return self._plain(value)
+
+    def _plain(self, value: Any) -> Node:
+        """Return what is plain as TOML has it."""
+        if value is None:
+            return quoted(NONE)
+        if isinstance(value, bool):
+            return str(value).lower()
+        if isinstance(value, (int, float)):
+            return numeral(value)
+        if isinstance(value, str):
+            return quoted(value)
+        if isinstance(value, Description):  # in another package's part
+            return self._in_line(Place(Description), value)
+        return Brackets("[", [self._plain(item) for item in value], "]", filled=True)
+
+
+def _type(place: Place, part: Description) -> list[str]:
+    """Return the line that says of which type a part is, where there is more than one."""
+    kind = type(part)
+    return [] if kind is place.base else [f"type = {quoted(kind.__name__)}"]
+
+
+# -- reading -----------------------------------------------------------------------------------
+
+
+def read(path: str | Path) -> tuple[Scenario, Law | None]:
+    """Return the scenario in a file, and the law of its team or None.
+
+    What it names, laws and images, lies beside it or in the current folder. Each law is loaded anew
+    for each robot, as by `load_law`. Raises InputError, which says what is wrong, in which line,
+    and what was expected.
+    """
+    path = Path(path)
+    if path.suffix.lower() != SUFFIX:
+        raise InputError(f"{path}: expected a scenario, a file that ends in {SUFFIX}")
+    text = _text(path)
+    _check_names_and_numbers(path, text)
+    try:
+        return _Reader(path, text).scenario(_parsed(path, text))
+    except RecursionError:
+        raise InputError(f"{path}: lists and tables lie in each other too deeply") from None
+
+
+def _text(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{path}: can't be read: {reason}") from error
+    if len(data) > LARGEST:
+        raise InputError(f"{path}: expected at most {LARGEST / 1e6:g} MB, it is larger")
+    try:
+        return data.decode("utf-8-sig")  # some editors begin with a mark
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        raise _at(f"{path.name}, line {line}", "expected text in UTF-8; save it so") from None
+
+
+def _check_names_and_numbers(path: Path, text: str) -> None:
+    """Refuse what the parser would read for hours, or with all memory there is."""
+    problems = (
+        (DEEP, "tables lie in each other too deeply"),
+        (LONG, "a number has too many digits"),
+    )
+    for pattern, problem in problems:
+        found = pattern.search(text)
+        if found is not None:
+            line = text.count("\n", 0, found.start() + 1) + 1
+            raise _at(f"{path.name}, line {line}", problem)
+
+
+def _parsed(path: Path, text: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except ValueError as error:  # also of a number with too many digits
+        message, place, found = str(error).partition(" (at ")
+        if not place:
+            raise _at(path.name, "a number has too many digits") from None
+        number = re.match(r"line (\d+)", found)
+        if number is None:
+            raise _at(f"{path.name}, at its end", message) from None
+        line = text.split("\n")[int(number[1]) - 1].strip()
+        problem = f"{message}: {shown(line)[1:-1]}" if line else message
+        hint = HINT if PYTHON.search(line) else ""
+        raise _at(f"{path.name}, line {number[1]}", problem + hint) from None
+
+
+PYTHON = re.compile(r"=\s*\(|\b(True|False|None)\b")
+"""What is written otherwise in TOML."""
+
+HINT = "; TOML writes true, false and [1, 2]; what is None is left out"
+
+
+def _at(where: str, problem: str) -> InputError:
+    error = InputError(problem)
+    error.where = where
+    return error
+
+
+class _Reader:
+    """Makes a scenario of what a file says, and points at what is wrong there.
+
+    Tables are called ``robots[2].drive``, the scenario's own is empty.
+    """
+
+    def __init__(self, path: Path, text: str) -> None:
+        self.path = path
+        self._lines = _lines_of(text)
+
+    def scenario(self, data: dict[str, Any]) -> tuple[Scenario, Law | None]:
+        """Return the scenario, and the law of its team."""
+        self._check_format(data)
+        control = data.get("control")
+        fields = {name: value for name, value in data.items() if name not in HEADS}
+        scenario = self._part(Place(Scenario, default=Scenario), fields, "")
+        assert isinstance(scenario, Scenario)
+        return scenario, None if control is None else self._law("control", control, "the world")
+
+    def _check_format(self, data: dict[str, Any]) -> None:
+        if "format" not in data:
+            raise _at(self.path.name, f"no scenario: the first line should be format = {FORMAT}")
+        found = data["format"]
+        if isinstance(found, bool) or not isinstance(found, int) or found < 1:
+            raise self._wrong("format", found, str(FORMAT))
+        if found > FORMAT:
+            problem = f"format = {found}: newer than this MARS2D, which reads {FORMAT}"
+            raise _at(self._where("", "format"), problem)
+
+    def _part(self, place: Place, value: Any, at: str) -> Description:
+        """Return a part: of a table, or of its type's name alone."""
+        if isinstance(value, str):
+            value = {"type": value}
+        if not isinstance(value, dict):
+            example = place.default or min(serialize.kinds_of(place.base).values(), key=repr)
+            shape = f"as {{ type = {quoted(example.__name__)} }}"
+            raise self._wrong(at, value, f"a table, {shape}")
+        kind = self._kind(place, value.get("type"), at)
+        fields = {field.name: field for field in dataclasses.fields(kind)}
+        values = {}
+        for name, item in value.items():
+            if name in fields:
+                values[name] = self._field(kind, fields[name], item, _inside(at, name))
+            elif name != "type":
+                known = [*fields, *(HEADS if kind is Scenario else ["type"])]
+                problem = f"{kind.__name__} has no field {name!r}{nearest(name, known)}"
+                raise _at(self._where(at, name), problem)
+        try:
+            return kind(**values)
+        except InputError as error:
+            named = re.match(rf"{kind.__name__}\.(\w+(?:\[\d+\])*)", str(error))
+            error.where = error.where or self._where(at, named[1] if named else "")
+            error.args = (error.args[0].replace("True or False", "true or false"),)
+            raise
+        except Exception as error:  # of another package's part
+            raise _at(self._where(at), f"{kind.__name__}: {described(error)}") from error
+
+    def _kind(self, place: Place, name: object, at: str) -> type[Description]:
+        """Return the class that a type's name means, or that is meant where there is none."""
+        if name is None and place.default is not None:
+            return place.default
+        kinds = serialize.kinds_of(place.base)
+        if name is None:
+            example = f"as type = {quoted(min(kinds))}"
+            raise _at(self._where(at), f"its type is missing, {example}{nearest('', kinds)}")
+        if not isinstance(name, str) or name not in kinds:
+            problem = f"type = {shown(name)}: no {place.base.__name__} is called so"
+            raise _at(self._where(at, "type"), problem + nearest(name, kinds))
+        return kinds[name]
+
+    def _field(
+        self, kind: type[Description], field: dataclasses.Field[Any], value: Any, at: str
+    ) -> Any:
+        """Return the value of a field, not checked yet."""
+        check = field.metadata.get("check")
+        if value == NONE and check is not None and _accepts(check, None):
+            return value if _accepts(check, NONE) else None
+        place = serialize.parts_of(kind).get(field.name)
+        if place is not None:
+            return self._parts(place, value, at) if place.many else self._part(place, value, at)
+        if field.name == "controller" and issubclass(kind, Robot):
+            return self._law(at, value, "the robot")
+        if check is image_file and isinstance(value, str):
+            return self._image(value)
+        return self._plain(value, at)
+
+    def _parts(self, place: Place, value: Any, at: str) -> Any:
+        if isinstance(value, dict):
+            header = re.sub(r"\[\d+\]", "", at)
+            problem = f"{header}: expected a list of tables; write [[{header}]] above each"
+            raise _at(self._where(*_split(at)), problem)
+        if not isinstance(value, list):
+            return value  # as robots = 5, or to be refused
+        if len(value) > MOST:
+            problem = f"{_split(at)[1]}: expected at most {MOST}, not {len(value)}"
+            raise _at(self._where(*_split(at)), problem)
+        return [self._part(place, item, f"{at}[{i}]") for i, item in enumerate(value)]
+
+    def _image(self, name: str) -> str:
+        """Return the name of an image, with its folder if it lies beside the file."""
+        beside = self.path.absolute().parent / name
+        try:
+            return str(beside) if beside.is_file() else name
+        except OSError:  # such as a name that is too long
+            return name
+
+    def _plain(self, value: Any, at: str) -> Any:
+        """Return a value of lists, text and numbers; a table with a type is a part."""
+        if isinstance(value, list):
+            return [self._plain(item, at) for item in value]
+        if isinstance(value, dict):
+            if "type" in value:
+                return self._part(Place(Description), value, at)
+            return {name: self._plain(item, at) for name, item in value.items()}
+        return value
+
+    def _law(self, at: str, value: Any, subject: str) -> Law:
+        try:
+            reference = Reference.read(_split(at)[1], value)
+            file = file_beside(Path(reference.file), self.path, "a law", [".py"])
+            return law_in(file, reference.name, subject)
+        except InputError as error:
+            error.where = error.where or self._where(*_split(at))
+            raise
+        except OSError as error:  # such as a name that is too long
+            raise self._wrong(at, value, "the name of a file") from error
+
+    def _wrong(self, at: str, value: object, expected: str) -> InputError:
+        table, field = _split(at)
+        return _at(self._where(table, field), str(wrong(field, value, expected)))
+
+    def _where(self, table: str, field: str = "") -> str:
+        """Return what an error points at: the file, the line if it is known, and the table."""
+        place = _inside(table, field) if field else table
+        while place and place not in self._lines:  # of what lies in one line, that line
+            place = place[: max(place.rfind("."), place.rfind("["), 0)]
+        line = f"line {self._lines[place]}" if place else ""
+        return ", ".join(filter(None, [self.path.name, line, table]))
+
+
+HEADS = ("format", "control")
+"""What a file says beside the fields of its scenario."""
+
+
+def _inside(at: str, name: str) -> str:
+    return f"{at}.{name}" if at else name
+
+
+def _split(at: str) -> tuple[str, str]:
+    """Return the table and the field of ``robots[2].drive``."""
+    table, _, field = at.rpartition(".")
+    return table, field
+
+
+def _accepts(check: Check, value: object) -> bool:
+    try:
+        check("", value)
+    except Exception:  # which is how another package's may refuse
+        return False
+    return True
+
+
+HEADER = re.compile(r"(\[\[?)\s*([A-Za-z_]\w*(?:\s*\.\s*\w+)*)\s*\]\]?\s*(?:#.*)?")
+KEY = re.compile(r"([A-Za-z_]\w*)\s*[.=]")
+
+
+def _lines_of(text: str) -> dict[str, int]:
+    r"""Return in which line each table and each field begins, by their places.
+
+    >>> _lines_of('format = 1\n[[robots]]\npose = [1, 2]\n[robots.drive]')
+    {'format': 1, 'robots[0]': 2, 'robots[0].pose': 3, 'robots[0].drive': 4}
+    """
+    found: dict[str, int] = {}
+    last: dict[str, int] = {}  # the index of the last table in each list
+    table = ""
+    for number, line in enumerate(map(str.strip, text.split("\n")), 1):
+        header, key = HEADER.fullmatch(line), KEY.match(line)
+        if header is not None:
+            table, names = "", re.split(r"\s*\.\s*", header[2])
+            for name in names:
+                table = _inside(table, name)
+                if header[1] == "[[" and name is names[-1]:
+                    last[table] = last.get(table, -1) + 1
+                table += f"[{last[table]}]" if table in last else ""
+            found.setdefault(table, number)
+        elif key is not None:
+            found.setdefault(_inside(table, key[1]), number)
+    return found

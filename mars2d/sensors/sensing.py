@@ -1,0 +1,264 @@
+"""Sensors at work: when each measures, when its reading arrives, and what a law finds of it."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import UnknownNameError, nearest
+from mars2d.core.usercode import called
+from mars2d.sensors.base import Sensor, Surroundings
+
+if TYPE_CHECKING:
+    from mars2d.world.views import RobotView
+
+__all__ = ["Device", "Sense", "Sensing"]
+
+
+class Sense(SimpleNamespace):
+    """The readings of one robot's sensors now, as attributes: ``robot.sense.proximity``."""
+
+    __slots__ = ("_due", "_names", "_robot")
+
+    def __init__(self, robot: str) -> None:
+        super().__init__()
+        self._robot = robot
+        self._names: list[str] = []  # of all sensors
+        self._due: dict[str, Callable[[], Any]] = {}  # what measures when it is asked for
+
+    def _expect(self, name: str, measure: Callable[[], Any]) -> None:
+        """Let a reading be measured when it is asked for."""
+        vars(self).pop(name, None)
+        self._due[name] = measure
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in self._due:
+            self._refuse(name)
+        vars(self)[name] = self._due[name]()
+        del self._due[name]
+        return vars(self)[name]
+
+    def __dir__(self) -> list[str]:
+        return [*vars(self), *self._due]
+
+    def _refuse(self, name: str) -> NoReturn:
+        if name in self._names:
+            raise UnknownNameError(
+                f"sensor {name!r} has no reading now: at each control step sensors are read after "
+                "the add-ons' on_step and before their on_sensed; between steps World.observe() "
+                "reads them"
+            )
+        known = nearest(name, self._names) if self._names else "; it carries none"
+        raise UnknownNameError(f"{self._robot} has no sensor {name!r}{known}")
+
+
+class Device:
+    """One sensor on one robot.
+
+    reading: what is recorded and drawn at this control step; None if nothing was measured.
+    """
+
+    def __init__(
+        self,
+        sensor: Sensor,
+        robot: RobotView,
+        world: Surroundings,
+        stream: Callable[[str], np.random.Generator],
+    ) -> None:
+        """Take the sensor, its robot and world, and what makes a random stream of a name."""
+        self.described = sensor
+        self.sensor = sensor.live()
+        self.key, self.robot = sensor.key, robot.index
+        self.reading: Any = None
+        self._shown: Any = None  # what a law gets of it
+        self.view, self.world = robot, world
+        self._stream, self._name = stream, f"sensor {robot.name} {sensor.key}"
+        self.rng = stream(self._name)
+        self._sense: Sense = robot.sense
+        self._sense._names.append(self.key)
+        self._readings = vars(self._sense)
+        self.period = sensor.period(world.sampling_time)
+        self.age = sensor.age(world.sampling_time)
+        self._on_its_way: deque[tuple[int, Any]] = deque()
+        self.when_asked = not sensor.recorded and self.period == 1 and self.age == 0
+        self.follows = type(sensor).on_step is not Sensor.on_step
+        self._shows_more = type(sensor).shown is not Sensor.shown
+        self.reading_it = called(f"sensor {self.key!r}", self.sensor.read)
+        with called(f"sensor {self.key!r}", self.sensor.on_start):
+            self.sensor.on_start(robot, world, self.rng)
+
+    def follow(self) -> None:
+        """Do what the sensor does at each control step, whether it is read or not."""
+        with called(f"sensor {self.key!r}", self.sensor.on_step):
+            self.sensor.on_step(self.view, self.world, self.rng)
+
+    def step(self, iteration: int) -> None:
+        """Measure, if it is time, and show what has arrived."""
+        if self.when_asked:
+            self.reading = None
+            self._sense._expect(self.key, lambda: self._measured_when_asked(iteration))
+            return
+        if iteration % self.period == 0:
+            self.send(self._measured(self.rng), iteration)
+        self.show(iteration)
+
+    def send(self, measured: Any, iteration: int) -> None:
+        """Let a measurement of this control step be on its way."""
+        if self.age == 0:
+            self._take(measured)
+            return
+        if self.reading is None:
+            with self.reading_it:
+                self._take(self.sensor.lost(measured))
+        self._on_its_way.append((iteration + self.age, measured))
+
+    def show(self, iteration: int) -> None:
+        """Show what has arrived by this control step."""
+        if self._on_its_way and self._on_its_way[0][0] <= iteration:
+            self._take(self._on_its_way.popleft()[1])
+        self._readings[self.key] = self._shown
+
+    def hide(self) -> None:
+        """Let nobody take the reading of the control step before for that of this one."""
+        self._readings.pop(self.key, None)
+
+    def close(self) -> None:
+        """Let nothing of this control step be measured any more, since things begin to move."""
+        self._sense._due.pop(self.key, None)
+
+    def _measured_when_asked(self, iteration: int) -> Any:
+        """Measure with random numbers of this control step's own: asking changes nothing later."""
+        self._take(self._measured(self._stream(f"{self._name} {iteration}")))
+        return self._shown
+
+    def _measured(self, rng: np.random.Generator) -> Any:
+        with self.reading_it:
+            reading = self.sensor.read(self.view, self.world, rng)
+            return _kept(self.sensor.measured(reading, rng))
+
+    def _take(self, reading: Any) -> None:
+        """Let this be the reading from now on."""
+        self.reading = self._shown = reading
+        if self._shows_more:
+            with called(f"sensor {self.key!r}", self.sensor.shown):
+                self._shown = self.sensor.shown(reading)
+
+
+class _Team:
+    """Devices with equal sensors that are read together.
+
+    readings: those that are recorded at this control step, as one array; None if they are not one.
+    """
+
+    def __init__(self, devices: list[Device]) -> None:
+        """Take the devices, in the order of their robots."""
+        self.devices = devices
+        self._first = devices[0]
+        self._robots = [device.view for device in devices]
+        self._rngs = [device.rng for device in devices]
+        self.readings: NDArray[Any] | None = None
+
+    def step(self, iteration: int) -> None:
+        """Measure, if it is time, and show what has arrived."""
+        if iteration % self._first.period == 0:
+            for device, measured in zip(self.devices, self._measured(), strict=True):
+                device.send(measured, iteration)
+        for device in self.devices:
+            device.show(iteration)
+
+    def _measured(self) -> Sequence[Any]:
+        first = self._first
+        with first.reading_it:
+            found = first.sensor.read_all(self._robots, first.world, self._rngs)
+            measured = first.sensor.measured_all(found, self._rngs)
+            if not isinstance(measured, np.ndarray):
+                return [_kept(reading) for reading in measured]
+            block = np.array(measured)
+            block.flags.writeable = False
+            self.readings = block if first.age == 0 else None
+            return list(block)
+
+
+class Sensing:
+    """All devices of a world at work, those that are equal and measure alike read together.
+
+    devices: one by one, robot by robot.
+    """
+
+    def __init__(self, devices: Sequence[Device]) -> None:
+        """Take all devices, robot by robot."""
+        self.devices = devices
+        self._following = [device for device in devices if device.follows]
+        self._when_asked = [device for device in devices if device.when_asked]
+        groups = _grouped(devices)
+        self._parts = [_Team(group) if len(group) > 1 else group[0] for group in groups]
+        self._recorded: dict[str, list[Device]] = {}
+        for device in devices:
+            if device.sensor.recorded:
+                self._recorded.setdefault(device.key, []).append(device)
+        self._whole = {
+            part.devices[0].key: part
+            for part in self._parts
+            if isinstance(part, _Team) and part.devices == self._recorded.get(part.devices[0].key)
+        }
+
+    def hide(self) -> None:
+        """Let nobody take readings of the control step before for those of this one."""
+        for device in self.devices:
+            device.hide()
+
+    def step(self, iteration: int) -> None:
+        """Read all sensors that are due, and show what has arrived; all follow before that."""
+        for device in self._following:
+            device.follow()
+        for part in self._parts:
+            part.step(iteration)
+
+    def close(self) -> None:
+        """Let nothing of this control step be measured any more."""
+        for device in self._when_asked:
+            device.close()
+
+    def recorded(self) -> dict[str, Sequence[Any] | NDArray[Any]]:
+        """Return the readings that are to be recorded, robot by robot, by the sensors' names."""
+        readings: dict[str, Sequence[Any] | NDArray[Any]] = {}
+        for key, devices in self._recorded.items():
+            block = self._whole[key].readings if key in self._whole else None
+            readings[key] = [device.reading for device in devices] if block is None else block
+        return readings
+
+
+def _grouped(devices: Sequence[Device]) -> list[list[Device]]:
+    """Return devices that are read together, in the order of the first of each group."""
+    groups: dict[Device | Sensor, list[Device]] = {}
+    for device in devices:
+        groups.setdefault(device.described if _may_join(device) else device, []).append(device)
+    return list(groups.values())
+
+
+def _may_join(device: Device) -> bool:
+    """Return whether a device is read together with those whose sensors are equal."""
+    if device.when_asked or "read_all" not in vars(type(device.sensor)):
+        return False
+    try:
+        hash(device.described)
+    except TypeError:  # a field of the user's own, such as a list
+        return False
+    return True
+
+
+def _kept(reading: Any) -> Any:
+    """Return a reading as an array that can't be written, if it is one at all."""
+    if not isinstance(reading, (np.ndarray, list, tuple)):
+        return reading
+    try:
+        kept: NDArray[Any] = np.array(reading)
+    except ValueError:  # rows of different lengths: the recorder refuses it
+        return reading
+    kept.flags.writeable = False
+    return kept

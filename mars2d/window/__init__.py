@@ -1,0 +1,1 @@
+"""The windows that people sit at: the run window and the editor."""

@@ -1,0 +1,167 @@
+"""What a person changes of a run: who drives, where things are and stand, which past goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from mars2d.core.errors import InputError
+from mars2d.output.raster.painter import Painter
+from mars2d.scenario.changes import with_poses
+from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.hot_reload import carried, check_alike
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.driver import Driver
+from mars2d.window.editor import Editor, Outcome
+from mars2d.window.notes import Notes
+from mars2d.window.player import Player
+from mars2d.world.timeline import Progress, Timeline
+from mars2d.world.world import World
+
+__all__ = ["Director"]
+
+RECORDING = "this is a recording: it can be looked at, not changed"
+
+
+class Director:
+    """Changes the run that a player plays, at the instant that is seen; tells why it can't.
+
+    Where that instant is in the past, the run goes on from there as a branch of its own.
+    show_way_back: shows how much of the way back is done, and returns whether to go on.
+    """
+
+    def __init__(self, player: Player, notes: Notes, show_way_back: Progress) -> None:
+        self._player, self._notes, self._show_way_back = player, notes, show_way_back
+        self.timeline = player.source if isinstance(player.source, Timeline) else None
+        self.driver = Driver()
+        if self.timeline is not None:
+            player.error = self.timeline.error
+
+    def change(self, act: Callable[[World], None]) -> bool:
+        """Do something to the world; return whether that was done."""
+        timeline = self._live()
+        if timeline is None:
+            return False
+        back, branches = timeline.needs_way_back, len(timeline.branches)
+        try:
+            timeline.change(act, self._show_way_back)
+        except InputError as error:
+            self._notes.say(str(error), "warning")
+            return False
+        finally:
+            if back or not self._player.playing:  # else time goes on from where it is
+                self._player.settle()
+        self._player.error = None
+        if len(timeline.branches) > branches:
+            self._notes.say("a new branch begins here; B shows what was run before")
+        if timeline.remark:
+            self._notes.say(timeline.remark, "warning")
+        return True
+
+    def _live(self) -> Timeline | None:
+        """Return what can be changed; say so if that is nothing."""
+        if self.timeline is None:
+            self._notes.say(RECORDING, "warning")
+        return self.timeline
+
+    def other_branch(self) -> None:
+        """Look at what was run before something was changed."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        if not timeline.branches:
+            self._notes.say("there is no other branch: change something in the past to make one")
+            return
+        timeline.other_branch()
+        timeline.world.hands.let_go()
+        self._player.error = timeline.error
+        self._player.settle()
+        end = timeline.newest * timeline.scenario.sampling_time
+        again = "goes back" if len(timeline.branches) == 1 else "shows the next one"
+        self._notes.say(f"another branch, run until {end:.6g} s; B {again}")
+
+    # -- a robot driven by hand ---------------------------------------------------------------
+
+    def drive(self, robot: int) -> None:
+        """Let a robot be driven by hand from now on."""
+        if self._live() is None:
+            return
+        name = str(self._player.source.scenario.robots[robot].name)
+        self.driver.take(robot, name)
+        self._notes.say(f"arrow keys or WASD drive {name}, Shift slowly; H or Esc lets go")
+
+    def let_go(self) -> None:
+        """Give a robot that is driven by hand back to its law."""
+        robot = self.driver.robot
+        self.driver.release()
+        if robot is not None and self.timeline is not None:
+            self.timeline.world.hands.steer(robot, None)
+
+    def steer(self, seconds: float) -> None:
+        """Give the robot that is driven the command of the keys.
+
+        In the past there must be one, and time must pass: who looks back changes nothing.
+
+        seconds: since the last time.
+        """
+        robot, timeline = self.driver.robot, self.timeline
+        if robot is None or timeline is None or timeline.over:
+            return
+        command = self.driver.command(timeline.scenario.robots[robot].drive, seconds)
+        passes = self._player.playing or self._player.manual
+        wanted = passes and any(command)
+        if not timeline.needs_way_back:
+            timeline.world.hands.steer(robot, command)
+        elif wanted and not self.change(lambda world: world.hands.steer(robot, command)):
+            self.let_go()
+
+    # -- drawing on it ------------------------------------------------------------------------
+
+    def scenario_now(self) -> Scenario:
+        """The scenario with all bodies where they are seen."""
+        frame = self._player.frame
+        try:
+            return with_poses(frame.scenario, np.hstack([frame.pose, frame.prop_pose]))
+        except InputError as error:  # in the thick of a crowd bodies may overlap
+            self._notes.say(f"bodies are shown where they were at the start: {error}", "warning")
+            return frame.scenario
+
+    def editor(self, painter: Painter) -> Editor | None:
+        """Return an editor of what is seen."""
+        timeline = self._live()
+        if timeline is None:
+            return None
+        self._player.pause()
+        self.let_go()
+        path, control = timeline.experiment.path, timeline.world.control
+        return Editor(self.scenario_now(), painter, path=path, live=True, control=control)
+
+    def apply(self, outcome: Outcome) -> None:
+        """Go on from now, or from the start, with what was drawn."""
+        assert self.timeline is not None
+        if outcome.when == "start":
+            self._restart(self.timeline.experiment.redrawn(outcome.scenario))
+            return
+        before = self.scenario_now().bodies
+        bodies = enumerate(outcome.scenario.bodies)
+        moved = {i: body.pose for i, body in bodies if body.pose != before[i].pose}
+
+        def draw(world: World) -> None:
+            check_alike(world.scenario, outcome.scenario)
+            # In the past it is a world with laws of its own, which go on.
+            world.change(carried(world.scenario, outcome.scenario), world.control, moved)
+
+        if self.change(draw):
+            self._notes.say("what was drawn holds from now on; Space goes on")
+
+    def _restart(self, experiment: Experiment) -> None:
+        assert self.timeline is not None
+        try:
+            self.timeline.restart(experiment)
+        except InputError as error:
+            self._notes.say(str(error), "error")
+            return
+        self._player.error = None
+        self._player.settle()
+        self._notes.say("started anew with what was drawn; Space goes on")

@@ -1,0 +1,153 @@
+"""Is there a screen?"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from mars2d.core.errors import InputError
+from mars2d.output.raster import has_pygame
+
+if TYPE_CHECKING:
+    import pygame
+
+__all__ = [
+    "NO_DISPLAY",
+    "PICTURES_A_SECOND",
+    "be_quick",
+    "display_available",
+    "open_display",
+    "open_window",
+    "show_drawn",
+    "started_display",
+]
+
+NO_DISPLAY = (
+    "there is no display for a window; run it with --headless, draw a picture with "
+    "--figure OUT.png, or make a film with --video OUT.gif"
+)
+
+NOT_REAL = ("dummy", "offscreen", "evdev", "disk")
+ATTEMPTS = 3
+
+PICTURES_A_SECOND = 60
+"""How often a window is drawn."""
+REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
+"""A key that is held repeats after so many milliseconds, and then each so many."""
+
+
+def display_available() -> bool:
+    """Return whether a window could be opened that a person sees."""
+    wanted = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER") or ""
+    if wanted.lower() in NOT_REAL:
+        return False
+    if not has_pygame():
+        return False
+    import pygame
+
+    if pygame.display.get_init():
+        return pygame.display.get_driver() not in NOT_REAL
+    if sys.platform in ("win32", "darwin", "cygwin", "emscripten"):
+        return True
+    if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        return False
+    # The variable may name a screen that is gone, as after a lost ssh connection: try.
+    try:
+        open_display()
+    except InputError:
+        return False
+    pygame.display.quit()
+    return True
+
+
+def open_display() -> None:
+    """Start pygame's display. Raises InputError where there is none that a person sees."""
+    import pygame
+
+    from mars2d.window import lost
+    from mars2d.window.desktop import be_sharp
+
+    lost.check()
+    if pygame.display.get_init():
+        if pygame.display.get_driver() in NOT_REAL:
+            raise InputError(NO_DISPLAY)
+        return
+    be_sharp()
+    be_quick()
+    for attempt in range(ATTEMPTS):
+        try:
+            pygame.display.init()
+        except pygame.error:
+            # A bare X server starts anew when its last window has closed, and is deaf meanwhile.
+            if attempt + 1 < ATTEMPTS and os.environ.get("DISPLAY"):
+                time.sleep(0.1)
+            continue
+        if pygame.display.get_driver() not in NOT_REAL:
+            return
+        pygame.display.quit()
+        break
+    raise InputError(NO_DISPLAY)
+
+
+@contextmanager
+def started_display() -> Iterator[None]:
+    """Have pygame's display started meanwhile; end it then, unless it was there before.
+
+    Raises InputError where there is none that a person sees.
+    """
+    import pygame
+
+    from mars2d.window import lost
+
+    ours = not pygame.display.get_init()
+    open_display()
+    try:
+        yield
+    finally:
+        if ours:
+            lost.close()
+
+
+def open_window(size: tuple[int, int], icon: pygame.Surface) -> pygame.Surface:
+    """Return the surface of a new window of `size` pixels, where keys that are held repeat.
+
+    Raises InputError where it can't be opened.
+    """
+    import pygame
+
+    from mars2d.window import lost
+
+    lost.check()
+    pygame.display.set_icon(icon)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # desktops may choose another size
+            surface = pygame.display.set_mode(size, pygame.RESIZABLE)
+    except pygame.error as error:
+        raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
+    lost.watch()
+    pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
+    return surface
+
+
+def show_drawn() -> None:
+    """Put what was drawn on the screen. Raises DisplayError where that has gone away."""
+    import pygame
+
+    from mars2d.window import lost
+
+    pygame.display.flip()
+    lost.check()
+
+
+def be_quick() -> None:
+    """Ask for pictures to go to the screen as they are; to be called before the display starts.
+
+    SDL would hand them to OpenGL, which takes ten times as long where that is done in software.
+    """
+    os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")

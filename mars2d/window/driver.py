@@ -1,0 +1,156 @@
+"""The keys and the game controller that drive one robot by hand."""
+
+from __future__ import annotations
+
+import pygame
+
+from mars2d.bodies.drives.base import Drive
+from mars2d.world.teleop import Stick, command_of, ramped
+
+__all__ = ["Driver"]
+
+WAYS = {
+    pygame.KSCAN_UP: Stick(0, 1), pygame.KSCAN_W: Stick(0, 1),
+    pygame.KSCAN_DOWN: Stick(0, -1), pygame.KSCAN_S: Stick(0, -1),
+    pygame.KSCAN_LEFT: Stick(-1, 0), pygame.KSCAN_A: Stick(-1, 0),
+    pygame.KSCAN_RIGHT: Stick(1, 0), pygame.KSCAN_D: Stick(1, 0),
+}  # fmt: skip
+"""What keys ask for, by their places: WASD are a cross on every keyboard."""
+
+SLOW = 0.5
+"""How far out a stick is held with Shift."""
+
+DEAD = 0.15
+"""So far out a controller's stick counts as at rest."""
+
+ACROSS, AHEAD = 0, 1
+"""The axes of a controller's left stick; the second points back."""
+
+
+class Driver:
+    """Drives one robot, by keys or a controller that may be plugged in and out at any time."""
+
+    def __init__(self) -> None:
+        """Drive nobody."""
+        self.robot: int | None = None
+        self._name = ""
+        self._held: set[int] = set()
+        self._slow = False
+        self._stick = Stick()
+        self._controllers: dict[int, pygame.joystick.JoystickType] = {}
+        self._axes: dict[int, Stick] = {}
+        self._hats: dict[int, Stick] = {}
+
+    # -- who ------------------------------------------------------------------------------------
+
+    def take(self, robot: int, name: str = "") -> None:
+        """Drive a robot from now on; name: what it is called in `status`."""
+        self.robot, self._name = robot, name or f"robot {robot}"
+        self._rest()
+        if not pygame.joystick.get_init():
+            pygame.joystick.init()  # it tells of each controller that is there by an event
+
+    def release(self) -> None:
+        """Drive nobody any more."""
+        self.robot = None
+        self._rest()
+
+    def _rest(self) -> None:
+        self._held.clear()
+        self._slow = False
+        self._stick = Stick()
+
+    @property
+    def status(self) -> str:
+        """Who is driven, and by what, in words; "" for nobody."""
+        if self.robot is None:
+            return ""
+        by = " by controller" if self._by_controller else ""
+        return f"driving {self._name}{by}"
+
+    # -- how ------------------------------------------------------------------------------------
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Take an event; return whether it is one of those that drive, and nobody else's."""
+        if event.type in (pygame.JOYDEVICEADDED, pygame.JOYDEVICEREMOVED):
+            self._plug(event)
+            return True
+        if self.robot is None:
+            return False
+        if event.type in (pygame.KEYDOWN, pygame.KEYUP):
+            return self._key(event)
+        if event.type == pygame.WINDOWFOCUSLOST:
+            self._held.clear()
+            self._slow = False
+            return False
+        return self._controller(event)
+
+    def command(self, drive: Drive, dt: float) -> tuple[float, float]:
+        """Return the command of the driven robot, `dt` seconds after the one before.
+
+        Keys move a stick out within a quarter of a second, so that a tap is a nudge.
+        """
+        self._stick = ramped(self._stick, self._wanted, dt)
+        return command_of(drive, self._stick.within() if drive.frame == "world" else self._stick)
+
+    @property
+    def _wanted(self) -> Stick:
+        """Where the stick is held: by keys, else by a controller."""
+        if not self._held:
+            return self._of_controllers
+        across, ahead = (sum(way[k] for way in {WAYS[key] for key in self._held}) for k in (0, 1))
+        share = SLOW if self._slow else 1.0
+        return Stick(share * across, share * ahead)
+
+    @property
+    def _of_controllers(self) -> Stick:
+        held = [*self._axes.values(), *self._hats.values()]
+        return max(held, key=lambda stick: abs(stick.across) + abs(stick.ahead), default=Stick())
+
+    @property
+    def _by_controller(self) -> bool:
+        return bool(self._controllers) and not self._held
+
+    # -- keys -----------------------------------------------------------------------------------
+
+    def _key(self, event: pygame.Event) -> bool:
+        self._slow = bool(event.mod & pygame.KMOD_SHIFT)
+        if event.scancode not in WAYS:
+            return False
+        if event.type == pygame.KEYUP:
+            held = event.scancode in self._held
+            self._held.discard(event.scancode)
+            return held
+        self._held.add(event.scancode)
+        return True
+
+    # -- controllers ----------------------------------------------------------------------------
+
+    def _plug(self, event: pygame.Event) -> None:
+        """Take a controller that is plugged in; forget one that is plugged out."""
+        if event.type == pygame.JOYDEVICEADDED:
+            controller = pygame.joystick.Joystick(event.device_index)
+            self._controllers[controller.get_instance_id()] = controller
+            return
+        for known in (self._controllers, self._axes, self._hats):
+            known.pop(event.instance_id, None)
+
+    def _controller(self, event: pygame.Event) -> bool:
+        if event.type == pygame.JOYAXISMOTION:
+            if event.axis in (ACROSS, AHEAD):
+                self._tilt(event.instance_id)
+            return True
+        if event.type == pygame.JOYHATMOTION:
+            self._hats[event.instance_id] = Stick(*event.value)
+            return True
+        return False
+
+    def _tilt(self, which: int) -> None:
+        """Read the left stick of a controller."""
+        controller = self._controllers.get(which)
+        if controller is None:
+            return
+        stick = Stick(controller.get_axis(ACROSS), -controller.get_axis(AHEAD)).within()
+        out = (stick.across**2 + stick.ahead**2) ** 0.5
+        share = 0.0 if out <= DEAD else (out - DEAD) / (1 - DEAD) / out
+        self._axes[which] = Stick(share * stick.across, share * stick.ahead)

@@ -1,0 +1,88 @@
+"""The file that a drawing is kept in."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from mars2d.core.errors import InputError
+from mars2d.scenario import toml_file
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.keep import free_name
+
+__all__ = ["Document"]
+
+UNTITLED = Scenario.__dataclass_fields__["title"].default
+
+
+class Document:
+    """A scenario file, with a name or still without one.
+
+    path: the file that was opened or is to be made, if it is a .toml; of any other name only the
+    stem is used. control: the law of the team.
+    """
+
+    def __init__(self, path: Path | None, control: Callable[[Any], Any] | None = None) -> None:
+        """Open a file, or nothing."""
+        toml = path is not None and path.suffix.lower() == toml_file.SUFFIX
+        self.path = path if toml else None
+        self.new = self.path is None or not self.path.exists()  # there is no file of it yet
+        self.control = control
+        wanted = Path("scenario.toml") if path is None else path
+        self._wanted = wanted.with_suffix(toml_file.SUFFIX)
+
+    @property
+    def name(self) -> str:
+        """What it is called now, or would be."""
+        return self._wanted.name if self.path is None else self.path.name
+
+    @property
+    def proposal(self) -> str:
+        """A name for it that is still free."""
+        stem, k = self._wanted.stem, 1
+        path = self._wanted
+        while path.exists():
+            k += 1
+            path = self._wanted.with_stem(f"{stem}_{k}")
+        return str(path)
+
+    def named(self, text: str) -> Path:
+        """Return the path that a person has typed. Raises InputError for what is none."""
+        if not text.strip():
+            raise InputError("expected a name, as room.toml")
+        path = Path(text.strip()).expanduser()
+        if path.suffix.lower() != toml_file.SUFFIX:
+            path = path.with_name(path.name + toml_file.SUFFIX)
+        if path.is_dir():
+            raise InputError(f"{path}: this is a folder")
+        if not path.parent.is_dir():
+            raise InputError(f"{path}: there is no folder {path.parent}")
+        return path
+
+    def is_another(self, path: Path) -> bool:
+        """Return whether a path is a file that is there and is not the one opened."""
+        mine = self.path is not None and path.absolute() == self.path.absolute()
+        return path.exists() and (self.new or not mine)
+
+    def rescue(self, scenario: Scenario) -> Path | None:
+        """Write a scenario to a new file, beside its own or where there is room; return which."""
+        wanted = self.path or self._wanted
+        for folder in (wanted.parent, Path(tempfile.gettempdir())):
+            with suppress(InputError):
+                path = free_name(folder, f"{wanted.stem}_unsaved", toml_file.SUFFIX)
+                toml_file.save(scenario, path, self.control)
+                return path
+        return None
+
+    def save(self, scenario: Scenario, path: Path) -> str:
+        """Write a scenario to a file, which is open from now on; return what to say of it."""
+        if scenario.title == UNTITLED:
+            scenario = scenario.replace(title=path.stem.replace("_", " ").capitalize())
+        missing = toml_file.save(scenario, path, self.control)
+        self.path, self._wanted, self.new = path, path, False
+        if missing:
+            return f"Saved {path}, without what is code: {', '.join(missing)}"
+        return f"Saved {path}"

@@ -1,0 +1,532 @@
+"""The editor: draw a scenario with the mouse, on any surface."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from math import radians
+from pathlib import Path
+from typing import Any, Literal
+
+import pygame
+
+from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.plane import Point
+from mars2d.core.scene import Scene
+from mars2d.output.layers.names import names
+from mars2d.output.raster.layers import Layers
+from mars2d.output.raster.layout import Layout, next_text_size
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.stage import Stage
+from mars2d.output.raster.theme import theme_of
+from mars2d.scenario.changes import check_same
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.editor.boundary import Boundary
+from mars2d.window.editor.chrome import Button, Header, draw_footer, draw_plate, draw_prompt
+from mars2d.window.editor.desk import Desk
+from mars2d.window.editor.document import Document
+from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.keys import action_of, chord, groups
+from mars2d.window.editor.marks import draw_culprits, draw_selected
+from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall
+from mars2d.window.editor.placing import PlaceBall, PlaceBeacon, PlaceBox, PlaceRobot, PlaceWaypoint
+from mars2d.window.editor.prompt import Prompt
+from mars2d.window.editor.readout import described
+from mars2d.window.editor.select import Select
+from mars2d.window.editor.sketch import Sketch
+from mars2d.window.editor.tool import Tool, minus
+from mars2d.window.editor.toolbar import WIDTH, Toolbar
+from mars2d.window.editor.verdict import Judge
+from mars2d.window.help import Help
+from mars2d.window.viewpoint import Viewpoint, wheel_notches
+
+__all__ = ["Editor", "Outcome"]
+
+TOOLS: dict[str, type[Tool]] = {
+    "select": Select,
+    "robot": PlaceRobot,
+    "box": PlaceBox,
+    "ball": PlaceBall,
+    "wall": DrawWall,
+    "polygon": DrawPolygon,
+    "rectangle": DrawRectangle,
+    "waypoint": PlaceWaypoint,
+    "beacon": PlaceBeacon,
+    "workspace": Boundary,
+}
+NUDGES = {"left": (-1, 0), "right": (1, 0), "up": (0, 1), "down": (0, -1)}
+LAYERS = Layers(trails=False, sensors=False, messages=False)
+FEW = 40
+"""The names of so many robots and props are shown, unless a person wants others, too."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What was drawn in a paused run, and whether it goes on from now or from the start."""
+
+    scenario: Scenario
+    when: Literal["now", "start"]
+
+
+class Editor:
+    """Draws a scenario: takes events, draws itself, and at the end has saved or has an outcome.
+
+    path: the file that it is kept in; one that is no .toml only lends its name. live: opened from a
+    paused run, which can go on with the outcome. control: the team's law, for the file. empty:
+    start without robots. changed: the scenario is not as it is in the file. text, scale: as for
+    `Layout.of`.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        painter: Painter,
+        *,
+        path: Path | None = None,
+        live: bool = False,
+        control: Callable[[Any], Any] | None = None,
+        empty: bool = False,
+        changed: bool = False,
+    ) -> None:
+        """Open a scenario; nothing is drawn yet."""
+        self.painter, self.live = painter, live
+        self.text = self.scale = 1.0
+        self.done = False
+        self.outcome: Outcome | None = None
+        self.to_run: Path | None = None
+        self.help = Help()
+        self.prompt: Prompt | None = None
+        self.document = Document(path, control)
+        self._before = scenario
+        draft = Draft.empty(scenario) if empty else Draft.of(scenario)
+        self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
+        self.desk = Desk(draft, self.viewpoint)
+        if changed:
+            self.desk.history.lose()
+        self.judge = Judge(draft)
+        self._stage, self._sketch = Stage(painter), Sketch()
+        self._header, self._toolbar = Header(painter), Toolbar(painter)
+        self._pointer = (-1, -1)
+        self._dragging = self._panning = self._space = False
+        self._held: set[int] = set()
+        self._names = len(draft.robots) + len(draft.props) <= FEW
+        self._plain = False  # other add-ons than those drawn here are not shown
+        self.tool_name, self.tool = "select", TOOLS["select"](self.desk)
+        self._actions: dict[str, Callable[[], None]] = {
+            **{name: lambda name=name: self._choose(name) for name in TOOLS},  # type: ignore[misc]
+            "pose": self._ask_pose,
+            "delete": self.desk.remove,
+            "duplicate": self.desk.duplicate,
+            "all": self._select_all,
+            "undo": self._undo,
+            "redo": self.desk.redo,
+            "snap": self._toggle_snap,
+            "names": self._toggle_names,
+            "fit": lambda: self.viewpoint.fit(self.desk.draft.sketch),
+            "dark": self._toggle_dark,
+            "text": self._next_text_size,
+            "help": self.help.turn,
+            "leave": self._leave,
+            "save": self._save,
+            "run": self._run,
+            "now": lambda: self._apply("now"),
+            "start": lambda: self._apply("start"),
+        }
+
+    @property
+    def title(self) -> str:
+        """What stands in the header."""
+        return self.desk.draft.base.title if self.live else self.document.name
+
+    @property
+    def layout(self) -> Layout:
+        """Where everything lies."""
+        return self.viewpoint.layout
+
+    # -- events ---------------------------------------------------------------------------------
+
+    def handle(self, event: pygame.Event) -> None:
+        """Take one event of pygame."""
+        if event.type == pygame.KEYDOWN:
+            self._press_key(event)
+        elif event.type == pygame.KEYUP:
+            self._held.discard(event.key)
+            if event.key == pygame.K_SPACE:
+                self._space = False
+        elif event.type == pygame.WINDOWFOCUSLOST:
+            self._held.clear()
+            self._let_go()
+        elif event.type == pygame.MOUSEWHEEL:
+            self._zoom(wheel_notches(event))
+        elif event.type == pygame.MOUSEMOTION:
+            self._move(event)
+        elif event.type == pygame.MOUSEBUTTONDOWN:
+            self._press(event)
+        elif event.type == pygame.MOUSEBUTTONUP:
+            self._release(event)
+
+    def _press_key(self, event: pygame.Event) -> None:
+        name = chord(event.key, event.mod)
+        if self.prompt is not None:
+            self._answer(self.prompt, name, event.unicode)
+            return
+        if event.key == pygame.K_SPACE:
+            self._space = True
+            return
+        if self._dragging and event.key == pygame.K_ESCAPE:
+            self._let_go()
+            return
+        again = event.key in self._held
+        self._held.add(event.key)
+        key = action_of(name, event.unicode, live=self.live)
+        if self._dragging or (again and not (key is not None and key.repeats)):
+            return
+        if key is None or key.action not in ("help", "leave"):
+            self.help.close()
+        if event.key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.tool.confirm():
+            return
+        if event.key == pygame.K_BACKSPACE and self.tool.back():
+            return
+        if key is None:
+            return
+        self.desk.say("")
+        if key.action == "nudge":
+            dx, dy = NUDGES[pygame.key.name(event.key)]
+            self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
+        else:
+            self._actions[key.action]()
+
+    def _answer(self, prompt: Prompt, name: str, character: str) -> None:
+        """Give a key to a prompt; it is gone when it has its answer, unless that asks anew."""
+        prompt.press(name, character)
+        if not prompt.open and self.prompt is prompt:
+            self.prompt = None
+
+    def _press(self, event: pygame.Event) -> None:
+        if self.prompt is not None:
+            return
+        if self.help.is_open:
+            self.help.close()
+            return
+        self._pointer = event.pos
+        if event.button == pygame.BUTTON_LEFT:
+            self._press_left(event.pos)
+        elif event.button == pygame.BUTTON_MIDDLE:
+            self._panning = True
+        elif event.button == pygame.BUTTON_RIGHT and not self.tool.confirm():
+            self.tool.cancel()
+
+    def _press_left(self, pixel: tuple[int, int]) -> None:
+        key, button = self._toolbar.at(pixel), self._header.at(pixel)
+        if key is not None or button is not None:
+            self.desk.say("")
+            self._actions[key.action if key is not None else str(button)]()
+        elif self.layout.plot.collidepoint(pixel):
+            if self._space:
+                self._panning = True
+                return
+            self.desk.say("")
+            self._dragging = True
+            self.tool.press(self._world(pixel), shift=self._shift)
+
+    def _move(self, event: pygame.Event) -> None:
+        self._pointer = event.pos
+        if self._panning:
+            self.viewpoint.pan(*event.rel)
+        elif self._dragging or self.layout.plot.collidepoint(event.pos):
+            self.tool.move(self._world(event.pos), shift=self._shift)
+        else:
+            self.tool.pointer = None
+
+    def _release(self, event: pygame.Event) -> None:
+        if self._panning and event.button in (pygame.BUTTON_LEFT, pygame.BUTTON_MIDDLE):
+            self._panning = False
+        elif self._dragging and event.button == pygame.BUTTON_LEFT:
+            self._dragging = False
+            self.tool.release(self._world(event.pos), shift=self._shift)
+
+    def _let_go(self) -> None:
+        """Put back what is being dragged."""
+        if self._dragging:
+            self.tool.cancel()
+        self._dragging = self._panning = self._space = False
+
+    def _world(self, pixel: tuple[int, int]) -> Point:
+        ((x, y),) = self.desk.camera.to_world([pixel]).tolist()
+        return x, y
+
+    @property
+    def _shift(self) -> bool:
+        return not self._held.isdisjoint((pygame.K_LSHIFT, pygame.K_RSHIFT))
+
+    # -- tools and changes ----------------------------------------------------------------------
+
+    def _choose(self, name: str) -> None:
+        self.tool.cancel()
+        self.tool_name, self.tool = name, TOOLS[name](self.desk)
+        if self.layout.plot.collidepoint(self._pointer):
+            self.tool.pointer = self._world(self._pointer)
+
+    def _select_all(self) -> None:
+        self._choose("select")
+        self.desk.select(self.desk.draft.items())
+
+    def _ask_pose(self) -> None:
+        if not (self.desk.selection or self.tool.puts):
+            self.desk.say("select something first, or choose a tool that puts things", warns=True)
+            return
+        label, hint = "x y [degrees] =", "as 1.5 2 90   Enter takes it   Esc cancels"
+        self.prompt = Prompt(label, hint, {"return": self._put}, field=True)
+
+    def _put(self, text: str) -> None:
+        """Put what is selected, or the next thing, at typed numbers."""
+        try:
+            x, y, *rest = map(float, text.replace(",", " ").split())
+            (angle,) = rest or (None,)
+        except ValueError:
+            raise InputError(f"{text!r}: expected x y in metres, or x y degrees") from None
+        self.tool.put(x, y, None if angle is None else radians(angle))
+
+    def _undo(self) -> None:
+        """Undo the last change, or take the last corner back of what is being drawn."""
+        if not self.tool.back():
+            self.desk.undo()
+
+    def _toggle_snap(self) -> None:
+        self.desk.snaps = not self.desk.snaps
+
+    def _toggle_names(self) -> None:
+        self._names = not self._names
+
+    def _toggle_dark(self) -> None:
+        self.painter.theme = theme_of(dark=not self.painter.theme.dark)
+
+    def _next_text_size(self) -> None:
+        self.text = next_text_size(self.text)
+
+    # -- looking --------------------------------------------------------------------------------
+
+    def _zoom(self, notches: float) -> None:
+        pixel = self._pointer if self._pointer[0] >= 0 else self.layout.plot.center
+        self.viewpoint.zoom(notches, pixel)
+
+    def _laid_out(self, size: tuple[int, int]) -> Layout:
+        layout = Layout.of(size, text=self.text, scale=self.scale)
+        left = round(WIDTH * layout.ui)
+        plot = layout.plot
+        room = pygame.Rect(left, plot.top, max(1, plot.width - left), plot.height)
+        return replace(layout, plot=room)
+
+    def _arrange(self, size: tuple[int, int]) -> None:
+        layout = self._laid_out(size)
+        self.painter.ui = layout.ui
+        if layout != self.layout:  # the picture stays in place while the workspace is drawn
+            self.viewpoint.arrange(layout, self.desk.draft.sketch)
+
+    # -- keeping --------------------------------------------------------------------------------
+
+    def _sound(self, doing: str) -> Scenario | None:
+        """Return the scenario if it is one, else say why it can't be."""
+        self.tool.confirm()
+        verdict = self.judge.of(self.desk.draft)
+        if verdict.scenario is None:
+            self.desk.say(f"{doing}: {verdict.text}", warns=True)
+        return verdict.scenario
+
+    def _save(self, then: Callable[[], None] | None = None) -> None:
+        if self._sound("Not saved") is None:
+            return
+        if self.document.path is None:
+            self.prompt = Prompt(
+                "Save as", "Enter saves   Esc cancels",
+                {"return": lambda text: self._save_as(text, then)},
+                text=self.document.proposal, field=True,
+            )  # fmt: skip
+        elif self.document.new:
+            self._save_as(str(self.document.path), then)
+        else:
+            self._write(self.document.path, then)
+
+    def _save_as(self, text: str, then: Callable[[], None] | None) -> None:
+        path = self.document.named(text)
+        if not self.document.is_another(path):
+            self._write(path, then)
+            return
+        self.prompt = Prompt(
+            f"{path} is there already.", "Enter overwrites it   Esc cancels",
+            {"return": lambda _: self._write(path, then)},
+        )  # fmt: skip
+
+    def _write(self, path: Path, then: Callable[[], None] | None = None) -> None:
+        scenario = self._sound("Not saved")
+        if scenario is None:
+            return
+        try:
+            said = self.document.save(scenario, path)
+        except InputError as error:
+            self.desk.say(str(error), warns=True)
+            return
+        if not self.live:
+            self.desk.history.keep()
+        self.desk.say(said)
+        if then is not None:
+            then()
+
+    def rescue(self) -> Path | None:
+        """Keep what is not saved yet, as far as it is a scenario, in a new file beside its own.
+
+        Return that file; None if nothing would be lost, or nothing can be kept. For where there is
+        nobody any more who could be asked.
+        """
+        history = self.desk.history
+        if self.live or not history.changed:
+            return None
+        self.desk.drop()
+        while (scenario := self.judge.of(history.draft).scenario) is None:
+            if not history.undo():
+                return None
+        return self.document.rescue(scenario)
+
+    def _run(self) -> None:
+        """Ask for a run of the file, saved first if need be."""
+        if self.desk.history.changed or self.document.new:
+            self._save(then=self._run)
+        else:
+            self.to_run = self.document.path
+
+    def _apply(self, when: Literal["now", "start"]) -> None:
+        scenario = self._sound("Not yet")
+        if scenario is None:
+            return
+        if when == "now":
+            try:
+                check_same(self._before, scenario)
+            except InputError as error:
+                self.desk.say(f"{error} (Shift+Enter)", warns=True)
+                return
+        self.outcome, self.done = Outcome(scenario, when), True
+
+    def _leave(self) -> None:
+        """Close the help, leave the tool, select none, or leave."""
+        if self.help.is_open:
+            self.help.close()
+        elif self.tool.cancel():
+            pass
+        elif self.tool_name != "select":
+            self._choose("select")
+            self.desk.select()
+        elif self.desk.selection:
+            self.desk.select()
+        else:
+            self.close()
+
+    def close(self) -> None:
+        """Leave; ask first if something would be lost."""
+        if not self.desk.history.changed:
+            self.done = True
+            return
+        discard: dict[str, Callable[[str], None]] = {"backspace": lambda _: self._discard()}
+        if self.live:
+            hint = "Enter goes on from now   Shift+Enter from the start   Backspace discards"
+            answers = {"return": lambda _: self._apply("now")}
+            answers["shift+return"] = lambda _: self._apply("start")
+            self.prompt = Prompt("Use what was drawn?", f"{hint}   Esc stays", answers | discard)
+        else:
+            hint = "Enter saves   Backspace discards   Esc stays"
+            answers = {"return": lambda _: self._save(then=self._discard)}
+            self.prompt = Prompt("Not saved yet.", hint, answers | discard)
+
+    def _discard(self) -> None:
+        self.done = True
+
+    # -- drawing --------------------------------------------------------------------------------
+
+    def draw(self, surface: pygame.Surface) -> None:
+        """Draw everything; the layout follows the surface's size."""
+        self._arrange(surface.get_size())
+        self.judge.of(self.desk.draft, at_once=not self._dragging)
+        self._draw_plot(surface)
+        plot, bar = self.layout.plot, self.layout.header
+        side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
+        self._toolbar.arrange(side, self.layout.ui)
+        self._toolbar.draw(
+            surface, side, self.tool_name, self._pointer,
+            snaps=self.desk.snaps, step=f"{self.desk.step:g} m",
+        )  # fmt: skip
+        self._header.draw(surface, bar, self.title, self._note(), self._buttons(), self._pointer)
+        if self.prompt is None:
+            self._draw_foot(surface)
+        else:
+            blink = time.monotonic() % 1.0 < 0.6
+            draw_prompt(surface, self.layout, self.painter, self.prompt, blink=blink)
+        if not (self._dragging or self.help.is_open):
+            self._toolbar.draw_tip(surface, self._pointer, surface.get_rect())
+        self.help.draw(surface, self.layout, self.painter, groups(live=self.live))
+
+    def _draw_plot(self, surface: pygame.Surface) -> None:
+        scene = Scene()
+        draft = self.desk.draft
+        draw_selected(draft, self.desk.selection, scene)
+        draw_culprits(draft, self.judge.verdict.culprits, scene)
+        self.tool.draw(scene)
+        plot, camera = self.layout.plot, self.desk.camera
+        frame = self._sketch.frame(draft, bare=self._plain)
+        named = names(frame).shapes if self._names else []
+        marks, hurried = [*named, *scene.shapes], self.viewpoint.hurried
+        draw = partial(self._stage.draw, marks=marks, hurried=hurried)
+        try:
+            draw(surface, frame, camera, LAYERS, plot)
+        except Mars2dError as error:  # of what other add-ons draw
+            if self._plain:
+                raise
+            self._plain = True
+            self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
+            frame = self._sketch.frame(draft, bare=True)
+            draw(surface, frame, camera, LAYERS, plot)
+        remark = self.tool.remark
+        if remark:
+            x, y = self._pointer
+            gap = round(16 * self.layout.ui)
+            draw_plate(surface, self.painter, [remark], plot, topleft=(x + gap, y + gap))
+        lines = described(self.desk)
+        if lines:
+            gap = round(12 * self.layout.ui)
+            corner = plot.right - gap, plot.top + gap
+            draw_plate(surface, self.painter, lines, plot, off=self._pointer, topright=corner)
+
+    def _draw_foot(self, surface: pygame.Surface) -> None:
+        desk, bar = self.desk, self.layout.footer
+        text, kind = self.tool.hint, "hint"
+        if desk.notice:
+            text, kind = desk.notice, "error" if desk.warns else "note"
+        elif self.judge.verdict.faults and desk.draft.robots:
+            text, kind = self.judge.verdict.text, "error"
+        elif self.judge.verdict.faults and self.tool_name == "select":
+            text = self.judge.verdict.text
+            text = text[:1].upper() + text[1:]
+        right = "Esc leaves   F1 all keys" if self.live else "F1 all keys"
+        if self.layout.plot.collidepoint(self._pointer):
+            x, y = desk.snapped(self._world(self._pointer))
+            right = minus(f"x {x:g} m   y {y:g} m")
+        draw_footer(surface, bar, self.painter, text, kind, right)
+
+    def _note(self) -> str:
+        if self.live:
+            return "the run is paused"
+        if self.desk.history.changed:
+            return "not saved yet"
+        return "new" if self.document.new else ""
+
+    def _buttons(self) -> list[Button]:
+        history = self.desk.history
+        common = [
+            Button("undo", "Undo", works=history.can_undo),
+            Button("redo", "Redo", works=history.can_redo),
+        ]
+        if self.live:
+            return [*common, Button("start", "From the start"), Button("now", "Go on", first=True)]
+        changed = history.changed
+        save = Button("save", "Save", first=changed)
+        return [*common, save, Button("run", "Run", first=not changed)]

@@ -1,0 +1,169 @@
+"""The tool that selects, moves, turns and resizes."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import ClassVar
+
+from mars2d.bodies.props.box import Box
+from mars2d.core.errors import InputError
+from mars2d.core.plane import Point, rectangle
+from mars2d.core.scene import Scene, faded
+from mars2d.window.editor.desk import Gesture
+from mars2d.window.editor.draft import Item, Motion
+from mars2d.window.editor.gestures import Cornering, Moving, Sizing, Turning
+from mars2d.window.editor.handles import MARK, Handle, draw_handles, handle_at, ring_of
+from mars2d.window.editor.target import item_at, items_within
+from mars2d.window.editor.tool import Tool, minus, sides, stretch
+
+__all__ = ["Select", "Taking"]
+
+
+class Taking(Tool):
+    """The base of tools that take hold of things by their handles."""
+
+    puts: ClassVar[bool] = False
+    gesture: Gesture | None = None
+    moved = False
+
+    def move(self, point: Point, *, shift: bool) -> None:
+        """Go on with a drag."""
+        self.pointer = point
+        if self.gesture is not None and (self.moved or self.dragged(point)):
+            self.moved = True
+            self.desk.drag(self.gesture, point, shift=shift)
+
+    def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
+        """Keep what the drag has made."""
+        corner = self.gesture.number if isinstance(self.gesture, Cornering) else None
+        self.gesture, self.pressed, self.moved = None, None, False
+        self.desk.settle()
+        if corner is not None and self.desk.only is not None:
+            self.desk.corner = corner
+
+    def cancel(self) -> bool:
+        """Put back what is being dragged."""
+        busy = self.gesture is not None
+        self.gesture, self.pressed, self.moved = None, None, False
+        return self.desk.drop() or busy
+
+    def take(self, handle: Handle, point: Point) -> None:
+        """Begin to drag a handle."""
+        desk, item, ring = self.desk, self.desk.only, ring_of(self.desk)
+        self.pressed = point
+        if handle.kind == "turn" and ring is not None:
+            self.gesture = Turning(desk, ring)
+        elif item is not None and handle.kind == "size":
+            self.gesture = Sizing(desk, item, handle.number)
+        elif item is not None:
+            new = handle.kind == "dot"
+            self.gesture = Cornering(desk, item, handle.number, new=new)
+            if new:
+                self.moved = True  # a click on a dot adds the corner as well
+                desk.drag(self.gesture, handle.point, shift=False)
+            desk.corner = self.gesture.number
+
+    def put(self, x: float, y: float, heading: float | None) -> None:
+        """Put what is selected at a place: the corner, a body's pose, an outline's first corner."""
+        desk, draft = self.desk, self.desk.draft
+        if not desk.selection:
+            raise InputError("nothing is selected")
+        held = desk.selection[0]
+        corners, pose, place = draft.corners(held), draft.pose(held), draft.place(held)
+        if heading is not None and (pose is None or desk.only is None):
+            raise InputError("only one robot or prop alone has a heading: expected x y")
+        if corners is not None and desk.corner is not None:
+            k = desk.corner
+            desk.put(draft.with_corners(held, (*corners[:k], (x, y), *corners[k + 1 :])))
+            return
+        angle = 0.0 if heading is None or pose is None else heading - pose[2]
+        by = x - place[0], y - place[1]
+        desk.put(draft.moved(desk.selection, Motion(angle, place, by)))
+
+    def draw(self, scene: Scene) -> None:
+        """Draw the handles."""
+        draw_handles(self.desk, scene)
+
+    @property
+    def remark(self) -> str:
+        """The size of what is being dragged, or how far it turns."""
+        item, gesture = self.desk.only, self.gesture
+        if isinstance(gesture, Turning):
+            ring = ring_of(self.desk)
+            return "" if ring is None or item is None else self._heading(item)
+        if isinstance(gesture, Sizing) and item is not None:
+            box = self.desk.draft.props[item.number]
+            return sides(box.length, box.width) if isinstance(box, Box) else ""
+        corners = None if item is None else self.desk.draft.corners(item)
+        if isinstance(gesture, Cornering) and corners is not None and item is not None:
+            k = gesture.number
+            edges = [(k - 1, k)] if k or item.kind != "wall" else []
+            edges += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not edges else []
+            return "   ".join(stretch(corners[a], corners[b]) for a, b in edges)
+        return ""
+
+    def _heading(self, item: Item) -> str:
+        pose = self.desk.draft.pose(item)
+        return "" if pose is None else minus(f"{degrees(pose[2]):.4g}°")
+
+
+class Select(Taking):
+    """Selects and moves."""
+
+    hint: ClassVar[str] = "Click or drag to select; drag moves, the ring turns"
+    _band: tuple[Point, Point] | None = None
+    _kept: tuple[Item, ...] = ()
+    _clicked: Item | None = None
+
+    def press(self, point: Point, *, shift: bool) -> None:
+        """Take a handle, or a thing, or begin to draw a rectangle round things."""
+        desk = self.desk
+        handle = handle_at(desk, point)
+        if handle is not None:
+            self.take(handle, point)
+            return
+        item, self.pressed = item_at(desk, point), point
+        self._clicked = None
+        if item is None:
+            self._kept = desk.selection if shift else ()
+            desk.select(self._kept)
+            self._band = point, point
+            return
+        if shift:
+            others = tuple(other for other in desk.selection if other != item)
+            desk.select(others if item in desk.selection else (*others, item))
+        elif item not in desk.selection:
+            desk.select([item])
+        else:
+            self._clicked = item
+            desk.corner = None
+        if item in desk.selection:
+            self.gesture = Moving(desk, item, point)
+
+    def move(self, point: Point, *, shift: bool) -> None:
+        """Drag what was taken, or select what lies within the rectangle."""
+        super().move(point, shift=shift)
+        if self._band is not None:
+            self._band = self._band[0], point
+            self.desk.select([*self._kept, *items_within(self.desk, *self._band)])
+
+    def release(self, point: Point, *, shift: bool) -> None:
+        """End the drag; a click on one of several things selects it alone."""
+        alone = self._clicked if not self.moved and not shift else None
+        super().release(point, shift=shift)
+        if alone is not None and len(self.desk.selection) > 1:
+            self.desk.select([alone])
+        self._band = self._clicked = None
+
+    def cancel(self) -> bool:
+        """Put back what is being dragged."""
+        band, self._band = self._band, None
+        return super().cancel() or band is not None
+
+    def draw(self, scene: Scene) -> None:
+        """Draw the handles, and the rectangle that is being drawn."""
+        super().draw(scene)
+        if self._band is not None:
+            (ax, ay), (bx, by) = self._band
+            area = rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by))
+            scene.polygon(area, fill=faded(MARK, 0.08), stroke=MARK, width=1.0)

@@ -1,0 +1,97 @@
+"""The editor in a window of its own."""
+
+from __future__ import annotations
+
+import pygame
+
+from mars2d.core.errors import Mars2dError
+from mars2d.output.raster.theme import theme_of
+from mars2d.scenario.experiment import open_experiment
+from mars2d.window.desktop import desktop_scale, opening_size
+from mars2d.window.display import PICTURES_A_SECOND, open_window, show_drawn, started_display
+from mars2d.window.editor.editor import Editor
+from mars2d.window.icon import icon
+from mars2d.window.preferences import Preferences
+
+__all__ = ["EditorWindow"]
+
+REST = 100
+"""Without anything to do it looks again after so many milliseconds."""
+
+
+class EditorWindow:
+    """Shows an editor until it is left; F5 runs what was saved, and comes back.
+
+    size: points, at first. preferences: how it looks.
+    """
+
+    def __init__(
+        self,
+        editor: Editor,
+        size: tuple[int, int] = (1280, 720),
+        preferences: Preferences | None = None,
+    ) -> None:
+        """Prepare; the window opens with `run`."""
+        self.editor, self.size = editor, size
+        likes = preferences or Preferences()
+        editor.text = likes.text
+        editor.painter.theme = theme_of(dark=likes.dark)
+
+    def run(self) -> None:
+        """Open the window and wait until it is left. Raises InputError without a display."""
+        with started_display():
+            self.editor.scale = desktop_scale()
+            self.size = opening_size(self.size, self.editor.scale)
+            self._show()
+            self._loop()
+
+    def _show(self) -> None:
+        open_window(self.size, icon(self.editor.painter))
+
+    def _loop(self) -> None:
+        clock, editor = pygame.time.Clock(), self.editor
+        while not editor.done:
+            pygame.display.set_caption(f"{editor.title} - MARS2D")
+            surface = pygame.display.get_surface()
+            assert surface is not None
+            self.draw(surface)
+            show_drawn()
+            clock.tick(PICTURES_A_SECOND)
+            for event in (pygame.event.wait(REST), *pygame.event.get()):
+                if event.type == pygame.QUIT:
+                    self._quit()
+                else:
+                    editor.handle(event)
+            if editor.to_run is not None:
+                self._play()
+
+    def draw(self, surface: pygame.Surface) -> None:
+        """Draw the editor."""
+        self.editor.draw(surface)
+
+    def _quit(self) -> None:
+        """Leave; asked a second time, without asking back."""
+        asked = self.editor.prompt is not None
+        if asked:
+            self.editor.done = True
+        else:
+            self.editor.close()
+
+    def _play(self) -> None:
+        """Run the file in a window, and come back."""
+        from mars2d.window.show import show_experiment
+
+        editor, surface = self.editor, pygame.display.get_surface()
+        assert editor.to_run is not None
+        path, editor.to_run = editor.to_run, None
+        size = self.size if surface is None else surface.get_size()
+        try:
+            experiment = open_experiment(path)
+            speed = experiment.scenario.animation.playback_speed
+            likes = Preferences(dark=editor.painter.theme.dark, text=editor.text)
+            show_experiment(experiment, speed, preferences=likes)
+        except Mars2dError as error:
+            editor.desk.say(str(error), warns=True)
+        self.size = size
+        pygame.event.clear()
+        self._show()

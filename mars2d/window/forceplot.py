@@ -1,0 +1,187 @@
+"""The force on a body over time, with its bound and the effort of its drive, as a small plot."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.core.scene import Scene, faded
+from mars2d.output.layers.forces import FORCE, SLIP, SLIPPING, in_newtons, round_force
+from mars2d.output.raster.brushes import rgba
+from mars2d.output.raster.camera import PIXELS
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.strokes import hairlines
+from mars2d.record.frame import Float, Frame
+from mars2d.window.meter import Bound, Reading, bound_of, span_of
+
+__all__ = ["draw_force"]
+
+OVERSHOOT = 3.0
+"""The scale goes up to the highest force, but at most to so many times the bound."""
+
+HEAD, LEFT, FOOT = 22.0, 44.0, 17.0
+"""The room for the title, for the numbers of forces and for those of times, points."""
+
+
+def draw_force(
+    surface: pygame.Surface,
+    rect: pygame.Rect,
+    painter: Painter,
+    frame: Frame,
+    body: int,
+    reading: Reading,
+) -> None:
+    """Draw the net contact force on a body, as its meter has read it, within a rectangle."""
+    ui, bound = painter.ui, bound_of(frame, body)
+    _draw_title(surface, rect, painter, reading, bound)
+    area = pygame.Rect(
+        rect.left + round(LEFT * ui), rect.top + round(HEAD * ui) + 2,
+        rect.width - round(LEFT * ui), rect.height - round((HEAD + FOOT) * ui) - 2,
+    )  # fmt: skip
+    span = span_of(frame.scenario.sampling_time)
+    end = max(frame.time, span)
+    limits = end - span, end, _top(reading.force, bound)
+    _draw_axes(surface, area, painter, limits)
+    before = surface.get_clip()
+    surface.set_clip(area.inflate(2, 4).clip(before))
+    _draw_curves(surface, area, painter, frame, reading, bound, limits)
+    surface.set_clip(before)
+
+
+def _draw_title(
+    surface: pygame.Surface,
+    rect: pygame.Rect,
+    painter: Painter,
+    reading: Reading,
+    bound: Bound | None,
+) -> None:
+    """Write how large the force is now, and what the lines are."""
+    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+    middle = rect.top + round(HEAD / 2 * ui)
+    now = float(reading.force[-1]) if len(reading.force) else 0.0
+    image = fonts.render(in_newtons(now), 14 * ui, theme.shade(FORCE), bold=True)
+    surface.blit(image, image.get_rect(midright=(rect.right, middle)))
+    room = rect.width - image.get_width() - 8 * ui
+    x = rect.left
+    words = [("net contact force", theme.ink, True)]
+    if reading.effort is not None and bound is not None:
+        words.append(("effort", theme.effort, False))
+        if (reading.effort >= SLIPPING).any():
+            words.append(("slips", theme.text, False))
+    for word, color, bold in words:
+        image = fonts.render(word, 12 * ui, color, bold=bold)
+        if x + image.get_width() - rect.left > room:
+            break
+        if word == "slips":
+            patch = pygame.Rect(0, 0, round(9 * ui), round(9 * ui))
+            patch.midleft = x, middle
+            surface.fill(SLIP, patch)
+            x += round(13 * ui)
+        surface.blit(image, image.get_rect(midleft=(x, middle)))
+        x += image.get_width() + round(10 * ui)
+
+
+def _draw_axes(
+    surface: pygame.Surface,
+    area: pygame.Rect,
+    painter: Painter,
+    limits: tuple[float, float, float],
+) -> None:
+    """Draw the grid and the numbers of both axes."""
+    (start, end, top), ui = limits, painter.ui
+    fonts, theme = painter.fonts, painter.theme
+    step = round_force(top / 2)
+    for k in range(int(top / step + 1e-9) + 1):
+        y = area.bottom - round(k * step / top * area.height)
+        surface.fill(theme.grid_axis if k == 0 else theme.grid, (area.left, y, area.width, 1))
+        image = fonts.render(f"{k * step:.4g} N", 11 * ui, theme.muted)
+        surface.blit(image, image.get_rect(midright=(area.left - round(6 * ui), y)))
+    step = round_force((end - start) / 4)
+    for k in range(ceil(start / step - 1e-9), int(end / step + 1e-9) + 1):
+        x = area.left + round((k * step - start) / (end - start) * area.width)
+        surface.fill(theme.grid, (x, area.top, 1, area.height))
+        image = fonts.render(f"{k * step:.6g} s", 11 * ui, theme.muted)
+        place = image.get_rect(midtop=(x, area.bottom + round(3 * ui)))
+        if place.right <= area.right + round(10 * ui):
+            surface.blit(image, place)
+
+
+def _draw_curves(
+    surface: pygame.Surface,
+    area: pygame.Rect,
+    painter: Painter,
+    frame: Frame,
+    reading: Reading,
+    bound: Bound | None,
+    limits: tuple[float, float, float],
+) -> None:
+    """Draw the force and the effort as steps, where the drive slips, and the bound."""
+    start, end, top = limits
+    ui, theme, ink = painter.ui, painter.theme, painter.theme.shade(FORCE)
+
+    def pixels(time: Float, force: Float) -> Float:
+        x = area.left + (time - start) / (end - start) * area.width
+        return np.column_stack([x, area.bottom - np.minimum(force / top, 1.0) * area.height])
+
+    edges = reading.start + frame.scenario.sampling_time * np.arange(len(reading.force) + 1)
+    edges = np.minimum(edges, frame.time)
+    if reading.effort is not None and len(reading.effort) and bound is not None:
+        for a, b in _stretches(reading.effort >= SLIPPING):
+            left, right = pixels(edges[[a, b]], np.zeros(2))[:, 0].round().tolist()
+            band = pygame.Surface((max(1, int(right - left)), area.height))
+            band.fill(SLIP)
+            band.set_alpha(70)
+            surface.blit(band, (left, area.top))
+        height = bound.force * reading.effort
+        points = pixels(*_steps(edges, height, area.width))
+        hairlines(surface, rgba(theme.effort)[:3], points, 1.4 * ui)
+    scene = Scene()
+    if len(reading.force):
+        points = pixels(*_steps(edges, reading.force, area.width))
+        if reading.force.any():
+            foot = [(points[-1, 0], area.bottom), (points[0, 0], area.bottom)]
+            scene.polygon(np.vstack([points, foot]) * (1, -1), fill=faded(ink, 0.18))
+            painter.paint(surface, scene.shapes, PIXELS, shaded=False)
+        hairlines(surface, rgba(ink)[:3], points, 2.2 * ui)
+    scene = Scene()
+    if len(reading.force) and reading.force.max() > top:
+        k = int(reading.force.argmax())
+        word = f"peak {in_newtons(float(reading.force[k]))}"
+        half = painter.fonts.width(word, 12 * ui) / 2 + 4 * ui
+        x = float(pixels(edges[k : k + 1], np.zeros(1))[0, 0])
+        x = min(max(x, area.left + half), area.right - half)
+        scene.text((x, -area.top), word, color=ink, anchor="below", halo=theme.plate)
+    if bound is not None:
+        ends = pixels(np.array([start, end]), np.full(2, bound.force)) * (1, -1)
+        scene.line(ends, stroke=theme.ink, width=1.5, style="--")
+        word = f"{bound.name} {in_newtons(bound.force)}"
+        middle = area.left + 4 * ui + painter.fonts.width(word, 12 * ui) / 2
+        place = (middle, ends[0, 1] - 2 * ui)
+        scene.text(place, word, color=theme.ink, anchor="above", halo=theme.plate)
+    painter.paint(surface, scene.shapes, PIXELS, shaded=False)
+
+
+def _top(force: Float, bound: Bound | None) -> float:
+    """Return the upper end of the scale, newtons."""
+    peak = float(force.max(initial=0.0))
+    if bound is None:
+        return 1.15 * peak if peak > 0 else 1.0
+    return max(1.45 * bound.force, min(1.1 * peak, OVERSHOOT * bound.force))
+
+
+def _steps(edges: Float, values: Float, room: int) -> tuple[Float, Float]:
+    """Return the corners of a line of steps, at most one a pixel: of those nearer the highest."""
+    if len(values) > room:
+        starts = np.arange(0, len(values), ceil(len(values) / room))
+        values = np.maximum.reduceat(values, starts)
+        edges = np.append(edges[starts], edges[-1])
+    return np.repeat(edges, 2)[1:-1], np.repeat(values, 2)
+
+
+def _stretches(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return from where to where flags are set."""
+    changes = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
+    return list(zip(changes[::2].tolist(), changes[1::2].tolist(), strict=True))

@@ -1,0 +1,425 @@
+"""Everything about the selected body, in a column beside the picture."""
+
+from __future__ import annotations
+
+import re
+import time
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+import pygame
+
+from mars2d.addons.communication import Communication
+from mars2d.bodies.drives.base import Drive, Wheeled
+from mars2d.core.quantity import UNKNOWN
+from mars2d.core.registry import snake_case
+from mars2d.output.layers.bodies import prop_colors
+from mars2d.output.layers.forces import SLIP, SLIPPING, in_newtons, mean_forces
+from mars2d.output.raster.painter import Painter
+from mars2d.record.frame import Frame
+from mars2d.window.forceplot import draw_force
+from mars2d.window.meter import Meter
+from mars2d.window.sensorplot import TITLE, SensorPlot, plot_of
+
+__all__ = ["Inspector", "inbox"]
+
+WIDTH, NARROWEST = 344.0, 220.0
+"""Points; at most a part of the picture, and where that is less than the second, it is left out."""
+LARGEST_SHARE = 0.46
+SHORTEST = 130.0
+
+PAD, GAP = 14.0, 9.0
+"""Round all, and between two sections, points."""
+HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
+"""The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
+LOW_FORCE = 76.0
+"""The plot of forces is at least so high, points."""
+LABEL = 72.0
+"""The room for what a row of numbers is, points."""
+
+EVERY = 1 / 15
+"""Seconds between two drawings of what changes all the time."""
+
+LINES = 3
+"""So many contacts, and so many messages, are listed."""
+
+BLOCK = 65_536
+"""So many messages at a time are looked through, from the last one on."""
+
+MINUS = "\N{MINUS SIGN}"
+
+LONG_NUMBER = re.compile(r"(?<![\w.])-?\d+\.\d{3,}(e[+-]?\d+)?")
+
+Row = tuple[str, list[tuple[str, str]]]
+"""What it is, and the names and values of its numbers."""
+
+
+class Section(NamedTuple):
+    """A part of the column: how high it is [points], and how it is drawn within a rectangle.
+
+    least: how low it may be made where there is little room, points; by default no lower.
+    """
+
+    height: float
+    draw: Callable[[pygame.Surface, pygame.Rect], None]
+    least: float | None = None
+
+
+class Inspector:
+    """Draws what is known of one body: where it is, what it does, feels, senses and hears.
+
+    clock: what tells when it was drawn last; it is drawn anew a few times a second.
+    """
+
+    def __init__(self, painter: Painter, clock: Callable[[], float] = time.perf_counter) -> None:
+        """Start with nothing read; fonts and sprites are the painter's."""
+        self.painter = painter
+        self._clock = clock
+        self._meter = Meter()
+        self._left = False
+        self._image: pygame.Surface | None = None
+        self._of: tuple[object, ...] = ()
+        self._frame: Frame | None = None
+        self._drawn_at = 0.0
+
+    def place(self, plot: pygame.Rect, body: tuple[float, float]) -> pygame.Rect | None:
+        """Return where it may lie on the picture: at the right, or where the body is there, left.
+
+        body: pixels. None where the picture is too small for it.
+        """
+        ui, gap = self.painter.ui, round(12 * self.painter.ui)
+        width = round(min(WIDTH * ui, LARGEST_SHARE * plot.width))
+        height = plot.height - 2 * gap
+        if width < NARROWEST * ui or height < SHORTEST * ui:
+            return None
+        left = pygame.Rect(plot.left + gap, plot.top + gap, width, height)
+        right = left.move(plot.width - 2 * gap - width, 0)
+        near = round(60 * ui)
+        hides = (left if self._left else right).inflate(near, near).collidepoint(body)
+        hides_too = (right if self._left else left).inflate(near, near).collidepoint(body)
+        if hides and not hides_too:
+            self._left = not self._left
+        return left if self._left else right
+
+    def draw(
+        self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame, body: int
+    ) -> pygame.Rect:
+        """Draw it for a body within a rectangle; return how much of that it takes."""
+        ui, theme = self.painter.ui, self.painter.theme
+        of = body, frame.scenario, rect.size, ui, theme
+        reading = self._meter.read(frame, body)  # each control step, or all would be read anew
+        now = self._clock()
+        late = frame is not self._frame and now - self._drawn_at >= EVERY
+        if self._image is None or of != self._of or late:
+            inner = rect.inflate(-2 * round(PAD * ui), -2 * round(PAD / 2 * ui))
+            sections = list(self._chosen(frame, body, inner.height, reading))
+            height = sum(self._pixels(part) for part in sections)
+            self._image = pygame.Surface((inner.width, height), 0, 32)
+            self._image.fill(theme.plate)
+            top = 0
+            for part in sections:
+                part.draw(self._image, pygame.Rect(0, top, inner.width, round(part.height * ui)))
+                top += self._pixels(part)
+            self._of, self._frame, self._drawn_at = of, frame, now
+        pad = round(PAD * ui), round(PAD / 2 * ui)
+        taken = pygame.Rect(rect.left, rect.top, rect.width, self._image.get_height() + 2 * pad[1])
+        self.painter.panel(surface, taken, theme.plate, 8 * ui, theme.edge)
+        surface.blit(self._image, (rect.left + pad[0], rect.top + pad[1]))
+        return taken
+
+    def _pixels(self, section: Section) -> int:
+        return round((section.height + GAP) * self.painter.ui)
+
+    def _chosen(self, frame: Frame, body: int, room: int, reading: Any) -> Iterator[Section]:
+        """Yield the sections for which there is room, the most important ones first."""
+        left_out: list[str] = []
+        for name, section in self._sections(frame, body, reading):
+            last = round(LINE * self.painter.ui)  # for what is left out
+            if section.least is not None and self._pixels(section) + last > room:
+                lower = (room - last) / self.painter.ui - GAP
+                section = section._replace(height=max(section.least, lower))  # noqa: PLW2901
+            if self._pixels(section) + last <= room:
+                room -= self._pixels(section)
+                yield section
+            else:
+                left_out.append(name)
+        if left_out:
+            yield self._text(f"no room for {', '.join(left_out)}")
+
+    def _sections(self, frame: Frame, body: int, reading: Any) -> Iterator[tuple[str, Section]]:
+        """Yield all sections with their names."""
+        n = len(frame.scenario.robots)
+        rows = state_of(frame, body)
+        effort = float(frame.effort[body]) if body < min(n, len(frame.effort)) else None
+        height = HEAD + ROW * (len(rows) + (effort is not None))
+        yield (
+            "its state",
+            Section(
+                height,
+                lambda surface, rect: self._draw_state(surface, rect, frame, body, rows, effort),
+            ),
+        )
+        if frame.scenario.physics == "contact":
+            yield "contacts", self._line("contacts", " · ".join(contacts_of(frame, body)) or "none")
+            yield (
+                "forces",
+                Section(
+                    FORCE,
+                    lambda surface, rect: draw_force(
+                        surface, rect, self.painter, frame, body, reading
+                    ),
+                    LOW_FORCE,
+                ),
+            )
+        for plot in sensor_plots(frame, body):
+            yield plot.sensor.key, self._sensor(plot)
+        if body < n and any(isinstance(addon, Communication) for addon in frame.scenario.addons):
+            heard = [
+                f"{sender}, {frame.time - sent:.1f} s ago: {rounded(text)}"
+                for sender, sent, text in inbox(frame, body)
+            ]
+            yield "its inbox", self._list("inbox", heard)
+
+    # -- sections -----------------------------------------------------------------------------
+
+    def _draw_state(
+        self,
+        surface: pygame.Surface,
+        rect: pygame.Rect,
+        frame: Frame,
+        body: int,
+        rows: list[Row],
+        effort: float | None,
+    ) -> None:
+        """Draw the name of a body, and its numbers."""
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        colors = (*frame.scenario.colors, *prop_colors(frame.scenario.props))
+        middle = rect.top + round(HEAD / 2 * ui)
+        center = rect.left + 7 * ui, float(middle)
+        pygame.draw.aacircle(surface, theme.muted, center, 7.5 * ui)
+        pygame.draw.aacircle(surface, theme.shade(colors[body]), center, 6.5 * ui)
+        kind = fonts.render(kind_of(frame, body), 12.5 * ui, theme.muted)
+        surface.blit(kind, kind.get_rect(midright=(rect.right, middle)))
+        room = rect.width - kind.get_width() - 34 * ui
+        name = fonts.shorten(str(frame.scenario.bodies[body].name), 17 * ui, room, bold=True)
+        image = fonts.render(name, 17 * ui, theme.ink, bold=True)
+        surface.blit(image, image.get_rect(midleft=(rect.left + round(22 * ui), middle)))
+        top = rect.top + round(HEAD * ui)
+        for k, (what, numbers) in enumerate(rows):
+            line = pygame.Rect(rect.left, top + round(k * ROW * ui), rect.width, round(ROW * ui))
+            self._draw_row(surface, line, what, numbers)
+        if effort is not None:
+            line = pygame.Rect(
+                rect.left, top + round(len(rows) * ROW * ui), rect.width, round(ROW * ui)
+            )
+            self._draw_effort(surface, line, effort)
+
+    def _draw_row(
+        self,
+        surface: pygame.Surface,
+        rect: pygame.Rect,
+        what: str,
+        numbers: list[tuple[str, str]],
+    ) -> None:
+        """Draw a row of up to three numbers; where columns are too narrow, one after the other."""
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        image = fonts.render(what, 12.5 * ui, theme.muted)
+        surface.blit(image, image.get_rect(midleft=rect.midleft))
+        left, gap = rect.left + round(LABEL * ui), round(8 * ui)
+        column = (rect.right - left) / 3
+        for size in (12.5 * ui, 11.5 * ui, 10.5 * ui):
+            texts = [[fonts.render(f"{name} ", size, theme.muted),
+                      fonts.render(value, size, theme.ink)] for name, value in numbers]  # fmt: skip
+            widths = [sum(image.get_width() for image in pair) for pair in texts]
+            if sum(widths) + gap * (len(widths) - 1) <= rect.right - left:
+                break
+        in_columns = all(width + gap <= column for width in widths[:-1])
+        x = left
+        for k, pair in enumerate(texts):
+            x = round(left + k * column) if in_columns else x
+            for image in pair:
+                surface.blit(image, image.get_rect(midleft=(x, rect.centery)))
+                x += image.get_width()
+            x += gap
+
+    def _draw_effort(self, surface: pygame.Surface, rect: pygame.Rect, effort: float) -> None:
+        """Draw how much of its bounds the drive uses, as a bar."""
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        image = fonts.render("effort", 12.5 * ui, theme.muted)
+        surface.blit(image, image.get_rect(midleft=rect.midleft))
+        slips = effort >= SLIPPING
+        word = fonts.render("slips" if slips else f"{100 * effort:.0f} %", 12.5 * ui, theme.ink)
+        surface.blit(word, word.get_rect(midright=rect.midright))
+        left = rect.left + round(LABEL * ui)
+        bar = pygame.Rect(left, 0, rect.right - round(52 * ui) - left, round(6 * ui))
+        bar.centery = rect.centery
+        radius = bar.height // 2
+        pygame.draw.rect(surface, theme.track, bar, border_radius=radius)
+        bar.width = round(bar.width * min(effort, 1.0))
+        if bar.width > 0:
+            color = SLIP if slips else theme.effort
+            pygame.draw.rect(surface, color, bar, border_radius=radius)
+
+    def _sensor(self, plot: SensorPlot) -> Section:
+        """Return the section of a sensor: its name, and its plot."""
+        ui = self.painter.ui
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            kind = snake_case(type(plot.sensor).__name__)
+            self._heading(surface, rect, plot.sensor.key, "" if kind == plot.sensor.key else kind)
+            rest = pygame.Rect(rect.left, 0, rect.width, round(plot.height * ui))
+            rest.bottom = rect.bottom
+            plot.draw(surface, rest, self.painter)
+
+        return Section(TITLE + plot.height, draw)
+
+    def _line(self, title: str, text: str) -> Section:
+        """Return a section of one line."""
+        ui, fonts = self.painter.ui, self.painter.fonts
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            room = rect.width - fonts.width(title, 12.5 * ui, bold=True) - 12 * ui
+            self._heading(surface, rect, title, fonts.shorten(text, 12 * ui, room))
+
+        return Section(TITLE, draw)
+
+    def _list(self, title: str, lines: list[str]) -> Section:
+        """Return a section of some lines of text; it is as high as if there were the most."""
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            self._heading(surface, rect, title, "" if lines else "nothing yet")
+            for k, line in enumerate(lines[:LINES]):
+                text = fonts.shorten(line, 12.5 * ui, rect.width)
+                image = fonts.render(text, 12.5 * ui, theme.text)
+                middle = rect.top + round((TITLE + (k + 0.5) * LINE) * ui)
+                surface.blit(image, image.get_rect(midleft=(rect.left, middle)))
+
+        return Section(TITLE + LINES * LINE, draw)
+
+    def _text(self, text: str) -> Section:
+        """Return a section of one quiet line."""
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            short = fonts.shorten(text, 11.5 * ui, rect.width)
+            image = fonts.render(short, 11.5 * ui, theme.muted)
+            surface.blit(image, image.get_rect(midleft=rect.midleft))
+
+        return Section(LINE - GAP, draw)
+
+    def _heading(self, surface: pygame.Surface, rect: pygame.Rect, title: str, more: str) -> None:
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        middle = rect.top + round(TITLE / 2 * ui)
+        surface.fill(theme.edge, (rect.left, rect.top - round(GAP / 2 * ui), rect.width, 1))
+        image = fonts.render(title, 12.5 * ui, theme.ink, bold=True)
+        surface.blit(image, image.get_rect(midleft=(rect.left, middle)))
+        image = fonts.render(more, 12 * ui, theme.muted)
+        surface.blit(image, image.get_rect(midright=(rect.right, middle)))
+
+
+# -- what there is to say ---------------------------------------------------------------------
+
+
+def kind_of(frame: Frame, body: int) -> str:
+    """Return what kind of thing a body is: its drive, or what it is made as."""
+    n = len(frame.scenario.robots)
+    if body >= n:
+        return snake_case(type(frame.scenario.props[body - n]).__name__).replace("_", " ")
+    return snake_case(type(frame.scenario.robots[body].drive).__name__).replace("_", " ")
+
+
+def state_of(frame: Frame, body: int) -> list[Row]:
+    """Return the rows of numbers of a body."""
+    n = len(frame.scenario.robots)
+    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
+    vx, vy, omega = frame.velocity[:, body].tolist()
+    pose = [("x", _number(x, "m")), ("y", _number(y, "m")), ("θ", _degrees(theta))]
+    moves = [("v", _number(float(np.hypot(vx, vy)), "m/s")), ("ω", _number(omega, "rad/s"))]
+    if body >= n:
+        return [("pose", pose), ("moves", moves)]
+    drive = frame.scenario.robots[body].drive
+    command = np.zeros(2)
+    if len(frame.command_path):
+        command = frame.command_path[-1][:, body]
+    rows: list[Row] = [("pose", pose), ("command", command_words(drive, command)), ("moves", moves)]
+    if isinstance(drive, Wheeled):
+        left, right = drive.actuators(command[:, None])[:, 0].tolist()
+        rows.append(("wheels", [("left", _number(left)), ("right", _number(right, "m/s"))]))
+    return rows
+
+
+def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
+    """Return the names and values of a command (2,); a unit of both stands once, at the end."""
+    first, second = drive.quantities or UNKNOWN
+    units = "" if first.unit == second.unit else first.unit, second.unit
+    pairs = zip((first, second), np.asarray(command).tolist(), units, strict=True)
+    return [
+        (each.symbol, _degrees(value) if each.kind == "angle" else _number(value, unit))
+        for each, value, unit in pairs
+    ]
+
+
+def _number(value: float, unit: str = "") -> str:
+    """Return a number as it is read."""
+    text = f"{value + 0.0:.2f}" if abs(value) < 1000 else f"{value:.3g}"
+    text = "0.00" if text == "-0.00" else text
+    return f"{text} {unit}".strip().replace("-", MINUS)
+
+
+def _degrees(angle: float) -> str:
+    turned = (np.degrees(angle) + 180.0) % 360.0 - 180.0
+    return f"{round(turned) + 0:d}°".replace("-", MINUS)
+
+
+def contacts_of(frame: Frame, body: int) -> list[str]:
+    """Return with what a body is in touch, and how hard, the strongest first."""
+    rows = frame.contacts
+    mine = rows[(rows["a"] == body) | (rows["b"] == body)]
+    size = np.hypot(*mean_forces(mine, frame.scenario.sampling_time).T)
+    lines = []
+    for k in np.argsort(-size, kind="stable").tolist():
+        a, b = int(mine["a"][k]), int(mine["b"][k])
+        other = b if a == body else a
+        lines.append(f"{frame.scenario.body_name(other)}  {in_newtons(float(size[k]))}")
+    return lines
+
+
+def rounded(text: str) -> str:
+    """Return a message with the numbers in it to three digits.
+
+    >>> rounded('[0.1558127,-12.5,{"a": 1e-17}]')
+    '[0.156,-12.5,{"a": 1e-17}]'
+    """
+    return LONG_NUMBER.sub(lambda found: f"{float(found[0]):.3g}", text)
+
+
+def sensor_plots(frame: Frame, body: int) -> Iterator[SensorPlot]:
+    """Yield the plots of a robot's sensors that have read something."""
+    if body >= len(frame.scenario.robots):
+        return
+    for sensor in frame.scenario.robots[body].sensors:
+        for robot, reading in frame.readings.get(sensor.key, ()):
+            if robot == body:
+                yield plot_of(frame, body, sensor, reading)
+
+
+def inbox(frame: Frame, robot: int, most: int = LINES) -> list[tuple[str, float, str]]:
+    """Return the last messages that arrived for a robot: sender's name, when sent [s], content."""
+    rows, contents = frame.message_log()
+    now = frame.time + 1e-6 * frame.scenario.sampling_time
+    end = bisect_right(rows["time"], now)
+    found: list[tuple[str, float, str]] = []
+    while end > 0 and len(found) < most:
+        begin = max(0, end - BLOCK)
+        block = rows[begin:end]
+        for k in np.flatnonzero((block["receiver"] == robot) & (block["arrival"] <= now))[::-1]:
+            row = block[k]
+            name = str(frame.scenario.robots[int(row["sender"])].name)
+            found.append((name, float(row["time"]), contents[int(row["content"])]))
+            if len(found) == most:
+                break
+        end = begin
+    return found

@@ -1,0 +1,258 @@
+"""The clock of a window: how far the source goes for the time that passes on the wall."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Literal
+
+from mars2d.core.errors import Mars2dError
+from mars2d.record.frame import Frame, between
+from mars2d.scenario.animation import playback_speed
+from mars2d.window.slider import BEHIND, times
+from mars2d.window.source import Source
+
+__all__ = ["SPEEDS", "Player", "between"]
+
+Kind = Literal["running", "waiting", "past", "error"]
+Status = tuple[str, Kind]
+"""What the clock does, in words, and its kind: running, waiting, past or error."""
+
+SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+"""The rungs of + and -; above them lies "max"."""
+
+LONGEST_GAP = 0.1
+"""Wall time beyond this between two pictures, seconds, is not caught up with."""
+
+SHARE = 9.0
+"""At speed max, how many times as long as the drawing of a picture the simulation may take..."""
+RAREST = 0.1
+"""... as long as there is a picture at least each so many seconds."""
+
+
+class Player:
+    """Plays a source: at a factor of real time, as fast as it goes, paused, or by single steps.
+
+    speed: a factor, 0 for manual mode (one step a key press), or "max". budget: seconds of each
+    picture that the simulation may take.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        speed: float | str,
+        budget: float = 0.014,
+        clock: Callable[[], float] = time.perf_counter,
+    ) -> None:
+        """Start at the source's present frame, playing unless in manual mode."""
+        checked = playback_speed("speed", speed)
+        self.source = source
+        self.speed = float("inf") if checked == "max" else float(checked)
+        self.paused = False
+        self.error: Mars2dError | None = None
+        self.drawing = 0.0  # seconds that the last picture took
+        self._todo = 0  # steps
+        self._budget, self._clock = budget, clock
+        self._present = source.frame
+        self._previous: Frame | None = None
+        self._time = self._present.time
+        self._seen: tuple[Frame, float, Frame] | None = None  # between two: the second, when, what
+        self._pace: deque[tuple[float, float]] = deque()
+
+    @property
+    def manual(self) -> bool:
+        """Whether each step waits for a key."""
+        return self.speed == 0
+
+    @property
+    def playing(self) -> bool:
+        """Whether time passes."""
+        return not (self.paused or self.manual or self.over)
+
+    @property
+    def past(self) -> bool:
+        """Whether what is shown was run before: there are newer rows."""
+        return self.source.row < self.source.newest
+
+    @property
+    def failed(self) -> bool:
+        """Whether what is shown is where a law, sensor or add-on has failed."""
+        return self.error is not None and not self.past
+
+    @property
+    def over(self) -> bool:
+        """Whether the last frame is reached and shown, or a law has failed."""
+        return self.failed or (self.source.over and self._time >= self._present.time)
+
+    @property
+    def frame(self) -> Frame:
+        """What is to be drawn now: between the last two frames while time passes, else the last."""
+        present, previous = self._present, self._previous
+        if previous is None or self._time >= present.time or present.time <= previous.time:
+            return present
+        if self._seen is None or self._seen[0] is not present or self._seen[1] != self._time:
+            self._seen = present, self._time, between(previous, present, self._time)
+        return self._seen[2]
+
+    @property
+    def factor(self) -> float | None:
+        """How many times as fast as the wall clock it went of late; None when not known yet."""
+        if len(self._pace) < 2:
+            return None
+        (wall0, time0), (wall1, time1) = self._pace[0], self._pace[-1]
+        return (time1 - time0) / (wall1 - wall0) if wall1 - wall0 > 0.25 else None
+
+    def pass_time(self, wall: float) -> None:
+        """Go on for `wall` seconds that have passed since the last picture."""
+        if self._todo:
+            self._do_steps()
+        if not self.playing:
+            self._pace.clear()
+            return
+        if self.speed == float("inf"):
+            self._advance_for_long()
+            self.settle()
+        else:
+            wanted = self._time + self.speed * min(wall, LONGEST_GAP)
+            self._advance_until(wanted)
+            # Where the simulation is too slow, time waits for it instead of piling up a debt.
+            self._time = min(wanted, self._present.time)
+        now = self._clock()
+        self._pace.append((now, self._time))
+        while now - self._pace[0][0] > 1.5:
+            self._pace.popleft()
+
+    def step(self, count: int = 1) -> None:
+        """Go on by so many sampling times, and pause; by many as time allows between pictures."""
+        self.pause()
+        self._todo = count
+        self._do_steps()
+
+    def _do_steps(self) -> None:
+        """Do steps that are to be done, as many as a picture may wait for."""
+        deadline = self._clock() + self._budget
+        while self._todo and not (self.failed or self.source.over):
+            self._todo -= 1
+            if not self._advance() or self._clock() >= deadline:
+                break
+        else:
+            self._todo = 0
+        self.settle()
+
+    def back(self, count: int = 1) -> None:
+        """Go back by so many sampling times, and pause."""
+        self.go(self.source.row - count)
+
+    def go(self, row: int) -> None:
+        """Go to a row, or to the nearest one that there is as yet, and pause."""
+        self.pause()
+        self.source.go(row)
+        self.settle()
+
+    def pause(self) -> None:
+        """Stop time, if it passes, and show the present frame."""
+        self._todo = 0
+        if not self.manual:
+            self.paused = True
+        self.settle()
+
+    def pause_or_resume(self) -> None:
+        """Stop time or let it pass; in manual mode, one step."""
+        if self.manual:
+            self.step()
+            return
+        self._todo = 0
+        self.paused = not self.paused
+        if self.paused:
+            self.settle()
+
+    def set_speed(self, speed: float) -> None:
+        """Play at a factor of real time, or as fast as it goes: inf."""
+        self.speed = speed
+        self._pace.clear()
+
+    def faster(self) -> None:
+        """Go one rung up; from manual mode to the lowest."""
+        higher = [rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)]
+        self.set_speed(higher[0] if higher else float("inf"))
+
+    def slower(self) -> None:
+        """Go one rung down, at most to the lowest."""
+        lower = [rung for rung in SPEEDS if rung < self.speed * (1 - 1e-9)]
+        if lower:
+            self.set_speed(lower[-1])
+
+    def restart(self) -> None:
+        """Go back to the start; a law that failed gets another chance."""
+        self.error = None
+        self._todo = 0
+        self._pace.clear()
+        try:
+            self.source.restart()
+        except Mars2dError as error:
+            self.error = error
+            self.source.go(self.source.newest)  # where it is told
+        self.settle()
+
+    def status(self) -> Status:
+        """Return what the clock does."""
+        if self.past:
+            ago = (self.source.newest - self.source.row) * self.source.scenario.sampling_time
+            return f"{self._pace_in_words() if self.playing else 'past'}  {ago:g} s ago", "past"
+        if self.over:
+            return ("stopped", "error") if self.failed else ("over", "waiting")
+        if self._todo:
+            return f"{self._todo} steps", "running"
+        if self.manual:
+            return "manual", "waiting"
+        return ("paused", "waiting") if self.paused else (self._pace_in_words(), "running")
+
+    def _pace_in_words(self) -> str:
+        factor = self.factor
+        if self.speed == float("inf"):
+            return "max" if factor is None else f"max  {times(factor)}"
+        text = times(self.speed)
+        if factor is not None and factor < BEHIND * self.speed:
+            text += f"  reaches {times(factor)}"
+        return text
+
+    def fail(self, error: Mars2dError) -> None:
+        """Stop at the present frame, without what add-ons and sensors draw: one of them raised."""
+        if str(self.error) != str(error):  # it raises at each picture
+            self.error = error
+        self.settle()
+        self._present = replace(self._present, readings={}, draw_addons=None)
+
+    def settle(self) -> None:
+        """Show the source's present frame, as after something was done to the world."""
+        self._present = self.source.frame
+        self._previous = None
+        self._time = self._present.time
+
+    def _advance_for_long(self) -> None:
+        """Go on for as long as a picture may take, asking for no frame in between."""
+        deadline = self._clock() + max(self._budget, min(SHARE * self.drawing, RAREST))
+        while not self.source.over and self._advance():
+            if self._clock() >= deadline:
+                break
+
+    def _advance_until(self, wanted: float) -> None:
+        deadline = self._clock() + self._budget
+        while self._present.time < wanted and not self.source.over:
+            before = self._present
+            if not self._advance():
+                self.settle()
+                break
+            self._present, self._previous = self.source.frame, before
+            if self._clock() >= deadline:
+                break
+
+    def _advance(self) -> bool:
+        """Go on by one sampling time; return whether the law held."""
+        try:
+            self.source.advance()
+        except Mars2dError as error:
+            self.error = error
+        return not self.failed

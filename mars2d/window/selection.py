@@ -1,0 +1,75 @@
+"""Which robot or prop is selected, and which one lies under the pointer."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mars2d.core.scene import Scene
+from mars2d.geometry.shapes import Piece
+from mars2d.output.layers.forces import bounding_circle
+from mars2d.output.raster.theme import LIGHT
+from mars2d.record.frame import Float, Frame
+
+__all__ = ["body_at", "body_name", "next_body", "selection_mark", "sensed_by"]
+
+
+def body_at(frame: Frame, point: tuple[float, float], slack: float) -> int | None:
+    """Return the index of the body at a point, or None; robots lie above props.
+
+    slack: so far off its edge it is hit as well, metres. Indices are those of `Scenario.bodies`.
+    """
+    poses = np.hstack([frame.pose, frame.prop_pose])
+    n = frame.pose.shape[1]
+    order = [*reversed(range(n)), *reversed(range(n, poses.shape[1]))]
+    for i in order:
+        x, y, theta = poses[:, i].tolist()
+        c, s = np.cos(theta), np.sin(theta)
+        dx, dy = point[0] - x, point[1] - y
+        local = np.array([c * dx + s * dy, c * dy - s * dx])
+        if any(_distance(piece, local) <= slack for piece in frame.scenario.bodies[i].shape.pieces):
+            return i
+    return None
+
+
+def _distance(piece: Piece, point: Float) -> float:
+    """Return how far off a convex piece a point is, metres, at most; negative within."""
+    ring = np.array(piece.vertices)
+    if len(ring) == 1:
+        return float(np.hypot(*(point - ring[0]))) - piece.radius
+    edges = np.roll(ring, -1, axis=0) - ring
+    outwards = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.hypot(*edges.T)[:, None]
+    return float(((point - ring) * outwards).sum(axis=1).max())
+
+
+def next_body(frame: Frame, body: int | None) -> int | None:
+    """Return the body after another one: robots, props, then None, and round again."""
+    following = 0 if body is None else body + 1
+    return following if following < len(frame.scenario.bodies) else None
+
+
+def body_name(frame: Frame, body: int) -> str:
+    """Return the name of a body."""
+    return frame.scenario.bodies[body].name
+
+
+def sensed_by(frame: Frame, body: int | None) -> Frame:
+    """Return a frame with the readings of a selected robot alone, if it has any."""
+    if body is None:
+        return frame
+    own = {
+        name: [(i, reading) for i, reading in readings if i == body]
+        for name, readings in frame.readings.items()
+    }
+    return replace(frame, readings=own) if any(own.values()) else frame
+
+
+def selection_mark(frame: Frame, body: int) -> Scene:
+    """Return the ring round a selected body."""
+    scene = Scene()
+    pose = np.hstack([frame.pose, frame.prop_pose])[:, body]
+    center, radius = bounding_circle(frame.scenario.bodies[body].shape, pose)
+    for color, width in (("#ffffff", 4.5), (LIGHT.selected, 2.5)):
+        scene.circle(center, radius, stroke=color, width=width, pixels=10.0)
+    return scene

@@ -1,0 +1,267 @@
+"""The time bar: what has been recorded of an experiment, where one is in it, and what happened."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.core.plane import grid_step
+from mars2d.core.scene import Scene
+from mars2d.output.layers.forces import FORCE
+from mars2d.output.raster.camera import PIXELS
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import Theme, mixed
+from mars2d.window.tooltip import draw_tooltip
+
+__all__ = ["MarkKind", "TimeBar", "TimeState"]
+
+MarkKind = Literal["collision", "hand", "branch", "error"]
+
+ENDLESS = 1_000_000
+"""Experiments of more rows than this are not shown whole, but as far as they have gone."""
+SHORTEST = 10.0
+"""The least that is shown of them, seconds."""
+BAND = 6.0
+"""The height of the bar, points."""
+
+
+@dataclass(frozen=True, slots=True)
+class TimeState:
+    """Where an experiment is: rows are control steps, from 0.
+
+    row: what is shown. rows: the newest one simulated so far. last: that at which it ends.
+    sampling_time: seconds between two rows. marks: rows, in ascending order, at which collisions
+    began, a hand has intervened, a branch begins, or a law has failed.
+    """
+
+    row: int
+    rows: int
+    last: int
+    sampling_time: float
+    marks: Mapping[MarkKind, Sequence[int]] = field(default_factory=dict)
+
+    @property
+    def extent(self) -> float:
+        """The row at the right end: the last one; of endless experiments a round time ahead."""
+        if self.last <= ENDLESS:
+            return max(self.last, self.rows, 1)
+        time = max(1.02 * self.rows * self.sampling_time, SHORTEST)
+        return min(grid_step(time) / self.sampling_time, float(self.last))
+
+
+@dataclass(slots=True)
+class _Ticks:
+    """Which columns of pixels events lie in, from the left of the line; more events may follow.
+
+    rows: of the events, a list that may grow. width: of the line, pixels. extent: as of the state.
+    """
+
+    rows: Sequence[int]
+    width: int
+    extent: float
+    count: int = 0
+    columns: NDArray[np.bool_] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.columns = np.zeros(self.width + 1, dtype=bool)
+
+    def stretches(self, left: int, thick: int) -> list[tuple[int, int]]:
+        """Return the columns in which there is anything, as first ones and how many.
+
+        left: where the line begins. thick: of a tick, pixels.
+        """
+        new = np.array(self.rows[self.count :], dtype=np.float64)
+        places = np.rint(left + self.width * np.minimum(new / self.extent, 1.0)).astype(int)
+        self.columns[places - left] = True
+        self.count = len(self.rows)
+        columns = np.flatnonzero(self.columns)
+        gaps = np.flatnonzero(np.diff(columns) > thick)
+        starts = columns[np.concatenate([[0], gaps + 1])] if len(columns) else columns
+        ends = columns[np.concatenate([gaps, [-1]])] if len(columns) else columns
+        firsts = (starts + left - thick // 2).tolist()
+        return list(zip(firsts, (ends - starts + thick).tolist(), strict=True))
+
+
+class TimeBar:
+    """Draws the state of an experiment along a line, and tells which row lies where on it."""
+
+    def __init__(self) -> None:
+        """Start with nothing drawn."""
+        self._line = pygame.Rect(0, 0, 0, 0)
+        self._area = pygame.Rect(0, 0, 0, 0)
+        self._state: TimeState | None = None
+        self._ticks: dict[MarkKind, _Ticks] = {}
+
+    def hit(self, pixel: tuple[int, int]) -> bool:
+        """Return whether a pixel belongs to the bar: a press there goes to its row."""
+        return bool(self._area.collidepoint(pixel))
+
+    def row_at(self, x: float) -> int | None:
+        """Return the row at a pixel from the left, of those recorded the nearest.
+
+        None as long as nothing is drawn, or where there is no room for a bar.
+        """
+        if self._state is None or self._line.width <= 0:
+            return None
+        share = (x - self._line.left) / self._line.width
+        return min(max(round(share * self._state.extent), 0), self._state.rows)
+
+    def x_of(self, row: float) -> float:
+        """Return how far from the left a row lies, pixels."""
+        extent = 1.0 if self._state is None else self._state.extent
+        return self._line.left + self._line.width * min(row / extent, 1.0)
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        rect: pygame.Rect,
+        painter: Painter,
+        state: TimeState,
+        *,
+        pointer: tuple[int, int] | None = None,
+        held: bool = False,
+    ) -> None:
+        """Draw it on a part of a surface.
+
+        pointer: where the mouse is. held: it drags the handle.
+        """
+        ui, theme = painter.ui, painter.theme
+        surface.fill(theme.bar, rect)
+        surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
+        self._state = state
+        self._arrange(rect, painter, state)
+        if self._line.width <= 0:
+            return
+        hovered = held or (pointer is not None and self.hit(pointer))
+        self._ends(surface, painter, state)
+        self._band(surface, painter, state)
+        self._marks(surface, painter, state)
+        self._handle(surface, painter, state, lifted=hovered)
+        self._label(surface, painter, state)
+        if hovered and pointer is not None:
+            row = self.row_at(pointer[0])
+            place = round(self.x_of(row or 0)), rect.top - round(4 * ui)
+            draw_tooltip(surface, painter, _time(row or 0, state), place)
+
+    def _arrange(self, rect: pygame.Rect, painter: Painter, state: TimeState) -> None:
+        """Place the line between the labels of its ends, or without them where it is short."""
+        ui, fonts = painter.ui, painter.fonts
+        pad, gap, size = 20 * ui, 12 * ui, 13 * ui
+        left = rect.left + pad + fonts.width("0 s", size) + gap
+        right = rect.right - pad - fonts.width(_time(state.extent, state, digits=0), size) - gap
+        self._labelled = right - left >= 120 * ui
+        if not self._labelled:
+            left, right = rect.left + pad, rect.right - pad
+        height = round(BAND * ui)
+        line = pygame.Rect(round(left), 0, max(0, round(right - left)), height)
+        line.centery = rect.top + round(0.58 * rect.height)
+        self._line = line
+        self._area = pygame.Rect(line.left - round(8 * ui), rect.top, 0, rect.height)
+        self._area.width = line.width + round(16 * ui) if line.width else 0
+
+    def _ends(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Write the times at both ends."""
+        if not self._labelled:
+            return
+        ui, line = painter.ui, self._line
+        gap = round(12 * ui)
+        start = painter.fonts.render("0 s", 13 * ui, painter.theme.muted)
+        surface.blit(start, start.get_rect(midright=(line.left - gap, line.centery)))
+        end = _time(state.extent, state, digits=0)
+        image = painter.fonts.render(end, 13 * ui, painter.theme.muted)
+        surface.blit(image, image.get_rect(midleft=(line.right + gap, line.centery)))
+
+    def _band(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Draw what is to come, what is recorded, and over that what has been played."""
+        theme, line = painter.theme, self._line
+        ahead = mixed(theme.selected, theme.bar, 0.42)
+        before = surface.get_clip()
+        for row, color in (
+            (state.extent, theme.track),
+            (state.rows, ahead),
+            (state.row, theme.selected),
+        ):
+            end = round(self.x_of(row))
+            surface.set_clip(pygame.Rect(line.left, line.top, end - line.left, line.height))
+            painter.panel(surface, line, color, line.height / 2)
+        surface.set_clip(before)
+
+    def _marks(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Draw a tick for each event, one a pixel: hands above the line, collisions below it."""
+        ui, line = painter.ui, self._line
+        thick, long = max(1, round(1.5 * ui)), round(6 * ui)
+        above, below = line.top - round(2 * ui) - long, line.bottom + round(2 * ui)
+        ticks: tuple[tuple[MarkKind, int, int], ...] = (
+            ("collision", below, long),
+            ("hand", above, long),
+            ("branch", above, below + long - above),
+            ("error", above, below + long - above),
+        )
+        for kind, top, height in ticks:
+            wide = thick * (2 if kind == "error" else 1)
+            color = _mark_color(kind, painter.theme)
+            for x, width in self._ticks_of(kind, state).stretches(line.left, wide):
+                surface.fill(color, (x, top, width, height))
+
+    def _ticks_of(self, kind: MarkKind, state: TimeState) -> _Ticks:
+        """Return the ticks of a kind of event; those of a list that has only grown go on."""
+        rows, width, extent = state.marks.get(kind, ()), self._line.width, state.extent
+        ticks = self._ticks.get(kind)
+        if (
+            ticks is None
+            or ticks.rows is not rows
+            or (ticks.width, ticks.extent) != (width, extent)
+            or ticks.count > len(rows)
+        ):
+            ticks = self._ticks[kind] = _Ticks(rows, width, extent)
+        return ticks
+
+    def _handle(
+        self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool
+    ) -> None:
+        """Draw the handle, larger while the mouse is over the bar."""
+        theme = painter.theme
+        color = theme.past.ink if state.row < state.rows else theme.selected
+        scene = Scene()
+        center = self.x_of(state.row), -self._line.centery
+        scene.circle(center, 0.0, fill=theme.bar, pixels=11.0 if lifted else 9.0)
+        scene.circle(center, 0.0, fill=color, pixels=9.0 if lifted else 7.0)
+        painter.paint(surface, scene.shapes, PIXELS, shaded=False)
+
+    def _label(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Write the time above the handle, where one looks back."""
+        if state.row >= state.rows:
+            return
+        ui, line = painter.ui, self._line
+        text = _time(state.row, state)
+        image = painter.fonts.render(text, 12 * ui, painter.theme.past.ink, bold=True)
+        place = image.get_rect(
+            midbottom=(round(self.x_of(state.row)), line.centery - round(9 * ui))
+        )
+        place.left = min(max(place.left, line.left), line.right - place.width)
+        place.top = max(place.top, self._area.top + 1)
+        ground = place.inflate(round(8 * ui), 0)
+        surface.fill(painter.theme.bar, ground)
+        surface.blit(image, place)
+
+
+def _mark_color(kind: MarkKind, theme: Theme) -> str:
+    tones = {"hand": theme.hand, "branch": theme.past, "error": theme.error}
+    return tones[kind].ink if kind in tones else theme.shade(FORCE)
+
+
+def _time(row: float, state: TimeState, digits: int | None = None) -> str:
+    """Return the time of a row in words, with as many decimals as tell two rows apart."""
+    step = state.sampling_time
+    if digits is None:
+        digits = next((k for k in (0, 1, 2) if abs(round(step, k) - step) < 1e-9), 3)
+    seconds = row * step
+    text = f"{seconds:.{digits}f}"
+    if digits == 0 and abs(seconds - round(seconds)) > 1e-6:
+        text = f"{seconds:.3g}"
+    return f"{text} s"

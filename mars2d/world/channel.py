@@ -1,0 +1,228 @@
+"""The channel: carries the messages of one world, as its add-on Communication says."""
+
+from __future__ import annotations
+
+import json
+import marshal
+from collections import defaultdict
+from functools import cached_property
+from math import nan
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.addons.communication import Communication
+from mars2d.addons.gilbert_elliott import Burst
+from mars2d.core.delay import steps_until
+from mars2d.core.errors import LawError, nearest, shown
+from mars2d.record.message import (
+    LOST,
+    MESSAGE,
+    ON_ITS_WAY,
+    OUT_OF_REACH,
+    OVER_BANDWIDTH,
+    Message,
+    as_text,
+)
+from mars2d.scenario.neighbours import Everyone, within
+
+if TYPE_CHECKING:
+    from mars2d.record.recorder import Recorder
+    from mars2d.world.world import World
+
+__all__ = ["Channel"]
+
+Int = NDArray[np.int64]
+
+WHO = "a robot's index or name, a list of these, or None for all in reach"
+
+
+class _Sent(NamedTuple):
+    """What a robot has sent in the present control step: to whom, and whether it gets there."""
+
+    sender: int
+    step: int  # the iteration
+    text: str
+    size: int
+    receivers: Int  # (k,)
+    status: NDArray[np.uint8]  # (k,), what becomes of it as far as that is known
+
+
+class _Letter:
+    """A message for all that it arrives at. It is parsed when the first of them looks at it."""
+
+    def __init__(self, sender: int, name: str, time: float, text: str) -> None:
+        self._head, self._text = (sender, name, time), text
+
+    @cached_property
+    def _message(self) -> Message:
+        return Message(*self._head, json.loads(self._text))
+
+    @cached_property
+    def _packed(self) -> bytes | None:
+        """What to make copies of the content from; None if it can't be changed anyway."""
+        content = self._message.content
+        # Lists and dicts are copied by this several times as fast as they are parsed.
+        return marshal.dumps(content) if isinstance(content, (list, dict)) else None
+
+    def opened(self) -> Message:
+        """Return the message with a content that no other receiver can change."""
+        packed = self._packed
+        return self._message if packed is None else Message(*self._head, marshal.loads(packed))
+
+
+class Channel:
+    """Carries messages from robot to robot.
+
+    In a control step, `deliver` comes first, then anybody may `send`, and `transmit` ends it. All
+    chance lies in `transmit`, which takes the senders in order: so what becomes of a message does
+    not depend on the order in which laws are asked.
+    """
+
+    def __init__(self, world: World, model: Communication, recorder: Recorder) -> None:
+        """Take the world, the live add-on, whose random stream is drawn from, and the recorder."""
+        self._world, self._model, self._recorder = world, model, recorder
+        self._names = [str(robot.name) for robot in world.scenario.robots]
+        self._indices = {name: i for i, name in enumerate(self._names)}
+        dt = world.scenario.sampling_time
+        self._steps = max(1, steps_until(model.delay, dt))
+        self.delay = self._steps * dt  # s, from sending to arrival
+        self._sent: list[_Sent] = []
+        self._used: dict[int, int] = defaultdict(int)  # bytes sent in this control step
+        self._coming: dict[int, list[tuple[_Letter, Int]]] = {}  # by the iteration of arrival
+        self._arrived: list[tuple[_Letter, Int]] = []  # letters and their receivers
+        self._letters: list[list[_Letter]] | None = None  # the same by receiver, once asked for
+        self._inbox: dict[int, tuple[Message, ...]] = {}  # as far as it was asked for
+        self._links: dict[tuple[int, int], tuple[int, bool]] = {}  # when each was last known as bad
+        self._hearers: tuple[int, list[Int]] = (-1, [])
+
+    def inbox(self, robot: int) -> tuple[Message, ...]:
+        """Return the messages that have arrived for a robot at the present control step."""
+        if robot not in self._inbox:
+            if self._letters is None:
+                self._letters = [[] for _ in self._names]
+                for letter, receivers in self._arrived:
+                    for receiver in receivers.tolist():
+                        self._letters[receiver].append(letter)
+            self._inbox[robot] = tuple([letter.opened() for letter in self._letters[robot]])
+        return self._inbox[robot]
+
+    def deliver(self) -> None:
+        """Put into the inboxes what arrives at the present control step; empty all others."""
+        self._arrived = self._coming.pop(self._world.iteration, [])
+        self._letters, self._inbox = None, {}
+
+    def send(self, sender: int, content: Any, to: Any) -> None:
+        """Take a message of a robot. Raises LawError if it can't be recorded, or for a wrong `to`.
+
+        to: an index or a name, a list of these, or None for all in reach.
+        """
+        text = as_text(content)
+        size = len(text.encode())
+        receivers = self._receivers(sender, to)
+        reached = self._reached(sender, receivers)
+        if to is None:
+            receivers, reached = receivers[reached], reached[reached]
+        fits = self._model.bandwidth is None or self._used[sender] + size <= self._model.bandwidth
+        if fits:
+            self._used[sender] += size
+        going = ON_ITS_WAY if fits else OVER_BANDWIDTH
+        status = np.where(reached, going, OUT_OF_REACH).astype(np.uint8)
+        self._sent.append(_Sent(sender, self._world.iteration, text, size, receivers, status))
+
+    def transmit(self) -> None:
+        """Let all that was sent in the present control step go its way, and record it."""
+        sent, self._sent = sorted(self._sent, key=lambda item: item.sender), []
+        self._used.clear()
+        dt = self._world.scenario.sampling_time
+        for sender, step, text, size, receivers, status in sent:
+            if not len(receivers):
+                continue
+            going = np.flatnonzero(status == ON_ITS_WAY)
+            status[going[self._lost(sender, receivers[going], step)]] = LOST
+            arrives = status == ON_ITS_WAY
+            if arrives.any():
+                letter = _Letter(sender, self._names[sender], step * dt, text)
+                coming = self._coming.setdefault(step + self._steps, [])
+                coming.append((letter, receivers[arrives]))
+            rows = np.empty(len(receivers), dtype=MESSAGE)
+            rows["time"], rows["sender"], rows["size"] = step * dt, sender, size
+            rows["arrival"] = np.where(arrives, (step + self._steps) * dt, nan)
+            rows["receiver"], rows["status"] = receivers, status
+            self._recorder.write_messages(text, rows)
+
+    def _lost(self, sender: int, receivers: Int, step: int) -> NDArray[np.bool_]:
+        """Return which receivers (k,) a message is lost to. A perfect link draws no number."""
+        model = self._model
+        if model.burst is not None:
+            burst, links = model.burst, [(sender, receiver) for receiver in receivers.tolist()]
+            lost = [burst.loses(self._is_bad(burst, link, step), model.rng) for link in links]
+            return np.array(lost, dtype=bool)
+        if model.loss:
+            return np.asarray(model.rng.random(len(receivers)) < model.loss)
+        return np.zeros(len(receivers), dtype=bool)
+
+    def _is_bad(self, burst: Burst, link: tuple[int, int], step: int) -> bool:
+        """Return whether a link is bad now; it stays so for the whole control step."""
+        known, bad = self._links.get(link, (step, None))
+        if bad is None or step > known:
+            bad = burst.turns(bad, step - known, self._model.rng)
+            self._links[link] = step, bad
+        return bad
+
+    # -- to whom -------------------------------------------------------------------------------
+
+    def _receivers(self, sender: int, to: Any) -> Int:
+        """Return to whom a message is sent (k,), each robot once, by index."""
+        if to is None:
+            return np.delete(np.arange(len(self._names)), sender)
+        if isinstance(to, np.ndarray):
+            to = to.ravel().tolist()
+        listed = to if isinstance(to, (list, tuple, set, frozenset)) else [to]
+        found = sorted({self._receiver(sender, one) for one in listed})
+        return np.array(found, dtype=np.int64)
+
+    def _receiver(self, sender: int, to: Any) -> int:
+        where = f"robot.send(to={shown(to)})"
+        if isinstance(to, str):
+            if to not in self._indices:
+                raise LawError(f"{where}: no robot is called so{nearest(to, self._names)}")
+            found = self._indices[to]
+        elif isinstance(to, (int, np.integer)) and not isinstance(to, bool):
+            last = len(self._names) - 1
+            if not 0 <= to <= last:
+                raise LawError(f"{where}: no such robot; expected an index from 0 to {last}")
+            found = int(to)
+        else:
+            raise LawError(f"{where}: expected {WHO}")
+        if found == sender:
+            raise LawError(f"{where}: {self._names[sender]} can't send to itself")
+        return found
+
+    def _reached(self, sender: int, others: Int) -> NDArray[np.bool_]:
+        """Return which of the others (k,) the channel reaches from where the sender is."""
+        world, model = self._world, self._model
+        reached = np.ones(len(others), dtype=bool)
+        if model.neighbours_only and type(world.scenario.neighbours) is not Everyone:
+            reached = np.isin(others, self._hearers_of(sender))
+        x, y = world.pose[:2]
+        if model.range is not None:
+            reached &= within(x[others] - x[sender], y[others] - y[sender], model.range)
+        if model.line_of_sight and reached.any():
+            near = np.flatnonzero(reached)
+            start, there = (float(x[sender]), float(y[sender])), world.pose[:2, others[near]].T
+            reached[near] = ~world.surroundings.hidden(start, there, others[near], sender)
+        return reached
+
+    def _hearers_of(self, sender: int) -> Int:
+        """Return whose neighbour a robot is now, by index; worked out once a control step."""
+        world, (asked, hearers) = self._world, self._hearers
+        if asked < 0 or (asked != world.iteration and not world.scenario.neighbours.fixed):
+            found: list[list[int]] = [[] for _ in self._names]
+            for i in range(len(found)):
+                for j in world.neighbour_indices(i):
+                    found[j].append(i)
+            hearers = [np.array(row, dtype=np.int64) for row in found]
+            self._hearers = world.iteration, hearers
+        return hearers[sender]

@@ -1,0 +1,102 @@
+"""The loop around `World.step`: run an experiment to its end, without a window."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import nullcontext
+from typing import TYPE_CHECKING
+
+from mars2d.core.errors import InputError
+from mars2d.core.interrupt import noted_interrupts
+from mars2d.record.columns import Column, DiskError, Storage
+from mars2d.record.record import Record
+from mars2d.scenario.experiment import Experiment
+from mars2d.world.pace import RealTime
+from mars2d.world.world import Watcher, World
+
+if TYPE_CHECKING:
+    from mars2d.output.formats.mcap import Log
+
+__all__ = ["Interrupted", "open_world", "simulate", "watch_by"]
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during a run; `record` is what was recorded until then."""
+
+    def __init__(self, record: Record) -> None:
+        super().__init__("interrupted")
+        self.record = record
+
+
+def simulate(
+    experiment: Experiment,
+    seed: int = 0,
+    speed: float | str = "max",
+    watchers: Sequence[Watcher] = (),
+    log: Log | None = None,
+) -> World:
+    """Run an opened experiment to its end and return the world, which is over.
+
+    speed: simulated seconds per second, > 0, or "max". watchers: called with the world at each
+    control step, once its sensors have been read: to draw, to count, to wait. log: what writes each
+    control step to a file when it is done, and is closed at the end, whatever that is; it keeps the
+    columns of the record in files, too. A LawError that ends the run carries what was recorded
+    until then as its `record`; a DiskError of the log, and Interrupted, which Ctrl-C raises, do as
+    well.
+    """
+    every: list[Watcher] = [*watchers]
+    if speed != "max":
+        every.append(RealTime(float(speed)))
+    world: World | None = None
+    try:
+        with noted_interrupts() as check, log or nullcontext():
+            world = open_world(experiment, seed, every, Column if log is None else log.storage)
+            try:
+                while not world.over:
+                    world.step()
+                    if log is not None:
+                        log.follow(world)
+                    check()
+            except KeyboardInterrupt:
+                world.break_off("Interrupted by Ctrl-C")
+                raise
+            except DiskError as error:
+                world.break_off(f"Error: {error}")
+                error.record = world.record
+                raise
+    except KeyboardInterrupt:
+        if world is None:
+            raise
+        raise Interrupted(world.record) from None
+    return world
+
+
+def open_world(
+    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = (), storage: Storage = Column
+) -> World:
+    """Return the world of an experiment, which calls the watchers at each control step.
+
+    storage: what keeps the columns of its record. Raises InputError, which names the file.
+    """
+    try:
+        return World(
+            experiment.scenario,
+            experiment.control,
+            seed,
+            filename=experiment.filename,
+            watch=watch_by(watchers),
+            storage=storage,
+        )
+    except InputError as error:
+        error.where = error.where or experiment.filename or None
+        raise
+
+
+def watch_by(watchers: Sequence[Watcher]) -> Watcher | None:
+    """Return what calls all watchers at each control step; None if there are none."""
+
+    def watch(world: World) -> None:
+        for watcher in watchers:
+            watcher(world)
+
+    return watch if watchers else None

@@ -1,0 +1,200 @@
+"""What sensors ask, answered by a world: rays, points, colours, beacons."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from math import isfinite
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mars2d.addons.base import Addon, Color
+from mars2d.core.errors import InputError
+from mars2d.core.plane import Point
+from mars2d.core.usercode import called
+from mars2d.geometry.ray_casting import Fans
+from mars2d.output.layers.bodies import OBSTACLE, prop_colors
+from mars2d.physics.space import Space
+from mars2d.sensors.base import NOTHING
+
+if TYPE_CHECKING:
+    from mars2d.world.world import Addons, World
+
+__all__ = ["Around"]
+
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+
+WHITE = (1.0, 1.0, 1.0)
+"""The colour of a floor of which nothing is said."""
+
+
+class Around:
+    """The Surroundings of one world's sensors; see `mars2d.sensors.Surroundings`."""
+
+    def __init__(self, world: World, space: Space) -> None:
+        self._world = world
+        self.renew(space)
+
+    def renew(self, space: Space) -> None:
+        """Take another space, after the world was changed; what was worked out is forgotten."""
+        self._space = space
+        self._placed: Float | None = None  # the poses at which the fans' bodies are
+        for name in ("_fans", "_colors", "_addons"):
+            vars(self).pop(name, None)
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds."""
+        return self._world.time
+
+    @property
+    def sampling_time(self) -> float:
+        """The time between control steps, seconds."""
+        return self._world.scenario.sampling_time
+
+    @property
+    def pose(self) -> Float:
+        """The poses of all robots, (3, n)."""
+        return self._world.pose
+
+    @property
+    def prop_pose(self) -> Float:
+        """The poses of all props, (3, p)."""
+        return self._world.prop_pose
+
+    @property
+    def driven(self) -> Sequence[tuple[float, Float]]:
+        """What the drives asked for in the last control step."""
+        return self._world.driven
+
+    # -- rays and points -------------------------------------------------------------------
+
+    def distance(self, point: Point, limit: float, ignore: int) -> float:
+        """Return the distance to the nearest surface, metres; inf beyond `limit`."""
+        _check_look("point", point, "limit", limit)
+        return self._space.distance(point, limit, ignore)
+
+    def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
+        """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
+        _check_look("point", point, "limit", limit)
+        return self._space.nearby(point, limit, ignore)
+
+    def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
+        """Return how far a ray goes until the first surface, metres; inf if none is hit."""
+        _check_look("start", start, "length", length)
+        _check_all("angle", angle)
+        return float(self._space.rays.distances(start, np.array([angle]), length, ignore)[0])
+
+    def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
+        """Return how far rays at angles (k,) go, (k,) metres; inf where nothing is hit."""
+        return np.asarray(self.scans(_upright(start), angles, length, [ignore])[0])
+
+    def sight(
+        self, start: Point, angles: Float, length: ArrayLike, ignore: int
+    ) -> tuple[Float, Int]:
+        """Return how far rays go, and which body each hits, NOTHING if none."""
+        distances, bodies = self.sights(_upright(start), angles, length, [ignore])
+        return distances[0], bodies[0]
+
+    def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
+        """Return how far rays from poses (3, m) at bearings (k,) go, (m, k) metres."""
+        _check_fans(poses, bearings, length)
+        return self._fans_now.distances(poses, bearings, length, ignore)
+
+    def sights(
+        self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
+    ) -> tuple[Float, Int]:
+        """Return how far rays from poses (3, m) at bearings (k,) go, and what each hits."""
+        _check_fans(poses, bearings, length)
+        return self._fans_now.sight(poses, bearings, length, ignore, NOTHING)
+
+    @cached_property
+    def _fans(self) -> Fans:
+        scenario = self._world.scenario
+        return Fans(
+            [body.shape.pieces for body in scenario.bodies],
+            [surface.outline for surface in scenario.surfaces],
+        )
+
+    @property
+    def _fans_now(self) -> Fans:
+        """The fans, with all bodies where they are now."""
+        if self._placed is not self._world.pose:
+            self._placed = self._world.pose
+            self._fans.place(np.hstack([self._placed, self._world.prop_pose]))
+        return self._fans
+
+    def hidden(
+        self, start: Point, points: Float, bodies: ArrayLike, ignore: int
+    ) -> NDArray[np.bool_]:
+        """Return whether something stands between `start` and points (k, 2)."""
+        return self._space.rays.hidden(start, points, bodies, ignore)
+
+    # -- looks -------------------------------------------------------------------------------
+
+    def color(self, body: int) -> str:
+        """Return the colour of a body or obstacle, ``#rrggbb``."""
+        return OBSTACLE if body < 0 else self._colors[body]
+
+    @cached_property
+    def _colors(self) -> tuple[str, ...]:
+        scenario = self._world.scenario
+        return (*scenario.colors, *prop_colors(scenario.props))
+
+    # -- what add-ons put there ----------------------------------------------------------------
+
+    @cached_property
+    def _addons(self) -> tuple[Addon, ...]:
+        return tuple(vars(self._world.addons).values())
+
+    @property
+    def addons(self) -> Addons:
+        """The add-ons by name, as ``world.addons``."""
+        return self._world.addons
+
+    @property
+    def beacons(self) -> Mapping[str, Point]:
+        """Where the beacons are now, by name."""
+        found: dict[str, Point] = {}
+        for addon in self._addons:
+            with called(f"add-on {addon.key!r}", addon.beacons):
+                found |= addon.beacons()
+        return found
+
+    def ground(self, point: Point) -> Color:
+        """Return the colour of the floor at a point: red, green and blue from 0 to 1."""
+        for addon in reversed(self._addons):
+            with called(f"add-on {addon.key!r}", addon.ground):
+                color = addon.ground(point)
+            if color is not None:
+                return color
+        return WHITE
+
+
+def _upright(start: Point) -> Float:
+    """Return the pose (3, 1) of a fan that starts in a point, and whose bearings are angles."""
+    return np.array([[start[0]], [start[1]], [0.0]])
+
+
+def _check_look(what: str, point: Point, how_far: str, limit: float) -> None:
+    """Refuse what a sensor can't ask with: a look from nowhere would find nothing, and say so."""
+    if not (isfinite(point[0]) and isfinite(point[1])):
+        raise InputError(f"{what} = {point}: expected finite numbers")
+    if not limit >= 0:  # nor is NaN
+        raise InputError(f"{how_far} = {limit}: expected at least 0 m")
+
+
+def _check_fans(poses: Float, bearings: Float, length: ArrayLike) -> None:
+    """Refuse rays from nowhere, to nowhere, or of no length."""
+    _check_all("poses", poses)
+    _check_all("bearings", bearings)
+    if not np.greater_equal(length, 0).all():
+        raise InputError(f"length = {np.asarray(length)}: expected at least 0 m")
+
+
+def _check_all(name: str, values: ArrayLike) -> None:
+    if not np.isfinite(values).all():
+        raise InputError(f"{name} = {np.asarray(values)}: expected finite numbers")

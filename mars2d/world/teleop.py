@@ -1,0 +1,89 @@
+"""Driving by hand: from a stick to the command of a drive, and who it is that is driven."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import NamedTuple
+
+import numpy as np
+
+from mars2d.addons.contest import Contest
+from mars2d.bodies.drives.base import Drive, Wheeled
+from mars2d.bodies.drives.car import Car
+from mars2d.core.errors import InputError, nearest
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Stick", "command_of", "ramped", "robot_of"]
+
+TURN = 1.5
+"""How quickly a robot turns at most, rad/s, where its wheels are quick enough."""
+
+RISE, FALL = 4.0, 8.0
+"""How quickly a stick follows the keys, in parts of its way in a second: out, and back."""
+
+
+class Stick(NamedTuple):
+    """Where a stick is held: across, to the right, and ahead; each from -1 to 1."""
+
+    across: float = 0.0
+    ahead: float = 0.0
+
+    def within(self, most: float = 1.0) -> Stick:
+        """Return it no farther out than `most` in any direction."""
+        share = most / max(hypot(*self), most)
+        return Stick(share * self.across, share * self.ahead)
+
+
+def command_of(drive: Drive, stick: Stick) -> tuple[float, float]:
+    """Return the command of a drive that a stick asks for.
+
+    A drive that moves in the world's frame goes where the stick points to in the picture. Others
+    go ahead or back by it, and turn: a robot of two wheels at 1.5 rad/s, or as quickly as its
+    wheels allow, for which it goes slower as far as needed; a car steers.
+    """
+    across, ahead = stick
+    most = drive.max_linear_speed
+    if drive.frame == "world":
+        return most * across, most * ahead
+    if isinstance(drive, Car):
+        return most * ahead, -drive.max_steering * across
+    if not isinstance(drive, Wheeled):
+        return most * ahead, -TURN * across
+    rim = min(TURN * drive.wheel_semiaxis, most)
+    turn, way = -rim * across, ahead * (most - rim * abs(across))
+    first, second = drive.command_for(np.array([[way - turn], [way + turn]])).ravel().tolist()
+    return first, second
+
+
+def ramped(stick: Stick, wanted: Stick, duration: float) -> Stick:
+    """Return where a stick is `duration` seconds later that is on its way to where it is wanted."""
+    return Stick(*(_towards(a, b, duration) for a, b in zip(stick, wanted, strict=True)))
+
+
+def _towards(value: float, wanted: float, duration: float) -> float:
+    outwards = abs(wanted) > abs(value) and wanted * value >= 0
+    step = duration * (RISE if outwards else FALL)
+    return min(max(wanted, value - step), value + step)
+
+
+def robot_of(scenario: Scenario, who: str | int, field: str = "human =") -> int:
+    """Return the index of the robot that `who` names: by its name, its index, or a game's role.
+
+    Of several robots in a role it is the first. Raises InputError, which begins with `field` and
+    ends with the nearest name, if there is none.
+    """
+    names = [str(robot.name) for robot in scenario.robots]
+    roles: dict[str, int] = {}
+    for game in scenario.addons:
+        if isinstance(game, Contest):
+            first = (team[0] for team in game.teams(scenario))
+            roles |= {role: index for (role, _), index in zip(game.roles, first, strict=True)}
+    if isinstance(who, str) and who in names:
+        return names.index(who)
+    if isinstance(who, str) and who in roles:
+        return roles[who]
+    if str(who).isdecimal() and int(who) < len(names):
+        return int(who)
+    raise InputError(
+        f"{field} {who}: there is no such robot or role{nearest(who, {*names, *roles})}"
+    )

@@ -1,0 +1,499 @@
+"""What is in a file is what stands in the way: each format, each kind of thing, each option."""
+
+from __future__ import annotations
+
+import json
+from math import pi
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+from mars2d import InputError
+from mars2d.addons import Map
+from mars2d.addons.maps import described, obstacles, read
+
+
+def dxf(path, *, units=6):
+    """A new drawing and its model space; `save` it with `.saveas(path)`."""
+    document = ezdxf.new("R2010", units=units)
+    return document, document.modelspace()
+
+
+def length(drawing):
+    return sum(p.geometry.length for p in drawing.pieces)
+
+
+def same(drawing, wkt, tolerance=1e-6):
+    """Whether a drawing's pieces cover what a text in WKT says, to a tolerance."""
+    found = shapely.union_all([p.geometry for p in drawing.pieces])
+    return found.hausdorff_distance(shapely.from_wkt(wkt)) < tolerance
+
+
+# -- DXF ---------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def plan(tmp_path):
+    return tmp_path / "plan.dxf"
+
+
+def test_lines_and_polylines_of_a_dxf_are_walls(plan):
+    document, space = dxf(plan)
+    space.add_line((0, 0), (4, 0))
+    space.add_lwpolyline([(4, 0), (4, 3), (0, 3)])
+    space.add_polyline2d([(0, 3), (0, 1), (0, 0)])
+    document.saveas(plan)
+    drawing = read(plan)
+    assert same(drawing, "LINESTRING (0 0, 4 0, 4 3, 0 3, 0 0)")
+    assert obstacles(drawing).walls == (((0, 0), (0, 3), (4, 3), (4, 0), (0, 0)),)
+
+
+def test_a_closed_polyline_is_a_wall_round_free_room(plan):
+    document, space = dxf(plan)
+    space.add_lwpolyline([(0, 0), (4, 0), (4, 3), (0, 3)], close=True)
+    document.saveas(plan)
+    found = Map.from_file(plan)
+    assert found.outlines == ()
+    assert len(found.obstacles()) == 4
+
+
+@pytest.mark.parametrize(
+    ("add", "expected"),
+    [
+        (lambda s: s.add_arc((1, 2), 2, 0, 90), pi),
+        (lambda s: s.add_circle((0, 0), 2), 4 * pi),
+        (lambda s: s.add_ellipse((0, 0), (2, 0), 1.0), 4 * pi),
+        (lambda s: s.add_lwpolyline([(0, 0, 1), (2, 0, 0)], format="xyb"), pi),
+        (lambda s: s.add_lwpolyline([(0, 0, 1), (2, 0, 1)], format="xyb", close=True), 2 * pi),
+        (lambda s: s.add_spline([(0, 0), (1, 0), (2, 0), (3, 0)]), 3),
+        (lambda s: s.add_open_spline([(0, 0), (0, 0), (3, 4), (3, 4)]), 5),
+    ],
+    ids=["arc", "circle", "ellipse", "bulge", "two bulges", "spline by points", "spline"],
+)
+def test_curves_are_as_long_as_they_are(plan, add, expected):
+    document, space = dxf(plan)
+    add(space)
+    document.saveas(plan)
+    assert length(read(plan)) == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_bulge_turns_the_way_that_it_should(plan):
+    document, space = dxf(plan)
+    space.add_lwpolyline([(0, 0, 1), (2, 0, 0)], format="xyb")  # counter-clockwise: beneath
+    document.saveas(plan)
+    assert read(plan).bounds == pytest.approx((0, 2, -1, 0), abs=1e-3)
+
+
+def test_blocks_are_placed_scaled_turned_mirrored_and_nested(plan):
+    document, space = dxf(plan)
+    inner = document.blocks.new("INNER")
+    inner.add_line((0, 0), (1, 0))
+    outer = document.blocks.new("OUTER", base_point=(1, 0))
+    outer.add_blockref("INNER", (1, 0), dxfattribs={"xscale": 2, "yscale": 2, "rotation": 90})
+    space.add_blockref("OUTER", (10, 5), dxfattribs={"xscale": -1, "rotation": 90})
+    document.saveas(plan)
+    # twice as long and upright in OUTER, at its base point; turned by 90 degrees, mirrored first
+    assert same(read(plan), "LINESTRING (10 5, 8 5)")
+
+
+def test_an_array_of_blocks_stands_row_by_row_turned_but_not_scaled(plan):
+    document, space = dxf(plan)
+    document.blocks.new("B").add_line((0, 0), (0.5, 0))
+    array = {"row_count": 2, "column_count": 3, "row_spacing": 4, "column_spacing": 2}
+    space.add_blockref("B", (1, 1), dxfattribs=array | {"rotation": 90, "xscale": 2})
+    document.saveas(plan)
+    expected = ", ".join(
+        f"({1 - 4 * row} {1 + 2 * column}, {1 - 4 * row} {2 + 2 * column})"
+        for row in range(2)
+        for column in range(3)
+    )
+    assert same(read(plan), f"MULTILINESTRING ({expected})")
+
+
+def test_an_uneven_scale_makes_ellipses_of_a_blocks_circles(plan):
+    document, space = dxf(plan)
+    document.blocks.new("B").add_circle((0, 0), 1)
+    space.add_blockref("B", (0, 0), dxfattribs={"xscale": 3})
+    document.saveas(plan)
+    assert read(plan).bounds == pytest.approx((-3, 3, -1, 1), abs=1e-3)
+
+
+def test_what_is_on_layer_0_of_a_block_is_on_the_layer_of_its_reference(plan):
+    document, space = dxf(plan)
+    block = document.blocks.new("DOOR")
+    block.add_line((0, 0), (1, 0))
+    block.add_line((0, 0), (0, 1), dxfattribs={"layer": "HINGES"})
+    space.add_blockref("DOOR", (3, 3), dxfattribs={"layer": "DOORS"})
+    document.saveas(plan)
+    assert read(plan).layers == {"DOORS": 1, "HINGES": 1}
+
+
+def test_a_solid_of_a_dxf_is_solid(plan):
+    document, space = dxf(plan)
+    space.add_solid([(0, 0), (2, 0), (0, 1), (2, 1)])  # in the order of SOLID
+    document.saveas(plan)
+    found = Map.from_file(plan)
+    assert shapely.Polygon(found.outlines[0]).equals(shapely.box(0, 0, 2, 1))
+
+
+def test_hidden_layers_are_read_only_when_they_are_named(plan):
+    document, space = dxf(plan)
+    for k, name in enumerate(("WALLS", "OFF", "FROZEN", "NO_PLOT")):
+        document.layers.add(name)
+        space.add_line((0, k), (1, k), dxfattribs={"layer": name})
+    document.layers.get("OFF").off()
+    document.layers.get("FROZEN").freeze()
+    document.layers.get("NO_PLOT").dxf.plot = 0
+    document.saveas(plan)
+    assert read(plan).layers == {"WALLS": 1}
+    assert read(plan).others == {"OFF": 1, "FROZEN": 1, "NO_PLOT": 1}
+    assert read(plan, layers=["off", "FRO*"]).layers == {"OFF": 1, "FROZEN": 1}
+    assert read(plan, layers="WALLS, off").layers == {"WALLS": 1, "OFF": 1}
+
+
+@pytest.mark.parametrize(("units", "metres"), [(1, 0.0254), (2, 0.3048), (4, 1e-3), (5, 1e-2)])
+def test_the_unit_is_that_of_the_header_unless_it_is_given(plan, units, metres):
+    document, space = dxf(plan, units=units)
+    space.add_line((0, 0), (100, 0))
+    document.saveas(plan)
+    assert read(plan).size[0] == pytest.approx(100 * metres)
+    assert read(plan, unit="m").size[0] == pytest.approx(100)
+    assert read(plan, unit=0.5).size[0] == pytest.approx(50)
+
+
+def test_without_a_unit_metres_are_supposed_and_said(plan):
+    document, space = dxf(plan, units=0)
+    space.add_line((0, 0), (12, 0))
+    document.saveas(plan)
+    rows = dict(described(read(plan), obstacles(read(plan)), 0.02))
+    assert rows["unit"] == "m, supposed: the header names no unit"
+
+
+def test_a_size_that_is_implausible_has_a_hint_which_unit_would_fit(plan):
+    document, space = dxf(plan, units=4)
+    space.add_line((0, 0), (900, 500))
+    document.saveas(plan)
+    assert read(plan).hint == (
+        "0.9 m is small for a map of robots: is it unit=cm (9 m) or unit=in (22.9 m)?"
+    )
+    assert read(plan, unit="in").hint == ""
+    assert "large" in read(plan, unit="m").hint
+
+
+def test_a_binary_dxf_reads_as_its_text_does(tmp_path):
+    document, space = dxf(None)
+    space.add_lwpolyline([(0, 0, 0.5), (2, 0, 0), (2, 2, 0)], format="xyb")
+    document.saveas(tmp_path / "text.dxf")
+    document.saveas(tmp_path / "binary.dxf", fmt="bin")
+    text, binary = (obstacles(read(tmp_path / f"{kind}.dxf")) for kind in ("text", "binary"))
+    assert text == binary
+
+
+def test_a_map_far_away_is_moved_to_where_it_is_wanted(plan):
+    document, space = dxf(plan)
+    space.add_line((4_500_000, 5_400_000), (4_500_010, 5_400_005))
+    document.saveas(plan)
+    with pytest.raises(InputError, match=r"at=\(0, 0\) moves it"):
+        read(plan)
+    assert read(plan, at=(1, 2)).bounds == pytest.approx((1, 11, 2, 7))
+
+
+# -- SVG ---------------------------------------------------------------------------------------
+
+
+def svg(tmp_path, content, head='viewBox="0 0 10 8"'):
+    path = tmp_path / "plan.svg"
+    namespaces = (
+        'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+        'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
+    )
+    path.write_text(f"<svg {namespaces} {head}>{content}</svg>")
+    return path
+
+
+LINE = 'fill="none" stroke="black"'
+
+
+def test_what_is_filled_is_solid_what_has_a_line_alone_is_a_wall_y_points_up(tmp_path):
+    path = svg(tmp_path, f'<rect x="1" y="1" width="2" height="1"/><path d="M5 8V4" {LINE}/>')
+    found = Map.from_file(path)
+    assert shapely.Polygon(found.outlines[0]).equals(shapely.box(1, 6, 3, 7))
+    assert found.walls == (((5, 0), (5, 4)),)
+
+
+@pytest.mark.parametrize(
+    ("content", "areas", "walls"),
+    [
+        (f'<rect width="2" height="1" fill="white"/><path d="M0 0H1" {LINE}/>', 0, 1),
+        ('<rect width="2" height="1" fill="white" stroke="red"/>', 0, 1),
+        ('<rect width="2" height="1" style="fill:#fff;stroke:red"/>', 0, 1),
+        ('<rect width="2" height="1" fill="gray" stroke="red"/>', 1, 0),
+        ('<rect width="2" height="1" fill="gray" fill-opacity="0" stroke="red"/>', 0, 1),
+        ('<style>.w{fill:none;stroke:#000}</style><rect class="w" width="2" height="1"/>', 0, 1),
+        ('<g fill="none" stroke="red"><rect width="2" height="1"/></g>', 0, 1),
+        (f'<line x1="1" y1="1" x2="2" y2="2" {LINE}/>', 0, 1),
+        (f'<polyline points="1,1 2,2 3,1" {LINE}/>', 0, 1),
+        ('<polygon points="1,1 2,2 3,1"/>', 1, 0),
+        ('<circle r="1"/><ellipse cx="5" cy="5" rx="2" ry="1"/>', 2, 0),
+        (f'<path d="M0 0H1" {LINE}/><g style="display:none"><circle r="1"/></g>', 0, 1),
+        (f'<path d="M0 0H1" {LINE}/><circle r="1" visibility="hidden"/>', 0, 1),
+        (f'<path d="M0 0H1" {LINE}/><defs><circle r="1"/></defs>', 0, 1),
+        (f'<path d="M0 0H1" {LINE}/><symbol><circle r="1"/></symbol>', 0, 1),
+        (f'<path d="M0 0H1" {LINE}/><marker><circle r="1"/></marker>', 0, 1),
+        ('<defs><circle id="c" r="1"/></defs><use href="#c" x="5"/><use xlink:href="#c"/>', 2, 0),
+        ('<symbol id="c"><circle r="1"/></symbol><use href="#c" x="5"/>', 1, 0),
+    ],
+)
+def test_what_is_seen_is_read(tmp_path, content, areas, walls):
+    drawing = read(svg(tmp_path, content))
+    kinds = [piece.geometry.geom_type for piece in drawing.pieces]
+    assert (kinds.count("Polygon"), kinds.count("LineString")) == (areas, walls)
+
+
+def test_transforms_of_groups_and_shapes_are_done(tmp_path):
+    turned = '<g transform="translate(4 4)"><rect width="2" height="1" transform="rotate(90)"/></g>'
+    drawing = read(svg(tmp_path, turned))
+    assert same(drawing, shapely.box(3, 2, 4, 4).wkt)
+
+
+def test_curves_and_arcs_of_a_path_are_round(tmp_path):
+    drawing = read(svg(tmp_path, '<path d="M2 4A2 2 0 0 1 6 4A2 2 0 0 1 2 4z"/>'))
+    assert drawing.pieces[0].geometry.area == pytest.approx(4 * pi, rel=2e-3)
+    bow = f'<path d="M0 0C0 2 3 4 4 4" {LINE}/><path d="M0 0Q2 2 4 0" {LINE}/>'
+    assert read(svg(tmp_path, bow)).bounds == pytest.approx((0, 4, 4, 8), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("rule", "inner", "area"),
+    [
+        ("nonzero", "M1 1H3V3H1z", 16),
+        ("nonzero", "M1 1V3H3V1z", 12),
+        ("evenodd", "M1 1H3V3H1z", 12),
+        ("evenodd", "M1 1V3H3V1z", 12),
+    ],
+)
+def test_the_rule_by_which_a_path_is_filled_counts(tmp_path, rule, inner, area):
+    drawing = read(svg(tmp_path, f'<path fill-rule="{rule}" d="M0 0H4V4H0z{inner}"/>'))
+    assert sum(p.geometry.area for p in drawing.pieces) == pytest.approx(area)
+
+
+def test_a_layer_is_the_innermost_group_with_a_label_or_an_id(tmp_path):
+    content = (
+        '<g id="layer1" inkscape:label="Walls"><g><circle r="1"/></g></g>'
+        '<g id="doors"><circle r="2"/><g id="inner"><circle r="3"/></g></g><circle r="4"/>'
+    )
+    drawing = read(svg(tmp_path, content))
+    assert drawing.layers == {"Walls": 1, "doors": 1, "inner": 1, "no layer": 1}
+
+
+@pytest.mark.parametrize(
+    ("head", "width"),
+    [
+        ('viewBox="0 0 100 80"', 50),
+        ('width="200" height="160" viewBox="0 0 100 80"', 50),
+        ('width="100mm" height="80mm" viewBox="0 0 100 80"', 0.05),
+        ('width="1000cm" height="800cm" viewBox="0 0 100 80"', 5),
+        ('width="96in" height="80in"', 50 * 0.0254 / 96),
+        ('width="100%" height="100%" viewBox="0 0 100 80"', 50),
+        ('viewBox="-20 -20 100 80"', 50),
+    ],
+)
+def test_the_unit_is_that_of_the_width_or_else_a_metre(tmp_path, head, width):
+    path = svg(tmp_path, f'<path d="M0 0H50" {LINE}/>', head)
+    assert read(path).size[0] == pytest.approx(width)
+    assert read(path, unit="cm").size[0] == pytest.approx(0.5)
+
+
+# -- GeoJSON and WKT ---------------------------------------------------------------------------
+
+
+def test_geojson_has_solid_polygons_walls_and_layers(tmp_path):
+    path = tmp_path / "plan.geojson"
+    rings = [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]], [[1, 1], [3, 1], [3, 3], [1, 3], [1, 1]]]
+    features = [
+        ({"layer": "walls"}, {"type": "Polygon", "coordinates": rings}),
+        ({"name": "doors"}, {"type": "MultiLineString", "coordinates": [[[5, 0], [6, 0, 9]]]}),
+        (None, {"type": "LineString", "coordinates": [[7, 0], [8, 0]]}),
+        ({}, {"type": "Point", "coordinates": [1, 1]}),
+        ({}, None),
+    ]
+    data = [{"type": "Feature", "properties": p, "geometry": g} for p, g in features]
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": data}))
+    drawing = read(path)
+    assert drawing.layers == {"walls": 1, "doors": 1, "no layer": 1}
+    assert drawing.skipped == {"Point": 1}
+    assert drawing.pieces[0].geometry.area == pytest.approx(12)
+    assert read(path, layers="doors", unit="cm").size == pytest.approx((0.01, 0))
+
+
+def test_degrees_are_told_by_their_size(tmp_path):
+    path = tmp_path / "plan.json"
+    ring = [[11.33, 43.31], [11.3302, 43.31], [11.3302, 43.312], [11.33, 43.31]]
+    path.write_text(json.dumps({"type": "Polygon", "coordinates": [ring]}))
+    assert "small for a map" in read(path).hint
+
+
+def test_wkt_may_hold_several_geometries_and_collections(tmp_path):
+    path = tmp_path / "plan.wkt"
+    path.write_text(
+        "POLYGON ((0 0, 2 0,\n 2 1, 0 0))\n\nLINESTRING Z (5 0 1, 6 0 1)\n"
+        "GEOMETRYCOLLECTION (POINT (1 1), MULTILINESTRING ((7 0, 8 0), (8 0, 9 1)))\n"
+    )
+    drawing = read(path)
+    assert [p.geometry.geom_type for p in drawing.pieces] == ["Polygon", *["LineString"] * 3]
+    assert drawing.skipped == {"Point": 1}
+
+
+# -- pixels ------------------------------------------------------------------------------------
+
+CELLS = np.array([[1, 1, 1, 1, 1], [1, 0, 0, 0, 1], [1, 0, 0, 1, 0], [1, 1, 1, 0, 0]], dtype=bool)
+
+
+def grid(tmp_path, pixels, **fields):
+    Image.fromarray(pixels.astype(np.uint8)).save(tmp_path / "grid.png")
+    path = tmp_path / "grid.yaml"
+    values = {"image": "grid.png", "resolution": 0.5, "origin": [1, 2, 0]} | fields
+    path.write_text("".join(f"{key}: {value}\n" for key, value in values.items()))
+    return path
+
+
+def covered(drawing):
+    return shapely.union_all([p.geometry for p in drawing.pieces])
+
+
+def boxes(mask, cell, x, y):
+    """The squares of a mask (rows, columns), the lower left corner of all at (x, y)."""
+    row, column = np.argwhere(mask).T
+    left, low = x + cell * column, y + cell * (len(mask) - 1 - row)
+    return shapely.union_all(shapely.box(left, low, left + cell, low + cell))
+
+
+def test_the_dark_cells_of_a_grid_are_solid_where_the_origin_says(tmp_path):
+    drawing = read(grid(tmp_path, np.where(CELLS, 0, 254)))
+    assert covered(drawing).symmetric_difference(boxes(CELLS, 0.5, 1, 2)).area < 1e-9
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_any_grid_is_covered_exactly_and_its_obstacles_have_no_holes(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    mask = rng.random((14, 17)) < rng.uniform(0.3, 0.8)
+    path = grid(tmp_path, np.where(mask, 0, 255))
+    whole = boxes(mask, 0.5, 1, 2)
+    assert covered(read(path)).symmetric_difference(whole).area < 1e-9
+    outlines = Map.from_file(path, tolerance=0).outlines
+    pieces = [shapely.Polygon(outline) for outline in outlines]
+    assert sum(piece.area for piece in pieces) == pytest.approx(whole.area)  # they don't overlap
+    assert shapely.union_all(pieces).symmetric_difference(whole).area < 1e-6
+
+
+def test_a_grid_is_turned_about_its_lower_left_corner(tmp_path):
+    drawing = read(grid(tmp_path, np.where(CELLS, 0, 254), origin=[1, 2, pi / 2]))
+    straight = boxes(CELLS, 0.5, 0, 0)
+    turned = shapely.transform(straight, lambda p: np.column_stack([1 - p[:, 1], 2 + p[:, 0]]))
+    assert covered(drawing).symmetric_difference(turned).area < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("fields", "occupied"),
+    [
+        ({}, {0, 80}),  # darker than 1 - 0.65
+        ({"negate": 1}, {200, 255}),
+        ({"occupied_thresh": 0.2}, {0, 80, 200}),
+        ({"mode": "scale"}, {0, 80}),
+        ({"mode": "raw"}, {80}),  # 80 per cent; 200 and 255 are unknown
+        ({"mode": "raw", "occupied_thresh": 0.9}, set()),
+    ],
+)
+def test_thresholds_negation_and_modes(tmp_path, fields, occupied):
+    values = np.array([[0, 80, 200, 255]])
+    path = grid(tmp_path, np.kron(values, np.ones((2, 2))), **fields)
+    if not occupied:
+        with pytest.raises(InputError, match="no pixel is occupied"):
+            read(path)
+        return
+    mask = np.kron(np.isin(values, [*occupied]), np.ones((2, 2), dtype=bool))
+    assert covered(read(path)).symmetric_difference(boxes(mask, 0.5, 1, 2)).area < 1e-9
+
+
+def test_an_image_needs_a_resolution_its_dark_pixels_are_solid_clear_ones_are_not(tmp_path):
+    pixels = np.full((4, 6, 4), 255, dtype=np.uint8)
+    pixels[0, 0] = (0, 0, 0, 255)
+    pixels[3, 5] = (200, 0, 0, 255)
+    pixels[1, 1] = (0, 0, 0, 0)
+    path = tmp_path / "plan.png"
+    Image.fromarray(pixels).save(path)
+    with pytest.raises(InputError, match=r"needs resolution=..., metres per pixel"):
+        read(path)
+    drawing = read(path, resolution=0.1)
+    expected = shapely.union(shapely.box(0, 0.3, 0.1, 0.4), shapely.box(0.5, 0, 0.6, 0.1))
+    assert covered(drawing).symmetric_difference(expected).area < 1e-9
+
+
+# -- obstacles ---------------------------------------------------------------------------------
+
+
+def test_the_room_in_a_ring_stays_free(tmp_path):
+    path = tmp_path / "ring.wkt"
+    path.write_text("POLYGON ((0 0, 6 0, 6 6, 0 6, 0 0), (1 1, 5 1, 5 5, 1 5, 1 1), "
+                    "(0.2 0.2, 0.8 0.2, 0.8 0.8, 0.2 0.8, 0.2 0.2))")  # fmt: skip
+    found = Map.from_file(path)
+    pieces = shapely.union_all([shapely.Polygon(outline) for outline in found.outlines])
+    assert pieces.area == pytest.approx(36 - 16 - 0.36)
+    assert not pieces.intersects(shapely.Point(3, 3))
+
+
+def test_what_is_drawn_twice_or_has_no_length_is_dropped(plan):
+    document, space = dxf(plan)
+    space.add_line((0, 0), (4, 0))
+    space.add_line((4, 0), (0, 0))
+    space.add_line((1, 1), (1, 1))
+    space.add_lwpolyline([(4, 0), (4, 0), (4, 2), (4, 2)])
+    document.saveas(plan)
+    assert obstacles(read(plan)).walls == (((0, 0), (4, 0), (4, 2)),)
+
+
+def test_areas_that_overlap_are_joined(tmp_path):
+    content = '<rect width="2" height="1"/><rect x="1" width="2" height="1"/>'
+    outlines = Map.from_file(svg(tmp_path, content)).outlines
+    assert len(outlines) == 1
+    assert shapely.Polygon(outlines[0]).equals(shapely.box(0, 7, 3, 8))
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 0.01, 0.1, 0.5])
+def test_corners_move_by_no_more_than_the_tolerance(plan, tolerance):
+    document, space = dxf(plan)
+    space.add_circle((0, 0), 5)
+    space.add_spline([(7, 0), (8, 3), (10, -2), (12, 5)])
+    document.saveas(plan)
+    drawing = read(plan)
+    exact, found = obstacles(drawing, 0), obstacles(drawing, tolerance)
+    for one, other in zip(exact.walls, found.walls, strict=True):
+        distance = shapely.LineString(one).hausdorff_distance(shapely.LineString(other))
+        assert distance <= tolerance + 1e-5
+    assert found.corners <= exact.corners
+    assert tolerance < 0.1 or found.corners < exact.corners / 4
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"unit": "inch"}, "unit = 'inch': expected one of mm, cm, m, in, ft"),
+        ({"unit": -1}, "unit = -1: expected one of mm"),
+        ({"layers": []}, "layers = []: expected names of layers"),
+        ({"layers": "WALL"}, "plan.dxf has no layer 'WALL'; did you mean 'WALLS'?"),
+        ({"resolution": 0.05}, "plan.dxf: resolution is for .png, .pgm, .jpg, .jpeg, not .dxf"),
+        ({"at": 3}, "at = 3: expected a point"),
+        ({"tolerance": -1}, "tolerance = -1: expected metres"),
+        ({"tolerance": float("nan")}, "tolerance = nan: expected metres"),
+    ],
+)
+def test_options_that_can_not_be_used_are_named(plan, options, said):
+    document, space = dxf(plan)
+    space.add_line((0, 0), (4, 0), dxfattribs={"layer": "WALLS"})
+    document.saveas(plan)
+    with pytest.raises(InputError) as caught:
+        Map.from_file(plan, **options)
+    assert str(caught.value).startswith(said)

@@ -1,0 +1,966 @@
+"""Robots talk: what is sent arrives or not, when, and to whom, as the channel says; all is kept."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mars2d
+from mars2d import Addon, Holonomic, InputError, LawError, Record, Robot, Scenario, World
+from mars2d.addons import Burst, Communication, Map
+from mars2d.core.scene import Arrow, Line
+from mars2d.output.figures.figure import plot_paths
+from mars2d.output.layers.messages import LOST_LINK, MOST, messages
+from mars2d.output.raster.picture import paint_frame
+from mars2d.record.message import (
+    DELIVERED,
+    LOST,
+    MESSAGE,
+    MOST_BYTES,
+    ON_ITS_WAY,
+    OUT_OF_REACH,
+    OVER_BANDWIDTH,
+    STATUS,
+    Message,
+    as_text,
+)
+from mars2d.scenario import serialize
+from mars2d.scenario.experiment import open_experiment, open_module
+from mars2d.scenario.neighbours import Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.window.player import between
+from mars2d.world.loop import simulate
+from mars2d.world.verify import rerun
+
+STILL = (0.0, 0.0)
+
+
+class Ahead(Neighbourhood):
+    """Each robot sees the two that come after it."""
+
+    def of(self, position):
+        n = position.shape[1]
+        return [[(i + 1) % n, (i + 2) % n] for i in range(n)]
+
+
+def team(count=3, gap=1.0, **fields) -> Scenario:
+    """Robots in a row along x, without walls."""
+    talk = fields.pop("talk", Communication())
+    like = Robot(**fields.pop("robot", {}))
+    row = [like.at(gap * i, 0) for i in range(count)]
+    return Scenario(
+        **({"robots": row, "workspace": None, "stop_time": 2.0, "addons": [talk]} | fields)
+    )
+
+
+def stand(world: World) -> None:
+    world.step(np.zeros((2, len(world.robots))))
+
+
+def contents(robot) -> list:
+    return [message.content for message in robot.inbox]
+
+
+def heard(world: World) -> list[list]:
+    """What each robot finds in its inbox at the control step that comes."""
+    world.observe()
+    return [contents(robot) for robot in world.robots]
+
+
+def talking(scenario: Scenario, say, seed=0) -> Record:
+    """Run a scenario; `say(world)` is called at each control step and sends."""
+
+    def law(world):
+        say(world)
+        return np.zeros((2, len(world.robots)))
+
+    return mars2d.run(scenario, control=law, seed=seed)
+
+
+def to_one(world):
+    world.robots[0].send(world.iteration, to=1)
+
+
+# -- sending and receiving ------------------------------------------------------------------------
+
+
+def test_what_is_sent_is_in_the_inbox_at_the_next_control_step_and_at_that_alone():
+    world = World(team(2))
+    assert heard(world) == [[], []]
+    world.robots[0].send("hello")
+    assert contents(world.robots[1]) == []  # never in the same control step
+    stand(world)
+    assert heard(world) == [[], ["hello"]]
+    stand(world)
+    assert heard(world) == [[], []]
+
+
+def test_a_message_says_who_sent_it_and_when():
+    world = World(team(2, robot={"name": None}))
+    for _ in range(3):
+        stand(world)
+    world.robots[1].send([1, 2], to=0)
+    stand(world)
+    world.observe()
+    assert world.robots[0].inbox == (Message(1, "robot1", 3 * 0.1, [1, 2]),)
+
+
+@pytest.mark.parametrize(
+    ("to", "receivers"),
+    [
+        (None, [0, 2, 3]), (2, [2]), ("robot3", [3]), ([0, "robot2"], [0, 2]), ((3, 3), [3]),
+        (np.array([0, 3]), [0, 3]), (np.int64(2), [2]), ({"robot2", "robot0"}, [0, 2]), ([], []),
+    ],
+)  # fmt: skip
+def test_a_message_goes_to_all_or_to_those_named_by_index_or_name(to, receivers):
+    world = World(team(4))
+    world.robots[1].send("x", to=to)
+    stand(world)
+    assert [i for i, found in enumerate(heard(world)) if found] == receivers
+
+
+@pytest.mark.parametrize(
+    ("to", "words"),
+    [
+        ("robot11", ["robot.send(to='robot11'): no robot is called so", "did you mean 'robot1'?"]),
+        ("chest", ["no robot is called so; known: robot0, robot1, robot2"]),
+        (3, ["robot.send(to=3): no such robot; expected an index from 0 to 2"]),
+        (-1, ["expected an index from 0 to 2"]),
+        (0, ["robot.send(to=0): robot0 can't send to itself"]),
+        ("robot0", ["robot0 can't send to itself"]),
+        ([1, 0], ["robot.send(to=0): robot0 can't send to itself"]),
+        (1.0, ["expected a robot's index or name, a list of these, or None for all in reach"]),
+        (True, ["robot.send(to=True): expected a robot's index"]),
+        ([[1]], ["robot.send(to=[1]): expected a robot's index"]),
+    ],
+)
+def test_a_receiver_that_is_none_is_an_error_of_the_law(to, words):
+    with pytest.raises(LawError) as caught:
+        World(team(3)).robots[0].send("x", to=to)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_without_the_addon_robots_cannot_talk():
+    world = World(Scenario(robots=2))
+    for use in (lambda: world.robots[0].send("x"), lambda: world.robots[0].inbox):
+        with pytest.raises(LawError, match=r"add Communication\(\) to Scenario.addons"):
+            use()
+
+
+def test_an_error_in_sending_points_at_the_line_of_the_law():
+    def law(robot):
+        robot.send({1, 2})
+        return STILL
+
+    with pytest.raises(LawError) as caught:
+        mars2d.run(team(2, robot={"controller": law}))
+    assert caught.value.where.startswith("test_communication.py, line ")
+    assert len(caught.value.record.messages) == 0  # the control step was not done
+
+
+@pytest.mark.parametrize("sees", ["full", "partial", "positions", "sensors"])
+def test_whatever_a_law_sees_it_may_talk(sees):
+    got = []
+
+    def law(robot):
+        got.extend(robot.inbox)
+        robot.send(robot.index)
+        return STILL
+
+    mars2d.run(team(2, robot={"controller": law, "sees": sees}, stop_time=0.1))
+    assert [message.content for message in got] == [1, 0]
+
+
+def test_a_teams_law_that_sees_positions_may_let_robots_talk():
+    got = []
+
+    def law(world):
+        got.extend(contents(world.robots[1]))
+        world.robots[0].send("x")
+        return np.zeros((2, 2))
+
+    mars2d.run(team(2, sees="positions", stop_time=0.1), control=law)
+    assert got == ["x"]
+
+
+def test_addons_may_send_in_the_name_of_robots_before_the_laws_do():
+    class Herald(Addon):
+        def on_step(self, world):
+            world.robots[0].send(f"herald {world.iteration}")
+
+    world = World(team(2, addons=[Herald(), Communication()]))
+    stand(world)
+    world.observe()
+    assert contents(world.robots[1]) == ["herald 0"]
+
+
+def test_by_name_the_addon_may_be_called_otherwise():
+    world = World(team(2, talk=Communication(name="radio")))
+    world.robots[0].send("x")
+    stand(world)
+    assert heard(world)[1] == ["x"]
+    assert world.addons.radio.loss == 0
+
+
+# -- contents -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("content", "arrives"),
+    [
+        (None, None), (True, True), (3, 3), (-0.1, -0.1), ("ü\n€", "ü\n€"), ([], []), ({}, {}),
+        ((1, (2, "a")), [1, [2, "a"]]), ({"a": [1, None]}, {"a": [1, None]}), (10**40, 10**40),
+        (np.array([[1.5, 2], [3, 4]]), [[1.5, 2.0], [3.0, 4.0]]), (np.arange(3), [0, 1, 2]),
+        (np.array([True]), [True]), (np.array(["ab", "c"]), ["ab", "c"]), (np.array(2.5), 2.5),
+        (np.float32(0.5), 0.5), (np.int8(-3), -3), (np.bool_(False), False), (np.str_("s"), "s"),
+        (np.longdouble(0.25), 0.25), (math.inf, math.inf), ([-math.inf, 0], [-math.inf, 0]),
+        ({"pose": np.zeros(3), "to": (1,)}, {"pose": [0.0] * 3, "to": [1]}),
+        (Message(0, "a", 0.0, 1), [0, "a", 0.0, 1]),
+    ],
+)  # fmt: skip
+def test_numbers_text_lists_dicts_and_arrays_arrive(content, arrives):
+    world = World(team(2))
+    world.robots[0].send(content)
+    stand(world)
+    (found,) = heard(world)[1]
+    assert found == arrives
+    assert type(found) is type(arrives)
+
+
+def test_nan_arrives_as_nan_and_is_recorded_as_python_writes_it():
+    record = talking(team(2, stop_time=0), lambda world: world.robots[0].send([math.nan, np.nan]))
+    assert record.contents == ("[NaN,NaN]",)
+    assert np.isnan(json.loads(record.contents[0])).all()
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(
+        st.characters(exclude_categories=["Cs"])),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(
+        st.text(st.characters(exclude_categories=["Cs"])), inner, max_size=4),
+    max_leaves=12,
+)  # fmt: skip
+
+
+@given(JSON)
+def test_what_json_knows_arrives_as_it_was(content):
+    assert json.loads(as_text(content)) == content
+
+
+LOOP: list = [1]
+LOOP.append({"again": LOOP})
+DEEP: list = []
+for _ in range(40):
+    DEEP = [DEEP]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ({1, 2}, ["content = {1, 2} can't be recorded", "lists, tuples and dicts"]),
+        ({"goal": object()}, ["content['goal'] = <object", "can't be recorded"]),
+        ([1, print], ["content[1] = <built-in function print>", "numbers, text"]),
+        (1j, ["content = 1j can't be recorded"]),
+        (np.array([1j]), ["can't be recorded"]),
+        (np.array([None]), ["can't be recorded"]),
+        (np.datetime64("2020-01-01"), ["can't be recorded"]),
+        (b"bytes", ["can't be recorded"]),
+        ({1: "a"}, ["a key of content = 1", "text as keys"]),
+        (LOOP, ["content[1]['again']", "it holds itself"]),
+        (DEEP, ["more than 32 lists and dicts"]),
+        ("x" * MOST_BYTES, [f"{MOST_BYTES + 2} bytes, of at most {MOST_BYTES}"]),
+        ("\ud800", ["half a character"]),
+        ([10**5000], ["too many digits"]),
+    ],
+)
+def test_what_cannot_be_recorded_cannot_be_sent(content, words):
+    with pytest.raises(LawError) as caught:
+        World(team(2)).robots[0].send(content)
+    for word in words:
+        assert word in str(caught.value)
+    assert len(str(caught.value)) < 400
+
+
+def test_the_largest_content_is_sent():
+    assert len(as_text("x" * (MOST_BYTES - 2))) == MOST_BYTES
+
+
+def test_each_receiver_has_a_copy_of_its_own():
+    world = World(team(3))
+    mine = [1, 2]
+    world.robots[0].send(mine)
+    mine.append(3)  # after it was sent
+    stand(world)
+    world.observe()
+    world.robots[1].inbox[0].content.append("changed")
+    assert contents(world.robots[2]) == [[1, 2]]
+    assert json.loads(world.record.contents[0]) == [1, 2]
+
+
+def test_in_one_control_step_a_message_is_the_same_object_at_each_look():
+    world = World(team(2))
+    world.robots[0].send([1])
+    stand(world)
+    world.observe()
+    assert world.robots[1].inbox[0] is world.robots[1].inbox[0]
+
+
+def test_a_content_is_parsed_once_and_only_if_somebody_looks(monkeypatch):
+    texts = []
+
+    def loads(text):
+        texts.append(text)
+        return parsed(text)
+
+    parsed = json.loads
+    monkeypatch.setattr(json, "loads", loads)
+    world = World(team(9))
+    for content in (3, [1, 2]):
+        world.robots[0].send(content)
+    stand(world)
+    world.observe()
+    assert texts == []
+    assert [contents(robot) for robot in world.robots[1:]] == 8 * [[3, [1, 2]]]
+    assert texts == ["3", "[1,2]"]
+
+
+# -- in reach -------------------------------------------------------------------------------------
+
+
+def test_within_the_range_robots_hear_each_other_the_bound_included():
+    world = World(team(4, talk=Communication(range=2.0)))
+    world.robots[0].send("x")
+    stand(world)
+    assert heard(world) == [[], ["x"], ["x"], []]
+
+
+def test_to_all_in_reach_has_a_row_for_each_of_those_and_to_a_name_in_any_case():
+    def say(world):
+        world.robots[0].send("all")
+        world.robots[0].send("you", to=[1, 2])
+
+    record = talking(team(3, talk=Communication(range=1.5), stop_time=0.1), say)
+    first = record.messages[record.messages["time"] == 0.0]
+    assert first["receiver"].tolist() == [1, 1, 2]
+    assert first["status"].tolist() == [DELIVERED, DELIVERED, OUT_OF_REACH]
+    assert np.isnan(first["arrival"]).tolist() == [False, False, True]
+
+
+def test_who_is_in_reach_is_judged_when_the_message_is_sent():
+    runner = {"robot": {"drive": Holonomic(max_linear_speed=100.0)}}
+    world = World(team(2, talk=Communication(range=1.0, delay=0.3), **runner))
+    world.robots[0].send("near", to=1)
+    world.step([[0, 50.0], [0, 0]])
+    assert world.pose[0, 1] == pytest.approx(6.0)
+    world.robots[0].send("far", to=1)
+    for _ in range(2):
+        stand(world)
+    assert heard(world)[1] == ["near"]
+    stand(world)
+    assert heard(world)[1] == []
+
+
+def test_a_wall_a_prop_or_a_robot_in_between_breaks_the_line_of_sight():
+    blocked = {
+        "wall": {"addons": [Map([[(0.5, -1), (0.5, 1)]])]},
+        "prop": {"props": [mars2d.bodies.props.Box(pose=(0.5, 0, 0), length=0.1, width=0.1)]},
+        "robot": {"third": Robot(pose=(0.5, 0, 0), diameter=0.2)},
+        "nothing": {"addons": [Map([[(0.5, 0.3), (0.5, 1)]])]},
+    }
+    for what, fields in blocked.items():
+        pair = [
+            Robot(pose=(0, 0, 0)),
+            Robot(pose=(1, 0, 0)),
+            *([fields["third"]] if "third" in fields else []),
+        ]
+        for sight in (True, False):
+            talk = Communication(line_of_sight=sight)
+            others = {"props": fields.get("props", [])}
+            scene = team(robots=pair, addons=[*fields.get("addons", []), talk], **others)
+            world = World(scene)
+            world.robots[0].send("x", to=1)
+            stand(world)
+            through = not sight or what == "nothing"
+            assert heard(world)[1] == (["x"] if through else []), what
+
+
+def test_only_those_whose_neighbour_one_is_hear_one_if_so_wanted():
+    ahead = Graph([[0, 0, 0], [1, 0, 0], [0, 1, 0]])  # each sees, and may hear, the one before
+    world = World(team(3, talk=Communication(neighbours_only=True), neighbours=ahead))
+    for robot in world.robots:
+        robot.send(robot.index)
+    stand(world)
+    assert heard(world) == [[], [0], [1]]
+
+
+def test_by_default_neighbours_do_not_matter():
+    world = World(team(3, neighbours=Within(0.5)))
+    world.robots[0].send("x")
+    stand(world)
+    assert heard(world) == [[], ["x"], ["x"]]
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("rule", [Within(1.2), Nearest(3), Ahead(), Everyone()], ids=repr)
+def test_a_message_reaches_those_in_range_whose_neighbour_its_sender_is(rule, seed):
+    grid = np.stack(np.divmod(np.arange(169), 13), axis=1) / 4  # many are equally far apart
+    places = np.random.default_rng(seed).permutation(grid)[:25]
+    robots = [Robot(pose=(x, y, 0), diameter=0.01) for x, y in places.tolist()]
+    talk = Communication(range=0.75, neighbours_only=True)
+    world = World(team(robots=robots, addons=[talk], neighbours=rule, physics="ideal"))
+    for robot in world.robots:
+        robot.send("all")
+        robot.send("you", to=[i for i in (3, 17) if i != robot.index])
+    stand(world)
+
+    def reached(sender, i):
+        near = math.dist(places[sender], places[i]) <= 0.75
+        return near and sender in world.neighbour_indices(i)
+
+    rows = world.record.messages
+    for sender in range(25):
+        of = rows[rows["sender"] == sender]
+        broadcast = [i for i in range(25) if i != sender and reached(sender, i)]
+        named = [i for i in (3, 17) if i != sender]
+        assert of["receiver"].tolist() == broadcast + named
+        status = [ON_ITS_WAY if reached(sender, i) else OUT_OF_REACH for i in named]
+        assert of["status"].tolist() == len(broadcast) * [ON_ITS_WAY] + status
+
+
+@pytest.mark.parametrize("rule", [Everyone(), Within(2.0)], ids=repr)
+@pytest.mark.parametrize("near", [None, 3.0])
+def test_a_crowd_of_three_hundred_may_all_speak_at_each_control_step(rule, near):
+    talk = Communication(range=near, neighbours_only=True)
+    robots = [Robot(pose=(i % 20, i // 20, 0), diameter=0.1) for i in range(300)]
+    world = World(team(robots=robots, addons=[talk], neighbours=rule, physics="ideal"))
+    times = []
+    for _ in range(4):
+        start = time.process_time()
+        for robot in world.robots:
+            robot.send({"at": [1.0, 2.0]})
+        stand(world)
+        times.append(time.process_time() - start)
+    assert min(times) < 0.1
+    assert len(world.robots[150].inbox) in (299, 28, 12)
+
+
+# -- delay ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("delay", "steps"),
+    [(0.0, 1), (0.05, 1), (0.1, 1), (0.11, 2), (0.2, 2), (0.3, 3), (0.6, 6), (0.65, 7), (1.7, 17)],
+)
+def test_a_message_arrives_at_the_first_control_step_that_is_a_delay_later(delay, steps):
+    world = World(team(2, talk=Communication(delay=delay)))
+    stand(world)
+    world.robots[0].send("x")
+    arrived = []
+    for _ in range(19):
+        stand(world)
+        if heard(world)[1]:
+            arrived.append(world.iteration)
+    assert arrived == [1 + steps]
+    (row,) = world.record.messages
+    assert row["time"] == world.history.time[1]
+    assert row["arrival"] == world.history.time[1 + steps]
+    assert row["status"] == DELIVERED
+
+
+def test_what_has_not_arrived_at_the_end_is_on_its_way():
+    record = talking(team(2, talk=Communication(delay=0.5), stop_time=1.0), to_one)
+    assert len(record.messages) == 11  # at the last control step, too
+    status = record.messages["status"]
+    assert status.tolist() == [DELIVERED] * 6 + [ON_ITS_WAY] * 5
+    assert [STATUS[status[0]], STATUS[status[-1]]] == ["delivered", "on its way"]
+
+
+def test_the_record_so_far_says_what_has_arrived_so_far():
+    world = World(team(2, talk=Communication(delay=0.2)))
+    world.robots[0].send("x")
+    seen = []
+    for _ in range(4):
+        stand(world)
+        seen.extend(world.record.messages["status"].tolist())
+    assert seen == [ON_ITS_WAY, ON_ITS_WAY, DELIVERED, DELIVERED]
+
+
+# -- losses ---------------------------------------------------------------------------------------
+
+
+def lost(record: Record) -> np.ndarray:
+    return record.messages["status"] == LOST
+
+
+@pytest.mark.parametrize("loss", [0.0, 0.1, 0.5, 1.0])
+def test_the_share_that_is_lost_is_the_probability(loss):
+    record = talking(team(2, talk=Communication(loss=loss), stop_time=400.0), to_one)
+    assert np.mean(lost(record)) == pytest.approx(loss, abs=4 * math.sqrt(loss * (1 - loss) / 4001))
+
+
+def test_a_lost_message_never_arrives_and_the_sender_is_not_told():
+    world = World(team(2, talk=Communication(loss=1.0)))
+    assert world.robots[0].send("x") is None
+    stand(world)
+    assert heard(world) == [[], []]
+    assert world.record.messages["status"].tolist() == [LOST]
+    assert np.isnan(world.record.messages["arrival"]).all()
+
+
+def test_losses_are_drawn_link_by_link_in_the_order_of_senders_and_receivers():
+    def say(world):
+        for i in (2, 0, 1):
+            world.robots[i].send(i)
+
+    record = talking(team(4, talk=Communication(loss=0.3, range=2.0), stop_time=3.0), say, seed=8)
+    drawn = World(record.scenario, seed=8).stream("add-on communication")
+    assert lost(record).tolist() == [drawn.random() < 0.3 for _ in record.messages]
+
+
+def test_each_receiver_loses_a_message_by_itself():
+    def say(world):
+        world.robots[0].send("all")
+
+    record = talking(team(3, talk=Communication(loss=0.5), stop_time=200.0), say)
+    first, second = lost(record).reshape(-1, 2).T
+    assert np.mean(first & second) == pytest.approx(0.25, abs=4 * math.sqrt(0.25 * 0.75 / 2001))
+    assert record.messages["content"].tolist() == np.repeat(np.arange(2001), 2).tolist()
+
+
+def test_a_perfect_channel_draws_no_random_numbers():
+    class Watch(Communication):
+        def on_stop(self, world):
+            drawn.append(
+                self.rng.bit_generator.state != world.stream("add-on watch").bit_generator.state
+            )
+
+    drawn: list[bool] = []
+    for fields in (
+        {},
+        {"range": 5.0, "delay": 0.3, "bandwidth": 9, "line_of_sight": True},
+        {"loss": 0.1},
+    ):
+        talking(team(2, talk=Watch(**fields)), to_one)
+    assert drawn == [False, False, True]
+
+
+BURST = Burst(to_bad=0.04, to_good=0.2)
+LINKS = 20
+
+
+def lost_over(talk: Communication, steps: int, every: int = 1) -> np.ndarray:
+    """Return what `LINKS` links lose, (m, LINKS), when a message goes over each at each step."""
+
+    def say(world):
+        if world.iteration % every == 0:
+            for i, robot in enumerate(world.robots):
+                robot.send(0, to=(i + 1) % LINKS)
+
+    scenario = team(LINKS, talk=talk, stop_time=0.1 * steps, physics="ideal")
+    return lost(talking(scenario, say)).reshape(-1, LINKS)
+
+
+def test_bursts_lose_as_much_and_last_as_long_as_the_chain_of_gilbert():
+    gone = lost_over(Communication(burst=BURST), 1500)
+    assert BURST.mean_loss == pytest.approx(0.04 / 0.24)
+    # Losses that stick together leave (1 + q) / (1 - q) as much to chance as losses by themselves.
+    chance = math.sqrt(BURST.mean_loss * (1 - BURST.mean_loss) / gone.size * 1.76 / 0.24)
+    assert gone.mean() == pytest.approx(BURST.mean_loss, abs=4 * chance)
+    edges = np.flatnonzero(np.diff(np.pad(gone, ((1, 1), (0, 0))).T.ravel().astype(int)))
+    lengths = edges[1::2] - edges[::2]
+    spread = math.sqrt(1 - 0.2) / 0.2
+    assert lengths.mean() == pytest.approx(1 / 0.2, abs=4 * spread / math.sqrt(len(lengths)))
+    assert lengths.std() == pytest.approx(spread, rel=0.15)  # of a geometric distribution
+    assert BURST.mean_length == pytest.approx(5.0)
+
+
+def test_good_and_bad_links_have_losses_of_their_own():
+    burst = Burst(to_bad=0.5, to_good=0.5, loss_good=0.2, loss_bad=0.6)  # nothing sticks together
+    gone = lost_over(Communication(burst=burst), 500)
+    assert burst.mean_loss == pytest.approx(0.4)
+    assert gone.mean() == pytest.approx(0.4, abs=4 * math.sqrt(0.4 * 0.6 / gone.size))
+
+
+def test_a_link_fades_in_time_whether_or_not_anything_is_sent():
+    gone = lost_over(Communication(burst=BURST), 1500, every=3)
+    again = gone[1:][gone[:-1]]  # after three control steps
+    expected = BURST.share_bad + (1 - BURST.share_bad) * (1 - 0.04 - 0.2) ** 3
+    chance = math.sqrt(expected * (1 - expected) / len(again))
+    assert again.mean() == pytest.approx(expected, abs=4 * chance)
+
+
+def test_in_one_control_step_a_link_is_either_good_or_bad():
+    def twice(world):
+        to_one(world)
+        to_one(world)
+
+    record = talking(team(2, talk=Communication(burst=BURST), stop_time=200.0), twice)
+    first, second = lost(record).reshape(-1, 2).T
+    assert first.any()
+    assert np.array_equal(first, second)
+
+
+def test_links_fade_by_themselves():
+    def all_talk(world):
+        world.robots[0].send(0, to=1)
+        world.robots[1].send(1, to=0)
+
+    record = talking(team(2, talk=Communication(burst=BURST), stop_time=500.0), all_talk)
+    there, back = lost(record).reshape(-1, 2).T
+    assert np.mean(there & back) == pytest.approx(BURST.mean_loss**2, abs=0.02)
+
+
+# -- bandwidth ------------------------------------------------------------------------------------
+
+
+def test_what_exceeds_the_bandwidth_of_a_control_step_is_dropped():
+    def say(world):
+        world.robots[0].send("12345678")  # 10 bytes with the quotes, though two hear it
+        world.robots[0].send("123456789")  # 11: too much
+        world.robots[0].send("12345678")  # 20 in all: just enough
+        world.robots[0].send(1)
+        world.robots[1].send(1)  # the bandwidth is each robot's own
+
+    record = talking(team(3, talk=Communication(bandwidth=20), stop_time=0.2), say)
+    rows = record.messages[record.messages["time"] == 0.0]
+    assert rows["size"].tolist() == [10, 10, 11, 11, 10, 10, 1, 1, 1, 1]
+    dropped = (rows["status"] == OVER_BANDWIDTH).tolist()
+    assert dropped == [False] * 2 + [True] * 2 + [False] * 2 + [True] * 2 + [False] * 2
+    assert len(record.messages) == 30  # each control step has the bandwidth anew
+    assert (record.messages["status"] == OVER_BANDWIDTH).sum() == 12
+
+
+def test_bytes_are_counted_not_letters():
+    record = talking(
+        team(2, talk=Communication(bandwidth=5), stop_time=0),
+        lambda world: [world.robots[i].send("€" * (1 + i)) for i in range(2)],
+    )
+    assert record.messages["size"].tolist() == [5, 8]
+    assert (record.messages["status"] == OVER_BANDWIDTH).tolist() == [False, True]
+
+
+# -- order and seeds ------------------------------------------------------------------------------
+
+
+def test_an_inbox_is_ordered_by_sender_and_then_as_sent():
+    world = World(team(4))
+    for i in (2, 0, 1):
+        for k in range(2):
+            world.robots[i].send((i, k), to=3)
+    stand(world)
+    assert heard(world)[3] == [[0, 0], [0, 1], [1, 0], [1, 1], [2, 0], [2, 1]]
+
+
+@pytest.mark.parametrize("talk", [Communication(loss=0.4), Communication(burst=Burst())])
+def test_what_happens_does_not_depend_on_the_order_in_which_robots_send(talk):
+    def in_order(order):
+        def say(world):
+            for i in order:
+                world.robots[i].send((i, world.time))
+
+        return talking(team(3, talk=talk, stop_time=5.0), say)
+
+    records = [in_order(order) for order in ((0, 1, 2), (2, 0, 1), (1, 2, 0))]
+    assert len({record.digest for record in records}) == 1
+    assert 50 < lost(records[0]).sum() < 306
+
+
+@pytest.mark.parametrize("talk", [Communication(loss=0.4), Communication(burst=Burst())])
+def test_the_same_seed_loses_the_same_messages_and_another_seed_others(talk):
+    first, again, other = (
+        talking(team(2, talk=talk, stop_time=20.0), to_one, seed=seed) for seed in (1, 1, 2)
+    )
+    assert first.digest == again.digest
+    assert not np.array_equal(lost(first), lost(other))
+
+
+def test_worlds_in_one_process_are_independent():
+    one, other = (World(team(2, talk=Communication(loss=0.5)), seed=3) for _ in range(2))
+    for _ in range(15):
+        to_one(one)
+        stand(one)
+    for _ in range(15):
+        to_one(other)
+        stand(other)
+    assert one.record.digest == other.record.digest
+    assert 0 < lost(one.record).sum() < 15
+
+
+# -- the record -----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def chatter() -> Record:
+    def say(world):
+        world.robots[0].send({"at": world.robots[0].pose, "note": "ü"})
+        if world.iteration % 4 == 0:
+            world.robots[2].send(None, to=[0, 1])
+
+    talk = Communication(range=1.5, delay=0.25, loss=0.2, bandwidth=100)
+    return talking(team(3, talk=talk), say, seed=5)
+
+
+def test_messages_are_rows_with_their_contents_beside_them(chatter):
+    rows = chatter.messages
+    assert rows.dtype == MESSAGE
+    assert {STATUS[s] for s in rows["status"]} == {
+        "on its way",
+        "delivered",
+        "lost",
+        "out of reach",
+    }
+    assert np.all(np.diff(rows["time"]) >= 0)
+    for row in rows:
+        assert row["size"] == len(chatter.contents[row["content"]].encode())
+    assert json.loads(chatter.contents[0]) == {"at": [0.0, 0.0, 0.0], "note": "ü"}
+
+
+def test_messages_and_contents_come_back_from_a_file_to_the_last_bit(chatter, tmp_path):
+    again = mars2d.load(chatter.save(tmp_path / "a.npz"))
+    assert again.messages.tobytes() == chatter.messages.tobytes()
+    assert again.contents == chatter.contents
+    assert again.digest == chatter.digest
+    assert again.scenario.addons == chatter.scenario.addons
+    assert rerun(again) is None
+    for row in (0, 3, 20):
+        ours, theirs = chatter.frame(row).messages, again.frame(row).messages
+        assert ours.tobytes() == theirs.tobytes()
+
+
+def test_a_burst_and_a_graph_come_back_from_plain_data():
+    scenario = team(
+        2, talk=Communication(burst=Burst(to_bad=0.3)), neighbours=Graph([[0, 1], [1, 0]])
+    )
+    again, missing = serialize.to_scenario(
+        json.loads(json.dumps(serialize.from_description(scenario)))
+    )
+    assert again.addons == scenario.addons
+    assert again.neighbours == scenario.neighbours
+    assert missing == ()
+    nearest = scenario.replace(neighbours=Nearest(1))
+    assert serialize.to_scenario(serialize.from_description(nearest))[0].neighbours == Nearest(1)
+
+
+def test_messages_cannot_be_written_into_a_record(chatter):
+    with pytest.raises(ValueError, match="read-only"):
+        chatter.messages["status"] = DELIVERED
+
+
+@pytest.mark.parametrize("field", [name for name in MESSAGE.names if name != "arrival"])
+def test_the_digest_covers_each_field_of_messages(chatter, field):
+    changed = chatter.messages.copy()
+    changed[field][0] += 1
+    assert dataclasses.replace(chatter, messages=changed).digest != chatter.digest
+
+
+def test_the_digest_covers_arrivals_and_contents(chatter):
+    later = chatter.messages.copy()
+    later["arrival"] += 1
+    other = ("null", *chatter.contents[1:])
+    digests = {
+        dataclasses.replace(chatter, **change).digest
+        for change in ({}, {"messages": later}, {"contents": other}, {"contents": ("", *other)})
+    }
+    assert len(digests) == 4
+
+
+def test_as_long_as_nobody_speaks_the_digest_is_that_without_the_addon():
+    digests = {
+        mars2d.run(Scenario(robots=2, stop_time=1, addons=addons)).digest
+        for addons in ([], [Communication(loss=0.5, delay=1)])
+    }
+    assert len(digests) == 1
+
+
+def test_frames_of_a_record_have_the_messages_of_those_of_the_run():
+    talk = Communication(loss=0.3, delay=0.25, range=1.5)
+    world = World(team(3, talk=talk), seed=4)
+    live = []
+    while not world.over:
+        live.append(world.frame.messages)
+        for robot in world.robots:
+            robot.send(robot.index, to=[i for i in range(3) if i != robot.index])
+        stand(world)
+    record = world.record
+    assert len(live) == len(record)
+    for row, rows in enumerate(live):
+        assert rows.tobytes() == record.frame(row).messages.tobytes(), row
+    assert not len(live[0])
+
+
+def test_a_frame_has_what_was_under_way_in_the_step_that_led_there():
+    world = World(team(2, talk=Communication(delay=0.25)))
+    world.robots[0].send("x")
+    seen = []
+    for _ in range(5):
+        stand(world)
+        seen.append([STATUS[s] for s in world.frame.messages["status"]])
+    assert seen == [["on its way"], ["on its way"], ["delivered"], [], []]
+
+
+def test_between_two_frames_are_the_messages_of_the_second():
+    world = World(team(2))
+    first = world.frame
+    world.robots[0].send("x")
+    stand(world)
+    assert len(between(first, world.frame, 0.05).messages) == 1
+
+
+# -- descriptions ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Communication(loss=1.5), "Communication.loss = 1.5: expected a number >= 0"),
+        (lambda: Communication(range=0), "Communication.range = 0: expected a number > 0"),
+        (lambda: Communication(delay=-1), "Communication.delay = -1"),
+        (lambda: Communication(bandwidth=0), "Communication.bandwidth = 0"),
+        (lambda: Communication(burst=0.1), "burst = 0.1: expected a Burst, as Burst("),
+        (lambda: Communication(burst=Burst), "write Burst(...)"),
+        (lambda: Communication(burst=Burst(), loss=0.1), "leave one of both out"),
+        (lambda: Communication(los=0.1), "did you mean 'loss'?"),
+        (lambda: Burst(to_good=0), "Burst.to_good = 0: expected a number > 0 and <= 1"),
+        (lambda: Burst(loss_bad=2), "Burst.loss_bad = 2"),
+        (lambda: team(addons=[Communication(), Communication(name="a")]), "robots talk over one"),
+    ],
+)  # fmt: skip
+def test_what_makes_no_channel_is_refused(make, words):
+    with pytest.raises(InputError) as caught:
+        make()
+    assert words in str(caught.value)
+
+
+# -- drawing --------------------------------------------------------------------------------------
+
+
+def links(record_or_world, row=None) -> list:
+    frame = record_or_world.frame if row is None else record_or_world.frame(row)
+    return messages(frame).shapes
+
+
+def spoken(talk: Communication, **fields) -> World:
+    world = World(team(2, gap=2.0, talk=talk, **fields))
+    world.robots[0].send("x", to=1)
+    stand(world)
+    return world
+
+
+def test_a_message_that_arrives_is_an_arrow_from_rim_to_rim():
+    world = spoken(Communication())
+    line, arrow = links(world)
+    assert isinstance(line, Line)
+    assert isinstance(arrow, Arrow)
+    start, end = line.points
+    assert start[0] == pytest.approx(0.15)
+    assert end[0] == pytest.approx(1.85)
+    assert start[1] == end[1] < 0  # on the right, so that the way back can be seen, too
+    assert arrow.tip == pytest.approx(tuple(end))
+    assert arrow.fill.startswith(world.scenario.colors[0])
+
+
+def test_a_message_is_drawn_where_it_is_on_its_way():
+    world = spoken(Communication(delay=0.4))
+    tips = [links(world)[1].tip[0]]
+    for _ in range(4):
+        stand(world)
+        tips += [shape.tip[0] for shape in links(world) if isinstance(shape, Arrow)]
+    assert tips == pytest.approx([0.15 + 1.7 * k / 4 for k in range(1, 5)])
+
+
+@pytest.mark.parametrize(
+    "talk", [Communication(loss=1.0), Communication(range=1.0), Communication(bandwidth=2)]
+)
+def test_what_does_not_arrive_is_a_broken_line_with_a_cross(talk):
+    shapes = links(spoken(talk))
+    assert [shape.style for shape in shapes] == ["--", "-", "-"]
+    assert all(shape.stroke.startswith(LOST_LINK) for shape in shapes)
+
+
+def test_robots_that_touch_have_no_link():
+    assert links(spoken(Communication(), robots=[Robot(), Robot(pose=(0.3, 0, 0))])) == []
+
+
+def test_in_a_crowd_the_last_links_are_drawn():
+    world = World(team(30, gap=1.0))
+    for robot in world.robots:
+        robot.send("x")
+    stand(world)
+    assert len(world.frame.messages) == 870
+    assert sum(isinstance(shape, Arrow) for shape in links(world)) == MOST
+
+
+def pixels(surface) -> np.ndarray:
+    import pygame
+
+    return pygame.surfarray.array3d(surface)
+
+
+def test_pictures_show_messages_and_without_any_nothing_changes():
+    talkers, silent = spoken(Communication()), World(team(2, gap=2.0))
+    stand(silent)
+    size = 500, 400
+    there, gone = (pixels(paint_frame(world.frame, size)) for world in (talkers, silent))
+    assert np.any(there != gone, axis=2).sum() > 100
+    hushed = dataclasses.replace(talkers.frame, messages=silent.frame.messages)
+    assert np.array_equal(pixels(paint_frame(hushed, size)), gone)
+
+
+def test_figures_show_messages():
+    def say(world):
+        if world.iteration == 19:
+            to_one(world)
+
+    with_link = plot_paths(talking(team(2, gap=2.0), say))
+    without = plot_paths(talking(team(2, gap=2.0), lambda world: None))
+    drawn = [len(ax.patches) + len(ax.lines) + len(ax.collections) for ax in (with_link, without)]
+    assert drawn[0] > drawn[1]
+
+
+# -- examples -------------------------------------------------------------------------------------
+
+
+def run(name: str, seed: int = 0, **options):
+    experiment = open_experiment(name, options)
+    record = simulate(experiment, seed).record
+    return {p.name: p for p in experiment.checks(record)}, record
+
+
+@pytest.mark.parametrize("loss", [0.0, 0.5, 0.8])
+def test_robots_meet_at_any_loss(loss):
+    predictions, _ = run("rendezvous", loss=loss, seed=2)
+    assert len(predictions) == (4 if loss == 0 else 2)
+    assert all(p.ok for p in predictions.values())
+
+
+def test_who_loses_much_meets_later():
+    places = np.transpose(open_module("rendezvous").PLACES)
+    ends = [run("rendezvous", loss=loss, stop_time=30.0)[1].pose[-1, :2] for loss in (0.0, 0.8)]
+    left = [np.ptp(end - places, axis=1).max() for end in ends]
+    assert left[1] > 3 * left[0]
+
+
+@pytest.mark.parametrize("loss", [0.0, 0.3, 0.7])
+@pytest.mark.parametrize("seed", [0, 1])
+def test_the_token_goes_round_and_is_never_in_two_hands(loss, seed):
+    predictions, _ = run("token_ring", seed, loss=loss)
+    assert len(predictions) == 3
+    assert all(p.ok for p in predictions.values())
+
+
+def test_where_hardly_anything_gets_through_nothing_is_said_of_the_number_of_turns():
+    predictions, _ = run("token_ring", loss=1.0)
+    assert [*predictions] == ["robots that spin at once, at most", "turns out of order"]
+
+
+def test_without_acknowledgement_the_token_is_lost_and_all_stand_still():
+    predictions, record = run("token_ring", acknowledge=False)
+    assert not predictions["turns"].ok
+    assert not record.command[-300:].any()

@@ -1,0 +1,407 @@
+"""The floor's colours: what Floor paints is what the sensor Ground reads, and what one sees."""
+
+from __future__ import annotations
+
+import tracemalloc
+from math import nan
+
+import numpy as np
+import pygame
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+import mars2d
+from mars2d import Addon, InputError, LawError, Robot, Scenario, World
+from mars2d.addons import Floor
+from mars2d.core.scene import Circle, Polygon, Scene, Text
+from mars2d.output.figures.artists import paint
+from mars2d.output.layers.parts import floor as floor_of
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.picture import paint_frame
+from mars2d.sensors import Ground
+
+SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
+RED, BLUE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+
+
+@pytest.fixture
+def picture(tmp_path, monkeypatch):
+    """A picture of 2 rows and 3 columns in the current folder, each pixel of its own colour."""
+    monkeypatch.chdir(tmp_path)
+    values = np.arange(18, dtype=np.uint8).reshape(2, 3, 3) * 10
+    Image.fromarray(values).save("p.png")
+    return values
+
+
+def read_at(point, *floors, sensor=None):
+    robot = Robot(pose=(*point, 0), sensors=[sensor or Ground()])
+    world = World(Scenario(robots=[robot], workspace=None, addons=floors))
+    world.observe()
+    return world.robots[0].sense.ground.tolist()
+
+
+# -- what is read ---------------------------------------------------------------------------
+
+
+def test_a_floor_of_which_nothing_is_said_is_white():
+    assert read_at((0, 0)) == [1, 1, 1]
+
+
+def test_a_floor_has_one_colour_and_patches_of_others():
+    floor = Floor(color="#0000ff", patches=[(SQUARE, "#ff0000")])
+    assert read_at((1, 1), floor) == [1, 0, 0]
+    assert read_at((3, 1), floor) == [0, 0, 1]
+
+
+def test_the_later_patch_and_the_later_floor_lie_on_top():
+    over = [(1, 0), (3, 0), (3, 2), (1, 2)]
+    floor = Floor(patches=[(SQUARE, "#ff0000"), (over, "#0000ff")])
+    assert floor.ground((0.5, 1)) == RED
+    assert floor.ground((1.5, 1)) == BLUE
+    below, above = Floor(color="#0000ff", name="below"), Floor(color="#ff0000", name="above")
+    assert read_at((0, 0), below, above) == [1, 0, 0]
+
+
+FLOORS = {
+    "one": [Floor(patches=[(SQUARE, "#ff0000")])],
+    "two": [Floor(color="#ff0000"), Floor(name="upper", patches=[(SQUARE, "#0000ff")])],
+    "white over red": [Floor(color="#ff0000"), Floor(name="upper", color="#ffffff")],
+    "nothing over red": [Floor(patches=[(SQUARE, "#ff0000")]), Floor(name="upper")],
+}
+
+
+@pytest.mark.parametrize("floors", FLOORS)
+def test_what_is_read_is_what_is_seen(floors):
+    floors = FLOORS[floors]
+    scene = Scene()
+    for floor in floors:
+        floor.paint(scene, [(-5, -5), (5, -5), (5, 5), (-5, 5)])
+    seen = painted(scene)
+    for x, y in ((1, 1), (3, 1), (-3, -3)):
+        color = (seen[int(50 - 10 * y), int(50 + 10 * x)] / 255).tolist()
+        assert read_at((x, y), *floors) == color
+
+
+def test_through_a_transparent_pixel_white_is_seen_where_there_is_no_colour(tmp_path):
+    values = np.array([[[255, 0, 0, 0], [255, 0, 0, 255]]], dtype=np.uint8)
+    Image.fromarray(values).save(tmp_path / "p.png")
+    floor = Floor(image=tmp_path / "p.png", bounds=(0, 2, 0, 1))
+    assert [floor.ground((x, 0.5)) for x in (0.5, 1.5, 2.5)] == [(1.0, 1.0, 1.0), RED, None]
+
+
+def test_an_image_is_read_once_for_all_worlds_until_it_changes(picture, monkeypatch):
+    looks, opened = [], Image.open
+
+    def watched(path, **more):
+        looks.append(path)
+        return opened(path, **more)
+
+    monkeypatch.setattr(Image, "open", watched)
+    scenario = Scenario(addons=[Floor(image="p.png", bounds=(0, 3, 0, 2))])
+    first, again = (World(scenario).addons.floor.pixels for _ in range(2))
+    floor_of(scenario)
+    assert len(looks) == 1
+    assert first is again
+    with pytest.raises(ValueError, match="read-only"):
+        first[0] = 0
+    Image.fromarray(picture[:, ::-1]).save("p.png", compress_level=0)
+    changed = World(Scenario(addons=[Floor(image="p.png", bounds=(0, 3, 0, 2))]))
+    assert (changed.addons.floor.pixels == picture[:, ::-1]).all()
+    assert len(looks) == 2
+
+
+def test_a_large_image_without_transparent_pixels_is_not_blended(tmp_path):
+    Image.new("RGB", (2000, 2000), "red").save(tmp_path / "p.png")
+    floor = Floor(image=tmp_path / "p.png", bounds=(0, 1, 0, 1))
+    tracemalloc.start()
+    assert floor.ground((0.5, 0.5)) == RED
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 2000 * 2000 * 16  # bytes: no floats of all of it
+
+
+def test_patches_may_be_concave():
+    floor = Floor(patches=[([(0, 0), (4, 0), (4, 4), (2, 1)], "#ff0000")])
+    assert floor.ground((3.5, 2)) == RED
+    assert floor.ground((1, 1)) is None
+
+
+def test_colours_are_read_to_the_last_digit():
+    assert Floor(color="#0180fe").ground((0, 0)) == (1 / 255, 128 / 255, 254 / 255)
+
+
+def test_the_mount_is_where_it_looks():
+    floor = Floor(patches=[(SQUARE, "#ff0000")])
+    assert read_at((-0.2, 1), floor) == [1, 1, 1]
+    assert read_at((-0.2, 1), floor, sensor=Ground(mount=(0.3, 0, 0))) == [1, 0, 0]
+    assert read_at((1, 2.1), floor, sensor=Ground(mount=(0, -0.2, 0))) == [1, 0, 0]
+
+
+def test_each_pixel_of_an_image_covers_its_part_of_the_floor(picture):
+    floor = Floor(image="p.png", bounds=(-1, 2, 10, 12), color="#00ff00")  # a metre each
+    for row in range(2):
+        for column in range(3):
+            color = tuple((picture[row, column] / 255).tolist())
+            for off in (1e-9, 0.5, 1 - 1e-9):
+                assert floor.ground((-1 + column + off, 12 - row - off)) == color
+
+
+def test_at_its_edge_an_image_has_its_outermost_pixels_and_beyond_it_the_colour_of_the_rest(
+    picture,
+):
+    floor = Floor(image="p.png", bounds=(-1, 2, 10, 12), color="#00ff00")
+    assert floor.ground((2, 10)) == tuple((picture[1, 2] / 255).tolist())
+    assert floor.ground((-1, 12)) == tuple((picture[0, 0] / 255).tolist())
+    for outside in [(2.001, 11), (-1.001, 11), (0, 9.999), (0, 12.001)]:
+        assert floor.ground(outside) == (0, 1, 0)
+
+
+def test_through_a_transparent_pixel_the_colour_of_the_rest_is_seen(tmp_path):
+    values = np.array([[[255, 0, 0, 0], [255, 0, 0, 255], [255, 0, 0, 51]]], dtype=np.uint8)
+    Image.fromarray(values).save(tmp_path / "p.png")
+    floor = Floor(image=tmp_path / "p.png", bounds=(0, 3, 0, 1), color="#0000ff")
+    assert [floor.ground((x, 0.5)) for x in (0.5, 1.5, 2.5)] == [BLUE, RED, (0.2, 0.0, 0.8)]
+
+
+@pytest.mark.parametrize("mode", ["1", "L", "P", "RGB", "RGBA", "LA"])
+def test_images_of_any_usual_kind_can_be_used(tmp_path, mode):
+    Image.new("RGB", (4, 4), "white").convert(mode).save(tmp_path / "p.png")
+    floor = Floor(image=str(tmp_path / "p.png"), bounds=(0, 1, 0, 1), color="#0000ff")
+    assert floor.ground((0.5, 0.5)) == (1.0, 1.0, 1.0)
+
+
+def test_a_reading_is_recorded_and_disturbed_like_any_other():
+    robot = Robot(sensors=[Ground(noise=0.1, dropouts=0.2)])
+    scenario = Scenario(robots=[robot], addons=[Floor(color="#808080")], stop_time=30)
+    found = mars2d.run(scenario).sensors["ground"][:, 0]
+    assert found.shape == (301, 3)
+    assert 0.1 < np.isnan(found).mean() < 0.3
+    assert np.nanstd(found) == pytest.approx(0.1, rel=0.1)
+    assert np.nanmean(found) == pytest.approx(128 / 255, abs=0.02)
+
+
+def test_two_sensors_keep_a_robot_on_a_line():
+    angles = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    disc = np.column_stack([np.cos(angles), np.sin(angles)])
+    floor = Floor(patches=[(1.5 * disc, "black"), (1.4 * disc, "white")])
+
+    def follow(robot):
+        left, right = robot.sense.left.mean(), robot.sense.right.mean()
+        return 0.2, 2.0 * (right - left)
+
+    eyes = [Ground(name="left", mount=(0.1, 0.06, 0)), Ground(name="right", mount=(0.1, -0.06, 0))]
+    robot = Robot(
+        pose=(1.45, 0, np.pi / 2), diameter=0.2, sensors=eyes, controller=follow, sees="sensors"
+    )
+    record = mars2d.run(Scenario(robots=[robot], addons=[floor], stop_time=60))
+    x, y, theta = record.pose[:, :, 0].T
+    assert np.abs(np.hypot(x, y) - 1.45).max() < 0.15
+    assert theta[-1] - theta[0] > 2 * np.pi  # more than once round
+
+
+def test_the_floor_is_in_nobodys_way_and_gives_the_same_run():
+    def run(*floors):
+        robot = Robot(controller=lambda robot: (0.3, 0.2))
+        return mars2d.run(Scenario(robots=[robot], addons=floors, stop_time=3)).pose
+
+    assert np.array_equal(run(), run(Floor(patches=[(SQUARE, "red")])))
+
+
+@pytest.mark.parametrize("found", ["red", (1, 2, 3), (0.5, 0.5), (nan, 0, 0), [(1, 1, 1)]])
+def test_a_floor_of_ones_own_must_return_a_colour(found):
+    class Carpet(Addon):
+        def ground(self, point):
+            return found
+
+    with pytest.raises(LawError, match=r"the floor at \(0, 0\) is .*: expected of ground"):
+        read_at((0, 0), Carpet())
+
+
+# -- what can't be --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"color": "#ffffff80"}, "Floor.color = .*: expected a colour without opacity"),
+        ({"color": "blakc"}, "Floor.color = 'blakc': expected a colour.*did you mean 'black'"),
+        ({"patches": [SQUARE]}, r"Floor.patches\[0\] = .*: expected a patch \(outline, colour\)"),
+        ({"patches": SQUARE}, r"Floor.patches\[0\]"),
+        ({"patches": [(SQUARE[:2], "red")]}, r"Floor.patches\[0\]\[0\] = .*a polygon"),
+        ({"patches": [(SQUARE, 3)]}, r"Floor.patches\[0\]\[1\] = 3: expected a colour"),
+        ({"patches": "red"}, "Floor.patches = 'red': expected a list of patches"),
+        ({"image": "line.jpg", "bounds": (0, 1, 0, 1)}, "Floor.image = 'line.jpg': .*.png"),
+        ({"image": "line.png"}, "Floor.bounds is missing: where the image lies"),
+        ({"bounds": (0, 1, 0, 1)}, "Floor.bounds = .*: given without an image"),
+        ({"image": "p.png", "bounds": (1, 0, 0, 1)}, r"Floor.bounds = .*xmin < xmax"),
+        ({"image": "p.png", "bounds": (0, 1, 0)}, r"Floor.bounds = .*: expected \(xmin"),
+        ({"image": "p.png", "bounds": (0, 1, 0, nan)}, r"Floor.bounds\[3\] = nan"),
+    ],
+)
+def test_a_floor_that_can_not_be_is_an_error(fields, message):
+    with pytest.raises(InputError, match=message):
+        Floor(**fields)
+
+
+def files(folder):
+    """Files that are no images to be used, by what is said of them."""
+    (folder / "text.png").write_text("hello")
+    (folder / "empty.png").write_bytes(b"")
+    Image.new("L", (5000, 2)).save(folder / "long.png")
+    Image.new("RGB", (4, 4)).save(folder / "jpeg.png", format="JPEG")
+    Image.new("I;16", (4, 4)).save(folder / "deep.png")
+    Image.new("RGB", (64, 64), "red").save(folder / "cut.png")
+    whole = (folder / "cut.png").read_bytes()
+    (folder / "cut.png").write_bytes(whole[: len(whole) - 60])
+    (folder / "folder.png").mkdir()
+    return {
+        "text.png": "this is no PNG image",
+        "empty.png": "this is no PNG image",
+        "jpeg.png": "this is no PNG image",
+        "long.png": "5000 x 2 pixels; expected at most 4096 x 4096",
+        "deep.png": "more than 8 bits a channel; save it with 8",
+        "cut.png": "can't be read",
+        "folder.png": "can't be read",
+        "gone.png": "there is no such file in ",
+    }
+
+
+def test_an_image_that_can_not_be_used_is_an_error_when_a_world_is_made(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, message in files(tmp_path).items():
+        floor = Floor(image=name, bounds=(0, 1, 0, 1))  # not read yet
+        with pytest.raises(InputError, match=rf"^Floor.image = '{name}': {message}") as raised:
+            World(Scenario(addons=[floor]))
+        assert not isinstance(raised.value, LawError)  # it is no law's fault
+    with pytest.raises(InputError, match=r"Path\(__file__\).with_name\('gone.png'\)"):
+        World(Scenario(addons=[Floor(image="a/gone.png", bounds=(0, 1, 0, 1))]))
+
+
+# -- what is seen ---------------------------------------------------------------------------
+
+
+CAMERA = Camera(scale=10.0, x=50.0, y=50.0)  # (-5, -5) to (5, 5) on 100 x 100 pixels
+
+
+def painted(scene, camera=CAMERA, size=(100, 100)):
+    """The pixels (height, width, 3) of a scene."""
+    surface = pygame.Surface(size, 0, 32)
+    surface.fill("white")
+    Painter().paint(surface, scene.shapes, camera)
+    return pygame.surfarray.array3d(surface).swapaxes(0, 1)
+
+
+def image_scene(pixels, bounds):
+    scene = Scene()
+    scene.image(pixels, bounds)
+    return scene
+
+
+def test_an_image_is_painted_where_it_lies_with_its_first_row_on_top(picture):
+    made = painted(image_scene(picture, (-3, 3, -1, 3)))
+    for row in range(2):
+        for column in range(3):
+            part = made[20 + 20 * row : 40 + 20 * row, 20 + 20 * column : 40 + 20 * column]
+            assert (part == picture[row, column]).all()
+    outside = made.copy()
+    outside[20:60, 20:80] = 255
+    assert (outside == 255).all()
+
+
+def test_of_a_large_image_the_part_in_sight_is_painted_at_any_zoom(picture):
+    close = painted(image_scene(picture, (-3e3, 3e3, -1e3, 3e3)), Camera(scale=1e4, x=50, y=50))
+    assert (close == picture[1, 1]).all()
+    away = painted(image_scene(picture, (6, 8, 6, 8)))
+    assert (away == 255).all()
+
+
+def test_small_pixels_are_averaged():
+    board = np.zeros((400, 400, 3), dtype=np.uint8)
+    board[::2, ::2] = board[1::2, 1::2] = 255
+    made = painted(image_scene(board, (-5, 5, -5, 5))).astype(int)
+    assert np.abs(made - 127).max() <= 2
+
+
+def test_a_figure_shows_an_image_where_it_lies(picture):
+    figure = Figure(figsize=(1, 1), dpi=100)
+    canvas = FigureCanvasAgg(figure)
+    ax = figure.add_axes((0, 0, 1, 1))
+    ax.set(xlim=(-5, 5), ylim=(-5, 5))
+    ax.axis("off")
+    paint(image_scene(picture, (-3, 3, -1, 3)), ax)
+    canvas.draw()
+    made = np.asarray(canvas.buffer_rgba())[..., :3]
+    assert made.shape == (100, 100, 3)
+    for row in range(2):
+        for column in range(3):
+            assert (made[30 + 20 * row, 30 + 20 * column] == picture[row, column]).all()
+    assert (made[:18] == 255).all()
+
+
+@pytest.mark.parametrize(
+    ("pixels", "bounds"),
+    [
+        (np.zeros((2, 2), dtype=np.uint8), (0, 1, 0, 1)),
+        (np.zeros((2, 2, 3)), (0, 1, 0, 1)),
+        (np.zeros((0, 2, 3), dtype=np.uint8), (0, 1, 0, 1)),
+        (np.zeros((1, 4097, 3), dtype=np.uint8), (0, 1, 0, 1)),
+        (np.zeros((2, 2, 3), dtype=np.uint8), (0, 0, 0, 1)),
+    ],
+)
+def test_an_image_that_can_not_be_drawn_is_an_error(pixels, bounds):
+    with pytest.raises(InputError, match=r"pixels of shape|bounds = "):
+        Scene().image(pixels, bounds)
+
+
+def test_the_floor_lies_beneath_obstacles_grid_and_robots_and_is_in_every_picture():
+    patch = [(-4, -4), (4, -4), (4, 4), (-4, 4)]
+    scenario = Scenario(
+        addons=[Floor(patches=[(patch, "#ff0000")], color="#00ff00")],
+        robots=[Robot(pose=(1, 1, 0), color="#0000ff", diameter=1)],
+        animation=mars2d.Animation(grid=False),
+    )
+    surface = paint_frame(World(scenario).frame, (600, 600))
+    made = pygame.surfarray.array3d(surface).swapaxes(0, 1).reshape(-1, 3)
+    seen = {tuple(color) for color in made.tolist()}
+    assert {(255, 0, 0), (0, 255, 0), (0, 0, 255)} <= seen
+    figure = mars2d.run(scenario, stop_time=1).plot().figure
+    figure.canvas.draw()
+    shown = np.asarray(figure.canvas.buffer_rgba())[..., :3].reshape(-1, 3)
+    assert {(255, 0, 0), (0, 255, 0), (0, 0, 255)} <= {tuple(c) for c in shown.tolist()}
+
+
+def test_a_replay_shows_the_floor_and_names_an_image_that_is_gone(picture, tmp_path):
+    floor = Floor(image="p.png", bounds=(0, 3, 0, 2))
+    mars2d.run(Scenario(addons=[floor], stop_time=0.2)).save(tmp_path / "r.npz")
+    loaded = mars2d.load(tmp_path / "r.npz").scenario
+    assert [type(shape).__name__ for shape in floor_of(loaded).shapes] == ["Image"]
+    (tmp_path / "p.png").unlink()
+    loaded = mars2d.load(tmp_path / "r.npz").scenario
+    (label,) = [shape.text for shape in floor_of(loaded).shapes if isinstance(shape, Text)]
+    assert label == "p.png is not there"
+
+
+def test_without_a_workspace_the_floor_is_drawn_where_something_is():
+    scenario = Scenario(workspace=None, addons=[Floor(color="#00ff00")])
+    (area,) = floor_of(scenario).shapes
+    assert isinstance(area, Polygon)
+    assert np.ptp(area.points, axis=0).min() > 1
+    assert floor_of(Scenario(addons=[Floor()])).shapes == []
+
+
+def test_what_is_read_is_drawn_as_a_disc_of_that_colour():
+    scene = Scene()
+    Ground(mount=(0.5, 0, 0)).draw(scene, np.zeros(3), np.array([1.0, 0.5, nan]), "#0072b2")
+    (disc,) = scene.shapes
+    assert isinstance(disc, Circle)
+    assert disc.center == (0.5, 0)
+    assert disc.fill == "#ff8080"
+
+
+def test_no_reading_breaks_the_picture_of_the_sensor():
+    scene = Scene()
+    Ground().draw(scene, np.zeros(3), np.array([1.3, -0.2, np.inf]), "#0072b2")
+    assert scene.shapes[0].fill == "#ff00ff"

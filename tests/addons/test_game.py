@@ -1,0 +1,280 @@
+"""The add-on Game: roles, captures, score, who has won; and robots that are held."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Holonomic, InputError, Robot, Scenario, World
+from mars2d.addons import Game
+from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.testing import check_addon
+from mars2d.world.verify import rerun
+
+ROLES = {"pursuer": ["red"], "evader": ["blue"]}
+
+
+def right(_):
+    return 0.5, 0.0
+
+
+def still(_):
+    return 0.0, 0.0
+
+
+def chase(game=None, evaders=((2.0, 0.0),), stop_time=10.0, **fields):
+    """Red drives to the right at 0.5 m/s from (0, 0), along evaders that stand still."""
+    robot = Robot(drive=Holonomic(), mass=1.0)
+    names = ["blue", "green", "pink"]
+    team = [
+        robot.replace(name=name, controller=still).at(*place)
+        for name, place in zip(names, evaders, strict=False)
+    ]
+    red = robot.replace(name="red", controller=right)
+    roles = {"pursuer": ["red"], "evader": names[: len(team)]}
+    return Scenario(
+        robots=[red, *team],
+        addons=[game or Game(roles)],
+        workspace=None,
+        stop_time=stop_time,
+        **fields,
+    )
+
+
+def played(scenario, seed=0):
+    world = World(scenario, seed=seed)
+    while not world.over:
+        world.step()
+    return world
+
+
+# -- captures -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+def test_contact_is_a_capture_when_the_robots_touch(physics):
+    world = played(chase(physics=physics))
+    game = world.addons.game
+    assert game.capture_times == pytest.approx([(2.0 - 0.3) / 0.5], abs=1e-3)
+    assert game.captures[0][1:] == (0, 1)
+    assert (game.winner, game.caught, game.free) == ("pursuer", (1,), ())
+    assert game.score == {"pursuer": 1, "evader": 0}
+    assert world.over_message == "red catches blue after 3.4 s: pursuer wins"
+
+
+def test_a_distance_is_a_capture_at_the_first_control_step_within_it():
+    world = played(chase(Game(ROLES, capture=1.02)))
+    assert world.addons.game.capture_times == (2.0,)  # 1 m away; one step before it was 1.05
+    assert world.over_message == "red catches blue after 2 s: pursuer wins"
+
+
+def test_who_is_free_at_the_stop_time_has_won():
+    world = played(chase(stop_time=3.0))
+    assert world.over_message == "blue was not caught in 3 s: evader wins"
+    assert world.addons.game.winner == "evader"
+    assert world.addons.game.score == {"pursuer": 0, "evader": 1}
+    assert np.isnan(world.addons.game.outcome(world.record).capture_time)
+
+
+def test_nobody_has_won_before_the_end_nor_when_something_else_ends_it():
+    world = World(chase())
+    for _ in range(5):
+        world.step()
+    assert world.addons.game.winner is None
+    world.stop("enough")
+    assert world.addons.game.winner is None
+    assert world.addons.game.outcome(world.record).winner is None
+
+
+def test_the_caught_stand_still_while_the_game_goes_on():
+    fleeing = chase(evaders=[(1.0, 0.2), (6.0, -0.2)], physics="ideal", stop_time=20.0)
+    robots = [fleeing.robots[0], *(r.replace(controller=right) for r in fleeing.robots[1:])]
+    slow = Holonomic(max_linear_speed=0.2)
+    robots = [robots[0], *(r.replace(drive=slow) for r in robots[1:])]
+    world = played(fleeing.replace(robots=robots))
+    game, record = world.addons.game, world.record
+    assert game.caught == (1, 2)
+    caught, over = np.searchsorted(record.time, game.capture_times)
+    assert over > caught + 10
+    assert (record.command[:caught, 0, 1] == 0.2).all()
+    assert (record.command[caught:, :, 1] == 0).all()
+    assert np.ptp(record.pose[caught:, 0, 1]) == 0
+    assert (record.command[:over, 0, 2] == 0.2).all()
+    assert "catches green, the last of 2, after" in world.over_message
+
+
+def test_some_caught_and_some_free_at_the_stop_time_is_a_win_of_the_evaders():
+    world = played(chase(evaders=[(1.0, 0.0), (1.5, 5.0), (9.0, 0.0)], stop_time=5.0))
+    assert world.addons.game.score == {"pursuer": 1, "evader": 2}
+    assert world.over_message == "2 of 3 were not caught in 5 s: evader wins"
+
+
+def test_the_nearest_of_several_hunters_is_the_one_who_catches():
+    robot = Robot(drive=Holonomic())
+    scenario = Scenario(
+        robots=[robot.at(-1, 0), robot.at(0.6, 0), robot.at(0, 0)],
+        addons=[Game({"hunters": range(2), "prey": [2]}, capture=1.5)],
+    )
+    assert World(scenario).over is False
+    world = played(scenario)
+    assert world.over_message == "robot1 catches robot2 after 0 s: hunters wins"
+
+
+def test_contacts_with_others_are_no_captures():
+    """Two hunters, then two evaders, touch each other: nobody is caught."""
+    robot = Robot(drive=Holonomic(), controller=right)
+    wait = robot.replace(controller=still)
+    scenario = Scenario(
+        robots=[robot.at(0, 0), wait.at(1, 0), robot.at(0, 3), wait.at(1, 3)],
+        addons=[Game({"pursuer": [0, 1], "evader": [2, 3]})],
+        stop_time=3.0,
+    )
+    record = played(scenario).record
+    assert record.collisions == 2
+    assert scenario.addons[0].outcome(record).captures == ()
+
+
+# -- records ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("capture", ["contact", 0.5])
+def test_a_loaded_record_tells_the_same_and_runs_again(tmp_path, capture):
+    evaders = [(1.0, 0.28), (2.0, -0.28), (2.6, 0.28)]
+    roles = {"pursuer": ["red"], "evader": ["blue", "green", "pink"]}
+    world = played(chase(Game(roles, capture=capture), evaders))
+    game = world.addons.game
+    assert len(game.captures) == 3
+    loaded = mars2d.load(world.record.save(tmp_path / "game.npz"))
+    assert loaded.scenario.addons[0] == world.scenario.addons[0]
+    outcome = loaded.scenario.addons[0].outcome(loaded)
+    assert outcome.captures == game.captures
+    assert (outcome.score, outcome.winner) == (game.score, game.winner)
+    assert outcome.capture_time == game.capture_times[-1]
+    assert rerun(loaded) is None
+    again = World(loaded.scenario, seed=loaded.seed)  # recorded commands in place of the laws
+    for command in loaded.command:
+        if not again.over:
+            again.step(command)
+    assert again.over_message == world.over_message
+    assert again.record.digest == world.record.digest
+
+
+@pytest.mark.parametrize(("later", "winner"), [(1e-14, "pursuer"), (0.05, None)])
+def test_a_capture_at_the_last_instant_counts_whose_time_is_rounded_up(later, winner):
+    """The last row is that of 3.4 s; what comes in the control step after it is in no row."""
+    record = played(chase()).record
+    contacts = record.contacts.copy()
+    assert len(contacts) == 1
+    contacts["time"] = record.time[-1] + later
+    changed = dataclasses.replace(record, contacts=contacts)
+    assert record.scenario.addons[0].outcome(changed).winner == winner
+
+
+def test_captures_are_drawn_from_a_record_as_they_were_live(tmp_path):
+    world = played(chase(Game(ROLES, capture=1.02)))
+    loaded = mars2d.load(world.record.save(tmp_path / "game.npz"))
+    scenes = []
+    for frame in (world.frame, loaded.frame(-1), loaded.frame(5)):
+        scenes.append(Scene())
+        loaded.scenario.addons[0].draw(scenes[-1], frame)
+    live, replayed, before = (scene.shapes for scene in scenes)
+    assert [type(shape) for shape in live] == [Circle, Circle, Line, Line, Text]
+    assert [str(shape) for shape in live] == [str(shape) for shape in replayed]
+    assert live[-1].text.strip() == "2 s"
+    assert [type(shape) for shape in before] == [Circle]  # the reach alone
+
+
+def test_the_checker_of_add_ons_finds_nothing():
+    check_addon(Game({"a": [0], "b": [1]}))
+
+
+# -- what is refused ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("roles", "words"),
+    [
+        ({"pursuer": ["red"]}, "two roles"),
+        ({"a": [0], "b": [1], "c": [2]}, "two roles"),
+        ({"pursuer": ["red"], "evader": []}, "nobody has this role"),
+        ({"pursuer": "red", "evader": ["blue"]}, r"Game.roles\['pursuer'\] = 'red'"),
+        ({"pursuer": [1.5], "evader": ["blue"]}, "names or indices"),
+        ({"pursuer": [True], "evader": ["blue"]}, "names or indices"),
+        ({1: ["red"], "evader": ["blue"]}, "two roles"),
+        ([("a", [0]), ("a", [1])], "two roles are called 'a'"),
+        (7, "two roles"),
+    ],
+)
+def test_roles_that_can_not_be_are_refused_in_words(roles, words):
+    with pytest.raises(InputError, match=words):
+        Game(roles)
+
+
+@pytest.mark.parametrize(
+    ("roles", "words"),
+    [
+        ({"pursuer": ["rde"], "evader": ["blue"]}, "no robot 'rde'; did you mean 'red'"),
+        ({"pursuer": [5], "evader": ["blue"]}, "no robot 5; they are 0 to 1"),
+        ({"pursuer": [-1], "evader": ["blue"]}, "no robot -1"),
+        ({"pursuer": ["red"], "evader": [0]}, "red is pursuer and evader"),
+        ({"pursuer": ["red", 0], "evader": ["blue"]}, "red stands twice as pursuer"),
+    ],
+)
+def test_robots_that_are_not_there_or_in_two_roles_are_refused(roles, words):
+    with pytest.raises(InputError, match=words):
+        World(chase(Game(roles)))
+
+
+@pytest.mark.parametrize(
+    ("capture", "words"),
+    [
+        ("contcat", "did you mean 'contact'"),
+        (0, "> 0"),
+        (-1.0, "> 0"),
+        (np.inf, "finite"),
+        (None, "'contact', or a distance"),
+        (True, "'contact', or a distance"),
+    ],
+)
+def test_captures_that_can_not_be_are_refused(capture, words):
+    with pytest.raises(InputError, match=words):
+        Game(ROLES, capture=capture)
+
+
+# -- World.hold ---------------------------------------------------------------------------------
+
+
+def test_a_held_robot_stands_still_whatever_its_law_says():
+    robot = Robot(drive=Holonomic(), controller=right)
+    world = World(Scenario(robots=[robot.at(0, 0), robot.at(0, 2)], stop_time=2.0))
+    world.step()
+    world.hold(1)
+    world.hold(1)  # twice is once
+    while not world.over:
+        world.step()
+    x = world.record.pose[:, 0]
+    assert x[-1, 0] == pytest.approx(1.0)
+    assert (x[1:, 1] == x[1, 1]).all()
+    assert (world.record.command[1:, :, 1] == 0).all()
+
+
+def test_a_held_robot_slows_down_as_its_drive_can():
+    drive = Holonomic(max_acceleration=1.0)
+    robot = Robot(drive=drive, controller=right)
+    world = World(Scenario(robots=[robot], stop_time=3.0))
+    for _ in range(10):
+        world.step()
+    world.hold(0)
+    world.step([[0.5], [0.0]])  # a command from outside does not free it
+    assert world.command[0, 0] == pytest.approx(0.4)
+    while not world.over:
+        world.step()
+    assert world.command[0, 0] == 0
+    assert rerun(world.record) is None
+
+
+def test_to_hold_a_robot_that_is_not_there_is_an_error():
+    for robot in (3, -1):
+        with pytest.raises(InputError, match=rf"World.hold: there is no robot {robot}; they are 0"):
+            World(Scenario()).hold(robot)

@@ -1,0 +1,159 @@
+"""The add-on Ring: who has left it, who has won; and the sumo that is played in it."""
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Holonomic, InputError, Robot, Scenario, World
+from mars2d.addons import Ring
+from mars2d.core.registry import members
+from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.world.teleop import robot_of
+from mars2d.world.verify import rerun
+
+ROLES = {"red": ["r1", "r2"], "blue": ["b1", "b2"]}
+
+
+def going(vx):
+    return lambda _: (vx, 0.0)
+
+
+def bout(speeds, *, starts=(0.0, 0.0, 0.0, 0.0), stop_time=10.0, ring=None, **fields):
+    """Four robots side by side go to the right [m/s], or left, in a ring of 1.93 m."""
+    robot = Robot(drive=Holonomic(max_linear_speed=2.0), diameter=0.2)
+    names = [name for team in ROLES.values() for name in team]
+    robots = [
+        robot.replace(name=name, controller=going(speed)).at(x, 0.3 * k)
+        for k, (name, speed, x) in enumerate(zip(names, speeds, starts, strict=True))
+    ]
+    ring = ring or Ring(ROLES, radius=1.93)
+    return Scenario(robots=robots, addons=[ring], workspace=None, stop_time=stop_time, **fields)
+
+
+def played(scenario):
+    world = World(scenario)
+    while not world.over:
+        world.step()
+    return world
+
+
+# -- who is out ---------------------------------------------------------------------------------
+
+
+def test_a_role_has_lost_when_all_of_its_robots_are_out():
+    world = played(bout([1.0, 0.5, 0.6, 0.0]))
+    ring = world.addons.ring
+    assert ring.out == (0, 2, 1)  # r1, b1, then r2: so red has lost
+    assert (ring.winner, ring.score) == ("blue", {"red": 0, "blue": 1})
+    assert world.over_message == "blue wins: all 2 of red have left the ring after 3.90 s"
+
+
+def test_who_is_out_stands_still_and_stays_out_while_the_others_go_on():
+    world = played(bout([1.0, 0.5, 0.0, 0.0]))
+    x, command = world.record.pose[:, 0, 0], world.record.command[:, 0, 0]
+    left = int(np.argmax(x > 1.93))
+    assert (command[:left] == 1.0).all()
+    assert (command[left:] == 0.0).all()
+    assert (x[left:] == x[left]).all()
+
+
+def test_a_robot_is_in_the_ring_as_long_as_its_middle_is():
+    for x, out in ((1.93, ()), (1.93 + 1e-9, (0,)), (-2.0, (0,))):
+        world = World(bout([0.0] * 4, starts=(x, 0.0, 0.0, 0.0)))
+        world.step()
+        assert world.addons.ring.out == out
+
+
+def test_the_ring_is_where_its_center_is():
+    ring = Ring(ROLES, radius=2.0, center=(10.0, 0.0))
+    world = World(bout([0.0] * 4, ring=ring, starts=(10.0, 10.0, 0.0, 10.0)))
+    world.step()
+    assert world.addons.ring.out == (2,)
+
+
+@pytest.mark.parametrize(
+    ("speeds", "stop_time", "score"),
+    [
+        ([0.0, 0.0, 0.0, 0.0], 1.0, {"red": 2, "blue": 2}),  # time is over
+        ([1.0, 0.0, 0.0, 0.0], 3.0, {"red": 1, "blue": 2}),  # with more robots it is no win
+        ([1.0, 1.0, 1.0, -0.86], 5.0, {"red": 0, "blue": 0}),  # the last ones at once
+    ],
+)
+def test_it_is_a_draw_when_time_is_over_or_the_last_ones_leave_at_once(speeds, stop_time, score):
+    world = played(bout(speeds, stop_time=stop_time, physics="ideal"))
+    assert world.over_message == "a draw"
+    assert (world.addons.ring.winner, world.addons.ring.score) == (None, score)
+    assert world.addons.ring.outcome(world.record) == ((), score, None)
+
+
+def test_nobody_has_won_when_something_else_ends_it():
+    world = World(bout([1.0, 0.0, 0.0, 0.0]))
+    world.step()
+    world.stop("enough")
+    assert world.addons.ring.outcome(world.record).winner is None
+
+
+# -- records ------------------------------------------------------------------------------------
+
+
+def test_a_loaded_record_tells_the_same_and_runs_again(tmp_path):
+    world = played(bout([1.0, 0.5, 0.6, 0.0]))
+    ring = world.addons.ring
+    loaded = mars2d.load(world.record.save(tmp_path / "bout.npz"))
+    assert loaded.scenario.addons[0] == world.scenario.addons[0]
+    outcome = loaded.scenario.addons[0].outcome(loaded)
+    assert (outcome.score, outcome.winner, outcome.captures) == (ring.score, ring.winner, ())
+    assert np.isnan(outcome.capture_time)
+    assert rerun(loaded) is None
+    scenes = []
+    for frame in (world.frame, loaded.frame(-1), loaded.frame(0)):
+        scenes.append(Scene())
+        loaded.scenario.addons[0].draw(scenes[-1], frame)
+    live, replayed, before = (scene.shapes for scene in scenes)
+    assert [type(shape) for shape in live] == [Circle] + 3 * [Circle, Line, Line, Text]
+    assert [str(shape) for shape in live] == [str(shape) for shape in replayed]
+    assert [shape.text.strip() for shape in live if isinstance(shape, Text)] == [
+        "2 s", "3.1 s", "3.9 s",
+    ]  # fmt: skip
+    assert [type(shape) for shape in before] == [Circle]  # the rim alone
+
+
+def test_a_scenario_file_keeps_it(tmp_path):
+    ring = Ring(ROLES, radius=2.5, center=(1.0, 0.0))
+    file = tmp_path / "sumo.toml"
+    still = bout([0.0] * 4, ring=ring)
+    still.replace(robots=[r.replace(controller=None) for r in still.robots]).save(file)
+    assert Scenario.from_file(file).addons == (ring,)
+
+
+def test_what_all_contests_derive_from_is_no_add_on_to_be_listed():
+    assert {"Ring", "Game"} <= {*members("addons")}
+    assert "Contest" not in members("addons")
+
+
+def test_a_person_may_drive_a_role():
+    assert robot_of(bout([0.0] * 4), "blue") == 2
+
+
+# -- what is refused ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"radius": 0}, "Ring.radius = 0: expected a number > 0"),
+        ({"radius": "big"}, "Ring.radius"),
+        ({"center": (0, np.nan)}, "Ring.center"),
+        ({"centre": (0, 0)}, "did you mean 'center'"),
+        ({"roles": {"red": ["r1"]}}, r"Ring.roles = .*: expected two roles"),
+        ({"roles": {"red": ["r1"], "blue": []}}, "nobody has this role"),
+    ],
+)
+def test_rings_that_can_not_be_are_refused_in_words(fields, words):
+    with pytest.raises(InputError, match=words):
+        Ring(**({"roles": ROLES} | fields))
+
+
+def test_robots_that_are_not_there_are_refused():
+    with pytest.raises(InputError, match=r"Ring.roles\['red'\]: there is no robot 'r3'"):
+        World(bout([0.0] * 4, ring=Ring({"red": ["r3"], "blue": ["b1"]})))

@@ -1,0 +1,119 @@
+"""What theory predicts is drawn where it is asked for: in figures, pictures, films and replays."""
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Animation, InputError, LawError, Robot, Scenario, World, load
+from mars2d.addons import Addon, Beacon, Theory
+from mars2d.core.scene import Circle
+from mars2d.output.layers import parts
+from mars2d.output.raster.picture import paint_frame
+
+VIOLET = "#7b3294"
+
+
+def circle(scene, seen):
+    scene.circle(seen.pose[:2, 0], 1.5, fill=VIOLET)
+
+
+class Halo(Addon):
+    """Draws a ring round each robot on request."""
+
+    def theory(self, scene, frame):
+        for x, y in frame.pose[:2].T:
+            scene.circle((x, y), 1.0, stroke=VIOLET)
+
+
+def scenario(**fields):
+    return Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=2.0, **fields)
+
+
+def east(world):
+    return 0.5, 0.0
+
+
+def rings(scene):
+    return [shape for shape in scene.shapes if isinstance(shape, Circle) and shape.radius == 1.5]
+
+
+def test_theory_follows_the_frame_at_all_times():
+    record = mars2d.run(scenario(addons=[Theory(circle)]), control=east)
+    for row in (0, 10, 20):
+        (ring,) = rings(parts.theory(record.frame(row)))
+        assert ring.center == (pytest.approx(row * 0.05), 0.0)
+
+
+def test_theory_is_painted_only_on_request():
+    def violet(surface):
+        import pygame
+
+        seen = pygame.surfarray.array3d(surface)
+        return int((seen == (0x7B, 0x32, 0x94)).all(axis=2).sum())
+
+    world = World(scenario(addons=[Theory(circle)]))
+    assert violet(paint_frame(world.frame)) == 0
+    assert violet(paint_frame(world.frame, theory=True)) > 100
+    asked = World(scenario(addons=[Theory(circle)], animation=Animation(theory=True)))
+    assert violet(paint_frame(asked.frame)) > 100
+    assert violet(paint_frame(asked.frame, theory=False)) == 0
+
+
+def test_figures_at_several_times_show_theory_in_each_panel():
+    from matplotlib.patches import Circle as Disc
+
+    from mars2d.output.figures.figure import plot_snapshots
+
+    def discs(theory):
+        animation = Animation(theory=theory)
+        record = mars2d.run(scenario(addons=[Theory(circle)], animation=animation), control=east)
+        panels = plot_snapshots(record, [0.0, 1.0]).axes
+        return [sum(isinstance(p, Disc) and p.radius == 1.5 for p in ax.patches) for ax in panels]
+
+    assert discs(theory=False) == [0, 0]
+    assert discs(theory=True) == [1, 1]
+
+
+def test_in_a_figure_theory_lies_above_the_paths_that_may_cover_it():
+    from matplotlib.patches import Circle as Disc
+
+    halo = scenario(addons=[Halo()], animation=Animation(theory=True))
+    drawn = mars2d.run(halo, control=east).plot().get_children()
+    (ring,) = (k for k, a in enumerate(drawn) if isinstance(a, Disc) and a.radius == 1.0)
+    (path,) = (k for k, a in enumerate(drawn) if len(getattr(a, "get_xdata", list)()) == 21)
+    assert path < ring
+    assert drawn[path].get_zorder() <= drawn[ring].get_zorder()
+
+
+def test_theory_does_not_change_a_run():
+    plain = mars2d.run(scenario(), control=east)
+    assert mars2d.run(scenario(addons=[Theory(circle)]), control=east).digest == plain.digest
+
+
+def test_an_add_on_of_ones_own_may_have_theory():
+    world = World(scenario(addons=[Halo()]))
+    assert len(parts.theory(world.frame).shapes) == 1
+
+
+def test_a_saved_record_names_the_theory_that_it_lacks(tmp_path):
+    record = mars2d.run(scenario(addons=[Theory(circle), Beacon((1, 2))]), control=east)
+    loaded = load(record.save(tmp_path / "run.npz"))
+    assert loaded.missing == ("Theory, with its function circle",)
+    assert [addon.key for addon in loaded.scenario.addons] == ["beacon"]
+    assert loaded.digest == record.digest
+    assert np.array_equal(loaded.pose, record.pose)
+
+
+@pytest.mark.parametrize("bad", [None, 3, "circle", lambda scene: None])
+def test_anything_but_a_function_of_scene_and_frame_is_refused(bad):
+    with pytest.raises(InputError, match=r"Theory\.draws.*two arguments, the scene and the frame"):
+        Theory(bad)
+
+
+def test_a_theory_that_fails_is_named_with_its_line():
+    def broken(scene, frame):
+        return 1 / 0
+
+    world = World(scenario(addons=[Theory(broken)]))
+    with pytest.raises(LawError, match="add-on 'theory' raised ZeroDivisionError"):
+        parts.theory(world.frame)

@@ -1,0 +1,147 @@
+"""Trails: the last seconds of the robots' ways, the same in windows, figures and replays."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Animation, InputError, Robot, Scenario, World
+from mars2d.addons import Trails
+from mars2d.core.scene import Line, rgb
+from mars2d.output.layers import parts
+
+PACE = 0.5  # m/s
+
+
+def ahead(robot):
+    return PACE, 0.0
+
+
+def record_of(*addons, robots=2, sampling_time=0.1, stop_time=6.0):
+    starts = [Robot(pose=(0, k, 0), controller=ahead) for k in range(robots)]
+    return mars2d.run(
+        Scenario(
+            robots=starts,
+            addons=addons,
+            workspace=None,
+            physics="ideal",
+            sampling_time=sampling_time,
+            stop_time=stop_time,
+        )
+    )
+
+
+def lines(seen):
+    return [shape for shape in parts.addons(seen).shapes if isinstance(shape, Line)]
+
+
+def strength(line):
+    """How much there is of the robot's blue, over white."""
+    return (1 - rgb(line.stroke)[0]) / (1 - rgb("#0072b2")[0])
+
+
+def test_a_trail_goes_back_for_its_duration_and_ends_at_the_robot():
+    record = record_of(Trails(duration=2.0), robots=1)
+    points = np.concatenate([line.points for line in lines(record.frame(50))])  # at 5 s
+    assert points[:, 0].min() == pytest.approx(PACE * 3.0)
+    assert points[:, 0].max() == pytest.approx(PACE * 5.0)
+    assert np.all(points[:, 1] == 0.0)
+
+
+def test_at_first_a_trail_is_as_long_as_the_way_so_far():
+    record = record_of(Trails(duration=2.0), robots=1)
+    assert lines(record.frame(0)) == []
+    points = np.concatenate([line.points for line in lines(record.frame(10))])
+    assert points[:, 0].min() == 0.0
+    assert points[:, 0].max() == pytest.approx(PACE)
+
+
+def test_a_trail_fades_out_without_gaps():
+    record = record_of(Trails(duration=2.0), robots=1)
+    drawn = lines(record.frame(50))
+    colors = [strength(line) for line in drawn]
+    assert colors == sorted(colors)
+    assert colors[0] < 0.15
+    assert colors[-1] == pytest.approx(0.85, abs=0.01)
+    for before, after in pairwise(drawn):
+        assert before.points[-1].tolist() == after.points[0].tolist()
+
+
+def test_only_the_robots_that_are_named_have_one_in_their_colours():
+    record = record_of(Trails(robots=["robot1"], width=4.0))
+    drawn = lines(record.frame(50))
+    assert drawn[-1].stroke == "#db7626"  # 85 % of #d55e00, over white
+    assert {line.width for line in drawn} == {4.0}
+    assert all(np.all(line.points[:, 1] == 1.0) for line in drawn)
+
+
+def test_what_is_drawn_does_not_grow_with_the_length_nor_with_the_team():
+    long = record_of(Trails(duration=1e4), robots=1, sampling_time=0.01, stop_time=100.0)
+    drawn = lines(long.frame(-1))
+    assert 1 <= len(drawn) <= 12
+    assert 200 < sum(len(line.points) for line in drawn) < 430
+    crowd = record_of(Trails(duration=5.0), robots=200)
+    assert 200 <= len(lines(crowd.frame(-1))) <= 600
+
+
+def test_points_that_are_left_out_are_the_same_ones_from_frame_to_frame():
+    record = record_of(Trails(duration=50), robots=1, sampling_time=0.01, stop_time=30.0)
+
+    def inner(row):
+        drawn = lines(record.frame(row))
+        return {tuple(point) for line in drawn for point in line.points[:-1].tolist()}
+
+    assert len(inner(2000)) > 50
+    assert inner(2000) <= inner(2001)
+
+
+def test_between_two_rows_a_trail_ends_where_the_robot_is_seen():
+    from mars2d.window.player import between
+
+    record = record_of(Trails(duration=2.0), robots=1)
+    drawn = lines(between(record.frame(20), record.frame(30), 2.35))
+    points = np.concatenate([line.points for line in drawn])
+    assert points[:, 0].max() == pytest.approx(PACE * 2.35)
+    assert points[:, 0].min() == pytest.approx(PACE * 0.4)
+
+
+def test_a_window_a_replay_and_a_figure_show_the_same_trails(tmp_path):
+    scenario = Scenario(
+        robots=[Robot(pose=(-2, 0, 0), controller=ahead)],
+        addons=[Trails(duration=1.5)],
+        animation=Animation(wake=False),
+        stop_time=3,
+    )
+    world = World(scenario)
+    while not world.over:
+        world.step()
+    loaded = mars2d.load(world.record.save(tmp_path / "run.npz"))
+    assert loaded.scenario.addons == scenario.addons
+    live, replayed = lines(world.frame), lines(loaded.frame(-1))
+    assert len(live) == len(replayed) > 5
+    for a, b in zip(live, replayed, strict=True):
+        assert (a.stroke, a.points.tolist()) == (b.stroke, b.points.tolist())
+    with_trails = loaded.plot().lines
+    plain = mars2d.run(scenario.replace(addons=[])).plot().lines
+    assert len(with_trails) - len(plain) == len(live)
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"duration": 0}, r"Trails.duration = 0: expected a number > 0"),
+        ({"robots": "robot0"}, r"Trails.robots = 'robot0': expected a list of robots' names"),
+        ({"robots": []}, r"Trails.robots = \[\]: expected a list of robots' names"),
+        ({"robots": ["a", "a"]}, r"Trails.robots: 'a' stands there twice"),
+        ({"width": -1}, r"Trails.width = -1: expected a number > 0"),
+    ],
+)
+def test_trails_that_can_not_be_are_an_error(fields, message):
+    with pytest.raises(InputError, match=message):
+        Trails(**fields)
+
+
+def test_a_name_that_no_robot_has_is_an_error_that_knows_the_nearest():
+    with pytest.raises(InputError, match=r"Trails.robots: .*'laeder'.*did you mean 'leader'\?"):
+        World(Scenario(robots=[Robot(name="leader")], addons=[Trails(robots=["laeder"])]))

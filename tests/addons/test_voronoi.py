@@ -1,0 +1,253 @@
+"""The add-on Voronoi: cells as laws and checks find them, weighed, drawn, and refused in words."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+
+import mars2d
+from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
+from mars2d.addons import Density, Voronoi
+from mars2d.core.scene import Circle, Line, Polygon, Scene
+from mars2d.geometry.voronoi import Tessellation, Weight
+from mars2d.output.raster.picture import paint_frame
+
+SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
+HOOK = ((0, 0), (4, 0), (4, 1.5), (1.5, 1.5), (1.5, 2.5), (4, 2.5), (4, 4), (0, 4))
+STARTS = [(1, 1), (3, 1), (1.5, 3)]
+
+
+def team(starts=STARTS, addons=(), **fields):
+    robots = [Robot(drive=Holonomic()).at(x, y) for x, y in starts]
+    fields = {"workspace": SQUARE, "stop_time": 2.0} | fields
+    return Scenario(robots=robots, addons=[Voronoi(), *addons], **fields)
+
+
+def lloyd(world):
+    return world.addons.voronoi.centroids - world.position
+
+
+# -- what laws find ---------------------------------------------------------------------------
+
+
+def test_laws_find_the_cells_of_this_instant():
+    world = World(team())
+    cells = world.addons.voronoi
+    for _ in range(3):
+        found = Tessellation(world.position, SQUARE)
+        assert cells.areas.tolist() == found.areas.tolist()
+        assert cells.masses.tolist() == found.areas.tolist()
+        assert cells.centroids.tolist() == found.centroids.tolist()
+        assert cells.cost == found.cost
+        assert shapely.equals(cells.cells, found.cells).all()
+        assert [cells.neighbours(i) for i in range(3)] == [(1, 2), (0, 2), (0, 1)]
+        assert cells.edge(0, 2) == found.edge(0, 2)
+        world.step([[0.3, 0, -0.2], [0.1, 0.3, 0]])
+
+
+def test_cells_are_worked_out_once_a_control_step(monkeypatch):
+    made = []
+    original = Tessellation.__init__
+
+    def watched(self, *args, **kwargs):
+        made.append(args)
+        original(self, *args, **kwargs)
+
+    monkeypatch.setattr(Tessellation, "__init__", watched)
+    world = World(team(), control=lambda world: lloyd(world) + 0 * lloyd(world))
+    for _ in range(4):
+        world.step()
+    assert len(made) == 4
+
+
+def test_a_law_can_not_change_what_the_next_one_sees():
+    cells = World(team()).addons.voronoi
+    for array in (cells.centroids, cells.areas, cells.masses):
+        with pytest.raises(ValueError, match="read-only"):
+            array[..., 0] = 1
+
+
+def test_nothing_is_worked_out_that_nobody_asks_for():
+    world = World(team(), control=lambda world: np.zeros((2, 3)))
+    world.step()
+    assert "_diagram" not in vars(world.addons.voronoi._now)
+
+
+def test_a_record_has_the_cells_that_the_law_saw():
+    seen = []
+
+    def law(world):
+        seen.append((world.addons.voronoi.cost, world.addons.voronoi.centroids.tolist()))
+        return lloyd(world)
+
+    record = mars2d.run(team(), control=law)
+    voronoi = record.scenario.addons[0]
+    again = [voronoi.of(record.frame(row)) for row in range(len(record.time))]
+    assert [(each.cost, each.centroids.tolist()) for each in again] == seen
+
+
+def test_a_saved_record_has_them_too(tmp_path):
+    record = mars2d.run(team(), control=lloyd)
+    record.save(tmp_path / "r.npz")
+    loaded = mars2d.load(tmp_path / "r.npz")
+    costs = [r.scenario.addons[0].of(r.frame(-1)).cost for r in (record, loaded)]
+    assert costs[0] == costs[1]
+
+
+def test_to_have_cells_changes_nothing_of_a_run():
+    plain = team().replace(addons=[])
+    still = [[0.1, 0.2, 0.3], [0, 0, 0.1]]
+    runs = [mars2d.run(s, control=lambda world: still) for s in (plain, team())]
+    assert (runs[0].pose == runs[1].pose).all()
+
+
+def test_a_robot_at_anothers_place_and_one_that_has_left_are_no_error():
+    starts = [(0.8, 1), (1.2, 1), (3.9, 1)]
+    scenario = team(starts, physics="ideal", on_exit="ignore", stop_time=4.0)
+    together = [[0.05, -0.05, 0.5], [0, 0, 0]]
+    law = lambda world: together if world.time < 3.95 else lloyd(world)  # noqa: E731
+    record = mars2d.run(scenario, control=law)
+    assert record.pose[-1, 0] == pytest.approx([1, 1, 5.9])
+    cells = record.scenario.addons[0].of(record.frame(-1))
+    assert cells.areas == pytest.approx([13.8, 0, 2.2])
+    assert cells.centroids[:, 1] == pytest.approx([1, 1])
+    assert np.isfinite(record.command).all()
+
+
+# -- weights ----------------------------------------------------------------------------------
+
+
+def slope(x, y):
+    return 1 + x
+
+
+def test_the_only_density_of_a_scenario_weighs_the_cells():
+    world = World(team(addons=[Density(slope)]))
+    found = Tessellation(world.position, SQUARE, slope)
+    assert world.addons.voronoi.masses.tolist() == found.masses.tolist()
+    assert world.addons.voronoi.centroids.tolist() == found.centroids.tolist()
+    assert world.addons.voronoi.areas == pytest.approx(Tessellation(world.position, SQUARE).areas)
+    assert world.addons.voronoi.cost == world.scenario.addons[0].of(world.frame).cost
+
+
+def test_of_several_densities_the_named_one_counts():
+    densities = [Density(slope, name="slope"), Density(lambda x, y: 1 + y, name="rise")]
+    scenario = team(addons=densities)
+    with pytest.raises(InputError, match=r"Voronoi.density is missing: .* slope or rise"):
+        World(scenario)
+    named = scenario.replace(addons=[Voronoi(density="slope"), *densities])
+    masses = World(named).addons.voronoi.masses
+    assert masses.tolist() == Tessellation(np.transpose(STARTS), SQUARE, slope).masses.tolist()
+
+
+def test_a_name_that_no_density_has_is_an_error_with_the_nearest_one():
+    scenario = team().replace(addons=[Voronoi(density="hil"), Density(slope, name="hill")])
+    with pytest.raises(InputError, match=r"Voronoi.density = 'hil'.*did you mean 'hill'"):
+        World(scenario)
+
+
+def test_an_addon_of_ones_own_may_weigh():
+    class Twice(mars2d.Addon, Weight):
+        def of(self, points):
+            return np.full(points.shape[1], 2.0)
+
+    voronoi = World(team(addons=[Twice()])).addons.voronoi
+    assert voronoi.masses == pytest.approx(2 * voronoi.areas)
+
+
+def test_a_finer_resolution_sees_a_smaller_spot():
+    def spot(x, y):
+        return np.where((x - 2) ** 2 + (y - 2) ** 2 < 0.04, 1.0, 0.0)
+
+    def total(resolution):
+        addons = [Voronoi(resolution=resolution), Density(spot)]
+        return World(team().replace(addons=addons)).addons.voronoi.masses.sum()
+
+    off = [abs(total(resolution) - 0.04 * np.pi) for resolution in (1.0, 0.05)]
+    assert off[1] < 0.3 * off[0]
+
+
+def test_what_a_density_does_wrong_on_the_way_is_an_error_of_its_function():
+    def hole(x, y):  # only looked at once robots are at work
+        return np.where(np.abs(x - y) < 1e-3, np.nan, 1.0) if len(x) < 20_000 else 1.0 + 0 * x
+
+    scenario = team([(1, 1.1), (3, 3.2)], addons=[Density(hole)])
+    world = World(scenario, control=lloyd)
+    with pytest.raises(LawError, match=r"Density\.function: expected of phi\(x, y\) .* is nan at"):
+        for _ in range(20):
+            world.step()
+
+
+# -- what can't be ----------------------------------------------------------------------------
+
+
+def test_without_a_workspace_there_is_nothing_to_divide():
+    with pytest.raises(InputError, match=r"^Scenario.workspace = None: expected a polygon") as e:
+        World(team(workspace=None))
+    assert not isinstance(e.value, LawError)
+
+
+def test_outside_of_a_world_there_are_no_cells():
+    with pytest.raises(InputError, match=r"voronoi.of\(record.frame\(row\)\)"):
+        Voronoi().areas  # noqa: B018
+
+
+@pytest.mark.parametrize("fields", [{"resolution": 0}, {"density": 3}, {"cells": 2}])
+def test_fields_that_can_not_be_are_errors(fields):
+    with pytest.raises(InputError, match=r"Voronoi"):
+        Voronoi(**fields)
+
+
+# -- what is seen -----------------------------------------------------------------------------
+
+
+def drawn(scenario, what="draw"):
+    scene = Scene()
+    getattr(scenario.addons[0], what)(scene, World(scenario).frame)
+    return scene.shapes
+
+
+def test_cells_are_drawn_in_their_robots_colours_with_an_edge_between_them():
+    shapes = drawn(team())
+    cells = [shape for shape in shapes if isinstance(shape, Polygon)]
+    assert [cell.fill[:7] for cell in cells] == list(team().colors)
+    assert sum(shapely.Polygon(cell.points).area for cell in cells) == pytest.approx(16)
+    edges = [shape for shape in shapes if isinstance(shape, Line)]
+    assert len(edges) == 3
+
+
+def test_a_cell_in_two_pieces_is_drawn_in_both():
+    shapes = drawn(team([(3.5, 1.0), (0.75, 3.25)], workspace=HOOK))
+    fills = [shape.fill for shape in shapes if isinstance(shape, Polygon)]
+    assert len(fills) == 3
+    assert len(set(fills)) == 2
+
+
+def test_theory_shows_the_centroids():
+    scenario = team()
+    circles = [shape for shape in drawn(scenario, "theory") if isinstance(shape, Circle)]
+    found = Tessellation(np.transpose(STARTS), SQUARE)
+    assert [circle.center for circle in circles] == [tuple(c) for c in found.centroids.T.tolist()]
+
+
+def test_cells_stand_in_pictures_films_and_replays(tmp_path):
+    record = mars2d.run(team(addons=[Density(slope)]), control=lloyd)
+    record.save(tmp_path / "r.npz")
+    loaded = mars2d.load(tmp_path / "r.npz")
+    pictures = [paint_frame(r.frame(-1), (400, 400), theory=True) for r in (record, loaded)]
+    assert [picture.get_size() for picture in pictures] == [(400, 400)] * 2
+    record.plot().figure.canvas.draw()
+
+
+def test_a_replay_that_has_lost_the_named_density_shows_no_centroids(tmp_path):
+    scenario = team().replace(addons=[Voronoi(density="density"), Density(slope)])
+    record = mars2d.run(scenario, control=lloyd)
+    record.save(tmp_path / "r.npz")
+    loaded = mars2d.load(tmp_path / "r.npz")
+    assert "Density, with its function slope" in loaded.missing
+    assert [type(a).__name__ for a in loaded.scenario.addons] == ["Voronoi"]
+    for what, some in (("draw", True), ("theory", False)):
+        scene = Scene()
+        getattr(loaded.scenario.addons[0], what)(scene, loaded.frame(-1))
+        assert bool(scene.shapes) == some

@@ -1,0 +1,598 @@
+"""Drives: their motion in closed form, their limits, their noise, their dead time."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin, sqrt, tan
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mars2d
+from mars2d import (
+    Car,
+    Differential,
+    Drive,
+    Holonomic,
+    InputError,
+    LawError,
+    Robot,
+    Scenario,
+    Unicycle,
+    World,
+)
+from mars2d.addons import Map
+from mars2d.world.verify import rerun
+
+
+def free(*drives: Drive, **fields) -> Scenario:
+    """Return a scenario of robots with these drives, far from each other."""
+    robots = [Robot(pose=(100.0 * i, 0, 0), drive=drive) for i, drive in enumerate(drives)]
+    return Scenario(**({"workspace": None, "stop_time": 1e6, "robots": robots} | fields))
+
+
+def driven(scenario: Scenario, commands, seed: int = 0) -> mars2d.Record:
+    """Return the record of a run under these commands, (2,) or (2, n) each."""
+    world = World(scenario, seed=seed)
+    for command in commands:
+        world.step(np.broadcast_to(np.reshape(command, (2, -1)), world.command.shape))
+    world.stop("done")
+    return world.record
+
+
+def arc(v: float, omega: float, time: float, pose=(0.0, 0.0, 0.0)) -> np.ndarray:
+    """Return the pose of a unicycle after `time` seconds."""
+    x, y, theta = pose
+    end = theta + omega * time
+    if omega == 0:
+        return np.array([x + v * time * cos(theta), y + v * time * sin(theta), theta])
+    radius = v / omega
+    return np.array(
+        [x + radius * (sin(end) - sin(theta)), y - radius * (cos(end) - cos(theta)), end]
+    )
+
+
+# -- motion ---------------------------------------------------------------------------------
+
+speeds = st.floats(-1, 1)
+periods = st.sampled_from([0.01, 0.1, 1.0, 7.0])
+
+
+@given(left=speeds, right=speeds, radius=st.floats(0.01, 1), axis=st.floats(0.05, 1), dt=periods)
+def test_wheels_that_turn_bring_a_differential_drive_along_its_arc(left, right, radius, axis, dt):
+    drive = Differential(wheel_radius=radius, wheel_semiaxis=axis, max_linear_speed=2)
+    record = driven(free(drive, sampling_time=dt), [(left, right)] * 20)
+    v, omega = radius * (right + left) / 2, radius * (right - left) / (2 * axis)
+    assert record.pose[-1, :, 0] == pytest.approx(arc(v, omega, 20 * dt), abs=1e-9)
+
+
+@given(v=speeds, omega=speeds, radius=st.floats(0.01, 1), dt=periods)
+def test_commanded_by_v_and_omega_it_is_a_unicycle_whatever_its_wheels(v, omega, radius, dt):
+    twist = Differential(command="twist", wheel_radius=radius, max_linear_speed=2)
+    drives = [twist, Unicycle(max_linear_speed=2)]
+    record = driven(free(*drives, sampling_time=dt), [(v, omega)] * 20)
+    assert record.pose[-1, :, 0] == pytest.approx(arc(v, omega, 20 * dt), abs=1e-9)
+    shifted = record.pose[:, :, 1] - np.array([100.0, 0, 0])
+    assert np.abs(record.pose[:, :, 0] - shifted).max() < 1e-9
+
+
+@given(v=speeds, delta=st.floats(-1.2, 1.2), wheelbase=st.floats(0.1, 3), dt=periods)
+def test_a_car_goes_round_a_circle_of_wheelbase_over_tan_delta(v, delta, wheelbase, dt):
+    drive = Car(wheelbase=wheelbase, max_steering=1.3, max_linear_speed=2)
+    pose = driven(free(drive, sampling_time=dt), [(v, delta)] * 20).pose[:, :, 0]
+    assert pose[-1] == pytest.approx(arc(v, v * tan(delta) / wheelbase, 20 * dt), abs=1e-9)
+    if abs(delta) > 0.01:
+        radius = wheelbase / tan(delta)
+        assert np.hypot(pose[:, 0], pose[:, 1] - radius) == pytest.approx(abs(radius), abs=1e-9)
+
+
+def test_a_car_backs_and_one_that_stands_does_not_turn():
+    record = driven(free(Car()), [(0.0, 0.5)] * 3 + [(-0.2, 0.0)] * 5)
+    assert record.pose[3].ravel().tolist() == [0, 0, 0]
+    assert record.pose[-1].ravel() == pytest.approx([-0.1, 0, 0])
+
+
+def test_new_drives_are_held_by_their_force_as_others_are():
+    wall = Map([[(0.5, -5), (0.5, 5)]])
+    for drive, command in ((Car(), (0.3, 0.0)), (Differential(), (6.0, 6.0))):
+        robot = Robot(drive=drive, diameter=0.2)
+        record = driven(Scenario(robots=[robot], addons=[wall]), [command] * 50)
+        assert record.pose[-1, 0, 0] == pytest.approx(0.4, abs=1e-3)
+        force = record.contacts["normal_impulse"][-1] / record.scenario.sampling_time
+        assert force == pytest.approx(drive.max_force, rel=1e-3)
+
+
+# -- a drive of one's own -------------------------------------------------------------------
+
+
+class Crab(Drive):
+    """Slides to the left as fast as it goes ahead; commanded by (v, omega)."""
+
+    def twist(self, command):
+        v, omega = command
+        return np.array([v, v, omega])
+
+
+def test_a_drive_of_ones_own_needs_only_its_twist():
+    record = driven(free(Crab()), [(0.2, 0.0)] * 10)
+    assert record.pose[-1].ravel() == pytest.approx([0.2, 0.2, 0])
+
+
+def test_it_has_acceleration_noise_and_dead_time_for_nothing():
+    drives = [Crab(max_acceleration=0.5), Crab(noise=0.1), Crab(dead_time=0.25), Crab()]
+    record = driven(free(*drives), [(0.2, 0.1)] * 400)
+    assert record.command[:3, :, 0] == pytest.approx(
+        np.array([[0.05, 0.05], [0.1, 0.1], [0.15, 0.1]])
+    )
+    speed, spin = moved(record, 1)
+    assert spin.std() == pytest.approx(0.01, rel=0.15)
+    assert speed.std() == pytest.approx(0.02 * sqrt(2), rel=0.15)
+    assert record.pose[10, 2, 2] == pytest.approx(0.1 * (1 - 0.25))
+    assert record.pose[10, 2, 3] == pytest.approx(0.1)
+
+
+def moved(record: mars2d.Record, robot: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    """Return the speed ahead, or along its path, and the spin in each control step."""
+    change = np.diff(record.pose[:, :, robot], axis=0) / record.scenario.sampling_time
+    return np.hypot(change[:, 0], change[:, 1]), change[:, 2]
+
+
+# -- limits ---------------------------------------------------------------------------------
+
+
+def rims(drive: Differential, command: np.ndarray) -> np.ndarray:
+    """Return the speeds of the wheels' rims, left and right, from the definition."""
+    first, second = command
+    if drive.command == "wheels":
+        return drive.wheel_radius * np.array([first, second])
+    side = drive.wheel_semiaxis * second
+    return np.array([first - side, first + side])
+
+
+anything = st.floats(-1e3, 1e3)
+limits = st.floats(0.05, 5)
+
+
+@given(first=anything, second=anything, mode=st.sampled_from(["wheels", "twist"]), limit=limits)
+def test_each_wheels_rim_is_clipped_by_itself(first, second, mode, limit):
+    drive = Differential(command=mode, wheel_radius=0.03, max_linear_speed=limit)
+    wanted = np.array([[first], [second]])
+    found = rims(drive, drive.saturate(wanted.copy()))
+    assert found == pytest.approx(rims(drive, wanted).clip(-limit, limit), rel=1e-9, abs=1e-9)
+
+
+@given(v=anything, delta=anything, limit=limits, steering=st.floats(0.1, 1.5))
+def test_a_cars_speed_and_steering_are_clipped_each_by_itself(v, delta, limit, steering):
+    drive = Car(max_linear_speed=limit, max_steering=steering)
+    found = drive.saturate(np.array([[v], [delta]])).ravel()
+    assert found == pytest.approx([np.clip(v, -limit, limit), np.clip(delta, -steering, steering)])
+
+
+def test_a_car_that_is_too_fast_keeps_its_curvature():
+    (slow, turn), _ = Car(max_linear_speed=0.5).saturate(np.array([[0.5, 5.0], [0.3, 0.3]])).T, 0
+    assert slow.tolist() == turn.tolist() == [0.5, 0.3]
+
+
+DRIVES = [
+    Unicycle(max_acceleration=0.7),
+    Differential(max_acceleration=0.7),
+    Differential(command="twist", max_acceleration=0.7, wheel_semiaxis=0.13),
+    Holonomic(max_acceleration=0.7),
+    Car(max_acceleration=0.7, max_steering_rate=0.9),
+    Car(max_steering_rate=0.9),
+    Crab(max_acceleration=0.7),
+]
+
+
+AT_A_LIMIT = [
+    (sign * first * (1 + excess), second * (1 - excess))
+    for first, second in ((0.5, 0.0), (0.25, 2.5), (10.0, 10.0), (0.5, 0.6), (0.4, 0.3))
+    for excess in (-1e-15, 0.0, 3e-16, 9.99e-13, 1.0001e-12)
+    for sign in (-1, 1)
+]
+"""Commands about as large as the drives allow, or a little beyond, within rounding or not."""
+
+
+@pytest.mark.parametrize("drive", DRIVES, ids=repr)
+@given(
+    commands=st.lists(
+        st.tuples(st.floats(-30, 30), st.floats(-30, 30)) | st.sampled_from(AT_A_LIMIT),
+        min_size=1, max_size=20,
+    ),
+    dt=st.sampled_from([1e-6, 1e-3, 0.1, 0.3]),
+)  # fmt: skip
+def test_limited_commands_given_again_are_the_same_to_the_bit(drive, commands, dt):
+    scenario = free(drive, sampling_time=dt, stop_time=10)
+    first, second = World(scenario), World(scenario)
+    for command in commands:
+        first.step(np.array([command]).T)
+        second.step(first.command)
+        assert np.array_equal(first.command, second.command)
+    assert np.array_equal(first.pose, second.pose)
+
+
+@pytest.mark.parametrize("drive", DRIVES, ids=repr)
+@given(
+    wanted=st.tuples(anything, anything), last=st.tuples(anything, anything), dt=st.floats(1e-6, 10)
+)
+def test_actuators_change_no_quicker_than_they_can_and_towards_what_is_wanted(
+    drive, wanted, last, dt
+):
+    wanted, last = (np.array([pair]).T for pair in (wanted, last))
+    had = drive.actuators(last)
+    change = drive.actuators(drive.accelerate(wanted, last, dt)) - had
+    aim = drive.actuators(wanted) - had
+    if isinstance(drive, Holonomic):
+        change, aim = np.hypot(*change), np.hypot(*aim)
+    slack = 1e-9 * (1 + np.abs(had).max())
+    for k, rate in enumerate(drive.rates):
+        limit = np.inf if rate is None else rate * dt
+        size = np.ravel(change)[k % change.size]
+        goal = np.ravel(aim)[k % aim.size]
+        assert abs(size) <= limit + slack
+        assert size == pytest.approx(np.clip(goal, -limit, limit), abs=slack)
+
+
+@pytest.mark.parametrize(
+    ("drive", "command", "speed"),
+    [
+        (Unicycle(max_acceleration=0.5), (0.4, 0.0), 0.4),
+        (Differential(max_acceleration=0.5), (8.0, 8.0), 0.4),
+        (Differential(command="twist", max_acceleration=0.5), (0.4, 0.0), 0.4),
+        (Holonomic(max_acceleration=0.5), (0.32, -0.24), 0.4),
+        (Car(max_acceleration=0.5), (0.4, 0.2), 0.4),
+        (Crab(max_acceleration=0.5), (0.4, 0.0), 0.4),
+    ],
+    ids=lambda value: type(value).__name__ if isinstance(value, Drive) else "",
+)
+def test_a_robot_needs_v_over_a_to_reach_its_speed_and_as_long_to_stop(drive, command, speed):
+    dt, a = 0.01, 0.5
+    ramp = 80  # = v / a / dt
+    still = np.zeros(2)
+    record = driven(free(drive, sampling_time=dt), [command] * 200 + [still] * 100)
+    share = record.command[:, :, 0] @ np.array(command) / (np.array(command) @ np.array(command))
+    if isinstance(drive, Car):
+        share = record.command[:, 0, 0] / command[0]
+    expected = np.minimum(np.arange(1, 201) / ramp, 1)
+    assert share[:200] == pytest.approx(expected, abs=1e-12)
+    assert share[200:300] == pytest.approx(np.maximum(1 - np.arange(1, 101) / ramp, 0), abs=1e-12)
+    if not isinstance(drive, (Crab, Car)):
+        # Under commands that are held, v^2 / (2 a) and half a control step's way.
+        way = np.hypot(*record.pose[ramp, :2, 0])
+        assert way == pytest.approx(speed**2 / (2 * a) + speed * dt / 2, abs=1e-12)
+
+
+def test_wheels_that_accelerate_each_by_itself_bound_the_spins_change():
+    drive = Unicycle(max_acceleration=0.2, wheel_semiaxis=0.1)
+    record = driven(free(drive), [(0.0, 4.0)] * 30)
+    assert record.command[:, 1, 0][:20] == pytest.approx(0.2 / 0.1 * 0.1 * np.arange(1, 21))
+    assert np.all(record.command[:, 0, 0] == 0)
+
+
+def test_a_cars_wheels_turn_no_quicker_than_the_steering_rate():
+    drive = Car(max_steering_rate=0.5, max_steering=0.4)
+    command = driven(free(drive), [(0.3, 1.0)] * 20).command[:20, :, 0]
+    assert np.all(command[:, 0] == 0.3)
+    assert command[:, 1] == pytest.approx(np.minimum(0.05 * np.arange(1, 21), 0.4))
+
+
+def test_each_robot_of_a_team_has_limits_of_its_own():
+    drives = [Unicycle(), Unicycle(max_acceleration=1), Holonomic(max_acceleration=2), Unicycle()]
+    record = driven(free(*drives), [(0.5, 0.0)] * 3)
+    assert record.command[:3, 0].tolist() == [
+        pytest.approx([0.5, 0.1, 0.2, 0.5]), pytest.approx([0.5, 0.2, 0.4, 0.5]),
+        pytest.approx([0.5, 0.3, 0.5, 0.5]),
+    ]  # fmt: skip
+
+
+# -- noise ----------------------------------------------------------------------------------
+
+STEPS = 4000
+FEW = 5 / sqrt(2 * STEPS)
+"""Five standard deviations of an estimated standard deviation, relatively."""
+
+
+@pytest.mark.parametrize(
+    ("drive", "command", "v", "omega"),
+    [
+        (Unicycle(noise=0.1), (0.2, 0.5), 0.2, 0.5),
+        (Differential(noise=0.1), (3.0, 5.0), 0.2, 0.5),
+        (Differential(command="twist", noise=0.1), (0.2, 0.5), 0.2, 0.5),
+    ],
+)
+def test_noise_of_wheels_is_the_velocity_motion_model(drive, command, v, omega):
+    record = driven(free(drive), [command] * STEPS, seed=3)
+    speed, spin = moved(record)
+    speed /= np.sinc(spin * 0.1 / 2 / pi)  # from the chord to the arc
+    s, b = 0.1, 0.1
+    both = v**2 + (b * omega) ** 2
+    variances = s**2 * both / 2, s**2 * both / (2 * b**2)
+    for found, mean, variance in ((speed, v, variances[0]), (spin, omega, variances[1])):
+        assert found.mean() == pytest.approx(mean, abs=5 * sqrt(variance / STEPS))
+        assert found.std() == pytest.approx(sqrt(variance), rel=FEW)
+    covariance = np.cov(speed, spin)[0, 1]
+    spread = sqrt(variances[0] * variances[1] / STEPS)
+    assert covariance == pytest.approx(s**2 * v * omega, abs=5 * spread)
+    assert np.all(record.command[:-1, :, 0] == command)  # noise is not recorded
+
+
+def test_the_heading_of_a_robot_that_drives_straight_drifts_with_the_root_of_time():
+    n, steps, dt, v, s, b = 400, 100, 0.1, 0.3, 0.05, 0.1
+    record = driven(free(*[Unicycle(noise=s)] * n, sampling_time=dt), [(v, 0.0)] * steps, seed=1)
+    for k in (25, 100):
+        heading = record.pose[k, 2]
+        predicted = s * v * dt * sqrt(k / 2) / b
+        assert heading.std() == pytest.approx(predicted, rel=5 / sqrt(2 * n))
+        assert heading.mean() == pytest.approx(0, abs=5 * predicted / sqrt(n))
+
+
+def test_a_cars_noise_is_of_its_speed_and_of_its_steerings_range():
+    drive = Car(noise=0.05, max_steering=0.6, wheelbase=0.2)
+    speed, spin = moved(driven(free(drive), [(0.3, 0.1)] * STEPS))
+    speed /= np.sinc(spin * 0.1 / 2 / pi)
+    assert speed.std() == pytest.approx(0.05 * 0.3, rel=FEW)
+    delta = np.arctan(spin * 0.2 / speed)
+    assert delta.mean() == pytest.approx(0.1, abs=5 * 0.03 / sqrt(STEPS))
+    assert delta.std() == pytest.approx(0.05 * 0.6, rel=FEW)
+
+
+def test_noise_never_turns_a_cars_wheels_beyond_their_bound():
+    drive = Car(noise=1.0, max_steering=0.6)
+    done = drive.disturb(np.full((2, 1000), 0.6), np.random.default_rng(0).normal(size=(2, 1000)))
+    assert np.abs(done[1]).max() == 0.6
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.6, pi / 2])
+def test_a_holonomic_robots_noise_is_the_same_in_all_directions(angle):
+    ahead = np.array([cos(angle), sin(angle)])
+    record = driven(free(Holonomic(noise=0.1)), [0.3 * ahead] * STEPS)
+    change = np.diff(record.pose[:, :2, 0], axis=0) / 0.1
+    left = np.array([-ahead[1], ahead[0]])
+    assert (change @ ahead).mean() == pytest.approx(0.3, abs=5 * 0.03 / sqrt(STEPS))
+    assert (change @ ahead).std() == pytest.approx(0.03, rel=FEW)
+    assert (change @ left).std() == pytest.approx(0.03, rel=FEW)
+    assert np.all(record.pose[:, 2] == 0)
+
+
+@pytest.mark.parametrize(
+    "drive", [Unicycle(noise=1), Differential(noise=1), Holonomic(noise=1), Car(noise=1)]
+)
+def test_a_robot_that_is_to_stand_stands_whatever_its_noise(drive):
+    assert not driven(free(drive), [(0.0, 0.0)] * 20).pose.any()
+
+
+def noisy(*names: str) -> Scenario:
+    robots = [
+        Robot(name=name, pose=(10.0 * i, 0, 0), drive=Unicycle(noise=0.2))
+        for i, name in enumerate(names)
+    ]
+    return Scenario(robots=robots, workspace=None)
+
+
+def test_noise_follows_the_seed_and_the_robots_name_and_nothing_else():
+    commands = [(0.2, 0.3)] * 300
+    one = driven(noisy("anna"), commands, seed=5)
+    assert one.digest == driven(noisy("anna"), commands, seed=5).digest
+    assert one.digest != driven(noisy("anna"), commands, seed=6).digest
+    two = driven(noisy("bert", "anna"), commands, seed=5)
+    assert np.abs(two.pose[:, 2, 1] - one.pose[:, 2, 0]).max() == 0
+    assert np.abs(two.pose[:, 2, 0] - one.pose[:, 2, 0]).max() > 0.01
+
+
+def test_a_robot_of_another_drive_beside_it_changes_no_noise():
+    commands = [(0.2, 0.3)] * 50
+    alone = driven(free(Unicycle(noise=0.2)), commands)
+    drives = (Unicycle(noise=0.2), Car(noise=0.3), Unicycle(), Holonomic(noise=0.1, dead_time=0.03))
+    team = driven(free(*drives), commands)
+    assert np.abs(team.pose[:, 2, 0] - alone.pose[:, 2, 0]).max() < 1e-12
+
+
+def test_noise_is_drawn_once_a_control_step_also_where_commands_change_within_it():
+    commands = [(0.2, 0.3)] * 30
+    late = driven(free(Unicycle(noise=0.2, dead_time=0.04)), commands)
+    plain = driven(free(Unicycle(noise=0.2)), commands)
+    # The same command all along: from the second control step on, only the first part is lost.
+    turned = np.diff(late.pose[:, 2, 0]), np.diff(plain.pose[:, 2, 0])
+    assert turned[0][1:] == pytest.approx(turned[1][1:])
+    assert turned[0][0] == pytest.approx(0.6 * turned[1][0])
+
+
+# -- dead time ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.1, 0.13])
+@pytest.mark.parametrize("dead_times", [(0.0, 0.25), (0.3, 0.04), (0.07, 0.33), (0.2, 0.2)])
+def test_robots_move_by_what_was_commanded_their_dead_time_and_the_delay_ago(dead_times, delay):
+    drives = [Holonomic(max_linear_speed=10, dead_time=dead) for dead in dead_times]
+    speeds = np.random.default_rng(0).uniform(-1, 1, (40, 2))
+    record = driven(free(*drives, command_delay=delay), [[pair, np.zeros(2)] for pair in speeds])
+    for robot, dead in enumerate(dead_times):
+        for k, time in enumerate(record.time):
+            begun = np.clip(time - delay - dead - 0.1 * np.arange(40), 0, 0.1)
+            way = record.pose[k, 0, robot] - 100 * robot
+            assert way == pytest.approx(speeds[:, robot] @ begun, abs=1e-9)
+
+
+def test_dead_time_does_not_enter_the_record_of_commands():
+    record = driven(free(Unicycle(dead_time=0.25)), [(0.3, 0.0)] * 5)
+    assert record.command[:5, 0, 0].tolist() == [0.3] * 5
+    assert np.array_equal(record.command_time, record.time)
+
+
+# -- records --------------------------------------------------------------------------------
+
+
+def crowd() -> Scenario:
+    """Return a box of robots with every drive, each with limits, noise and dead time."""
+    own = {"noise": 0.2, "max_acceleration": 0.9, "dead_time": 0.137}
+    drives = [
+        Unicycle(**own), Differential(**own), Differential(command="twist", noise=0.1),
+        Holonomic(max_acceleration=0.5, noise=0.3), Car(**own, max_steering_rate=2.0),
+        Car(dead_time=0.05, noise=0.1), Holonomic(**own), Unicycle(), Unicycle(**own),
+    ]  # fmt: skip
+    robots = [
+        Robot(pose=(0.4 * (i % 3), 0.4 * (i // 3), i), drive=drive, controller=wander)
+        for i, drive in enumerate(drives)
+    ]
+    box = [(-0.5, -0.5), (1.5, -0.5), (1.5, 1.5), (-0.5, 1.5)]
+    return Scenario(robots=robots, workspace=box, on_exit="wall", stop_time=5, command_delay=0.03)
+
+
+def wander(robot):
+    return robot.rng.normal(0.2, 0.4), robot.rng.normal(0, 0.5)
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+def test_a_record_of_all_drives_is_saved_loaded_and_run_again_to_the_bit(tmp_path, physics):
+    record = mars2d.run(crowd().replace(physics=physics), seed=7)
+    assert record.collisions > 0
+    kept = mars2d.load(record.save(tmp_path / "drives.npz"))
+    assert kept.digest == record.digest
+    assert [robot.drive for robot in kept.scenario.robots] == [
+        robot.drive for robot in record.scenario.robots
+    ]
+    assert rerun(record) is None
+    assert rerun(kept) is None
+
+
+def test_options_reach_the_fields_of_a_drive():
+    options = {"robots.*.drive.noise": 0.5, "robots.0.drive.max_acceleration": 1.0}
+    scenario = mars2d.run(crowd(), stop_time=0.1, options=options).scenario
+    assert {robot.drive.noise for robot in scenario.robots} == {0.5}
+    assert scenario.robots[0].drive.max_acceleration == 1.0
+
+
+# -- bad input ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("kind", "field", "values"),
+    [
+        (Differential, "wheel_radius", [0, -0.1, 1e9]),
+        (Differential, "wheel_semiaxis", [0, -0.1, 1e-300]),
+        (Differential, "command", ["wheel", "", None, 3]),
+        (Unicycle, "wheel_semiaxis", [0]),
+        (Car, "wheelbase", [0, -0.2, 1e-300]),
+        (Car, "max_steering", [0, -0.3, pi / 2, 2]),
+        (Car, "max_steering_rate", [0, -1]),
+        (Holonomic, "max_acceleration", [0, -1, 1e300]),
+        (Unicycle, "noise", [-0.1, 1.5]),
+        (Car, "dead_time", [-0.1, 1e300]),
+        (Crab, "max_linear_speed", [0, -1]),
+    ],
+)
+def test_a_wrong_value_is_refused_by_the_name_of_its_field(kind, field, values):
+    for value in [*values, float("nan"), float("inf"), "0.1", True, [1]]:
+        with pytest.raises(InputError, match=rf"^{kind.__name__}\.{field} = .*: expected "):
+            kind(**{field: value})
+
+
+def test_a_misspelt_way_to_command_gets_the_right_one():
+    with pytest.raises(InputError, match="one of 'wheels', 'twist'; did you mean 'wheels'"):
+        Differential(command="wheel")
+
+
+def test_a_dead_time_of_more_sampling_times_than_can_be_kept_is_refused():
+    scenario = Scenario(robots=[Robot(drive=Car(dead_time=2))], sampling_time=1e-6, stop_time=1)
+    with pytest.raises(InputError, match=r"Car.dead_time = 2.0: expected at most a million"):
+        World(scenario)
+
+
+class Tracked(Unicycle):
+    """A drive of the user's own on two wheels."""
+
+
+class Strange(Drive):
+    """One that does not say what its command is."""
+
+
+@pytest.mark.parametrize(
+    ("drive", "names"),
+    [
+        (Tracked(), ["v [m/s]", "omega [rad/s]"]),
+        (Differential(), ["left [rad/s]", "right [rad/s]"]),
+        (Differential(command="twist"), ["v [m/s]", "omega [rad/s]"]),
+        (Car(), ["v [m/s]", "delta [rad]"]),
+        (Holonomic(), ["vx [m/s]", "vy [m/s]"]),
+        (Strange(), []),
+    ],
+)
+def test_a_drive_says_what_its_command_is(drive, names):
+    assert [f"{each.name} [{each.unit}]" for each in drive.quantities] == names
+
+
+def test_of_all_commands_only_the_steering_is_an_angle():
+    drives = (Tracked(), Differential(), Differential(command="twist"), Car(), Holonomic())
+    kinds = {each.name: each.kind for drive in drives for each in drive.quantities}
+    assert kinds.pop("delta") == "angle"
+    assert set(kinds.values()) == {"number"}
+
+
+@pytest.mark.parametrize("method", ["saturate", "accelerate", "twist"])
+def test_what_fails_in_a_drive_of_ones_own_is_said_with_its_name(method):
+    def fail(self, *arguments):
+        raise ZeroDivisionError("no wheels")
+
+    broken = type("Broken", (Unicycle,), {method: fail})
+    world = World(Scenario(robots=[Robot(drive=broken(max_acceleration=1.0))]))
+    with pytest.raises(LawError, match=r", line \d+: drive Broken raised ZeroDivisionError: no"):
+        world.step([[0.1], [0.0]])
+
+
+def test_a_drive_that_asks_for_more_than_can_be_reckoned_with_is_told_so():
+    class Wild(Unicycle):
+        def twist(self, command):
+            return np.full((3, command.shape[1]), 1e7)
+
+    world = World(Scenario(robots=[Robot(drive=Wild())]))
+    with pytest.raises(LawError, match=r"a drive asks for \[\[10000000.0\].*, more than 1e\+06"):
+        world.step([[0.1], [0.0]])
+
+
+def test_a_drive_may_ask_for_as_much_as_can_be_reckoned_with():
+    class Fast(Unicycle):
+        def twist(self, command):
+            return np.array([[0.0], [0.0], [1e6]])
+
+    World(Scenario(robots=[Robot(drive=Fast())], physics="ideal")).step([[0.1], [0.0]])
+
+
+LIMITED = [
+    Unicycle(max_acceleration=0.7, noise=0.1),
+    Differential(max_acceleration=0.7, noise=0.1),
+    Car(max_acceleration=0.7, max_steering_rate=0.9, noise=0.1),
+    Holonomic(max_acceleration=0.7, noise=0.1),
+]
+
+
+@pytest.mark.parametrize("drive", LIMITED, ids=lambda drive: type(drive).__name__)
+def test_many_robots_are_driven_as_each_of_them_by_itself(drive):
+    rng = np.random.default_rng(1)
+    command, last, normal = (drive.command_for(rng.uniform(-1, 1, (2, 40))) for _ in range(3))
+    command[:, :5] = last[:, 5:10] = 0.0
+    kept = (drive.saturate(command) == command).all(axis=0)
+    assert 8 < kept.sum() < 32
+    for done in (
+        lambda columns: drive.saturate(command[:, columns]),
+        lambda columns: drive.accelerate(command[:, columns], last[:, columns], 0.3),
+        lambda columns: drive.disturb(command[:, columns], normal[:, columns]),
+        lambda columns: drive.twist(command[:, columns]),
+    ):
+        each = np.hstack([done(slice(k, k + 1)) for k in range(40)])
+        assert np.array_equal(done(slice(None)), each)
+
+
+@pytest.mark.parametrize(
+    ("drive", "command", "expected"),
+    [
+        (Unicycle(noise=0.1, wheel_semiaxis=0.1), (0.3, 1.0), (0.33, 1.5)),  # rims 0.2, 0.4
+        (Differential(noise=0.1), (2.0, 4.0), (1.8, 4.8)),
+        (Car(noise=0.1, max_steering=0.5), (0.3, 0.2), (0.27, 0.3)),
+        (Holonomic(noise=0.1), (0.3, 0.4), (0.25, 0.5)),
+    ],
+)
+def test_noise_is_added_to_what_each_actuator_does(drive, command, expected):
+    normal = np.array([[-1.0], [2.0]])
+    disturbed = drive.disturb(np.array(command)[:, None], normal)
+    assert disturbed[:, 0] == pytest.approx(expected)

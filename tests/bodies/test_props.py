@@ -1,0 +1,250 @@
+"""Props: they slide to rest by the formula, and what pushes them does so by its force."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+
+from mars2d import Holonomic, Robot, Scenario, Unicycle, World
+from mars2d.addons import Map
+from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
+from mars2d.geometry.shapes import Compound, Disc, Polygon
+from mars2d.physics.floor import GRAVITY
+
+EXACT = 1e-9  # metres, radians
+IDLE = Robot(pose=(50, 50, 0))
+ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
+
+
+def world_of(robots, props=(), **fields) -> World:
+    """A world without limits."""
+    fields = {"workspace": None, "stop_time": 1e5} | fields
+    return World(Scenario(robots=robots, props=props, **fields))
+
+
+def drive(world: World, command, seconds: float) -> None:
+    """Command the same for some seconds."""
+    for _ in range(round(seconds / world.scenario.sampling_time)):
+        world.step(command)
+
+
+def glided(prop: Prop, t: float) -> list[float]:
+    """Where a prop that slides or spins is after t seconds: the formulas of the textbook."""
+    (x, y, theta), (vx, vy, spin) = prop.pose, prop.velocity
+    mass, moment = prop.inertia
+    brake = prop.ground_friction * GRAVITY
+    slow = prop.ground_friction * mass * GRAVITY * prop.shape.lever / moment
+    speed = np.hypot(vx, vy)
+    t_slide = min(t, speed / brake) if brake else t
+    t_spin = min(t, abs(spin) / slow) if slow else t
+    way = (speed * t_slide - brake * t_slide**2 / 2) / speed if speed else 0.0
+    turn = spin * t_spin - np.sign(spin) * slow * t_spin**2 / 2
+    return [x + vx * way, y + vy * way, theta + turn]
+
+
+PROPS = [
+    Puck(pose=(0, 0, 1), velocity=(1.5, -0.5, 0)),
+    Box(pose=(0, 9, 0), velocity=(0.3, 2.0, 0), ground_friction=0.3, mass=3),
+    Ball(pose=(0, -9, 0), velocity=(-0.4, 0.1, 2)),
+    Bar(pose=(0, 18, 0.3), velocity=(0, 0, 9), ground_friction=0.05),
+    Solid(ELL, pose=(0, 27, -1), velocity=(0, 0, 5), ground_friction=0.2),
+    Solid(Compound([Disc(0.3), Disc(0.2).moved(0.3, 0)]), pose=(0, -18, 2), velocity=(1, 0, 0)),
+]
+
+
+@pytest.mark.parametrize("sampling_time", [1e-3, 0.02, 0.1, 1.0, 10.0])
+def test_props_glide_as_the_formula_says(sampling_time):
+    world = world_of([IDLE], PROPS, sampling_time=sampling_time)
+    for _ in range(max(2, min(round(4 / sampling_time), 200))):
+        world.step([[0], [0]])
+        expected = np.transpose([glided(prop, world.time) for prop in PROPS])
+        assert np.abs(world.prop_pose - expected).max() < EXACT
+
+
+def test_a_sliding_box_stops_after_v_squared_over_2_mu_g():
+    world = world_of([IDLE], [Box(velocity=(2, 0, 0), ground_friction=0.4)])
+    drive(world, [[0], [0]], 2)
+    assert world.prop_pose[0, 0] == pytest.approx(4 / (2 * 0.4 * GRAVITY), abs=EXACT)
+    assert not world.prop_velocity.any()
+
+
+def test_a_spinning_puck_stops_after_its_angular_momentum_over_the_torque_of_the_floor():
+    puck = Puck(diameter=0.3, mass=2, velocity=(0, 0, 10), ground_friction=0.2)
+    world = world_of([IDLE], [puck], sampling_time=0.01)
+    # torque mu m g 2/3 r against the moment m r^2 / 2
+    stop = 10 * (0.15**2 / 2) / (0.2 * GRAVITY * 2 / 3 * 0.15)
+    drive(world, [[0], [0]], stop)
+    assert 0 < world.prop_velocity[2, 0] < 10 * 0.011 / stop
+    world.step([[0], [0]])
+    assert world.prop_velocity[2, 0] == 0
+    assert world.prop_pose[2, 0] == pytest.approx(10 * stop / 2, abs=EXACT)
+
+
+@pytest.mark.parametrize("sampling_time", [0.05, 0.5, 2.0])
+def test_props_glide_exactly_while_others_near_them_push_and_cause_substeps(sampling_time):
+    # Two robots press against each other; two pucks pass on either side, a few millimetres off.
+    robots = [Robot(pose=(-0.2, 0, 0)), Robot(pose=(0.2, 0, pi))]
+    pucks = [
+        Puck(pose=(-1, 0.255, 0), velocity=(1, 0, 0), ground_friction=0.05),
+        Puck(pose=(1, -0.255, 0), velocity=(-0.8, 0, 0), ground_friction=0.05),
+        Box(pose=(-1, 0.66, 0), velocity=(0.9, 0, 0), ground_friction=0.05, length=0.5),
+    ]
+    world = world_of(robots, pucks, sampling_time=sampling_time)
+    for _ in range(round(4 / sampling_time)):
+        world.step([[0.3, 0.3], [0, 0]])
+        expected = np.transpose([glided(prop, world.time) for prop in pucks])
+        assert np.abs(world.prop_pose - expected).max() < EXACT
+    assert set(world.record.contacts[["a", "b"]].tolist()) == {(0, 1)}
+
+
+def test_props_glide_exactly_when_others_are_thrown_further_than_was_thought_possible():
+    heavy = Robot(pose=(-2.3, 0, 0), mass=10, restitution=1, drive=Holonomic())
+    light = Robot(pose=(0, 0, 0), restitution=1, drive=Holonomic())
+    far = [
+        Puck(pose=(0, 20, 0), velocity=(1, 0, 0), ground_friction=0.02),
+        Bar(pose=(0, 9, 0), velocity=(-0.5, 0.5, 0), ground_friction=0.01),
+        Ball(pose=(0, -9, 0), velocity=(0.3, 0.2, 1)),
+    ]
+    wall = Map([[(2.3, -2), (2.3, 2)]])
+    world = world_of([heavy, light], far, addons=[wall], sampling_time=2.0)
+    for _ in range(5):
+        world.step([[0.5, -0.5], [0, 0]])
+        expected = np.transpose([glided(prop, world.time) for prop in far])
+        assert np.abs(world.prop_pose - expected).max() < EXACT
+    assert len(world.record.contacts) > 0
+
+
+# -- pushing --------------------------------------------------------------------------------
+
+
+def moves(robots, prop: Prop) -> bool:
+    """Whether robots that come to touch a prop slowly keep it moving.
+
+    What is too heavy coasts for less than 0.4 s after the impact, for a hundredth more than can be
+    overcome.
+    """
+    world = world_of(robots, [prop])
+    command = [[0.02] * len(robots), [0] * len(robots)]
+    drive(world, command, 7.5)
+    before = world.prop_pose[0, 0]
+    drive(world, command, 0.5)
+    return bool(world.prop_pose[0, 0] - before > 0.002)
+
+
+def threshold(robots, prop: Prop, low: float, high: float) -> float:
+    """The coefficient of friction up to which a prop moves, within half a percent."""
+    assert moves(robots, prop.replace(ground_friction=low))
+    assert not moves(robots, prop.replace(ground_friction=high))
+    while high - low > 0.01 * low:
+        middle = (low + high) / 2
+        if moves(robots, prop.replace(ground_friction=middle)):
+            low = middle
+        else:
+            high = middle
+    return (low + high) / 2
+
+
+@pytest.mark.parametrize(
+    ("force", "prop", "x"),
+    [
+        (5, Box(), -0.351),
+        pytest.param(5, Box(mass=2.5), -0.351, marks=pytest.mark.soak),
+        (3, Puck(), -0.251),
+        pytest.param(4, Solid(ELL), -0.371, marks=pytest.mark.soak),
+    ],
+    ids=["box", "heavy box", "puck", "ell"],
+)
+def test_a_prop_moves_up_to_the_friction_that_the_force_overcomes(force, prop, x):
+    robot = Robot(pose=(x, 0, 0), drive=Unicycle(max_force=force), friction=0)
+    mu = force / (prop.inertia.mass * GRAVITY)
+    assert threshold([robot], prop, 0.8 * mu, 1.3 * mu) == pytest.approx(mu, rel=0.02)
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_the_forces_of_several_robots_on_one_box_add_up(count):
+    robots = [
+        Robot(pose=(-0.351, 0.35 * (i - (count - 1) / 2), 0), drive=Unicycle(max_force=2))
+        for i in range(count)
+    ]
+    mu = count * 2 / GRAVITY
+    found = threshold(robots, Box(width=1.2), 0.8 * mu, 1.3 * mu)
+    assert found == pytest.approx(mu, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "prop",
+    [Box(ground_friction=0), Ball(diameter=0.4), Puck(diameter=0.4, ground_friction=0)],
+    ids=["box", "ball", "puck"],
+)
+@pytest.mark.parametrize("mass", [0.5, 2.0])
+def test_a_frictionless_prop_is_accelerated_by_force_over_both_masses(prop, mass):
+    robot = Robot(pose=(-0.3501, 0, 0), drive=Unicycle(max_force=0.3))
+    world = world_of([robot], [prop.replace(mass=mass, restitution=0)])
+    drive(world, [[0.5], [0]], 0.2)  # the impact leaves the share 1 / (1 + mass) of the speed
+    before = world.prop_velocity[0, 0]
+    drive(world, [[0.5], [0]], 0.5)
+    rise = world.prop_velocity[0, 0] - before
+    assert rise == pytest.approx(0.5 * 0.3 / (1 + mass), rel=1e-3)
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.3, 0.45])
+def test_the_effort_of_pushing_a_box_is_mu_m_g_over_the_force(mu):
+    world = world_of([Robot(pose=(-0.36, 0, 0))], [Box(ground_friction=mu)])
+    drive(world, [[0.2], [0]], 3)
+    assert world.prop_velocity[0, 0] == pytest.approx(0.2, abs=1e-9)
+    assert world.effort[0] == pytest.approx(mu * GRAVITY / 5, rel=2e-3)
+
+
+def test_the_effort_is_nothing_in_free_motion_and_all_when_stalled():
+    world = world_of([Robot(pose=(-0.5, 0, 0))], [Box(ground_friction=1)])
+    world.step([[0.2], [0.1]])
+    assert world.effort.tolist() == [0]
+    drive(world, [[0.2], [0]], 5)
+    assert world.effort[0] == pytest.approx(1, abs=1e-9)
+    assert abs(world.prop_velocity[0, 0]) < 1e-9
+
+
+def test_a_box_that_is_pushed_beside_its_centre_turns():
+    world = world_of([Robot(pose=(-0.4, 0.1, 0))], [Box()])
+    drive(world, [[0.2], [0]], 3)
+    assert world.prop_pose[2, 0] < -0.3
+
+
+def test_a_box_pushed_at_both_ends_alike_keeps_its_heading():
+    robots = [Robot(pose=(-0.4, y, 0)) for y in (-0.4, 0.4)]
+    world = world_of(robots, [Box(width=1.2, ground_friction=0.6)])
+    drive(world, [[0.2, 0.2], [0, 0]], 5)
+    assert abs(world.prop_pose[2, 0]) < 0.01  # the solver takes one contact after the other
+    assert world.prop_pose[0, 0] > 0.8
+
+
+def test_a_box_stays_where_it_is_left():
+    world = world_of([Robot(pose=(-0.4, 0.05, 0))], [Box()])
+    drive(world, [[0.2], [0]], 2)
+    drive(world, [[-0.2], [0]], 1)
+    before = world.prop_pose
+    drive(world, [[-0.2], [0]], 5)
+    assert np.array_equal(world.prop_pose, before)
+
+
+def test_a_gate_opens_to_its_limit_and_lets_a_robot_past():
+    gate = Gate(pose=(0, 0, -pi / 2), limits=(0, pi / 2))
+    world = world_of([Robot(pose=(-1, -0.3, 0))], [gate])
+    drive(world, [[0.3], [0]], 8)
+    assert world.prop_pose[2, 0] <= 1e-3
+    assert world.prop_pose[2, 0] > -pi / 2 + 1.0
+    hinge = world.prop_pose[:2, 0] - 0.5 * np.array(
+        [cos(world.prop_pose[2, 0]), sin(world.prop_pose[2, 0])]
+    )
+    assert hinge == pytest.approx([0, 0.5], abs=1e-3)
+
+
+def test_a_gate_with_a_spring_shuts_again():
+    gate = Gate(pose=(0, 0, -pi / 2), stiffness=2, damping=1)
+    world = world_of([Robot(pose=(-1, -0.3, 0))], [gate])
+    drive(world, [[0.3], [0]], 6)
+    assert world.pose[0, 0] > 0.5
+    drive(world, [[0.3], [0]], 6)
+    assert world.prop_pose[2, 0] == pytest.approx(-pi / 2, abs=1e-3)

@@ -1,0 +1,151 @@
+"""Files that are no experiments, scenarios, laws or studies, or broken ones."""
+
+from __future__ import annotations
+
+from tests.cli.bad_inputs.case import HEAD, Case, Content, typed
+
+GARBAGE = bytes((37 * k * k + 11 * k) % 256 for k in range(2000))
+
+LAW = "def control(robot):\n    return 0.1, 0\n"
+
+EXPERIMENTS: list[tuple[str, Content, tuple[str, ...]]] = [
+    ("an empty experiment", "", ("scenario = Scenario(...)",)),
+    ("a folder for an experiment", None, ("folder", ".py")),
+    ("bytes for an experiment", GARBAGE, ("bad.py",)),
+    ("an experiment with zero bytes", "x = 1\0\n", ("bad.py", "null bytes")),
+    ("an experiment in Latin letters", "x = 'größer'\n".encode("latin-1"), ("bad.py", "utf-8")),
+    ("a misspelt scenario", "scenaro = 1\n", ("'scenaro'",)),
+    ("a scenario that is a number", "scenario = 5\n", ("scenario = 5", "Scenario")),
+    ("a scenario that is a class", HEAD + "scenario = Scenario\n", ("Scenario",)),
+    ("a bracket that is open", "def control(world:\n    pass\n", ("line 1", "def control(world:")),
+    ("a line that is not indented", "def f():\nx = 1\n", ("line 2", "indent")),
+    ("tabs and spaces", "if True:\n\tx = 1\n        y = 2\n", ("line 3", "tabs")),
+    ("a thousand brackets", "x = " + "(" * 1000 + ")" * 1000 + "\n", ("line 1", "parenthes")),
+    ("a misspelt import", "import nmpy\n", ("line 1", "nmpy")),
+    ("a part that is not there", "from mars2d import Scenari\n", ("line 1", "Scenari")),
+    ("an exit", "import sys\nsys.exit(3)\n", ("line 2", "SystemExit: 3")),
+    ("an exit without a fault", "raise SystemExit\n", ("line 1", "SystemExit")),
+    ("an error of one's own", "raise RuntimeError('no\\nluck')\n", ("line 1", "RuntimeError")),
+    ("a function that calls itself", "def f(): f()\nf()\n", ("line", "RecursionError")),
+    ("an assertion", "if 1 > 0:\n    raise AssertionError\n", ("line 2", "AssertionError")),
+    ("a missing law's file", "from mars2d import load_law\nload_law('chaes.py')\n",
+     ("line 2", "chaes.py", "no such file")),
+    ("a law's file that is a number", "from mars2d import load_law\nload_law(5)\n",
+     ("line 2", "load_law(path) = 5", "'my_law.py'")),
+    ("a law of a shape that is none", HEAD + "scenario = Scenario()\ncontrol = 5\n",
+     ("control = 5", "a function")),
+    ("a team's law without arguments", HEAD + "scenario = Scenario()\ndef control(): pass\n",
+     ("control", "the world")),
+    ("checks that are a list", HEAD + "scenario = Scenario()\nchecks = []\n",
+     ("checks = []", "a function")),
+    ("checks that return a number", HEAD + "scenario = Scenario()\ndef checks(record): return 5\n",
+     ("line 9", "checks returned 5", "Prediction")),
+    ("checks that fail", HEAD + "scenario = Scenario()\ndef checks(record): return [][0]\n",
+     ("line 9", "IndexError")),
+    ("a scenario function that returns nothing", "def scenario():\n    pass\n",
+     ("scenario = None", "a Scenario")),
+    ("a scenario function without a default", "def scenario(n):\n    pass\n", ("scenario", "'n'")),
+    ("a scenario function that fails", "def scenario():\n    return 1 / 0\n",
+     ("line 2", "ZeroDivisionError")),
+    ("a sensor's class without read", HEAD + "class Mine(Sensor):\n    pass\n"
+     "scenario = Scenario(robots=[Robot(sensors=[Mine()])])\n", ("Mine", "read")),
+    ("a hook that is none", HEAD + "class Mine(Addon):\n    def on_stepp(self, world): pass\n",
+     ("line 8", "Mine.on_stepp", "'on_step'")),
+]  # fmt: skip
+
+ROBOT = "format = 1\n[[robots]]\n"
+
+SCENARIOS = [
+    ("an empty scenario file", "", "format = 1"),
+    ("a scenario file of text", "hello\n", "line 1"),
+    ("a scenario file of another version", "format = 2\n", "format = 2", "1"),
+    ("a scenario file of a version that is text", "format = '1'\n", "format = '1'"),
+    ("a misspelt table", "format = 1\n[[robtos]]\n", "'robtos'", "'robots'"),
+    ("a misspelt field of a table", f"{ROBOT}diametr = 1\n", "line 3", "'diametr'", "'diameter'"),
+    ("a field twice", "format = 1\nformat = 1\n", "line 2"),
+    ("a quote that is open", "format = 1\ntitle = 'x\n", "at its end", "Expected"),
+    ("a mass of text in a file", f"{ROBOT}mass = 'heavy'\n", "line 3", "mass = 'heavy'", "number"),
+    ("a mass of NaN in a file", f"{ROBOT}mass = nan\n", "line 3", "mass = nan", "a number"),
+    ("a pose of one number in a file", f"{ROBOT}pose = [1]\n", "line 3", "pose", "theta"),
+    ("a day for a pose", f"{ROBOT}pose = 2026-01-01\n", "line 3", "pose"),
+    ("a drive that is none", f"{ROBOT}drive = 'Unicylce'\n", "line 3", "'Unicylce'", "'Unicycle'"),
+    ("a drive of no type", f"{ROBOT}drive = {{ type = 5 }}\n", "line 3", "type"),
+    ("a sensor that is none", f"{ROBOT}sensors = ['Proximty']\n", "line 3", "'Proximity'"),
+    ("a sensor without a field", f"{ROBOT}sensors = ['Proximity']\n", "line 3", "range"),
+    ("an add-on that is none", "format = 1\n[[addons]]\ntype = 'Mpa'\n", "line 3", "'Mpa'",
+     "'Map'"),
+    ("an add-on of no type", "format = 1\n[[addons]]\noutlines = []\n", "line", "type"),
+    ("a law that is not there", f"{ROBOT}controller = 'nobody.py:f'\n", "nobody.py",
+     "no such file"),
+    ("a law of no name", f"{ROBOT}controller = 'law.py:f'\n", "law.py", "'f'", "control"),
+    ("a law that is a number", f"{ROBOT}controller = 5\n", "line 3", "controller", "5"),
+    ("a team's law that is not there", "format = 1\ncontrol = 'no.py'\n", "line 2", "no.py"),
+    ("robots in a word", "format = 1\nrobots = 'five'\n", "line 2", "robots", "'five'"),
+    ("robots in each other in a file", f"{ROBOT}[[robots]]\n", "robot0", "robot1"),
+    ("ten thousand lists in each other", f"{ROBOT}pose = {'[' * 10000}\n", "bad.toml"),
+    ("a scenario file of bytes", GARBAGE, "bad.toml"),
+    ("a scenario file of 6 MB", b"#" * 6_000_000, "5 MB"),
+    ("a folder for a scenario file", None, "folder"),
+]  # fmt: skip
+
+STUDY = "row,experiment,n,seed,end_time,digest,code,error\r\n1,walk.py,2,0,5.0,ab,cd,\r\n"
+
+STUDIES = [
+    ("an empty study", "", "a.csv"),
+    ("a table of another kind", "x,y\n1,2\n", "a.csv", "study"),
+    ("a study of bytes", GARBAGE, "a.csv"),
+    ("a study without its end", "row,experiment,n\r\n", "a.csv"),
+    ("a study with a word for a row", STUDY.replace("1,walk", "one,walk"), "a.csv", "'one'"),
+    ("a study with a word for a seed", STUDY.replace("2,0,5", "2,zero,5"), "a.csv", "'zero'"),
+]
+
+LAWS = [
+    ("a player that breaks off", "def control(robot:\n", "line 1"),
+    ("a player without a law", "x = 1\n", "control"),
+]
+
+
+def _experiments() -> list[Case]:
+    run = "mars2d run bad.py --headless --stop-time 0.5"
+    return [
+        Case(name, run, ("bad.py", *words), {"bad.py": code}) for name, code, words in EXPERIMENTS
+    ]
+
+
+def _scenario_files() -> list[Case]:
+    run = "mars2d run bad.toml --headless --stop-time 0.5"
+    return [
+        Case(n, run, tuple(words), {"bad.toml": text, "law.py": LAW})
+        for n, text, *words in SCENARIOS
+    ]
+
+
+CASES = [
+    *_experiments(),
+    *_scenario_files(),
+    *(typed(n, "mars2d sweep a.csv", *words, a__csv=text) for n, text, *words in STUDIES),
+    typed("a row that is not there", "mars2d sweep a.csv --row 7", "--row 7", "a.csv", "up to 1",
+          a__csv=STUDY),
+    typed("a row whose experiment is gone", "mars2d sweep a.csv --row 1", "a.csv", "walk.py",
+          a__csv=STUDY),
+    typed("a study over another", "mars2d sweep random_walk --out a.csv", "a.csv", "another",
+          a__csv=STUDY),
+    typed("a study over notes", "mars2d sweep random_walk --out a.csv", "a.csv",
+          a__csv="my notes\n"),
+    typed("a bench beside garbage", "mars2d bench S1 --compare a.json", "a.json", a__json=GARBAGE),
+    typed("a bench beside other data", "mars2d bench S1 --compare a.json", "a.json", a__json="[1]"),
+    typed("a paper over a folder of one's own", "mars2d paper out --only 2", "out", "notes.txt",
+          **{"out/notes__txt": "mine"}),
+    typed("a check of a broken experiment", "mars2d check bad.py", "bad.py, line 1",
+          bad__py="x = (\n"),
+    typed("a check of an empty file", "mars2d check bad.py", "bad.py", "scenario", bad__py=""),
+    typed("a tournament of broken files", "mars2d tournament sumo --players nothing",
+          "nothing", **{"nothing/readme__txt": "no laws"}),
+    typed("a tournament into notes", "mars2d tournament sumo --players sumo_players --out out",
+          "out", "notes.txt", **{"out/notes__txt": "mine"}),
+    typed("a page in a folder", "mars2d run random_walk --headless --html a.html", "a.html",
+          "folder",
+          a__html=None),
+    typed("a record in a file that is a folder", "mars2d run random_walk --headless --record a.npz",
+          "a.npz", "folder", a__npz=None),
+]  # fmt: skip

@@ -1,0 +1,669 @@
+"""The command line as a student types it: real processes, their output and exit codes."""
+
+import functools
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d.cli import command_line as cli
+from tests.forking import Nursery
+
+HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
+
+
+@functools.cache
+def nursery():
+    """Start the process that command lines are forked from."""
+    return Nursery(dict(os.environ), "mars2d.cli.command_line", "matplotlib.figure")
+
+
+def mars(*arguments, cwd, **environment):
+    """Run the command line without a display and return the finished process."""
+    env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    process = nursery().fork(
+        "mars2d.cli.command_line", [*map(str, arguments)], env | environment, cwd
+    )
+    out, errors = process.communicate()
+    return subprocess.CompletedProcess(arguments, process.wait(120), out, errors)
+
+
+def test_demo_without_a_name_lists_the_examples(tmp_path):
+    done = mars("demo", cwd=tmp_path)
+    assert done.returncode == 0
+    for name in ("random_walk", "go_to_point", "follow_the_leader", "own_sensor_and_addon"):
+        assert name in done.stdout
+
+
+def test_demo_without_a_display_makes_a_picture_and_a_film_and_says_where(tmp_path):
+    from PIL import Image
+
+    done = mars("demo", "go_to_point", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    paths = [line.split()[1] for line in done.stdout.splitlines() if "mars2d_demo" in line]
+    assert len(paths) == 2
+    with Image.open(tmp_path / paths[0]) as picture, Image.open(tmp_path / paths[1]) as film:
+        assert picture.format == "PNG"
+        assert film.format == "GIF"
+        assert film.n_frames > 50
+
+
+def test_run_prints_its_outcome_as_one_line_of_json(tmp_path):
+    done = mars("run", "random_walk", "--headless", "--stop-time", 20, "--json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("\n") == 1
+    outcome = json.loads(done.stdout)
+    record = mars2d.run("random_walk", stop_time=20)
+    assert outcome["ticks"] == 20
+    assert outcome["time"] == 20.0
+    assert outcome["over"] is True
+    assert outcome["message"] == record.over_message
+    assert outcome["digest"] == record.digest
+    assert outcome["collisions"] == record.collisions
+    assert outcome["seed"] == 0
+    assert outcome["wall_s"] > 0
+
+
+def test_run_saves_record_figure_and_film(tmp_path):
+    done = mars(
+        "run", "go_to_point", "--headless", "--stop-time", 2, "--record", "a.npz",
+        "--figure", "a.pdf", "--video", "a.gif", cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert mars2d.load(tmp_path / "a.npz").pose.shape == (41, 3, 2)
+    assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
+    assert (tmp_path / "a.gif").read_bytes().startswith(b"GIF89a")
+
+
+def test_run_draws_snapshots(tmp_path):
+    done = mars(
+        "run", "go_to_point", "--headless", "--figure", "a.svg", "--at", "0,5,10", cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert b"<svg" in (tmp_path / "a.svg").read_bytes()
+
+
+def test_set_overrides_fields_and_parameters(tmp_path):
+    done = mars(
+        "run", "follow_the_leader", "--headless", "--stop-time", 1, "--record", "a.npz",
+        "--set", "followers=2", "--set", "robots.*.diameter=0.2", "--set", "sampling_time=0.5",
+        cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    record = mars2d.load(tmp_path / "a.npz")
+    assert [robot.diameter for robot in record.scenario.robots] == [0.2] * 3
+    assert record.time.tolist() == [0.0, 0.5, 1.0]
+
+
+def test_a_run_without_a_display_says_so_and_runs(tmp_path):
+    done = mars("run", "random_walk", "--stop-time", 5, cwd=tmp_path)
+    assert done.returncode == 0
+    assert "no display" in done.stderr
+    assert "Random movements" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["replay", "{npz}"], "no display"),
+        (["run", "random_walk", "--headless", "--speed", "0"], "needs a window"),
+        (["run", "random_walk", "--speed", "0"], "no display"),
+    ],
+)
+def test_what_needs_a_window_says_what_to_do_without_one(tmp_path, arguments, expected):
+    mars2d.run("random_walk", stop_time=3).save(tmp_path / "a.npz")
+    done = mars(*[a.format(npz="a.npz") for a in arguments], cwd=tmp_path)
+    assert done.returncode == 2
+    assert expected in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_check_runs_a_record_again(tmp_path):
+    mars2d.run("follow_the_leader", stop_time=20).save(tmp_path / "a.npz")
+    done = mars("check", "a.npz", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "bit-identical" in done.stdout
+
+
+def test_check_says_where_a_record_departs(tmp_path, capsys):
+    record = mars2d.run("follow_the_leader", stop_time=5)
+    pose = record.pose.copy()
+    pose[30:, 0, 1] += 0.25
+    names = ("seed", "time", "command", "command_time", "prop_pose", "effort", "versions")
+    columns = {name: getattr(record, name) for name in names}
+    forged = mars2d.Record(scenario=record.scenario, pose=pose, **columns)
+    forged.save(tmp_path / "a.npz")
+    assert cli.main(["check", str(tmp_path / "a.npz")]) == 1
+    assert "departs at row 30, at 3 s: follower1 is off by 0.25 m" in capsys.readouterr().err
+
+
+def test_check_describes_an_experiment_and_tries_its_laws(tmp_path):
+    done = mars("check", "own_sensor_and_addon", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    for word in ("Light seekers", "eyes", "lamps", "10 m x 10 m", "sound"):
+        assert word in done.stdout
+
+
+def test_doctor_finds_the_installation_sound(tmp_path):
+    done = mars("doctor", cwd=tmp_path)
+    assert done.returncode == 0, done.stdout
+    assert "pymunk" in done.stdout
+    assert "NO " not in done.stdout
+
+
+def test_list_names_every_part_with_one_line(tmp_path):
+    done = mars("list", cwd=tmp_path)
+    for name in ("random_walk", "Unicycle", "Holonomic", "Proximity", "Map"):
+        [line] = [x for x in done.stdout.splitlines() if x.split()[:1] == [name]]
+        assert len(line.split()) > 4
+
+
+# What students get wrong, and the words that must be in the one line that they read.
+FILES = {
+    "no scenario": ("x = 1\n", ["bad.py", "scenario = Scenario(...)"]),
+    "misspelt scenario": ("scenaro = 1\n", ["bad.py", "'scenaro'"]),
+    "syntax": ("def control(world:\n    pass\n", ["bad.py, line 1"]),
+    "import": ("import nmpy\n", ["bad.py, line 1", "nmpy"]),
+    "exit": ("import sys\nsys.exit(3)\n", ["bad.py, line 2", "SystemExit"]),
+    "typo in the law": (
+        HEAD + "scenario = Scenario()\ndef control(world):\n    return wrold.pose[:2]\n",
+        ["bad.py, line 6", "wrold", "did you mean 'world'?"],
+    ),
+    "attribute in the law": (
+        HEAD + "scenario = Scenario()\ndef control(world):\n    return world.posee\n",
+        ["bad.py, line 6", "posee", "did you mean 'pose'?"],
+    ),
+    "misspelt sensor": (
+        HEAD + "def law(robot):\n    return robot.sense.proximty\n"
+        "from mars2d.sensors import Proximity\n"
+        "scenario = Scenario(robots=[Robot(sensors=[Proximity(range=1)], controller=law)])\n",
+        ["bad.py, line 5", "'proximty'", "did you mean 'proximity'?"],
+    ),
+    "nothing returned": (
+        HEAD + "scenario = Scenario()\ndef control(world):\n    world.pose\n",
+        ["bad.py, line 5", "control returned nothing"],
+    ),
+    "wrong shape": (
+        HEAD + "scenario = Scenario(robots=3)\ndef control(world):\n    return np.zeros((3, 2))\n",
+        ["bad.py", "(3, 2)", "(2, 3)", "transpose"],
+    ),
+    "NaN command": (
+        HEAD + "scenario = Scenario()\ndef control(world):\n    return 0.1, float('nan')\n",
+        ["bad.py", "control returned nan", "finite"],
+    ),
+    "self-crossing polygon": (
+        HEAD + "scenario = Scenario(addons=[Map([[(1, 1), (2, 2), (2, 1), (1, 2)]])])\n",
+        ["bad.py, line 4", "Map.outlines[0]", "crosses", "(1.5, 1.5)"],
+    ),
+    "start inside an obstacle": (
+        HEAD + "scenario = Scenario(addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])\n",
+        ["bad.py, line 4", "robot0", "inside obstacle 0"],
+    ),
+    "start inside each other": (
+        HEAD + "scenario = Scenario(robots=[Robot(), Robot(pose=(0.1, 0, 0))])\n",
+        ["bad.py, line 4", "robot0", "robot1", "0.2 m inside each other"],
+    ),
+    "negative diameter": (
+        HEAD + "scenario = Scenario(robots=[Robot(diameter=-0.3)])\n",
+        ["bad.py, line 4", "Robot.diameter = -0.3", "expected a number"],
+    ),
+    "NaN in a pose": (
+        HEAD + "scenario = Scenario(robots=[Robot(pose=(0, float('nan'), 0))])\n",
+        ["bad.py, line 4", "Robot.pose = (0, nan, 0)", "finite"],
+    ),
+    "unknown field": (
+        HEAD + "scenario = Scenario(sampling_tme=0.1)\n",
+        ["bad.py, line 4", "'sampling_tme'", "did you mean 'sampling_time'?"],
+    ),
+    "wrong type": (
+        HEAD + "scenario = Scenario(sampling_time='0.1')\n",
+        ["bad.py, line 4", "Scenario.sampling_time = '0.1'", "expected a number"],
+    ),
+    "unknown hook": (
+        HEAD + "class Mine(Addon):\n    def on_stepp(self, world):\n        pass\n",
+        ["bad.py, line 4", "Mine.on_stepp", "did you mean 'on_step'?"],
+    ),
+    "broken sensor": (
+        HEAD + "class Mine(Sensor):\n    def read(self, robot, world, rng):\n        return 1 / 0\n"
+        "scenario = Scenario(robots=[Robot(sensors=[Mine()])])\n",
+        ["bad.py, line 6", "sensor 'mine'", "ZeroDivisionError"],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", FILES)
+def test_a_mistake_in_the_file_is_one_line_that_names_it(tmp_path, case, capsys):
+    text, words = FILES[case]
+    (tmp_path / "bad.py").write_text(text)
+    code = cli.main(["run", str(tmp_path / "bad.py"), "--headless", "--stop-time", "1"])
+    message = capsys.readouterr().err
+    assert code == 2
+    assert message.count("\n") == 1
+    for word in words:
+        assert word in message
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["run", "missing.py", "--headless"], ["missing.py", "no such file"]),
+        (["run", "random_wlk", "--headless"], ["did you mean 'random_walk'?"]),
+        (["demo", "random_wlk"], ["did you mean 'random_walk'?"]),
+        (["rnu", "random_walk"], ["'rnu'", "did you mean 'run'?"]),
+        (["run", "random_walk", "--headles"], ["did you mean '--headless'?"]),
+        (["run", "random_walk", "--headless", "--set", "samplng_time=1"], ["'sampling_time'"]),
+        (["run", "random_walk", "--headless", "--set", "robots.0.mas=1"], ["'mass'"]),
+        (["run", "random_walk", "--headless", "--set", "robots.7.mass=1"], ["0 to 1", "'7'"]),
+        (["run", "random_walk", "--headless", "--set", "novalue"], ["NAME=VALUE"]),
+        (["run", "random_walk", "--headless", "--stop-time", "nan"], ["stop_time", "finite"]),
+        (["run", "random_walk", "--headless", "--seed", "-1"], ["seed = -1", "whole number"]),
+        (["run", "random_walk", "--headless", "--speed", "fast"], ["fast", "or max"]),
+        (["run", "random_walk", "--headless", "--record", "a.xls"], ["a.xls", ".npz"]),
+        (["run", "random_walk", "--headless", "--record", "no/where/a.npz"], ["no folder"]),
+        (["run", "random_walk", "--headless", "--figure", "a.bmp"], ["a.bmp", ".png"]),
+        (["run", "random_walk", "--headless", "--video", "a.avi"], ["a.avi", ".gif"]),
+        (["run", "random_walk", "--headless", "--at", "1,2"], ["--at", "--figure"]),
+        (["replay", "missing.npz"], ["missing.npz", "there is no such file"]),
+        (["check", "plan.dwg"], ["plan.dwg", ".py"]),
+        ([], ["COMMAND"]),
+    ],
+)
+def test_a_mistake_on_the_command_line_is_one_line_that_names_it(
+    tmp_path, monkeypatch, capsys, arguments, words
+):
+    monkeypatch.chdir(tmp_path)
+    code = cli.main(arguments)
+    message = capsys.readouterr().err
+    assert code == 2
+    assert message.count("\n") == 1
+    for word in words:
+        assert word in message
+
+
+def test_what_was_recorded_before_a_law_failed_is_kept(tmp_path):
+    (tmp_path / "late.py").write_text(
+        HEAD + "scenario = Scenario()\n"
+        "def control(world):\n    return 0.1, 1 / (10 - world.iteration)\n"
+    )
+    done = mars("run", "late.py", "--headless", "--record", "kept.npz", cwd=tmp_path)
+    assert done.returncode == 2
+    record = mars2d.load(tmp_path / "kept.npz")
+    assert len(record) == 10
+    assert "ZeroDivisionError" in record.over_message
+    assert np.isfinite(record.pose).all()
+
+
+def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
+    import signal
+    import time
+
+    (tmp_path / "long.py").write_text(
+        HEAD + "scenario = Scenario(stop_time=1e6)\n"
+        "def control(world):\n"
+        "    if world.iteration == 20:\n        open('going', 'w').close()\n"
+        "    return 0, 0\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-m", "mars2d", "run", "long.py", "--headless", "--record", "kept.npz"],
+        cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+    )  # fmt: skip
+    try:
+        while not (tmp_path / "going").exists():
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    finally:
+        process.kill()  # whatever went wrong, nothing goes on for ever
+    assert process.returncode == 130, errors
+    record = mars2d.load(tmp_path / "kept.npz")
+    assert len(record) > 10
+    assert "Ctrl-C" in record.over_message
+
+
+def test_a_ctrl_c_that_got_lost_within_a_step_ends_the_run_all_the_same(child):
+    code = (
+        "import os, signal, mars2d\n"
+        "from mars2d.world.loop import Interrupted\n"
+        "def law(world):\n"
+        "    try:\n"
+        "        if world.iteration == 5:\n"
+        "            os.kill(os.getpid(), signal.SIGINT)\n"
+        "    except KeyboardInterrupt:\n"
+        "        pass  # as where C code calls back\n"
+        "    return 0, 0\n"
+        "before = signal.getsignal(signal.SIGINT)\n"
+        "try:\n"
+        "    mars2d.run(mars2d.Scenario(stop_time=1e6), control=law)\n"
+        "except Interrupted as error:\n"
+        "    print(len(error.record), signal.getsignal(signal.SIGINT) is before)\n"
+    )
+    assert child(code).stdout.split() == ["6", "True"]
+
+
+def test_a_long_run_shows_its_progress_on_a_terminal(tmp_path):
+    import pty
+
+    (tmp_path / "long.py").write_text(HEAD + "scenario = Scenario(stop_time=2000)\n")
+    theirs, ours = pty.openpty()
+    done = subprocess.run(
+        [sys.executable, "-m", "mars2d", "run", "long.py", "--headless"],
+        cwd=tmp_path, stderr=ours, stdout=subprocess.PIPE, timeout=120, check=True,
+    )  # fmt: skip
+    os.close(ours)
+    shown = os.read(theirs, 1 << 20).decode()
+    os.close(theirs)
+    assert done.returncode == 0
+    assert "%" in shown
+    assert "s left" in shown
+
+
+def test_a_pipe_or_a_file_gets_no_progress_bar(tmp_path):
+    done = mars("run", "random_walk", "--headless", "--json", cwd=tmp_path)
+    assert done.stderr == ""
+
+
+def test_what_add_ons_and_sensors_do_is_the_same_with_frames_taken_as_a_window_does(tmp_path):
+    """A window reads sensors before it draws: the order of add-ons and sensors must not change."""
+    from mars2d.scenario.experiment import open_experiment
+    from mars2d.world.timeline import Timeline
+
+    (tmp_path / "counting.py").write_text(
+        HEAD + "class Counter(Addon):\n"
+        "    def on_start(self, world):\n        self.steps = 0\n"
+        "    def on_step(self, world):\n        self.steps += 1\n"
+        "        if self.steps == 8:\n            world.stop('enough')\n"
+        "class Steps(Sensor):\n"
+        "    def read(self, robot, world, rng):\n"
+        "        return world.addons.counter.steps + rng.random()\n"
+        "scenario = Scenario(robots=[Robot(sensors=[Steps()])], addons=[Counter()])\n"
+    )
+    live = Timeline(open_experiment(tmp_path / "counting.py"))
+    while not live.over:
+        assert live.frame.readings["steps"][0][1] >= live.frame.iteration + 1
+        live.advance()
+    headless = mars2d.run(tmp_path / "counting.py")
+    assert live.record.digest == headless.digest
+    assert len(headless) == 8
+
+
+def test_a_record_with_parts_of_the_users_own_can_be_drawn_and_run_again(tmp_path, capsys):
+    from mars2d.output.raster.picture import paint_frame
+
+    path = mars2d.run("own_sensor_and_addon").save(tmp_path / "own.npz")
+    record = mars2d.load(path)
+    assert record.missing == ("sensor Eyes", "add-on Lamps")
+    paint_frame(record.frame(-1), (320, 240), sensors=True)
+    assert cli.main(["check", str(path)]) == 0
+    shown = capsys.readouterr().out
+    assert "sensor Eyes" in shown
+    assert "bit-identical" in shown
+
+
+def test_a_record_with_a_drive_of_the_users_own_loads_and_says_that_it_can_not_be_rerun(
+    tmp_path, capsys
+):
+    class Sideways(mars2d.Drive):
+        def saturate(self, command):
+            return command
+
+        def twist(self, command):
+            return np.array([0 * command[0], command[0], command[1]])
+
+    scenario = mars2d.Scenario(robots=[mars2d.Robot(drive=Sideways())], stop_time=1)
+    record = mars2d.run(scenario, control=lambda world: [[0.1], [0.2]])
+    assert record.pose[-1, 1, 0] > 0.09
+    path = record.save(tmp_path / "own.npz")
+    assert np.array_equal(mars2d.load(path).pose, record.pose)
+    assert cli.main(["check", str(path)]) == 2
+    assert "drive Sideways" in capsys.readouterr().err
+
+
+def test_options_that_only_fit_together_are_set_together():
+    poses = {"robots.0.pose": (9, 7, 0), "robots.1.pose": (1, 3, 0)}
+    record = mars2d.run("random_walk", 1, options=poses)
+    assert record.pose[0, :2].T.tolist() == [[9, 7], [1, 3]]
+
+
+def test_an_experiment_may_import_what_lies_beside_it_and_two_do_not_meet(tmp_path):
+    for k in (1, 2):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        (folder / "helper.py").write_text(f"END = {k}\n")
+        (folder / "main.py").write_text(
+            "from helper import END\nfrom mars2d import Scenario\n"
+            "scenario = Scenario(stop_time=END)\n"
+        )
+    ends = [mars2d.run(tmp_path / str(k) / "main.py").time[-1] for k in (1, 2)]
+    assert ends == [1.0, 2.0]
+    assert "helper" not in sys.modules
+
+
+def test_a_laws_error_is_not_hidden_by_what_can_not_be_drawn(tmp_path):
+    (tmp_path / "late.py").write_text(
+        HEAD
+        + "scenario = Scenario()\ndef control(world):\n    return 0, 1 / (5 - world.iteration)\n"
+    )
+    done = mars("run", "late.py", "--headless", "--figure", "a.png", "--at", "0.1,50", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "ZeroDivisionError" in done.stderr
+    assert "no snapshots after it" in done.stderr
+    assert (tmp_path / "a.png").exists()
+
+
+def test_a_run_without_a_control_step_is_filmed_as_the_one_picture_that_it_is(tmp_path):
+    words = ["random_walk", "--headless", "--stop-time", "0", "--video", "still.gif"]
+    done = mars("run", *words, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "still.gif").stat().st_size > 0
+
+
+def test_a_film_of_too_many_frames_is_refused(tmp_path):
+    done = mars(
+        "run", "random_walk", "--headless", "--video", "a.gif", "--speed", "1e-9", cwd=tmp_path
+    )
+    assert done.returncode == 2
+    assert "frames" in done.stderr
+
+
+def test_a_colour_that_is_none_is_refused_where_it_is_drawn(tmp_path):
+    (tmp_path / "red.py").write_text(
+        HEAD + "class Spot(Addon):\n"
+        "    colour: str = 'red'\n"
+        "    def on_draw(self, world, scene):\n"
+        "        scene.circle((0, 0), 1, fill=self.colour)\n"
+        "scenario = Scenario(addons=[Spot()], stop_time=0.2)\n"
+    )
+    done = mars("run", "red.py", "--headless", "--video", "a.gif", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    (tmp_path / "bad.py").write_text((tmp_path / "red.py").read_text().replace("'red'", "'redd'"))
+    done = mars("run", "bad.py", "--headless", "--video", "a.gif", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "bad.py, line 7" in done.stderr
+    assert "did you mean 'red'?" in done.stderr
+
+
+# -- experiments that check themselves --------------------------------------------------------
+
+ROLL = """\
+'''How far does a robot roll?
+
+v t, as long as nothing is in its way.
+'''
+from mars2d import Prediction, Scenario
+
+scenario = Scenario(stop_time=2)
+
+def control(world):
+    return 0.25, 0.0
+
+def checks(record):
+    path = record.pose[-1, 0, 0]
+    yield Prediction("path", 0.25 * 2, path, 1e-9, "m")
+    yield Prediction("path, if it were slower", 0.2 * 2, path, 0.02, "m")
+    yield Prediction("time of the first contact", 1, float("nan"), 0.1, "s")
+"""
+
+
+@pytest.fixture
+def roll(tmp_path):
+    (tmp_path / "roll.py").write_text(ROLL)
+    return tmp_path / "roll.py"
+
+
+def test_a_run_prints_what_was_predicted_and_measured_after_its_outcome(roll, capsys):
+    assert cli.main(["run", str(roll), "--headless"]) == 0  # a wrong prediction is no wrong input
+    outcome, *rest = capsys.readouterr().out.splitlines()
+    assert "Time is over: 2 s" in outcome
+    assert rest == [
+        "",
+        "How far does a robot roll?",
+        "                              predicted      measured  tolerance",
+        "path                       0.5000000000  0.5000000000      1e-09  m  ok",
+        "path, if it were slower           0.400         0.500       0.02  m  NOT OK",
+        "time of the first contact          1.00  not a number        0.1  s  NOT OK",
+        "1 of 3 predictions ok",
+    ]
+
+
+def test_the_checks_stand_in_the_json(roll, capsys):
+    assert cli.main(["run", str(roll), "--headless", "--json"]) == 0
+    text = capsys.readouterr().out
+    assert text.count("\n") == 1
+    first, second, third = json.loads(text)["checks"]
+    assert first.pop("measured") == pytest.approx(0.5, abs=1e-9)
+    assert first == {"name": "path", "predicted": 0.5, "tolerance": 1e-9, "ok": True}
+    assert second["ok"] is False
+    assert third["measured"] is None
+    assert third["ok"] is False
+
+
+def test_the_json_of_an_experiment_without_checks_has_none(capsys):
+    assert cli.main(["run", "go_to_point", "--headless", "--stop-time", "3", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["checks"] == []
+
+
+@pytest.mark.parametrize("options", [[], ["--json"]])
+def test_checks_that_fail_lose_no_data(roll, tmp_path, capsys, options):
+    roll.write_text(ROLL.replace('1, float("nan")', "1, record.contacts['time'][0]"))
+    paths = [tmp_path / name for name in ("a.npz", "a.png", "a.gif")]
+    outputs = ["--record", str(paths[0]), "--figure", str(paths[1]), "--video", str(paths[2])]
+    assert cli.main(["run", str(roll), "--headless", *outputs, *options]) == 2
+    shown = capsys.readouterr()
+    assert shown.err.startswith("mars2d: roll.py, line 16: checks raised IndexError")
+    assert shown.err.count("\n") == 1
+    assert ("Time is over: 2 s" in shown.out) is not bool(options)
+    assert mars2d.load(paths[0]).finished
+    assert all(path.stat().st_size > 100 for path in paths)
+
+
+def test_a_law_that_fails_is_one_line_also_with_checks(roll, capsys):
+    roll.write_text(ROLL.replace("return 0.25, 0.0", "return 0.25, 1 / (5 - world.iteration)"))
+    assert cli.main(["run", str(roll), "--headless", "--json"]) == 2
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.count("\n") == 1
+    assert "roll.py, line 10" in shown.err
+
+
+def test_ctrl_c_says_what_was_saved_and_that_checks_were_not_made(roll, tmp_path):
+    stop = "if world.iteration == 5:\n        raise KeyboardInterrupt\n    return 0.25, 0.0"
+    roll.write_text(ROLL.replace("return 0.25, 0.0", stop))
+    done = mars("run", "roll.py", "--headless", "--record", "a.npz", cwd=tmp_path)
+    assert done.returncode == 130
+    assert done.stderr.splitlines() == [
+        "mars2d: what was recorded until 0.4 s is in a.npz",
+        "mars2d: the run was cut short, so its checks were not made",
+        "mars2d: interrupted",
+    ]
+
+
+def test_check_says_whether_an_experiment_has_checks(roll, capsys):
+    assert cli.main(["check", str(roll)]) == 0
+    assert "checks      checks(record), made after a whole run\n" in capsys.readouterr().out
+    assert cli.main(["check", "go_to_point"]) == 0
+    assert "checks" not in capsys.readouterr().out
+
+
+def test_a_demo_prints_its_checks_below_where_its_pictures_are(tmp_path):
+    done = mars("demo", "push_box", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    film = next(k for k, line in enumerate(lines) if line.startswith("film:"))
+    assert lines[film + 1] == ""
+    assert lines[film + 2].startswith("Push a box")
+    assert lines[-1].endswith("predictions ok")
+
+
+@pytest.fixture
+def display():
+    """The name of an X server of its own."""
+    if shutil.which("Xvfb") is None:
+        pytest.skip("Xvfb is not installed")
+    read, write = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-noreset"],
+        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        number = pipe.readline().strip()
+    yield f":{number}"
+    server.terminate()
+    server.wait(10)
+
+
+@pytest.mark.parametrize(("closes", "made"), [("on_stop", 3), ("on_step", 0)])
+def test_checks_are_made_once_a_window_closes_if_the_run_came_to_its_end(
+    roll, tmp_path, display, closes, made
+):
+    text = ROLL.replace("stop_time=2", "stop_time=2, addons=[Closer()]").replace(
+        "\nscenario",
+        f"\nimport pygame\nfrom mars2d import Addon\nclass Closer(Addon):\n"
+        f"    def {closes}(self, world):\n"
+        "        if world.time > 0:\n"
+        "            pygame.event.post(pygame.event.Event(pygame.QUIT))\n\nscenario",
+    )
+    roll.write_text(text)
+    done = mars("run", "roll.py", "--json", "--speed", 2, cwd=tmp_path, DISPLAY=display)
+    assert done.returncode == 0, done.stderr
+    outcome = json.loads(done.stdout.splitlines()[-1])
+    assert outcome["over"] is (made > 0)
+    assert len(outcome["checks"]) == made
+    assert done.stderr.count("its checks were not made") == (made == 0)
+
+
+def test_a_law_in_the_current_folder_plays_in_an_experiment_elsewhere(tmp_path):
+    (tmp_path / "games").mkdir()
+    (tmp_path / "games" / "idle.py").write_text("def control(robot):\n    return 0, 0\n")
+    (tmp_path / "games" / "duel.py").write_text(
+        HEAD + "def scenario(red='idle.py'):\n"
+        "    return Scenario(robots=[Robot(controller=load_law(red))], stop_time=1)\n"
+    )
+    (tmp_path / "my_law.py").write_text("def control(robot):\n    return robot.posee[0], 0\n")
+    run = ["run", "games/duel.py", "--headless"]
+    assert mars(*run, cwd=tmp_path).returncode == 0
+    done = mars(*run, "--set", "red=my_law.py", cwd=tmp_path)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "my_law.py, line 2" in done.stderr
+    done = mars(*run, "--set", "red=my_lwa.py", cwd=tmp_path)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "did you mean 'my_law.py'?" in done.stderr
+
+
+def test_a_closed_stdout_is_no_fault(tmp_path):
+    command = f"exec {sys.executable} -m mars2d list >&-"
+    done = subprocess.run(
+        ["sh", "-c", command],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")

@@ -1,0 +1,210 @@
+"""The verb ``compare`` as it is typed: what it prints, what it writes, and its errors."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import mars2d
+from mars2d.cli import command_line as cli
+
+HEAD_ON = """
+from math import pi
+from mars2d import Robot, Scenario
+
+scenario = Scenario(
+    title="Head on",
+    robots=[Robot(pose=(-1, 0, 0)), Robot(pose=(1, 0, pi))],
+    sampling_time=0.1,
+    stop_time=4.0,
+)
+
+
+def control(world):
+    return [[0.5, 0.5], [0.0, 0.0]]
+"""
+
+COUNTING = """
+from mars2d import Robot, Scenario
+
+scenario = Scenario(robots=[Robot(pose=(0, 0, 0))], sampling_time=0.1, stop_time=1.0)
+calls = 0
+
+
+def control(world):
+    global calls
+    calls += 1
+    while True:
+        yield [[0.01 * calls], [0.0]]
+        calls += 1
+"""
+
+FAILS_IN_IDEAL = """
+from mars2d import Robot, Scenario
+
+scenario = Scenario(robots=[Robot(pose=(0, 0, 0))], sampling_time=0.1, stop_time=1.0)
+
+
+def control(world):
+    if world.scenario.physics == "ideal" and world.time > 0.45:
+        raise ValueError("too ideal")
+    return [[0.1], [0.0]]
+"""
+
+
+@pytest.fixture
+def compare(tmp_path, monkeypatch, capsys):
+    """Run the verb in an empty folder; return exit code, stdout and stderr."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments):
+        capsys.readouterr()
+        code = cli.main(["compare", *map(str, arguments)])
+        return code, *capsys.readouterr()
+
+    return run
+
+
+def written(code, name="walk.py"):
+    Path(name).write_text(code, encoding="utf-8")
+    return name
+
+
+def test_without_more_it_makes_a_picture_and_a_film_and_says_where(compare):
+    code, out, err = compare(written(HEAD_ON))
+    assert (code, err) == (0, "")
+    paths = [line.split()[1] for line in out.splitlines() if "mars2d_compare" in line]
+    assert len(paths) == 2
+    with Image.open(paths[0]) as picture, Image.open(paths[1]) as film:
+        assert picture.format == "PNG"
+        assert picture.size[0] == 2200
+        assert film.format == "GIF"
+        assert film.size == (1280, 720)
+        assert film.n_frames > 50
+
+
+def test_it_prints_a_table_of_the_three_runs(compare):
+    code, out, _ = compare(written(HEAD_ON), "--figure", "a.png")
+    assert code == 0
+    title, head, *rows, last = out.splitlines()
+    assert title == "Head on, seed 0"
+    assert head.split("  ")[0] == "physics"
+    assert [row.split()[0] for row in rows] == ["contact", "stop", "ideal"]
+    assert rows[0].split()[1:5] == ["40", "1", "-", "-"]
+    assert all(row.endswith("Time is over: 4 s") for row in rows)
+    assert len({row.index("Time") for row in [*rows, head.replace("ended", "Time")]}) == 1
+    assert last == "picture: a.png"
+    assert not Path("mars2d_compare").exists()
+
+
+def test_the_runs_are_those_of_each_physics_alone(compare):
+    name = written(HEAD_ON)
+    code, out, _ = compare(name, "--json", "--seed", 7)
+    assert code == 0
+    assert out.count("\n") == 1
+    outcome = json.loads(out)
+    assert outcome["seed"] == 7
+    assert outcome["wall_s"] > 0
+    assert [row["physics"] for row in outcome["runs"]] == ["contact", "stop", "ideal"]
+    records = [
+        mars2d.run(name, seed=7, options={"physics": row["physics"]}) for row in outcome["runs"]
+    ]
+    for row, record in zip(outcome["runs"], records, strict=True):
+        assert row["digest"] == record.digest
+        assert row["collisions"] == record.collisions
+        assert row["ticks"] == 40
+        assert row["time"] == pytest.approx(4.0)
+        assert row["message"] == record.over_message
+        apart = np.hypot(*(record.pose[-1, :2] - records[0].pose[-1, :2]))
+        assert row["drift_max"] == pytest.approx(apart.max())
+        assert row["drift_mean"] == pytest.approx(apart.mean())
+    assert not Path("mars2d_compare").exists()
+
+
+def test_robots_that_meet_end_elsewhere_with_each_physics(compare):
+    """With ideal physics each goes on for 2 m; the others stand in each other's way."""
+    _, out, _ = compare(written(HEAD_ON), "--json")
+    contact, stop, ideal = json.loads(out)["runs"]
+    assert contact["drift_max"] == contact["drift_mean"] == 0.0
+    assert ideal["drift_max"] > 0.5
+    assert ideal["digest"] != contact["digest"] != stop["digest"]
+    assert ideal["collisions"] >= 1
+
+
+def test_laws_start_anew_for_each_run(compare):
+    _, out, _ = compare(written(COUNTING), "--json")
+    runs = json.loads(out)["runs"]
+    assert [row["drift_max"] for row in runs] == pytest.approx([0, 0, 0], abs=1e-9)
+
+
+def test_options_hold_for_all_runs(compare):
+    code, out, _ = compare(
+        "follow_the_leader", "--stop-time", 2, "--set", "followers=2", "--set", "sampling_time=0.5",
+        "--json", "--figure", "a.svg", "--video", "a.gif", "--speed", 4,
+    )  # fmt: skip
+    assert code == 0
+    outcome = json.loads(out)
+    assert [row["ticks"] for row in outcome["runs"]] == [4, 4, 4]
+    assert (outcome["figure"], outcome["video"]) == ("a.svg", "a.gif")
+    assert b"<svg" in Path("a.svg").read_bytes()
+    with Image.open("a.gif") as film:
+        duration = 0
+        for k in range(film.n_frames):
+            film.seek(k)
+            duration += film.info["duration"]
+    assert duration == pytest.approx(500, abs=90)
+
+
+def test_a_film_can_be_an_mp4(compare):
+    av = pytest.importorskip("av")
+    code, out, _ = compare(written(HEAD_ON), "--video", "a.mp4", "--speed", 8)
+    assert code == 0
+    assert out.endswith("film:    a.mp4\n")
+    with av.open("a.mp4") as film:
+        stream = film.streams.video[0]
+        assert (stream.width, stream.height) == (1280, 720)
+    assert not Path("mars2d_compare").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["no_such_thing"], "no_such_thing: there is no such file or example"),
+        (["random_walk", "--figure", "a.jpg"], "--figure a.jpg: expected a name that ends in"),
+        (["random_walk", "--figure", "no/a.png"], "--figure no/a.png: there is no folder no"),
+        (["random_walk", "--video", "a.avi"], "--video a.avi: expected a name that ends in"),
+        (["random_walk", "--speed", "0"], "'0': expected a number > 0"),
+        (["random_walk", "--speed", "max"], "'max': expected a number > 0"),
+        (["random_walk", "--seed", "-1"], "seed = -1: expected a whole number"),
+        (["random_walk", "--set", "physics=stop"], "compare runs each physics"),
+        (["random_walk", "--set", "diametr=1"], "there is no option 'diametr'"),
+        (["random_walk", "--stop-time", "-1"], "stop_time"),
+        (["random_walk", "--headless"], "--headless"),
+    ],
+)
+def test_what_can_not_be_done_is_told_in_one_line(compare, arguments, expected):
+    code, out, err = compare(*arguments)
+    assert (code, out) == (2, "")
+    assert expected in err
+    assert err.count("\n") == 1
+    assert list(Path().iterdir()) == []
+
+
+def test_a_law_that_fails_says_with_which_physics(compare):
+    code, out, err = compare(written(FAILS_IN_IDEAL), "--figure", "a.png")
+    assert (code, out) == (2, "")
+    assert err.startswith("mars2d: physics = 'ideal': walk.py, line 9")
+    assert "too ideal" in err
+    assert err.count("\n") == 1
+    assert not Path("a.png").exists()
+
+
+def test_a_folder_that_can_not_be_made_is_told(compare):
+    Path("mars2d_compare").write_text("in the way", encoding="utf-8")
+    code, out, err = compare("random_walk")
+    assert (code, out) == (2, "")
+    assert "mars2d_compare: can't be made" in err

@@ -1,0 +1,143 @@
+"""``mars2d plot`` draws any figure of a recorded run, and says what it was not given."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+import mars2d
+from mars2d import Robot, Scenario
+from mars2d.cli.command_line import main
+from mars2d.cli.plot import KINDS
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("runs")
+    robots = [Robot(pose=(-1, 0, 0), name="ann"), Robot(pose=(1, 0, 3.14), name="0")]
+    scenario = Scenario(title="Two", robots=robots, stop_time=5)
+    mars2d.run(scenario, control=lambda world: [[0.3, 0.3], [0, 0]]).save(folder / "duel.npz")
+    return folder
+
+
+@pytest.fixture
+def plot(folder, tmp_path, monkeypatch, capsys):
+    """Run the command in an empty folder; return its exit code, and what it says."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments, record=folder / "duel.npz"):
+        code = main(["plot", str(record), *arguments])
+        said = capsys.readouterr()
+        return code, (said.out + said.err).strip()
+
+    return run
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_kind_of_figure_is_drawn_and_its_file_named(plot, tmp_path, kind):
+    extra = ["--at", "0,2"] if kind == "snapshots" else []
+    assert plot(kind, *extra) == (0, f"duel_{kind}.png")
+    assert (tmp_path / f"duel_{kind}.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_without_a_kind_the_paths_are_drawn_and_no_file_is_overwritten(plot, tmp_path):
+    assert plot() == (0, "duel_paths.png")
+    first = (tmp_path / "duel_paths.png").read_bytes()
+    assert plot("--style", "projector") == (0, "duel_paths_2.png")
+    assert (tmp_path / "duel_paths.png").read_bytes() == first
+    assert (tmp_path / "duel_paths_2.png").read_bytes() != first
+
+
+def test_a_file_that_is_named_is_written_over(plot, tmp_path):
+    (tmp_path / "old.svg").write_text("old")
+    assert plot("signals", "--figure", "old.svg") == (0, "old.svg")
+    assert "<svg" in (tmp_path / "old.svg").read_text()
+
+
+def test_columns_and_robots_are_chosen_by_name_before_index(plot, tmp_path):
+    options = ["--columns", "x,command.v", "--robots", "0", "--figure", "a.svg"]
+    assert plot("signals", *options)[0] == 0
+    text = (tmp_path / "a.svg").read_text()
+    assert "<!-- 0 -->" in text
+    assert "<!-- ann -->" not in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["signls"], "mars2d: there is no figure of 'signls'; did you mean 'signals'?"),
+        (["--columns", "x"], "mars2d: --columns is for signals: mars2d plot "),
+        (["contacts", "--robots", "ann"], "mars2d: --robots is for signals"),
+        (["distances", "--at", "1"], "mars2d: --at is for snapshots"),
+        (["paths", "--from", "1"], "mars2d: --from is for signals"),
+        (["signals", "--to", "9"], "mars2d: signals from 0 to 9 s: expected a part of the run"),
+        (["--headless"], "unrecognized arguments: --headless (see mars2d plot --help)"),
+        (["snapshots"], "mars2d: snapshots need their times, as --at 0,5,10"),
+        (["snapshots", "--at", "9"], "mars2d: times: 9 s is outside of the record"),
+        (["signals", "--columns", "efort"], "did you mean 'effort'?"),
+        (["signals", "--columns", "x,"], "'x,': expected names with commas between them"),
+        (
+            ["signals", "--robots", "an"],
+            "mars2d: robots: there is no robot 'an'; did you mean 'ann'",
+        ),
+        (["--style", "prnt"], "mars2d: style = 'prnt': expected one of 'screen', 'print'"),
+        (["--figure", "a.gif"], "mars2d: --figure a.gif: expected a name that ends in .png"),
+        (["--figure", "no/a.png"], "mars2d: --figure no/a.png: there is no folder no"),
+    ],
+)
+def test_what_can_not_be_done_is_one_line_and_leaves_no_file(plot, tmp_path, arguments, message):
+    code, said = plot(*arguments)
+    assert code == 2
+    assert message in said
+    assert said.count("\n") == 0
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_where_nothing_can_be_written_is_refused(plot, tmp_path):
+    folder = tmp_path / "closed"
+    folder.mkdir(mode=0o500)
+    if os.access(folder, os.W_OK):
+        pytest.skip("who runs this may write anywhere")
+    code, said = plot("--figure", "closed/a.png")
+    assert (code, said) == (
+        2, f"mars2d: --figure closed/a.png: nothing can be written in {folder}"
+    )  # fmt: skip
+
+
+def test_characters_that_no_font_has_are_named_in_one_line(plot, tmp_path):
+    scenario = Scenario(title="中文 🤖 \ue123", robots=1, stop_time=1)
+    record = mars2d.run(scenario, control=lambda world: [[0.3], [0.3]])
+    path = record.save(tmp_path / "odd.npz")
+    code, said = plot(record=path)
+    assert code == 0
+    printed, told = said.splitlines()
+    assert printed == "odd_paths.png"
+    assert told.startswith("mars2d: no font has '")
+    assert told.endswith("'\\ue123': boxes stand for them") or "'\\ue123', " in told
+
+
+def test_an_experiment_is_to_be_run_first(plot):
+    for name, record in (("walk.py", "walk"), ("room.toml", "room"), ("head_on", "head_on")):
+        code, said = plot(record=name)
+        assert code == 2
+        assert said.endswith(f"run it first: mars2d run {name} --record {record}.npz")
+
+
+def test_what_is_no_record_is_refused(plot, tmp_path):
+    (tmp_path / "a.npz").write_bytes(b"no record")
+    assert plot(record="a.npz") == (2, "mars2d: a.npz: not a record of MARS2D, or damaged")
+    code, said = plot(record="b.npz")
+    assert code == 2
+    assert "there is no such file" in said
+
+
+def test_a_record_of_no_rows_is_refused_for_every_kind(plot, tmp_path):
+    world = mars2d.World(Scenario(robots=1), lambda world: [[0], [0]])
+    world.record.save(tmp_path / "none.npz")
+    for kind in KINDS:
+        extra = ["--at", "0"] if kind == "snapshots" else []
+        code, said = plot(kind, *extra, record="none.npz")
+        assert code == 2
+        assert "the record has no rows" in said
+    assert [path.name for path in tmp_path.iterdir()] == ["none.npz"]

@@ -1,0 +1,127 @@
+"""Commands take effect after the transmission delay, whole sampling times or not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mars2d import Holonomic, Robot, Scenario, World
+from mars2d.core.delay import DelayLine
+
+
+@given(
+    delay=st.floats(0, 5),
+    sampling_time=st.floats(0.01, 2),
+    count=st.integers(1, 30),
+)
+def test_what_is_in_effect_was_issued_a_delay_ago(delay, sampling_time, count):
+    line = DelayLine(delay, sampling_time, 1)
+    for k in range(count):
+        pieces = line.send(np.full((2, 1), float(k + 1)))  # command k reads k + 1, before it 0
+        assert sum(duration for duration, _ in pieces) == pytest.approx(sampling_time)
+        time = k * sampling_time
+        for duration, command in pieces:
+            assert duration > 0
+            middle = time + duration / 2
+            issued = np.floor((middle - delay) / sampling_time)
+            assert command[0, 0] == max(issued + 1, 0)
+            time += duration
+
+
+@pytest.mark.parametrize("whole", [0, 1, 3, 7])
+def test_a_delay_of_whole_sampling_times_makes_no_extra_steps(whole):
+    line = DelayLine(whole * 0.1, 0.1, 1)
+    for k in range(20):
+        pieces = line.send(np.full((2, 1), float(k)))
+        assert len(pieces) == 1
+        assert pieces[0][0] == 0.1
+        assert pieces[0][1][0, 0] == max(k - whole, 0)
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.1, 0.25, 0.3, 1.0, 1.05, 2.7])
+def test_a_robot_moves_by_the_delayed_command_at_every_sampling_time(delay):
+    scenario = Scenario(
+        robots=[Robot(drive=Holonomic(max_linear_speed=10))], workspace=None, command_delay=delay
+    )
+    world = World(scenario)
+    speeds = np.random.default_rng(0).uniform(-1, 1, 40)
+    for speed in speeds:
+        world.step([[speed], [0]])
+    record = world.record
+    for k, time in enumerate(record.time):
+        # Command j works from 0.1 j + delay on, for 0.1 s.
+        begun = np.clip(time - delay - 0.1 * np.arange(40), 0, 0.1)
+        assert record.pose[k, 0, 0] == pytest.approx(speeds @ begun, abs=1e-9)
+
+
+@given(
+    delays=st.lists(st.floats(0, 3), min_size=1, max_size=6),
+    sampling_time=st.floats(0.01, 2),
+    count=st.integers(1, 30),
+)
+def test_each_robot_has_a_delay_of_its_own(delays, sampling_time, count):
+    team = DelayLine(np.array(delays), sampling_time, len(delays))
+    alone = [DelayLine(delay, sampling_time, 1) for delay in delays]
+    for k in range(count):
+        pieces = team.send(np.full((2, len(delays)), float(k + 1)))
+        ends = np.cumsum([duration for duration, _ in pieces])
+        assert ends[-1] == pytest.approx(sampling_time)
+        assert all(duration > 0 for duration, _ in pieces)
+        for i, line in enumerate(alone):
+            start = 0.0
+            for duration, command in line.send(np.full((2, 1), float(k + 1))):
+                middle = start + duration / 2
+                now = pieces[int(np.searchsorted(ends, middle))][1]
+                if duration > 1e-6 * sampling_time:
+                    assert now[0, i] == command[0, 0]
+                start += duration
+
+
+def test_robots_with_the_same_part_of_a_sampling_time_share_a_step():
+    line = DelayLine(np.array([0.0, 0.3, 0.25, 0.05, 0.15 + 1e-13, 1.0]), 0.1, 6)
+    for k in range(20):
+        pieces = line.send(np.full((2, 6), float(k + 1)))
+        assert [duration for duration, _ in pieces] == pytest.approx([0.05, 0.05])
+    assert pieces[0][1][0].tolist() == [20, 17, 17, 19, 18, 10]
+    assert pieces[1][1][0].tolist() == [20, 17, 18, 20, 19, 10]
+
+
+def test_robots_with_one_delay_are_given_what_was_sent_and_no_copy():
+    line = DelayLine(np.full(3, 0.2), 0.1, 3)
+    sent = [np.full((2, 3), float(k)) for k in range(5)]
+    got = [line.send(command)[0][1] for command in sent]
+    assert all(a is b for a, b in zip(got[2:], sent, strict=False))
+    assert not got[0].any()
+    assert not got[1].any()
+
+
+def test_what_was_sent_is_not_changed():
+    line = DelayLine(np.array([0.0, 0.15]), 0.1, 2)
+    sent = [np.full((2, 2), float(k)) for k in range(5)]
+    for command in sent:
+        line.send(command)
+    assert [command[0].tolist() for command in sent] == [[k, k] for k in range(5)]
+
+
+def test_command_time_says_when_a_command_takes_effect():
+    world = World(Scenario(command_delay=0.25, sampling_time=0.1, stop_time=1))
+    while not world.over:
+        world.step()
+    assert np.array_equal(world.record.command_time, world.record.time + 0.25)
+
+
+def test_the_law_sees_the_command_it_issued_not_the_one_in_effect():
+    seen = []
+
+    def law(robot):
+        seen.append(float(robot.command[0]))
+        return 0.1 * (len(seen)), 0
+
+    scenario = Scenario(robots=[Robot(controller=law)], command_delay=5, stop_time=0.4)
+    world = World(scenario)
+    while not world.over:
+        world.step()
+    assert seen == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
+    assert world.pose[0, 0] == 0

@@ -1,0 +1,615 @@
+"""Nothing that ends the process, hangs it or lies gets through to the engine.
+
+Each test runs its inputs in a child process, with and without Python's own asserts: an abort would
+take the tests with it. All inputs go through the public constructors, or come out of laws.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import pytest
+
+PRELUDE = """
+import json, sys, warnings
+import numpy as np
+warnings.simplefilter("error")
+from mars2d import *
+from mars2d.addons import Addon, Map
+from mars2d.bodies import *
+from mars2d.bodies.joints import *
+from mars2d.bodies.props import *
+from mars2d.sensors import Proximity, Sensor
+from mars2d.geometry.shapes import *
+nan, inf, huge = float("nan"), float("inf"), 10**400
+
+def go(*robots, law=None, commands=None, steps=5, **fields):
+    '''Run an experiment in which everything meets everything.'''
+    fields = {"workspace": [(-2, -2), (2, -2), (2, 2), (-2, 2)], "on_exit": "wall",
+              "sampling_time": 0.5, "stop_time": 100} | fields
+    fields.setdefault("robots", list(robots) or 1)
+    world = World(Scenario(**fields), control=law)
+    for _ in range(steps):
+        world.step(commands)
+    assert np.isfinite(world.pose).all(), "not finite"
+    assert np.isfinite(world.prop_pose).all(), "not finite"
+    return world
+
+def push(*props, **fields):
+    '''A robot and props round it.'''
+    return go(Robot(), props=props, **fields)
+
+def tie(joint, **fields):
+    '''Two robots and two boxes, and something between them.'''
+    robots = [Robot(), Robot(pose=(1, 0, 0))]
+    props = [Box(pose=(0, 1, 0)), Box(pose=(1, 1, 0), name="load")]
+    return go(*robots, props=props, joints=[joint], **fields)
+
+SQUARE = [(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]
+BOW = [(0, 0), (1, 1), (1, 0), (0, 1)]
+FAR = (1, 1, 0)
+
+def own(law):
+    return go(Robot(controller=law))
+
+def attempt(code):
+    try:
+        eval(code)
+    except InputError as error:
+        assert str(error)
+        return "InputError"
+    except BaseException as error:
+        return f"{type(error).__name__}: {error}"
+    return "passed"
+"""
+
+FLAGS = [(), ("-O",)]
+
+
+def outcomes(child, cases: list[str], flags: tuple[str, ...] = (), definitions: str = "") -> dict:
+    """Return what became of each case; ends with the case at which the process died, if it did."""
+    code = (
+        PRELUDE + definitions + f"\nfor case in {cases!r}:\n"
+        '    print(json.dumps([case, attempt(case)]), flush=True)\nprint(\'["end", ""]\')'
+    )
+    result = child(code, *flags, timeout=50)
+    found = dict(json.loads(line) for line in result.stdout.splitlines())
+    assert result.returncode == 0, (result.returncode, [*found][-1:], result.stderr[-500:])
+    assert found.pop("end") == ""
+    return found
+
+
+def all_refused(child, cases: list[str], flags: tuple[str, ...], definitions: str = "") -> None:
+    found = outcomes(child, cases, flags, definitions)
+    assert found == dict.fromkeys(cases, "InputError")
+
+
+BAD = ["nan", "inf", "-inf", "-1.0", "'1'", "None", "True", "1j", "huge", "[1.0]", "np.array([1.])",
+       "np.float64('nan')", "np.float32('inf')"]  # fmt: skip
+
+
+def fields(pattern: str, *more: str, without: tuple[str, ...] = ()) -> list[str]:
+    """Write the bad values, and some more, into a pattern of code."""
+    return [pattern.replace("@", value) for value in [*BAD, *more] if value not in without]
+
+
+ROWS = {
+    "the mass of a body": fields("go(Robot(mass=@))", "0", "1e-7", "1e7", "-0.0", "5e-324"),
+    "the size, and so the moment": [
+        *fields("go(Robot(diameter=@))", "0", "1e-9", "1e4"),
+        *fields("go(Robot(center_offset=@))", "0.16", "-0.16", without=("-1.0",)),
+    ],
+    "friction": [
+        *fields("go(Robot(friction=@))", "-1e-9", "1e9"),
+        *fields("go(addons=[Map([[(1, 1), (1, 0)]], friction=@)])", "-1e-9"),
+    ],
+    "elasticity": [
+        *fields("go(Robot(restitution=@))", "-1e-9", "1.01"),
+        *fields("go(addons=[Map([[(1, 1), (1, 0)]], restitution=@)])", "1.01"),
+    ],
+    "force, torque and speed of a drive": [
+        *fields("go(Robot(drive=Unicycle(max_force=@)))", "0", "1e7"),
+        *fields("go(Robot(drive=Unicycle(max_torque=@)))", "0", "1e7"),
+        *fields("go(Robot(drive=Holonomic(max_force=@)))", "0"),
+        *fields("go(Robot(drive=Holonomic(max_linear_speed=@)))", "0", "1e9"),
+        *fields("go(Robot(drive=Unicycle(wheel_semiaxis=@)))", "0", "1e-300"),
+        "go(Robot(mass=1e-6, drive=Unicycle(max_force=1e6)))",
+    ],
+    "wheels, steering, acceleration and noise of a drive": [
+        *fields("go(Robot(drive=Differential(wheel_radius=@)))", "0", "1e-300", "1e9"),
+        *fields("go(Robot(drive=Differential(wheel_semiaxis=@)))", "0", "1e-300"),
+        *fields("go(Robot(drive=Car(wheelbase=@)))", "0", "1e-300", "1e9"),
+        *fields("go(Robot(drive=Car(max_steering=@)))", "0", "1.6"),
+        *fields("go(Robot(drive=Car(max_steering_rate=@)))", "0", without=("None",)),
+        *fields("go(Robot(drive=Unicycle(max_acceleration=@)))", "0", without=("None",)),
+        *fields("go(Robot(drive=Unicycle(noise=@)))", "1e9"),
+        *fields("go(Robot(drive=Unicycle(dead_time=@)))", "1e300"),
+    ],
+    "the time step": [
+        *fields("go(sampling_time=@)", "0", "-0.1", "1e-9", "1e9"),
+        *fields("go(stop_time=@)", "-1e-9", "1e300"),
+        *fields("go(command_delay=@)", "-1e-9", "1e300"),
+        *fields("go(max_overlap=@)", "0", "1e-9", "2"),
+        "go(sampling_time=1e-6, stop_time=1e12)",
+        "go(sampling_time=1e-6, command_delay=1e6)",
+    ],
+    "positions and angles": [
+        *fields("go(Robot(pose=(@, 0, 0)))", "1e7", without=("-1.0",)),
+        *fields("go(Robot(pose=(0, 0, @)))", "1e300", without=("-1.0",)),
+        "go(Robot(pose=None))",
+        "go(Robot(pose=()))",
+        "go(Robot(pose=(0, 0, 0, 0)))",
+        "go(Robot(pose='000'))",
+        "go(Robot().at(nan, 0))",
+        "go(Robot(), options=1)",
+    ],
+    "geometry": [
+        *fields("go(addons=[Map([[(1, 1), (@, 0)]])])", "1e7", without=("-1.0",)),
+        *fields("go(workspace=[(0, 0), (1, @), (0, 1)])", without=()),
+        "go(addons=[Map([[(1, 1), (1, 1)]])])",  # a wall of no length
+        "go(addons=[Map([[(1, 1), (1.5, 1), (2, 1)]])])",  # collinear
+        "go(addons=[Map([[(1, 1), (1.5, 1), (1.5, 1), (1, 2)]])])",  # repeated
+        "go(addons=[Map([[(1, 1), (2, 2), (2, 1), (1, 2)]])])",  # crossing itself
+        "go(addons=[Map([[(1, 1)]])])",
+        "go(addons=[Map([(1, 1), (2, 2)])])",
+        "go(addons=[Map(None)])",
+        "go(addons=[Map()])",
+        "go(addons=Map([[(1, 1), (1, 0)]]))",
+        "go(addons=[Map])",
+        "go(workspace=[(0, 0), (1, 1)])",
+        "go(workspace=[(-2, -2), (2, 2), (2, -2), (-2, 2)])",
+        "go(workspace=5)",
+    ],
+    "masses that contacts cannot hold": [
+        "go(Robot(mass=1), Robot(pose=(1, 0, 0), mass=10.1))",
+        "go(Robot(mass=1e-6), Robot(pose=(1, 0, 0), mass=1e6))",
+    ],
+    "starts in other bodies": [
+        "go(Robot(), Robot())",
+        "go(Robot(), Robot(pose=(0.29, 0, 0)))",
+        "go(Robot(diameter=1e-3), Robot(diameter=1e-3))",
+        "go(Robot(), Robot(), max_overlap=1.0)",
+        "go(Robot(center_offset=0.1), Robot(center_offset=-0.1, pose=(0.2, 0, 3.14159)))",
+        "go(Robot(), addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])",
+        "go(Robot(diameter=1e-3), addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])",
+        "go(Robot(), addons=[Map([[(0.1, -1), (0.1, 1)]])])",
+        "go(Robot(pose=(1.9, 0, 0)))",
+        "go(Robot(pose=(3, 0, 0)))",
+        "go(Robot(pose=(3, 0, 0)), on_exit='stop')",
+    ],
+    "thousands of bodies in one place": [
+        "go(*[Robot()] * 5000)",
+        "go(robots=5000)",
+        "go(robots=10**9)",
+        "Scenario(robots=10000)",
+    ],
+    "shapes": [
+        *fields("go(Robot(shape=Disc(@)))", "0", "1e-9", "1e4"),
+        *fields("Disc(0.2, center=(@, 0))", "1e7", without=("-1.0",)),
+        *fields("Polygon([(0, 0), (1, 0), (@, 1)])", "1e7", without=("-1.0",)),
+        *fields("Polygon(@)", "[]", "BOW", "SQUARE[:2]", "[(0, 0)] * 5",
+                "[(0, 0), (1, 0), (2, 0)]", "[(0, 0), (1, 0), (1, 1e-5)]",
+                "[(0, 0), (1, 0), (0.5, 1e-300)]", "[(0, 0), (2, 0), (2, 2), (1, 0), (0, 2)]",
+                "[(np.cos(t), np.sin(t)) for t in np.linspace(0, 6, 65)]",
+                "SQUARE + SQUARE[:1] * 2", "[(0, 0), (1, 0), (1, 0), (0, 1)]"),
+        *fields("Compound(@)", "[]", "Disc(0.2)", "[Disc]", "[Disc(0.1)] * 65"),
+        *fields("go(Robot(shape=@))", "Disc", "SQUARE", "Shape()", without=("None",)),
+        "go(Robot(shape=Disc(0.2), diameter=0.4))",
+        "go(Robot(shape=Polygon(SQUARE), center_offset=0.2))",
+        "go(Robot(shape=Compound([Disc(0.1), Shape()])))",
+        "go(Robot(shape=Compound([Disc(1e-3), Disc(1e-3).moved(1e6, 0)])), workspace=None)",
+        "go(Robot(shape=Polygon(SQUARE).moved(1, 1)), Robot(pose=FAR, mass=11))",
+        "Polygon(SQUARE).moved(1e7, 0)", "Disc(1).moved(nan, 0)",
+        "Compound([Disc(1)]).moved(inf, 0)",
+    ],
+    "moments": [
+        *fields("go(Robot(moment=@))", "0", "1e-300", "1e300", "1", "1e-6", without=("None",)),
+        *fields("push(Box(pose=FAR, moment=@))", "0", "1e-300", "1", "1e-6", without=("None",)),
+    ],
+    "materials": [
+        *fields("go(Robot(friction=@))", "'wod'", "''", "'WOOD '", "b'wood'", "'-1'"),
+        *fields("go(Robot(restitution=@))", "'stele'", "1.1", "-0.1"),
+        *fields("push(Box(pose=FAR, friction=@))", "'wod'", without=("None",)),
+        *fields("push(Box(pose=FAR, restitution=@))", "'wod'", "2", without=("None",)),
+        *fields("push(Box(pose=FAR, material=@))", "'wod'", "'Wood'", "5", without=("None",)),
+        "push(Box(pose=FAR, material='steel'))",  # 126 kg
+        "push(Box(pose=FAR, material='foam', height=1e-3))",
+        "push(Box(pose=FAR, material='steel', height=1e-300))",
+        "push(Box(pose=FAR, length=1e3, width=1e3, material='steel', height=1e3), workspace=None)",
+    ],
+    "props": [
+        *fields("push(Box(pose=FAR, mass=@))", "0", "1e-7", "1e7", "0.05", "11",
+                without=("None",)),
+        *fields("push(Box(pose=FAR, height=@))", "0", "1e4"),
+        *fields("push(Box(pose=FAR, ground_friction=@))", "101", "-1e-9"),
+        *fields("push(Box(pose=FAR, velocity=@))", "(nan, 0)", "(0, inf, 0)", "(0, 0, nan)", "(1,)",
+                "(1, 2, 3, 4)", "('1', 0)", "(101, 0)", "(0, 0, 1e3)", "(99, 0, 9)", "()"),
+        "push(Bar(pose=(0, 0, 0), length=1e3, velocity=(0, 0, 100)), workspace=None)",
+        "push(Puck(pose=FAR, velocity=(20, 0)), max_overlap=1e-5)",
+        *fields("push(Box(pose=@))", "(0, 0)", "(nan, 0)", "(0, 0, inf)", "(9, 9)"),
+        *(
+            case
+            for kind, field in (("Box", "length"), ("Box", "width"), ("Ball", "diameter"),
+                                ("Puck", "diameter"), ("Bar", "length"), ("Bar", "thickness"),
+                                ("Gate", "length"), ("Gate", "thickness"))
+            for case in fields(f"push({kind}(pose=FAR, {field}=@))", "0", "1e-9", "1e4")
+        ),
+        *fields("push(Gate(pose=FAR, limits=@))", "(1, 2)", "(-2, -1)", "(1, -1)", "(nan, 1)",
+                "(0, inf)", "(-1,)", "(-1e6, 1)", without=("None",)),
+        *fields("push(Gate(pose=FAR, stiffness=@))", "1e9", "1e6"),
+        *fields("push(Gate(pose=FAR, damping=@))", "1e9"),
+        *fields("push(Solid(@, pose=FAR))", "SQUARE", "Polygon(BOW)", "Polygon", "Box()",
+                "Shape()"),
+        "push(Solid(pose=FAR))", "push(Prop(pose=FAR))", "push(Box)", "push(Robot(pose=FAR))",
+        "push(Box(pose=FAR, color='bleu'))", "push(Box(pose=FAR, name=5))",
+        "push(Box(pose=FAR, lenght=1))", "push(Box(pose=FAR, shape=Disc(1)))",
+        "go(Robot(), props=None)", "go(Robot(), props=Box(pose=FAR))", "go(Robot(), props=5)",
+        "go(Robot(), physics='contacts', props=[Box(pose=FAR)])",
+    ],
+    "bodies too large beside too thin ones": [
+        ("push(Box(pose=(600, 0), length=1e3, width=1), Puck(pose=FAR, diameter=1e-3),"
+        " workspace=None)"),
+        "go(Robot(shape=Polygon([(-500, 0), (500, 0), (0, 0.1)]), mass=1), workspace=None)",
+    ],
+    "names": [
+        "push(Box(pose=FAR, name='a'), Ball(pose=(1, -1), name='a'))",
+        "push(Box(pose=FAR, name='robot'), Ball(pose=(1, -1), name='robot'))",
+        "go(Robot(name='a'), props=[Box(pose=FAR, name='a')])",
+    ],
+    "props that start in something": [
+        "push(Box())", "push(Box(pose=(0.3, 0)))",
+        "push(Box(pose=(1, 0)), Box(pose=(1.3, 0, 0.1)))",
+        "push(Gate(pose=(0.4, 0)))", "push(Ball(pose=(1, 1)), Ball(pose=(1, 1)))",
+        "push(Box(pose=(1.9, 0)))", "push(Box(pose=(1.75, 1.75, 0.8)))", "push(Box(pose=(5, 0)))",
+        "push(Box(pose=FAR), addons=[Map([[(1.1, -1), (1.1, 2)]])])",
+        "push(Box(pose=FAR), addons=[Map([[(0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (0.5, 1.5)]])])",
+        "push(Bar(pose=(-1, 1)), addons=[Map([[(-1.1, 0.98), (-1, 0.98), (-1, 1.02)]])])",
+        "push(Solid(Polygon([(0, 0), (1, 0), (1, 1)]), pose=FAR), Puck(pose=(1.1, 0.9)))",
+        "push(Solid(Compound([Disc(0.2), Disc(0.2).moved(1, 0)]), pose=FAR), Puck(pose=(1.5, 1)))",
+        "go(Robot(shape=Polygon(SQUARE)), Robot(shape=Polygon(SQUARE), pose=(0.1, 0.1, 0.5)))",
+        "go(Robot(), Robot(pose=FAR), props=[Puck(pose=FAR)], max_overlap=1.0)",
+    ],
+    "joints": [
+        *fields("tie(Rope(a='robot0', b='box0', length=@))", "0", "1e-300", "0.5", "1e9",
+                without=("None",)),
+        *fields("tie(Rod(a='robot0', b='box0', length=@))", "0", "0.5", "1.5", without=("None",)),
+        *fields("tie(Spring(a='robot0', b='box0', rest_length=@))", "1e7", "1e5",
+                without=("None",)),
+        *fields("tie(Spring(a='robot0', b='box0', stiffness=@))", "0", "1e7", "1e6"),
+        *fields("tie(Spring(a='robot0', b='box0', damping=@))", "1e7"),
+        *fields("tie(Hinge(a='robot0', stiffness=@))", "1e7", "1e5"),
+        *fields("tie(Hinge(a='robot0', damping=@))", "1e7"),
+        *fields("tie(Hinge(a='robot0', limits=@))", "(1, 2)", "(nan, 1)", "(0, 0, 0)", "(1e9, 2)",
+                without=("None",)),
+        *fields("tie(Rope(a=@, b='box0'))", "'nobody'", "'box0'", "'world'", "''", "0"),
+        *fields("tie(Rope(a='robot0', b=@))", "'nobody'", "'robot0'", "''", "1",
+                without=("None",)),
+        *fields("tie(Rope(a='robot0', b='box0', anchor_a=(0, @)))", "1e7", "100",
+                without=("-1.0",)),
+        *fields("tie(Rope(a='robot0', b='box0', anchor_b=@))", "(1,)", "(1, 2, 3)", "(1e5, 0)"),
+        "tie(Rope(a='robot0', anchor_b=(0, 0)))",  # both ends at one point
+        "tie(Rod(a='robot0', b='robot1', anchor_a=(1, 0)))",
+        "tie(Hinge(a='robot0', b='box0'))", "tie(Hinge(a='robot0', anchor_b=(0.1, 0)))",
+        "tie(Rope())", "tie(Rope('robot0', 'box0'))", "tie(Rope(a='robot0', c='box0'))",
+        "tie(Joint(a='robot0', b='box0'))", "tie(Box(pose=FAR))", "tie(Rope)", "tie(None)",
+        "go(Robot(), joints=None)", "go(Robot(), joints=Rope(a='robot0', anchor_b=(1, 0)))",
+        # what light bodies would need no end of substeps for
+        ("go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), joints=[Spring(a='robot0',"
+        " anchor_b=(1, 0), stiffness=1e6)])"),
+        ("go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), joints=[Spring(a='robot0',"
+        " anchor_a=(0.1, 0), anchor_b=(1, 0), stiffness=2)])"),
+    ],
+    "what would need no end of substeps": [
+        "go(Robot(drive=Unicycle(max_force=1e5)), max_overlap=1e-5)",
+        "go(Robot(shape=Polygon(SQUARE), drive=Unicycle(max_linear_speed=1e3)))",
+        ("tie(Rod(a='robot0', anchor_a=(1, 0), anchor_b=(1.5, 0)), robots=[Robot(drive=Unicycle("
+        "max_linear_speed=50)), Robot(pose=(-1, 0, 0))])"),
+        "go(Robot(center_offset=0.1, drive=Unicycle(max_linear_speed=1e3, wheel_semiaxis=1e-3)))",
+    ],
+    "lists and words": [
+        "go(robots=None)", "Scenario(robots=[])", "Scenario(robots=0)", "Scenario(robots=-1)",
+        "Scenario(robots=True)", "Scenario(robots='3')", "Scenario(robots=[None])",
+        "Scenario(robots=[Robot])", "Scenario(robots=Robot())", "Scenario(robots={})",
+        "Scenario(robot=[Robot()])", "Scenario(Robot())", "Scenario(on_exit='Wall')",
+        "Scenario(physics='none')", "Scenario(title=None)", "Scenario(animation=None)",
+        "Scenario(addons=None)", "Scenario(addons=[1])", "Robot(sensors=Proximity(range=1))",
+        "Robot(sensors=[Proximity])", "Robot(sensors=[Map([])])", "Robot(drive=Unicycle)",
+        "Robot(drive=None)", "Robot(controller=5)", "Robot(controller=lambda: 0)",
+        "Robot(controller=lambda a, b: 0)", "Robot(sees='all')", "Robot(name=5)", "Robot(radius=1)",
+        "Robot(color='bleu')", "Proximity()", "Proximity(range=0)", "Proximity(range=nan)",
+        "Proximity(range=1, field_of_view=7)", "Proximity(range=1, name='a b')",
+        "Animation(playback_speed=np.array([1, 2]))", "Animation(playback_speed=nan)",
+        "Animation(playback_speed=huge)", "Animation(playback_speed=-1)",
+        "Scenario(robots=[Robot(name='a'), Robot(name='a', pose=(1, 0, 0))])",
+        "Robot(sensors=[Proximity(range=1), Proximity(range=2)])",
+        "World(None)", "World(Scenario)", "World(Scenario(), seed=-1)",
+        "World(Scenario(), seed=1.5)", "World(Scenario(), control=5)",
+        "World(Scenario(), control=lambda: 0)",
+    ],
+    "the commands of a robot's law": [
+        *(f"own(lambda robot: {value})" for value in (
+            "(nan, 0)", "(0, inf)", "(huge, 0)", "None", "()", "(1,)", "(1, 2, 3)", "5", "'12'",
+            "('1', '2')", "b'12'", "(1j, 0)", "(None, 0)", "{0.1, 0.2}", "{1: 2, 3: 4}",
+            "(True, False)", "[[1, 2]]", "np.zeros((2, 2))", "np.array(['a', 'b'])", "object()",
+            "map(float, '12')",
+        )),
+        "own(lambda robot: 1 / 0)",
+        "own(lambda robot: robot.pos)",
+        "own(lambda robot: robot.sense.proximty)",
+        "own(lambda robot: undefined)",
+        "own(lambda robot: exit())",
+        "own(lambda robot: robot.rng.uniform('a'))",
+    ],
+    "the commands of a team's law": [
+        *(f"go(Robot(), Robot(pose=(1, 0, 0)), law=lambda world: {value})" for value in (
+            "[[nan, 0], [0, 0]]", "[[inf, 0], [0, 0]]", "[[huge, 0], [0, 0]]", "None", "0", "[]",
+            "[1, 2]", "[[1], [2]]", "[[1, 2, 3], [4, 5, 6]]", "[[1, 2], [3]]", "'1234'",
+            "[['1', '2'], ['3', '4']]", "[[1j, 0], [0, 0]]", "[[None, 0], [0, 0]]",
+            "np.zeros((2, 2, 1))", "np.zeros((3, 2))", "np.zeros((2, 2), bool)", "object()",
+        )),
+        "go(commands=[[nan], [0]])",
+        "go(commands=[1, 2, 3])",
+        "go(commands='12')",
+        "go(commands=[[10**400], [0]])",
+    ],
+}  # fmt: skip
+"""The rows of the table of what aborts, lies or hangs, with inputs that would do it."""
+
+
+@pytest.mark.parametrize("flags", FLAGS, ids=["", "-O"])
+@pytest.mark.parametrize("row", ROWS)
+def test_what_would_abort_lie_or_hang_is_an_input_error(child, row, flags):
+    all_refused(child, ROWS[row], flags)
+
+
+USERS = """
+from mars2d.bodies.rigid import Inertia, Surface
+class NanMap(Addon):
+    def obstacles(self): return [[(nan, 0), (1, 1)]]
+class CrossingMap(Addon):
+    def obstacles(self): return [[(1, 1), (2, 2), (2, 1), (1, 2)]]
+class Nothing(Addon):
+    def obstacles(self): return None
+class Fails(Addon):
+    def on_start(self, world): raise KeyError("x")
+class FailsLater(Addon):
+    def on_step(self, world): 1 / (world.iteration - 2)
+class FailsAtTheEnd(Addon):
+    def on_stop(self, world): raise OSError("x")
+class Steps(Addon):
+    def on_step(self, world): world.step()
+class Broken(Sensor):
+    def read(self, robot, world, rng): raise RuntimeError("x")
+class Text(Sensor):
+    def read(self, robot, world, rng): return "near"
+class Grows(Sensor):
+    def read(self, robot, world, rng): return np.zeros(int(10 * world.time) + 1)
+class StepsInside(Sensor):
+    def read(self, robot, world, rng): return world.step()
+class NoRead(Sensor):
+    pass
+class NanDrive(Unicycle):
+    def twist(self, command): return np.full((3, command.shape[1]), nan)
+class InfDrive(Unicycle):
+    def twist(self, command): return np.full((3, command.shape[1]), inf)
+class LightDrive(Unicycle):
+    def twist(self, command): return np.full((3, command.shape[1]), 3e8)
+class ShortDrive(Unicycle):
+    def twist(self, command): return np.zeros((2, command.shape[1]))
+class NanLimit(Unicycle):
+    def saturate(self, command): return command * nan
+class BadDrive(Unicycle):
+    def saturate(self, command): raise ZeroDivisionError
+class NoDrive(Drive):
+    pass
+def stepping(world):
+    world.step()
+    return [[0], [0]]
+def stepping_once(world):
+    if world.iteration == 1:
+        world.step([[0], [0]])
+    return [[0], [0]]
+def writes_pose(world):
+    world.pose[0] = nan
+    return [[0], [0]]
+def sets_pose(world):
+    world.pose = world.pose * nan
+    return [[0], [0]]
+def writes_command(world):
+    world.command[0] = nan
+    return [[0], [0]]
+def writes_history(world):
+    world.history.pose[0] = nan
+    return [[0], [0]]
+def writes_own_pose(robot):
+    robot.pose += nan
+    return 0, 0
+def changes_scenario(world):
+    world.scenario.sampling_time = -1
+    return [[0], [0]]
+def exits(robot):
+    raise SystemExit(3)
+def recurses(robot):
+    return recurses(robot)
+def fails_later(robot):
+    yield 0, 0
+    raise ValueError("later")
+def yields_nan(robot):
+    while True:
+        yield nan, 0
+class NoShape(Prop):
+    pass
+class NanShape(Prop):
+    @property
+    def shape(self): return Disc(nan)
+class TextShape(Prop):
+    @property
+    def shape(self): return "round"
+class OwnShape(Prop):
+    @property
+    def shape(self): return Odd()
+class Odd(Shape):
+    @property
+    def pieces(self): return ((((nan, 0.0),), nan),)
+class BesideIt(Prop):
+    @property
+    def shape(self): return Disc(0.2).moved(1, 0)
+class NanMass(Box):
+    @property
+    def inertia(self): return Inertia(nan, 1.0)
+class NanMoment(Box):
+    @property
+    def inertia(self): return Inertia(1.0, nan)
+class NegativeMass(Box):
+    @property
+    def inertia(self): return Inertia(-1.0, 1.0)
+class NanSurface(Box):
+    @property
+    def surface(self): return Surface(nan, 0.5)
+class Bouncier(Box):
+    @property
+    def surface(self): return Surface(0.5, 2.0)
+class FailingMass(Box):
+    @property
+    def inertia(self): return 1 / 0
+class FailingJoints(Box):
+    def joints(self): return 1 / 0
+class NoJoints(Box):
+    def joints(self): return None
+class TiedToNobody(Box):
+    def joints(self): return [Rope(a=self.name, b="nobody")]
+class Own(Joint):
+    pass
+class Negative(Addon):
+    friction: float = -1.0
+    def obstacles(self): return [[(1, 1), (1, 0)]]
+class BouncyNan(Addon):
+    restitution: float = nan
+    def obstacles(self): return [[(1, 1), (1, 0)]]
+class Unannotated(Addon):
+    friction = -1.0
+    restitution = nan
+    def obstacles(self): return [[(1, 1), (1, 0)]]
+"""
+
+
+@pytest.mark.parametrize("flags", FLAGS, ids=["", "-O"])
+def test_what_users_write_themselves_cannot_break_the_engine_either(child, flags):
+    cases = [
+        *(
+            f"go(addons=[{name}()])"
+            for name in (
+                "NanMap", "CrossingMap", "Nothing", "Fails", "FailsLater", "Steps",
+                "Negative", "BouncyNan", "Unannotated",
+            )
+        ),
+        "go(addons=[FailsAtTheEnd()], stop_time=1)",
+        *(
+            f"go(Robot(), props=[{name}(pose=(1, 1))])"
+            for name in (
+                "NoShape", "NanShape", "TextShape", "OwnShape", "BesideIt", "NanMass", "NanMoment",
+                "NegativeMass", "NanSurface", "Bouncier", "FailingMass", "FailingJoints",
+                "NoJoints", "TiedToNobody",
+            )
+        ),
+        "go(Robot(), joints=[Own(a='robot0')])",
+        "go(Robot(shape=Odd()))",
+        *(
+            f"go(Robot(sensors=[{name}()]))"
+            for name in ("Broken", "Text", "Grows", "StepsInside", "NoRead")
+        ),
+        *(
+            f"go(Robot(drive={name}()))"
+            for name in ("NanDrive", "InfDrive", "LightDrive", "ShortDrive", "NanLimit",
+                         "BadDrive", "NoDrive")
+        ),
+        *(
+            f"go(law={name})"
+            for name in ("stepping", "stepping_once", "writes_pose", "sets_pose",
+                         "writes_command", "writes_history", "changes_scenario")
+        ),
+        *(
+            f"own({name})"
+            for name in ("writes_own_pose", "exits", "recurses", "fails_later", "yields_nan")
+        ),
+    ]  # fmt: skip
+    all_refused(child, cases, flags, USERS)
+
+
+def test_extreme_but_sound_inputs_run_and_stay_finite(child):
+    cases = [
+        "go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), commands=[[1], [1]])",
+        "go(Robot(mass=1e6), commands=[[1], [1]])",
+        "go(Robot(friction=1e3, restitution=1), commands=[[1], [1]])",
+        "go(Robot(diameter=1e-3), commands=[[1], [1]])",
+        "go(Robot(drive=Unicycle(max_force=1e-300, max_torque=1e-300)), commands=[[1], [1]])",
+        "go(Robot(drive=Unicycle(max_linear_speed=1000)), steps=1, commands=[[1000], [0]])",
+        "go(Robot(), sampling_time=1e4, stop_time=1e5, steps=1, commands=[[0], [9]])",
+        "go(Robot(pose=(1e6, -1e6, 1e6)), workspace=None, commands=[[1], [1]])",
+        "go(sampling_time=1e-6, stop_time=1, commands=[[1], [1]])",
+        "go(command_delay=1e3, commands=[[1], [1]])",
+        "go(max_overlap=1.0, commands=[[1], [0]])",
+        "own(lambda robot: (1e300, -1e300))",
+        "go(Robot(drive=Holonomic()), commands=[[1e300], [1e300]])",
+        "own(lambda robot: np.array([0.1, 0.2], dtype=np.float16))",
+        "own(lambda robot: [np.int8(1), np.float32(0.5)])",
+        "own(lambda robot: np.array([[0.1], [0.2]]))",
+        "go(law=lambda world: (0.1, 0.2))",
+        "go(robots=np.int64(3))",
+        "go(Robot(), addons=[Map([])])",
+        "push(Puck(pose=FAR, velocity=(100, 0)))",
+        "push(Ball(pose=FAR, velocity=(70, 70, 9), ground_friction=0, restitution=1))",
+        "push(Box(pose=FAR, velocity=(0, 0, 100)))",
+        "push(Bar(pose=(1, 0, 0), length=1.4, thickness=1e-3), commands=[[1], [0]])",
+        (
+            "push(Solid(Polygon([(0, 0), (1, 0), (1, 1e-3)]), pose=(1, 0), friction=1e3),"
+            " commands=[[1], [0]])"
+        ),
+        "push(Puck(pose=FAR, mass=0.1, ground_friction=100), commands=[[1], [1]])",
+        (
+            "push(Gate(pose=(1, 0, 1.57), stiffness=1e4, damping=1e6, limits=(0, 0)),"
+            " sampling_time=0.05, commands=[[1], [0]])"
+        ),
+        "push(Gate(pose=(1, 0, 1.57), limits=None, damping=0), commands=[[1], [0]])",
+        "push(Solid(Compound([Disc(0.2)] * 64), pose=(1, 0)), commands=[[1], [0]])",
+        (
+            "tie(Spring(a='robot0', b='load', stiffness=1e5, damping=1e6),"
+            " sampling_time=0.05, commands=[[1, -1], [0, 0]])"
+        ),
+        "tie(Rod(a='robot0', b='robot1'), commands=[[1, -1], [5, 5]])",
+        "tie(Rope(a='robot0', b='load', length=1e6), commands=[[1, -1], [5, 5]])",
+        "tie(Rope(a='load', anchor_b=(1.5, 1.5)), commands=[[1, -1], [5, 5]])",
+        (
+            "tie(Hinge(a='robot0', b='box0', anchor_a=(0, 0.5), anchor_b=(0, -0.5), limits=(0, 0)),"
+            " commands=[[1, -1], [5, 5]])"
+        ),
+        "tie(Hinge(a='robot0'), commands=[[1, -1], [5, 5]])",
+        "go(Robot(mass=10), props=[Box(pose=FAR, material='steel', height=0.05)])",
+        (
+            "push(*[Puck(pose=(x / 9, y / 9), diameter=0.1) for x in range(-9, 10)"
+            " for y in range(3, 12)])"
+        ),
+    ]
+    assert outcomes(child, cases) == dict.fromkeys(cases, "passed")
+
+
+@pytest.mark.parametrize(
+    ("flags", "code"),
+    [((), "raise ValueError('in the law')"), (("-O",), "raise ValueError('in the law')")],
+)
+def test_an_error_in_a_law_is_not_swallowed(child, flags, code):
+    result = child(
+        f"import mars2d\ndef law(robot):\n    {code}\n"
+        "mars2d.run(mars2d.Scenario(robots=[mars2d.Robot(controller=law)]))",
+        *flags,
+    )
+    assert result.returncode == 1
+    assert "LawError" in result.stderr
+    assert "in the law" in result.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_the_gate_is_needed_pymunk_itself_dies_of_a_negative_mass_without_asserts(child):
+    result = child("import pymunk; pymunk.Body(-1.0, 1.0)", "-O")
+    assert result.returncode != 0

@@ -1,0 +1,86 @@
+"""Materials are found by their names, and their figures make pairs as handbooks have them."""
+
+from __future__ import annotations
+
+import pytest
+
+from mars2d.core.errors import InputError
+from mars2d.core.materials import MATERIALS, material, surface_friction, surface_restitution
+
+CHECKS = [(surface_friction, "friction", 1000), (surface_restitution, "restitution", 1)]
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_a_material_is_one_that_can_be(name):
+    density, friction, restitution = MATERIALS[name]
+    assert 10 < density < 20_000
+    assert 0 < friction < 1.5
+    assert 0 < restitution < 1
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "low", "high"),
+    [
+        # Sliding friction of dry pairs, in the ranges of the tables that materials.py names.
+        ("steel", "steel", 0.42, 0.8),
+        ("wood", "wood", 0.2, 0.5),
+        ("steel", "wood", 0.2, 0.6),
+        ("steel", "aluminium", 0.47, 0.61),
+        ("steel", "plastic", 0.18, 0.45),
+        ("rubber", "concrete", 0.6, 1.0),
+        ("rubber", "rubber", 1.1, 1.2),
+        ("teflon", "teflon", 0.03, 0.05),
+        ("ice", "ice", 0.02, 0.1),
+        ("glass", "glass", 0.39, 0.41),
+    ],
+)
+def test_the_product_of_two_surfaces_is_the_friction_of_the_pair(a, b, low, high):
+    assert low <= MATERIALS[a].friction * MATERIALS[b].friction <= high
+
+
+def test_glass_bounces_better_than_steel_and_steel_better_than_cardboard():
+    bounces = [MATERIALS[name].restitution for name in ("glass", "steel", "wood", "cardboard")]
+    assert bounces == sorted(bounces, reverse=True)
+
+
+@pytest.mark.parametrize(("check", "quantity", "high"), CHECKS)
+def test_a_surface_takes_a_number_or_a_materials_name(check, quantity, high):
+    for value in (0, 0.5, high):
+        assert check("Robot.x", value) == value
+        assert type(check("Robot.x", value)) is float
+    for name, found in MATERIALS.items():
+        assert check("Robot.x", name) == getattr(found, quantity)
+
+
+@pytest.mark.parametrize(("check", "quantity", "high"), CHECKS)
+@pytest.mark.parametrize("value", [-0.1, 1000.5, float("nan"), float("inf"), None, True, [0.5]])
+def test_anything_else_is_refused_with_what_was_expected(check, quantity, high, value):
+    with pytest.raises(InputError) as error:
+        check("Robot.x", value)
+    assert str(error.value).startswith(f"Robot.x = {value}: expected a number >= 0 and <= {high}")
+    assert "or a material's name" in str(error.value)
+
+
+@pytest.mark.parametrize("check", [surface_friction, surface_restitution, material])
+@pytest.mark.parametrize(
+    ("value", "hint"),
+    [
+        ("woood", "did you mean 'wood'"),
+        ("Steel", "did you mean 'steel'"),
+        ("aluminum", "did you mean 'aluminium'"),
+        ("RUBBER", "did you mean 'rubber'"),
+        ("xyz", "known: aluminium, cardboard, concrete"),
+        ("", "known: aluminium"),
+    ],
+)
+def test_an_unknown_material_gets_the_nearest_name_or_all(check, value, hint):
+    with pytest.raises(InputError, match=hint) as error:
+        check("Box.material", value)
+    assert str(error.value).startswith("Box.material = ")
+
+
+def test_a_material_may_be_left_out_but_is_no_number():
+    assert material("Box.material", None) is None
+    assert material("Box.material", "ice") == "ice"
+    with pytest.raises(InputError, match="a material's name, or None"):
+        material("Box.material", 3)

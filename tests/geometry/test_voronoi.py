@@ -1,0 +1,355 @@
+"""Voronoi cells and integrals over them, against sampling, closed forms and differences."""
+
+from __future__ import annotations
+
+import tracemalloc
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mars2d import InputError
+from mars2d.geometry.voronoi import Tessellation, Weight
+
+SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
+DISC = tuple((2 + 2 * cos(k * pi / 20), 2 + 2 * sin(k * pi / 20)) for k in range(40))
+HOOK = (
+    (0.0, 0.0),
+    (4.0, 0.0),
+    (4.0, 1.5),
+    (1.5, 1.5),
+    (1.5, 2.5),
+    (4.0, 2.5),
+    (4.0, 4.0),
+    (0.0, 4.0),
+)
+REGIONS = {"square": SQUARE, "disc": DISC, "hook": HOOK}
+
+
+def bump(x, y):
+    return 0.2 + 1 / (1 + (x - 1) ** 2 + (y - 3) ** 2)
+
+
+def grid_of(region, step=0.02):
+    """Points (2, m) evenly spread over a region, each standing for step^2 of it."""
+    at = np.arange(step / 2, 4, step)
+    x, y = (axis.ravel() for axis in np.meshgrid(at, at))
+    inside = shapely.contains_xy(shapely.Polygon(region), x, y)
+    return np.array([x[inside], y[inside]]), step * step
+
+
+def sampled(points, region, phi=None):
+    """Masses (n,), centroids (2, n) and the cost, by what is nearest to each of many places."""
+    points = np.asarray(points, dtype=float)
+    places, each = grid_of(region)
+    squares = ((places[:, :, None] - points[:, None]) ** 2).sum(axis=0)
+    nearest = squares.argmin(axis=1)
+    weight = each * (np.ones(places.shape[1]) if phi is None else phi(*places))
+    mass = np.bincount(nearest, weight, points.shape[1])
+    first = [np.bincount(nearest, weight * axis, points.shape[1]) for axis in places]
+    return mass, np.array(first) / np.maximum(mass, 1e-12), float(weight @ squares.min(axis=1))
+
+
+@pytest.mark.parametrize("phi", [None, bump], ids=["plain", "weighted"])
+@pytest.mark.parametrize("region", REGIONS)
+def test_cells_hold_what_is_nearest_to_their_points(region, phi):
+    points = np.random.default_rng(3).uniform(0.1, 3.9, (2, 9))  # some outside of disc and hook
+    found = Tessellation(points, REGIONS[region], phi)
+    mass, centroid, cost = sampled(points, REGIONS[region], phi)
+    assert found.masses == pytest.approx(mass, abs=0.03)
+    large = mass > 0.2
+    assert found.centroids[:, large] == pytest.approx(centroid[:, large], abs=0.03)
+    assert found.cost == pytest.approx(cost, rel=5e-3)
+
+
+def test_points_on_a_square_grid_have_squares_and_the_cost_of_the_closed_form():
+    at = [0.5, 1.5, 2.5, 3.5]
+    points = np.array([(x, y) for y in at for x in at]).T  # four cells meet at each inner corner
+    found = Tessellation(points, SQUARE)
+    assert found.areas == pytest.approx(np.ones(16), rel=1e-12)
+    assert found.centroids == pytest.approx(points, abs=1e-12)
+    assert found.cost == pytest.approx(16 / 6, rel=1e-12)  # of a unit square: 1/6
+    assert found.neighbours(5) == (1, 4, 6, 9)  # corners are no edges
+    assert found.neighbours(0) == (1, 4)
+    assert found.edge(5, 10) is None
+    assert np.array(sorted(found.edge(6, 5))) == pytest.approx(np.array([(2, 1), (2, 2)]))
+
+
+def test_one_point_has_the_whole_region():
+    found = Tessellation([[1.0], [1.0]], HOOK)
+    assert found.areas.tolist() == pytest.approx([16 - 2.5])
+    assert found.neighbours(0) == ()
+    region = shapely.Polygon(HOOK)
+    assert found.centroids[:, 0] == pytest.approx([region.centroid.x, region.centroid.y])
+
+
+def test_of_two_points_the_bisector_is_the_edge():
+    found = Tessellation([[1, 3], [1, 3]], SQUARE)
+    assert found.areas == pytest.approx([8, 8])
+    assert np.array(sorted(found.edge(1, 0))) == pytest.approx(np.array([(0, 4), (4, 0)]))
+    assert found.neighbours(1) == (0,)
+
+
+def test_points_on_a_line_have_strips():
+    found = Tessellation([[0.5, 1.5, 3.5, 2.5], [1, 1, 1, 1]], SQUARE)
+    assert found.areas == pytest.approx([4, 4, 4, 4])
+    assert [found.neighbours(i) for i in range(4)] == [(1,), (0, 3), (3,), (1, 2)]
+
+
+def test_points_on_a_circle_share_no_edge_with_those_opposite():
+    angles = np.arange(8) * pi / 4
+    found = Tessellation([2 + np.cos(angles), 2 + np.sin(angles)], DISC)
+    assert found.areas == pytest.approx(np.full(8, found.areas.sum() / 8))
+    assert found.neighbours(0) == (1, 7)
+
+
+def test_of_points_at_the_same_place_the_first_has_the_cell():
+    found = Tessellation([[1, 3, 1, 1], [2, 2, 2, 2]], SQUARE)
+    assert found.areas.tolist() == pytest.approx([8, 8, 0, 0])
+    assert found.centroids.T.tolist()[2:] == [[1, 2], [1, 2]]
+    assert (found.cells[2].is_empty, found.neighbours(2), found.edge(1, 2)) == (True, (), None)
+    assert found.cost == Tessellation([[1, 3], [2, 2]], SQUARE).cost
+    assert Tessellation([[1, 1], [1, 1]], SQUARE).areas.tolist() == pytest.approx([16, 0])
+
+
+def test_a_large_team_needs_memory_in_proportion():
+    tracemalloc.start()
+    points = np.random.default_rng(0).uniform(0, 4, (2, 4000))
+    assert Tessellation(points, SQUARE).areas.sum() == pytest.approx(16)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 30e6  # a table of all pairs would have 128 MB
+
+
+def test_points_outside_of_the_region_have_what_of_it_is_nearest_to_them():
+    found = Tessellation([[-1, 2, 50], [2, 2, 60]], SQUARE)
+    assert found.areas == pytest.approx([2, 14, 0])
+    assert found.centroids[:, 0] == pytest.approx([0.25, 2])
+    assert found.centroids[:, 2].tolist() == [50, 60]
+    assert Tessellation([[-1e5], [1e5]], SQUARE).areas == pytest.approx([16])
+
+
+def test_in_a_region_that_is_not_convex_a_cell_may_be_in_pieces():
+    found = Tessellation([[3, 0.5], [0.75, 3.5]], HOOK)
+    lower, upper = found.cells
+    assert lower.area + upper.area == pytest.approx(shapely.Polygon(HOOK).area)
+    points = np.array([[3.5, 1.0], [0.75, 3.25]])  # the first one's cell: both ends of the hook
+    apart = Tessellation(points, HOOK).cells[0]
+    assert shapely.get_num_geometries(apart) == 2
+    assert shapely.contains_xy(apart, [3.8, 3.8], [1.0, 2.6]).all()
+
+
+def test_of_an_edge_in_pieces_the_longest_is_given():
+    comb = [(0, 0), (6, 0), (6, 3), (5, 3), (5, 1), (3, 1), (3, 2), (2, 2), (2, 1), (0, 1)]
+    found = Tessellation([[1, 1], [0.5, 2.5]], comb)
+    (ax, ay), (bx, by) = found.edge(0, 1)
+    assert (ay, by) == (1.5, 1.5)
+    assert sorted([ax, bx]) == [2, 3] or sorted([ax, bx]) == [5, 6]
+    above = Tessellation([[2.6, 2.6], [0.9, 1.3]], [*comb[:2], (6, 3), (4.5, 3), *comb[4:]])
+    assert sorted(above.edge(0, 1))[1][0] > 4.5
+
+
+def test_edges_halve_the_way_between_their_points():
+    points = np.random.default_rng(5).uniform(0, 4, (2, 12))
+    found = Tessellation(points, HOOK)
+    beside = [(i, j) for i in range(12) for j in found.neighbours(i)]
+    assert len(beside) > 20
+    for i, j in beside:
+        assert i in found.neighbours(j)
+        assert found.edge(i, j) == found.edge(j, i)
+        for end in found.edge(i, j):
+            assert np.hypot(*(end - points[:, i])) == pytest.approx(
+                np.hypot(*(end - points[:, j])), abs=1e-9
+            )
+            assert shapely.distance(shapely.Polygon(HOOK), shapely.Point(end)) < 1e-9
+
+
+coordinate = st.floats(-0.5, 4.5).map(lambda value: round(value, 3))
+teams = st.lists(st.tuples(coordinate, coordinate), min_size=1, max_size=8)
+
+
+@settings(max_examples=60, deadline=None)
+@given(team=teams, region=st.sampled_from(sorted(REGIONS)))
+def test_whatever_the_team_its_cells_share_out_the_region(team, region):
+    points, outline = np.array(team).T, REGIONS[region]
+    found, whole = Tessellation(points, outline), shapely.Polygon(outline)
+    assert found.areas.sum() == pytest.approx(whole.area, rel=1e-9)
+    assert shapely.area(shapely.union_all(found.cells)) == pytest.approx(whole.area, rel=1e-9)
+    for i, cell in enumerate(found.cells):
+        assert shapely.area(cell) == pytest.approx(found.areas[i], abs=1e-9)
+        if cell.is_empty:
+            continue
+        corners = shapely.get_coordinates(cell).T
+        apart = np.hypot(*(corners[:, :, None] - points[:, None]))
+        assert (apart[:, i] <= apart.min(axis=1) + 1e-7).all()
+        if cell.geom_type == "Polygon" and cell.convex_hull.area - cell.area < 1e-12:
+            centroid = shapely.Point(found.centroids[:, i])
+            assert shapely.distance(cell, centroid) < 1e-6
+    beside = {(i, j) for i in range(len(team)) for j in found.neighbours(i)}
+    assert beside == {(j, i) for i, j in beside}
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    start=st.tuples(coordinate, coordinate),
+    apart=st.floats(1e-7, 1e-2),
+    angle=st.floats(0, 6.3),
+    region=st.sampled_from(sorted(REGIONS)),
+)
+def test_points_that_nearly_touch_are_told_apart(start, apart, angle, region):
+    x, y = start
+    points = np.array([[x, x + apart * cos(angle), 2.0], [y, y + apart * sin(angle), 2.01]])
+    found, whole = Tessellation(points, REGIONS[region]), shapely.Polygon(REGIONS[region])
+    assert found.areas.sum() == pytest.approx(whole.area, rel=1e-9)
+    mass, _, _ = sampled(points, REGIONS[region])
+    assert found.areas == pytest.approx(mass, abs=0.2)
+
+
+def difference(points, i, axis, region, phi, step):
+    """The derivative of the cost to a coordinate of point i, by central differences."""
+    moved = [np.array(points) for _ in range(2)]
+    moved[0][axis, i] += step
+    moved[1][axis, i] -= step
+    costs = [Tessellation(p, region, phi, resolution=0.1).cost for p in moved]
+    return (costs[0] - costs[1]) / (2 * step)
+
+
+@pytest.mark.parametrize("phi", [None, bump], ids=["plain", "weighted"])
+@pytest.mark.parametrize("region", REGIONS)
+def test_the_gradient_of_the_cost_is_twice_mass_times_way_from_the_centroid(region, phi):
+    points = np.random.default_rng(11).uniform(0.3, 3.7, (2, 6))
+    found = Tessellation(points, REGIONS[region], phi, resolution=0.1)
+    wanted = 2 * found.masses * (points - found.centroids)
+    assert found.gradient == pytest.approx(wanted)
+    for i in range(6):
+        for axis in (0, 1):
+            measured = difference(points, i, axis, REGIONS[region], phi, 1e-4)
+            assert measured == pytest.approx(wanted[axis, i], abs=2e-5)
+
+
+@pytest.mark.parametrize("phi", [None, bump], ids=["plain", "weighted"])
+@pytest.mark.parametrize("region", REGIONS)
+def test_the_cost_never_rises_when_points_walk_to_their_centroids(region, phi):
+    points = np.random.default_rng(7).uniform(0.1, 1.2, (2, 8))
+    costs = []
+    for _ in range(120):
+        found = Tessellation(points, REGIONS[region], phi)
+        costs.append(found.cost)
+        points = points + 0.5 * (found.centroids - points)
+    assert max(np.diff(costs)) <= (1e-12 if phi is None else 1e-7) * costs[0]
+    assert costs[-1] < 0.3 * costs[0]
+    assert np.abs(found.gradient).max() < 0.01 * costs[0]
+
+
+def test_a_constant_density_is_as_none_but_for_its_factor():
+    points = np.random.default_rng(1).uniform(0, 4, (2, 7))
+    plain, tripled = Tessellation(points, HOOK), Tessellation(points, HOOK, lambda x, y: 3.0)
+    assert tripled.masses == pytest.approx(3 * plain.areas, rel=1e-12)
+    assert tripled.areas == pytest.approx(plain.areas, rel=1e-12)
+    assert tripled.centroids == pytest.approx(plain.centroids, rel=1e-12)
+    assert tripled.cost == pytest.approx(3 * plain.cost, rel=1e-12)
+
+
+def test_polynomials_are_integrated_exactly():
+    found = Tessellation([[0.5], [0.7]], HOOK, lambda x, y: x * x * y)
+    boxes = [(0, 4, 0, 1.5), (0, 1.5, 1.5, 2.5), (0, 4, 2.5, 4)]
+    mass = sum((b**3 - a**3) / 3 * (d**2 - c**2) / 2 for a, b, c, d in boxes)
+    first = sum((b**4 - a**4) / 4 * (d**2 - c**2) / 2 for a, b, c, d in boxes)
+    assert found.masses == pytest.approx([mass], rel=1e-12)
+    assert found.centroids[0] == pytest.approx([first / mass], rel=1e-12)
+
+
+def test_a_finer_resolution_is_nearer_to_a_sharp_density():
+    def island(x, y):
+        return np.where((x - 2) ** 2 + (y - 2) ** 2 < 0.25, 1.0, 0.0)
+
+    points = [[0.5, 3], [2, 1]]
+    coarse, fine = (
+        abs(Tessellation(points, SQUARE, island, resolution).masses.sum() - pi / 4)
+        for resolution in (1.0, 0.02)
+    )
+    assert fine < 0.1 * coarse
+    assert fine < 3e-3
+
+
+def test_a_cell_without_mass_has_its_point_as_centroid():
+    found = Tessellation([[1, 3], [1, 1]], SQUARE, lambda x, y: np.where(x < 2, 1.0, 0.0))
+    assert found.masses == pytest.approx([8, 0])
+    assert found.centroids[:, 1].tolist() == [3, 1]
+
+
+def test_a_weight_is_asked_with_all_points_at_once():
+    calls = []
+
+    class Slope(Weight):
+        def of(self, points):
+            calls.append(points.shape)
+            return points[0]
+
+    found = Tessellation([[1, 3], [1, 1]], SQUARE, Slope())
+    assert found.masses == pytest.approx([8, 24])
+    assert found.cost > 0
+    assert len(calls) == 1
+
+
+def test_what_is_worked_out_does_not_change_with_the_callers_array():
+    points = np.array([[1.0, 3.0], [1.0, 1.0]])
+    found = Tessellation(points, SQUARE)
+    points[:] = 0
+    assert found.areas == pytest.approx([8, 8])
+
+
+def test_where_the_region_lies_makes_no_difference():
+    points = np.random.default_rng(1).uniform(0.2, 3.8, (2, 9))
+    far = [(x + 9e5, y - 9e5) for x, y in HOOK]
+    there = Tessellation(points + np.array([[9e5], [-9e5]]), far)
+    here = Tessellation(points, HOOK)
+    assert there.areas == pytest.approx(here.areas, abs=1e-7)
+    assert there.cost == pytest.approx(here.cost, rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        ([], r"Tessellation.points = \[\]: expected points \(2, n\) in metres"),
+        ([[1, 2], [3]], "Tessellation.points = .*: expected points"),
+        ([(1, 2, 3), (1, 2, 3), (0, 0, 0)], "Tessellation.points = .*: expected points"),
+        ([[1, np.nan], [1, 2]], "Tessellation.points = .*: expected points.*finite"),
+        ([[1, 1e7], [1, 2]], "Tessellation.points = .*: expected points"),
+        ("here", "Tessellation.points = 'here': expected points"),
+    ],
+)
+def test_points_that_can_not_be_are_an_error(points, message):
+    with pytest.raises(InputError, match=message):
+        Tessellation(points, SQUARE)
+
+
+@pytest.mark.parametrize("region", [[(0, 0), (1, 1)], [(0, 0), (1, 1), (0, 1), (1, 0)], 3, None])
+def test_a_region_that_can_not_be_is_an_error(region):
+    with pytest.raises(InputError, match=r"^Tessellation\.region"):
+        Tessellation([[1], [1]], region)
+
+
+@pytest.mark.parametrize(
+    ("phi", "message"),
+    [
+        (lambda x, y: -x, r"expected of phi\(x, y\) .* >= 0, .*; it is -[\d.]+ at \("),
+        (lambda x, y: x * np.nan, r"; it is nan at \("),
+        (lambda x, y: x + np.inf, r"; it is inf at \("),
+        (lambda x, y: x[:-1], r"; it returned shape \(\d+,\)"),
+        (lambda x, y: "dense", "; it returned 'dense'"),
+        (lambda x, y: None, "; it returned None"),
+    ],
+)
+def test_a_density_that_can_not_be_is_an_error(phi, message):
+    with pytest.raises(InputError, match=r"^Tessellation\.density: .*" + message):
+        Tessellation([[1], [1]], SQUARE, phi).masses  # noqa: B018
+
+
+def test_a_resolution_that_can_not_be_is_an_error():
+    with pytest.raises(InputError, match="resolution = 0: expected metres > 0"):
+        Tessellation([[1], [1]], SQUARE, bump, 0)
+    assert Tessellation([[1], [1]], SQUARE, bump, 1e-3).cost > 0  # as fine as it gets, not for ever

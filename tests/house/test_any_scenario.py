@@ -1,0 +1,394 @@
+"""Any scenario is refused in words, or runs: finite, inside its walls, its overlaps in bounds.
+
+Hypothesis puts whole scenarios together from all that the public constructors take, sound and
+unsound: as plain data, as files hold it. Each one is built and run in a forked process, so that
+what aborts or hangs is told with the scenario that did it.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import select
+import signal
+import sys
+import traceback
+from math import cos, pi, sin, sqrt
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, seed, settings
+from hypothesis import strategies as st
+
+from mars2d import InputError, World
+from mars2d.scenario.serialize import to_scenario
+from tests.physics.test_crowd_fuzz import watched
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="needs processes that are forked")
+
+TICKS = 100
+SECONDS = 60
+"""What one scenario may take of a process, at most; see `sampling_times`."""
+
+Data = dict[str, Any]
+
+# -- numbers ----------------------------------------------------------------------------------
+
+
+def scaled(low: float, high: float) -> st.SearchStrategy[float]:
+    """Numbers of all orders of magnitude from `low` to `high`."""
+    return st.floats(np.log10(low), np.log10(high)).map(lambda power: float(f"{10**power:.6g}"))
+
+
+angles = st.floats(-pi, pi).map(lambda angle: round(angle, 6))
+shares = st.sampled_from([0.0, 0.1, 0.5, 1.0])
+
+
+def some(draw: st.DrawFn, **fields: st.SearchStrategy[Any]) -> Data:
+    """Draw some of these fields, each in one of three parts."""
+    return {name: draw(field) for name, field in fields.items() if draw(st.integers(0, 2)) == 2}
+
+
+# -- parts ------------------------------------------------------------------------------------
+
+
+@st.composite
+def shapes(draw: st.DrawFn, size: float) -> Data:
+    """A shape about as large as `size` [m]: round, convex, concave or of several parts."""
+    kind = draw(st.sampled_from(["Disc", "rectangle", "star", "ell", "Compound"]))
+    if kind == "Disc":
+        return {"type": "Disc", "diameter": size * draw(scaled(0.3, 1))}
+    if kind == "Compound":
+        x = size * draw(st.floats(0.1, 0.3))
+        ends = [(-x, 0.0), (x, 0.0)]
+        parts = [{"type": "Disc", "diameter": 0.4 * size, "center": list(c)} for c in ends]
+        return {"type": "Compound", "parts": parts}
+    if kind == "star":
+        corners = draw(st.integers(3, 8))
+        far = [size / 2 * draw(st.floats(0.4, 1)) for _ in range(corners)]
+        turns = [2 * pi * k / corners for k in range(corners)]
+        outline = [[r * cos(a), r * sin(a)] for r, a in zip(far, turns, strict=True)]
+    else:
+        x, y = size / 2 * draw(scaled(0.2, 1)), size / 2 * draw(scaled(0.05, 1))
+        outline = [[-x, -y], [x, -y], [x, y], [-x, y]]
+        if kind == "ell":
+            outline[2:3] = [[x, 0.0], [0.0, 0.0], [0.0, y]]
+    return {"type": "Polygon", "outline": outline}
+
+
+@st.composite
+def drives(draw: st.DrawFn, size: float, speed: float, mass: float) -> Data:
+    """A drive of any kind."""
+    kind = draw(st.sampled_from(["Unicycle", "Holonomic", "Differential", "Car"]))
+    strong = draw(scaled(0.1, 100)) * speed**2 / size * mass
+    drive = {"type": kind, "max_linear_speed": speed * draw(scaled(0.1, 1))}
+    drive |= {"max_force": strong, "max_torque": strong * size * draw(scaled(0.01, 1))}
+    if kind in ("Unicycle", "Differential"):
+        drive["wheel_semiaxis"] = size * draw(scaled(0.2, 1))
+    if kind == "Differential":
+        drive |= some(draw, command=st.sampled_from(["wheels", "twist"]))
+        drive["wheel_radius"] = size * 0.2
+    if kind == "Car":
+        drive |= {"wheelbase": size * draw(scaled(0.5, 2))}
+        drive |= some(draw, max_steering=scaled(0.1, 1.2), max_steering_rate=scaled(0.1, 10))
+    drive |= some(draw, max_acceleration=scaled(0.01, 100), noise=shares)
+    return drive
+
+
+@st.composite
+def sensors(draw: st.DrawFn, owner: int, size: float, sampling_time: float) -> Data:
+    """A sensor, perhaps a bad one. Those of one name would have to read alike on all robots."""
+    far = {"range": size * draw(scaled(0.1, 100))}
+    fields: dict[str, Data] = {
+        "Proximity": far, "RangeFinder": {**far, "beams": draw(st.integers(1, 40))}, "Imu": {},
+        "Odometry": {"drift": 0.01}, "Bumper": {"sectors": draw(st.integers(1, 9))}, "Pose": {},
+        "RangeBearing": far, "SonarRing": {**far, "sonars": draw(st.integers(1, 9))},
+        "LineCamera": {**far, "pixels": draw(st.integers(1, 40))}, "Ground": {},
+        "Beacon": far,
+    }  # fmt: skip
+    kind = draw(st.sampled_from([*fields]))
+    bad = some(draw, dropouts=shares)
+    if kind not in ("Proximity", "Bumper", "Ground", "LineCamera"):
+        bad |= draw(st.sampled_from([{}, {"noise": 0.1}, {"noise": 1.0, "outliers": 0.5}]))
+    every = st.sampled_from([1, 2, 7]).map(lambda k: 1 / (k * sampling_time))
+    bad |= some(draw, rate=every, latency=st.just(3 * sampling_time))
+    mount = st.tuples(st.floats(-1, 1), st.floats(-1, 1), angles)
+    bad |= some(draw, mount=mount.map(lambda m: [size * m[0], size * m[1], m[2]]))
+    return {"type": kind, "name": f"{kind.lower()}{owner}", **fields[kind], **bad}
+
+
+@st.composite
+def joints(draw: st.DrawFn, bodies: list[Data], size: float) -> Data:
+    """A joint between two of the bodies, or one of them and the world, as they stand."""
+    a = draw(st.sampled_from(bodies))
+    b = draw(st.sampled_from([*bodies, None]))
+    kind = draw(st.sampled_from(["Rope", "Rod", "Spring", "Hinge"]))
+    joint: Data = {"type": kind, "a": a["name"]}
+    x, y = a["pose"][:2]
+    if b is not None:
+        joint["b"] = b["name"]
+        if kind == "Hinge":  # at the middle of b
+            turned = a["pose"][2]
+            dx, dy = b["pose"][0] - x, b["pose"][1] - y
+            joint["anchor_a"] = [
+                cos(turned) * dx + sin(turned) * dy, cos(turned) * dy - sin(turned) * dx,
+            ]  # fmt: skip
+    else:
+        off = 0.0 if kind == "Hinge" else size
+        joint["anchor_b"] = [x + off, y]
+    if kind == "Spring":
+        joint |= {"stiffness": draw(scaled(0.01, 100)), "damping": draw(scaled(0.001, 10))}
+    if kind == "Hinge":
+        joint |= some(draw, limits=st.just([-1.0, 1.0]), damping=scaled(0.001, 1))
+    return joint
+
+
+def walls(draw: st.DrawFn, cells: list[tuple[float, float]], side: float) -> list[Any]:
+    """Obstacles of any thickness: walls between cells, and solid things in some of them."""
+    outlines = []
+    for x, y in draw(st.lists(st.sampled_from(cells), max_size=3, unique=True)):
+        thick = draw(st.sampled_from([0.0, 0.0, 1e-3, 0.02, 0.1])) * side
+        reach = side * draw(st.floats(0.2, 1))
+        left = x - 0.49 * side
+        outline = [[left, y - reach / 2], [left, y + reach / 2]]
+        if thick:
+            outline += [[left - thick / 10, y + reach / 2], [left - thick / 10, y - reach / 2]]
+        outlines.append(outline)
+    return outlines
+
+
+ROOMS = {"square": 4, "ell": 3, "none": 0}
+"""Outlines of workspaces; an L is a square without a quarter."""
+
+
+@st.composite
+def scenarios(draw: st.DrawFn) -> Data:
+    """A whole scenario as plain data, sound or nearly so."""
+    size = draw(st.one_of(st.just(0.3), scaled(0.01, 100)))  # of a body, metres
+    speed = draw(st.one_of(st.just(0.5), scaled(0.01, 50))) * min(1.0, max(size, 0.1))
+    mass = draw(st.one_of(st.just(1.0), scaled(1e-5, 1e5)))
+    side = 1.6 * size  # of a cell for one body
+    across = draw(st.integers(2, 4))
+    half = across * side / 2
+    cells = [
+        (side * (i + 0.5) - half, side * (j + 0.5) - half)
+        for i in range(across)
+        for j in range(across)
+    ]
+    room = draw(st.sampled_from([*ROOMS]))
+    if room == "ell":
+        middle = -half + side * (across // 2)
+        cells = [(x, y) for x, y in cells if x < middle or y < middle]
+    order = draw(st.permutations(cells))
+    count = draw(st.integers(1, min(5, len(cells))))
+    ratio = draw(st.sampled_from([1.0, 3.0, 10.0]))
+    sampling_time, overlap = draw(sampling_times(size, speed, ratio))
+    bodies: list[Data] = []
+    for k in range(count):
+        x, y = order[k]
+        turned = draw(angles)
+        own = {"pose": [x, y, turned], "mass": mass * ratio ** draw(st.sampled_from([0.0, 0.5, 1]))}
+        own |= some(draw, friction=st.sampled_from([0.0, 1.0, 1000.0]), restitution=shares)
+        if k == 0 or draw(st.booleans()):
+            body = {"type": "Robot", "name": f"r{k}", **own}
+            body["drive"] = draw(drives(size, speed, own["mass"]))
+            if draw(st.booleans()):
+                body["shape"] = draw(shapes(size))
+            else:
+                body["diameter"] = size * draw(scaled(0.2, 1))
+                body |= some(draw, center_offset=st.just(0.1 * body["diameter"]))
+            body["sensors"] = draw(
+                st.lists(sensors(k, size, sampling_time), max_size=2, unique_by=lambda s: s["type"])
+            )
+        else:
+            kind = draw(st.sampled_from(["Ball", "Puck", "Box", "Bar", "Solid"]))
+            body = {"type": kind, "name": f"p{k}", **own}
+            if kind == "Solid":
+                body["shape"] = draw(shapes(size))
+            elif kind in ("Ball", "Puck"):
+                body["diameter"] = size * draw(scaled(0.2, 1))
+            else:
+                body["length"] = size * 0.7
+                body["width" if kind == "Box" else "thickness"] = 0.7 * size * draw(scaled(0.05, 1))
+            body |= some(draw, ground_friction=st.sampled_from([0.0, 0.5, 100.0]))
+            going = st.tuples(*[st.floats(-speed, speed)] * 2, st.floats(-1, 1))
+            body |= some(draw, velocity=going.map(lambda v: [*v[:2], v[2] * speed / size]))
+        bodies.append(body)
+    robots = [body for body in bodies if body["type"] == "Robot"]
+    found: Data = {
+        "type": "Scenario",
+        "robots": robots,
+        "props": [body for body in bodies if body["type"] != "Robot"],
+        "joints": draw(st.lists(joints(bodies, size), max_size=draw(st.sampled_from([0, 0, 2])))),
+        "sampling_time": sampling_time, "max_overlap": overlap, "stop_time": 1e3 * sampling_time,
+        "physics": draw(st.sampled_from(["contact", "contact", "contact", "stop", "ideal"])),
+        "on_exit": draw(st.sampled_from(["wall", "wall", "stop", "ignore"])),
+        "workspace": {
+            "square": [[-half, -half], [half, -half], [half, half], [-half, half]],
+            "ell": [
+                [-half, -half], [half, -half], [half, -half + side * (across // 2)],
+                [-half + side * (across // 2), -half + side * (across // 2)],
+                [-half + side * (across // 2), half], [-half, half],
+            ],
+            "none": None,
+        }[room],
+        "addons": draw(addons(cells, side)),
+        **some(draw, command_delay=st.sampled_from([0.4, 3.0]).map(lambda k: k * sampling_time)),
+    }  # fmt: skip
+    return found
+
+
+@st.composite
+def addons(draw: st.DrawFn, cells: list[tuple[float, float]], side: float) -> list[Data]:
+    """Add-ons, at most one of each kind."""
+    there = [
+        {"type": "addons.Beacon", "at": [0.0, 0.0]},
+        {"type": "Trails", "duration": 1.0},
+        {"type": "Communication", "range": side, "loss": 0.2},
+        {"type": "Floor", "patches": [[[[0.0, 0.0], [side, 0.0], [0.0, side]], "#ff0000"]]},
+        {"type": "Waypoints", "routes": [[[0.0, 0.0], [side, side]]], "tolerance": side},
+    ]
+    found = draw(st.lists(st.sampled_from(there), max_size=2, unique_by=lambda a: a["type"]))
+    outlines = walls(draw, cells, side)
+    surface = some(draw, friction=st.sampled_from([0.0, 1.0]), restitution=shares)
+    return [*found, {"type": "Map", "outlines": outlines, **surface}] if outlines else found
+
+
+@st.composite
+def sampling_times(draw: st.DrawFn, size: float, speed: float, ratio: float) -> tuple[float, float]:
+    """A sampling time and an overlap that need no more than some dozens of substeps.
+
+    Without end would be what goes metres at overlaps of 10 um, or stays in contact for hours: the
+    number of substeps grows with the way in overlaps, and with the time in contact.
+    """
+    overlap = draw(st.one_of(st.just(1e-3), scaled(1e-5, 1.0)))
+    entry = min(0.75 * overlap, size / 100)
+    way = entry * draw(scaled(0.1, 20))
+    most = sqrt(2.0 * overlap * size / 100 / ratio) / speed * 10
+    time = float(f"{min(way / speed, most):.6g}")
+    return max(time, 1e-6), overlap
+
+
+NASTY = [
+    float("nan"), float("inf"), -float("inf"), 0, 0.0, -1, -1e-9, 1e-300, 1e300, 10**400, 1e6, 1e-6,
+    True, None, "", "robot0", [], [[]], [0.0], [[0.0, 0.0]], "x" * 300, "\x00", "\ud800",
+    {"type": "Disc", "diameter": 0.1}, {"type": "Robot"}, [{"type": "Trails", "duration": 1.0}] * 2,
+]  # fmt: skip
+
+
+def places(data: Any) -> list[tuple[Any, Any]]:
+    """Return all that a value can be put in place of: (list or dict, index or key)."""
+    items = data.items() if isinstance(data, dict) else enumerate(data)
+    found: list[tuple[Any, Any]] = []
+    for key, value in items:
+        if key != "type":
+            found.append((data, key))
+        if isinstance(value, (dict, list)):
+            found += places(value)
+    return found
+
+
+@st.composite
+def any_scenario(draw: st.DrawFn) -> Data:
+    """A scenario in which, one time out of three, something is not as it should be."""
+    data: Data = draw(scenarios())
+    for _ in range(draw(st.sampled_from([0, 0, 0, 0, 1, 2]))):
+        where = places(data)
+        into, key = where[draw(st.integers(0, len(where) - 1))]
+        into[key] = draw(st.sampled_from(NASTY))
+    return data
+
+
+# -- trying them ------------------------------------------------------------------------------
+
+
+def tried(data: Data, rng_seed: int, plain: bool) -> str:
+    """Build and run a scenario; return "refused: ..." or "ran". Raises AssertionError."""
+    os.environ["MARS2D_PLAIN"] = "1" if plain else "0"
+    try:
+        scenario, _ = to_scenario(data)
+        world = World(scenario)
+    except InputError as error:
+        message = str(error)
+        assert names_a_field(message, data), f"no field is named in: {message}"
+        return f"refused: {message}"
+    rng = np.random.default_rng(rng_seed)
+    hard = scenario.physics != "ideal"
+    inside = hard and scenario.on_exit == "wall" and scenario.workspace is not None
+    allowed = scenario.max_overlap
+    with watched(world) as watch:
+        for _ in range(TICKS):
+            scale = float(10 ** rng.uniform(-2, 2)) if rng.uniform() < 0.9 else 1e12
+            watch.tick(rng.uniform(-scale, scale, (2, len(scenario.robots))))
+            for name in ("pose", "velocity", "prop_pose", "prop_velocity", "effort"):
+                assert np.isfinite(getattr(world, name)).all(), f"{name} is not finite"
+            if hard:
+                assert not watch.escaped, f"{watch.escaped}, at control step {world.iteration}"
+                assert watch.deepest <= allowed, f"overlap: {watch}"
+                assert watch.surplus <= 0, f"substeps: {watch.surplus}, {watch.substeps}"
+            if inside:
+                assert watch.outside <= 3 * allowed, f"outside: {watch}"
+            if world.over:
+                break
+    assert world.record.digest
+    return f"ran: {world.iteration} control steps"
+
+
+def names_a_field(message: str, data: Data) -> bool:
+    """Return whether an error names a field, or a body or joint by what it is called."""
+    words = set(re.findall(r"\w+", message))
+    return "\n" not in message and bool(words & {str(key) for _, key in places(data)})
+
+
+def in_a_fork(*example: Any) -> str:
+    """Return what became of an example in a process of its own."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            os.close(reading)
+            sys.stdout = sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115
+            outcome = tried(*example)
+            status = 0
+        except BaseException:
+            outcome = traceback.format_exc(limit=-4)
+        finally:
+            os.write(writing, outcome.encode()[-4000:])
+            os._exit(status)
+    os.close(writing)
+    ready, _, _ = select.select([reading], [], [], SECONDS)
+    if not ready:
+        os.kill(child, signal.SIGKILL)
+    with os.fdopen(reading, "rb") as pipe:
+        text = pipe.read().decode()
+    _, status = os.waitpid(child, 0)
+    assert ready, f"no end within {SECONDS} s"
+    assert status == 0, f"it ended with {os.waitstatus_to_exitcode(status)}: {text}"
+    return text
+
+
+def check(data: Data, rng_seed: int, plain: bool) -> None:
+    __tracebackhide__ = True
+    outcome = in_a_fork(data, rng_seed, plain)
+    assert outcome.startswith(("ran", "refused: ")), outcome
+
+
+@settings(max_examples=30)
+@given(any_scenario(), st.integers(0, 99), st.booleans())
+def test_any_scenario_is_refused_or_runs_finite_in_its_walls_and_in_bounds(data, rng_seed, plain):
+    check(data, rng_seed, plain)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("batch", range(20))
+def test_thousands_of_scenarios_are_refused_or_run(batch):
+    @seed(batch)
+    @settings(max_examples=250, derandomize=False)
+    @given(any_scenario(), st.integers(0, 99), st.booleans())
+    def each(data, rng_seed, plain):
+        check(data, rng_seed, plain)
+
+    each()

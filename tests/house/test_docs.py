@@ -1,0 +1,543 @@
+"""The documents do what they say: every block of code runs, and prints what stands below it.
+
+How a document is read, from top to bottom, in a folder of its own:
+
+- ``python``: executed, all blocks of a document in one namespace; or, where the sentence before
+  says "Save as `NAME`", written to that file.
+- ``toml``: the same for a scenario's file; one that is not saved is read, with its first line.
+- ``console``: each line is a command, run by the real command line without a display, in this
+  process: that of a shell is tried by test_entry_points.py.
+- ``text``: what the block before has printed; ``...`` stands for anything. Where it is an error,
+  ``mars2d: ...`` or ``SomeError: ...``, the block before must fail with it.
+- ``matlab`` and blocks without a language are shown only.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import doctest
+import importlib
+import importlib.util
+import inspect
+import io
+import re
+import shlex
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, is_dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+import mars2d
+from mars2d import addons, bodies, sensors
+from mars2d.bodies import joints, props
+from mars2d.cli import command_line as cli
+from mars2d.core.registry import members, snake_case
+from mars2d.core.scene import Scene
+from mars2d.geometry import shapes
+from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.study import work
+from mars2d.window import keys
+from mars2d.world.views import PropView, RobotView
+
+ROOT = Path(__file__).parents[2]
+SENSORS = sorted((ROOT / "docs" / "sensors").glob("*.md"))
+EXPERIMENTS = sorted((ROOT / "docs" / "experiments").glob("*.md"))
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS, *EXPERIMENTS]
+EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
+
+SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest -n auto']
+"""The set-up of the README, to the letter."""
+
+PIP = {*SET_UP, 'pip install ".[video,data,log,cluster]"'}
+"""The only commands that are not executed, but for the part of them that is mars2d."""
+
+MEASURED = {
+    "speed_growth.png", "paper_page.png", "window_branch.png", "replay.png", "league.png",
+}  # fmt: skip
+"""Pictures that no block makes: `benchmarks/growth.py` takes minutes, a page needs a browser, a
+window somebody at the keys."""
+
+LANGUAGES = {"python", "toml", "console", "text", "matlab", ""}
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block: its language, its text, its first line's number, the sentence before it."""
+
+    language: str
+    text: str
+    line: int
+    before: str
+
+
+def blocks(document: Path) -> Iterator[Block]:
+    language, start, before = None, 0, ""
+    inside: list[str] = []
+    for number, line in enumerate(document.read_text(encoding="utf-8").splitlines(), 1):
+        if not line.startswith("```"):
+            if language is None:
+                before = before + " " + line.strip() if line.strip() else before + "\n"
+            else:
+                inside.append(line)
+        elif language is None:
+            language, start, inside = line[3:].strip(), number + 1, []
+        else:
+            yield Block(language, "\n".join(inside), start, before.strip().split("\n")[-1])
+            language, before = None, ""
+    assert language is None, f"{document.name}: a block is not closed"
+
+
+class Reader:
+    """Does what a document says, in the present folder."""
+
+    def __init__(self, document: Path) -> None:
+        self.document = document
+        self.namespace: dict[str, Any] = {"__name__": "__main__"}
+        self.output = ""
+
+    def read(self) -> None:
+        every = list(blocks(self.document))
+        for number, block in enumerate(every):
+            place = f"{self.document.name}, line {block.line}"
+            following = every[number + 1 : number + 2]
+            expected = following[0].text if following and following[0].language == "text" else ""
+            if block.language == "python":
+                self.python(block, expected)
+            elif block.language == "toml":
+                self.toml(block)
+            elif block.language == "console":
+                self.output = "".join(self.command(c, expected) for c in block.text.splitlines())
+            elif block.language == "text":
+                alike = doctest.OutputChecker().check_output(
+                    block.text + "\n", self.output, doctest.ELLIPSIS
+                )
+                assert alike, f"{place}\nexpected:\n{block.text}\nfound:\n{self.output}"
+
+    def saved(self, block: Block) -> bool:
+        """Write a block to the file that the sentence before names, if it does."""
+        named = re.search(r"[Ss]ave as `([^`]+)`:$", block.before)
+        if named:
+            Path(named[1]).write_text(block.text + "\n", encoding="utf-8")
+        return named is not None
+
+    def toml(self, block: Block) -> None:
+        if not self.saved(block):
+            Path("shown.toml").write_text("format = 1\n" + block.text, encoding="utf-8")
+            mars2d.Scenario.from_file(Path("shown.toml").absolute())
+
+    def python(self, block: Block, expected: str) -> None:
+        if self.saved(block):
+            return
+        # Blank lines in front, so that a traceback shows the document's own line.
+        code = compile("\n" * (block.line - 1) + block.text, str(self.document), "exec")
+        printed = io.StringIO()
+        error = re.match(r"(\w+Error): ", expected)
+        with contextlib.redirect_stdout(printed):
+            if error is None:
+                exec(code, self.namespace)
+            else:
+                with pytest.raises(mars2d.Mars2dError) as caught:
+                    exec(code, self.namespace)
+                print(f"{type(caught.value).__name__}: {caught.value}")
+        self.output = printed.getvalue()
+
+    def command(self, line: str, expected: str) -> str:
+        """Run one command and return what it prints."""
+        if line.startswith("pip "):
+            assert line in PIP
+            parts = [part for part in line.split(" && ") if part.startswith("mars2d")]
+            return "".join(self.command(part, expected) for part in parts)
+        words = shlex.split(line)
+        assert words[0] == "mars2d", f"{self.document.name}: what is {line!r}?"
+        arguments = cli.parser().parse_args(words[1:])
+        made = getattr(arguments, "video", None) or getattr(arguments, "html", None)
+        needs_window = words[1] == "replay" and not made
+        needs_window |= getattr(arguments, "speed", None) == 0
+        needs_window |= bool(getattr(arguments, "human", None)) and not arguments.headless
+        if words[1] in ("run", "demo") and not (needs_window or arguments.headless):
+            words.append("--headless")  # where it would open a window
+        if words[1] == "replay":
+            assert arguments.record.is_file(), line
+        printed, said = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(said):
+            code = cli.main(words[1:])
+        errors = said.getvalue()
+        if needs_window:  # all that can be asked of it here
+            assert (code, "display" in errors) == (2, True), line + errors
+            return errors
+        wanted = 2 if re.search("^mars2d: ", expected, flags=re.M) else 0
+        assert code == wanted, f"{line}: exit code {code}\n{errors}"
+        return printed.getvalue() + errors
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda p: str(p.relative_to(ROOT)))
+def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.setattr(work, "cores", lambda: 1)  # so few runs don't pay for a second process
+    Path("docs/pictures").mkdir(parents=True)
+    start = time.perf_counter()
+    Reader(document).read()
+    print(f"{document.name}: {time.perf_counter() - start:.1f} s")
+    if document in SENSORS:
+        return  # their pictures are made by docs/make_sensors.py
+    for name in set(pictures(document)) - MEASURED:
+        assert (tmp_path / "docs" / "pictures" / name).is_file(), f"{name} was not made"
+
+
+def test_the_set_up_stands_in_the_readme_to_the_letter():
+    consoles = [b.text for b in blocks(ROOT / "README.md") if b.language == "console"]
+    for line in SET_UP:
+        assert line in consoles  # each a block of its own
+
+
+@pytest.mark.parametrize("document", EVERYTHING, ids=lambda path: path.name)
+def test_blocks_are_of_a_kind_that_is_tested(document):
+    allowed = LANGUAGES | ({"sh"} if document.name == "CONTRIBUTING.md" else set())
+    for block in blocks(document):
+        assert block.language in allowed, f"{document.name}, line {block.line}"
+
+
+# -- links and pictures -----------------------------------------------------------------------
+
+
+def prose(document: Path) -> str:
+    """The text of a document without its fenced blocks."""
+    return re.sub(r"^```.*?^```$", "", document.read_text(encoding="utf-8"), flags=re.M | re.S)
+
+
+def anchors(document: Path) -> set[str]:
+    """The anchors of a document's headings, as GitHub and others make them."""
+    titles = re.findall(r"^#+ (.+)$", prose(document), flags=re.M)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("document", EVERYTHING, ids=lambda path: path.name)
+def test_links_lead_somewhere(document):
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose(document)):
+        if re.match(r"https?://", target):
+            continue
+        path, _, anchor = target.partition("#")
+        goal = (document.parent / path).resolve() if path else document
+        assert goal.exists(), f"{document.name}: {target}"
+        if anchor:
+            assert anchor in anchors(goal), f"{document.name}: {target}"
+
+
+def test_each_document_is_in_the_index():
+    index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    for document in (ROOT / "docs").glob("*.md"):
+        assert document.name == "index.md" or f"({document.name})" in index
+
+
+def test_each_sensor_has_a_page_in_the_index_of_the_sensors():
+    index = (ROOT / "docs" / "sensors" / "index.md").read_text(encoding="utf-8")
+    for name in members("sensors"):
+        assert f"| [`{name}`]({snake_case(name)}.md) |" in index
+    assert {path.stem for path in SENSORS} == {*map(snake_case, members("sensors")), "index"}
+
+
+@pytest.mark.parametrize("name", sorted(members("sensors")))
+def test_a_sensors_page_has_its_picture_and_the_table_of_its_fields(name, monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "docs")
+    made = importlib.import_module("make_sensors")
+    kind = getattr(sensors, name)
+    text = made.page(kind).read_text(encoding="utf-8")
+    assert text == made.with_table(text, kind), "run: python docs/make_sensors.py"
+    assert kind in made.SCENES
+    assert pictures(made.page(kind)) == [f"sensor_{snake_case(name)}.png"]
+    titles = re.findall(r"^## (.+)$", prose(made.page(kind)), flags=re.M)
+    assert titles == ["Reading", "Model", "Parameters", "In a law", "Source"]
+
+
+def pictures(document: Path) -> list[str]:
+    """The names of the pictures that a document shows."""
+    shown = re.findall(r"!\[[^\]]+\]\(([^)]+\.png)\)", prose(document))
+    return [Path(name).name for name in shown]
+
+
+def films(document: Path) -> list[str]:
+    """The names of the films that a document shows."""
+    shown = re.findall(r"!\[[^\]]+\]\(([^)]+\.gif)\)", prose(document))
+    return [Path(name).name for name in shown]
+
+
+def test_pictures_are_small_and_each_is_shown():
+    files = list((ROOT / "docs" / "pictures").iterdir())
+    shown = {name for document in DOCUMENTS for name in pictures(document) + films(document)}
+    assert {file.name for file in files} == shown
+    for file in files:
+        assert file.stat().st_size < (600_000 if file.suffix == ".gif" else 200_000), file.name
+
+
+EXPERIMENT_PAGES = [path for path in EXPERIMENTS if path.stem != "index"]
+
+
+@pytest.mark.parametrize("page", EXPERIMENT_PAGES, ids=lambda path: path.stem)
+def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(page):
+    name = page.stem
+    titles = re.findall(r"^## (.+)$", prose(page), flags=re.M)
+    assert titles == ["Run it", "The law", "Theory and measurement", "Exercises", "Model answer"]
+    assert f"{name}.png" in pictures(page)
+    assert films(page) == [f"{name}.gif"]
+    commands = [block.text for block in blocks(page) if block.language == "console"]
+    assert any(f"mars2d run {name} " in command for command in commands)
+    answer = ROOT / "examples" / "solutions" / f"{name}.py"
+    assert f"(../../examples/solutions/{name}.py)" in page.read_text(encoding="utf-8")
+    experiment = open_experiment(answer)
+    assert experiment.checks is not None
+
+
+LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi"}
+"""Experiments whose model answers take seconds: `pytest -m soak`."""
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, id=page.stem, marks=[pytest.mark.soak] if page.stem in LONG else [])
+        for page in EXPERIMENT_PAGES
+    ],
+)
+def test_the_model_answer_of_an_experiment_checks_itself(page):
+    answer = open_experiment(ROOT / "examples" / "solutions" / f"{page.stem}.py")
+    predictions = answer.predictions(mars2d.run(answer.scenario, control=answer.control))
+    assert predictions
+    assert [p for p in predictions if not p.ok] == []
+
+
+def test_each_experiments_page_is_in_their_index():
+    index = (ROOT / "docs" / "experiments" / "index.md").read_text(encoding="utf-8")
+    for page in EXPERIMENT_PAGES:
+        assert f"({page.name})" in index
+    for answer in (ROOT / "examples" / "solutions").glob("*.py"):
+        assert answer.stem in {page.stem for page in EXPERIMENT_PAGES}, answer.name
+
+
+# -- tables -----------------------------------------------------------------------------------
+
+
+def table(text: str) -> list[list[str]]:
+    """The cells of all rows of the tables in a text, without their rules."""
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    cells = [[c.strip() for c in re.split(r"(?<!\\)\|", row)[1:-1]] for row in rows]
+    return [row for row in cells if not all(re.fullmatch(r":?-+:?", c) for c in row)]
+
+
+def test_the_keys_in_the_readme_are_those_of_the_window():
+    rows = table((ROOT / "README.md").read_text(encoding="utf-8"))
+    start = rows.index(["Key", "What it does"]) + 1
+    wanted = [[" ".join(key.labels), key.help] for key in (*keys.KEYS, *keys.MOUSE)]
+    assert rows[start : start + len(wanted)] == wanted
+
+
+def test_the_table_of_fields_is_up_to_date():
+    path = ROOT / "docs" / "make_fields.py"
+    made = module(path).document()
+    assert made == (ROOT / "docs" / "fields.md").read_text(encoding="utf-8"), (
+        "run: python docs/make_fields.py"
+    )
+
+
+def module(path: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec is not None
+    assert spec.loader is not None
+    loaded = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    return loaded
+
+
+def verbs() -> dict[str, Any]:
+    """The sub-commands and their parsers."""
+    parser = cli.parser()
+    return dict(parser._subparsers._group_actions[0].choices)
+
+
+def test_each_command_has_a_section_and_each_section_a_command():
+    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## mars2d (\w+)$", text, flags=re.M) == list(verbs())
+
+
+@pytest.mark.parametrize("verb", list(verbs()))
+def test_the_options_in_the_commands_document_are_those_of_the_parser(verb):
+    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    section = text.partition(f"\n## mars2d {verb}\n")[2].partition("\n## ")[0]
+    stated = set()
+    for row in table(section):
+        option = re.fullmatch(r"`(.+)`", row[0])
+        if option and (option[1].startswith("--") or option[1].isupper()):
+            stated.add(option[1])
+    wanted = set()
+    for action in verbs()[verb]._actions:
+        if "--help" in action.option_strings:
+            continue
+        names = action.option_strings or [""]
+        metavar = action.metavar or ("" if action.nargs == 0 else action.dest)
+        wanted |= {f"{name} {metavar}".strip() for name in names}
+    assert stated == wanted
+
+
+def test_the_exit_codes_in_the_commands_document_are_those_of_the_command_line():
+    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    section = text.partition("## Exit codes")[2].partition("\n## ")[0]
+    stated = {int(row[0]) for row in table(section)[1:]}
+    assert stated == {cli.OK, cli.FAULT, cli.BAD_INPUT, cli.INTERRUPTED}
+
+
+def test_what_a_scene_draws_is_documented_with_its_arguments():
+    rows = table((ROOT / "docs" / "own_sensor_and_addon.md").read_text(encoding="utf-8"))
+    stated = [row[0].strip("`)").split("(") for row in rows[rows.index(["method", "draws"]) + 1 :]]
+    drawing = {name for name in vars(Scene) if not name.startswith("_")} - {"extend", "shapes"}
+    assert {name for name, _ in stated} == drawing
+    for name, call in stated:
+        known = set(inspect.signature(getattr(Scene, name)).parameters)
+        assert {word.strip("= ") for word in call.split(",")} <= known, name
+
+
+@pytest.mark.parametrize("document", ["bodies.md", "fields.md"])
+def test_each_drive_prop_and_joint_is_documented(document):
+    text = (ROOT / "docs" / document).read_text(encoding="utf-8")
+    for family in ("bodies", "props", "joints"):
+        for name in members(family):
+            assert f"| `{name}` |" in text or f"\n## {name}\n" in text, name
+
+
+def test_each_sensor_and_add_on_has_its_fields_in_their_table():
+    titles = re.findall(r"^## (\w+)", (ROOT / "docs" / "fields.md").read_text(), flags=re.M)
+    assert {*members("sensors"), *members("addons")} <= {*titles}
+
+
+def test_each_add_on_is_in_their_page():
+    text = (ROOT / "docs" / "addons.md").read_text(encoding="utf-8")
+    rows = [row[0] for row in table(text)]
+    for name in members("addons"):
+        assert any(f"`{name}`" in row for row in rows), name
+
+
+def test_each_example_that_checks_itself_is_a_lesson_with_a_picture():
+    courses = ("contact.md", "communication.md", "information.md", "sensing.md")
+    pages = [*(ROOT / "docs" / name for name in courses), *EXPERIMENTS]
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
+    lessons = set(re.findall(r"^mars2d run (\w+) .*--figure", text, flags=re.M))
+    checked = {name for name, path in examples().items() if open_experiment(path).checks}
+    assert checked <= lessons
+
+
+def test_the_columns_of_contacts_are_those_of_a_record():
+    text = (ROOT / "docs" / "record.md").read_text(encoding="utf-8")
+    section = text.partition("## Contacts")[2].partition("\n## ")[0]
+    names = [row[0].strip("`") for row in table(section)[1:]]
+    assert names == list(mars2d.record.contact.CONTACT.names)
+
+
+def test_the_columns_of_messages_and_their_states_are_those_of_a_record():
+    text = (ROOT / "docs" / "record.md").read_text(encoding="utf-8")
+    rows = table(text.partition("## Messages")[2].partition("\n## ")[0])
+    start = rows.index(["number", "word", "what"])
+    assert [row[0].strip("`") for row in rows[1:start]] == list(mars2d.record.message.MESSAGE.names)
+    stated = {int(number): word for number, word, _ in rows[start + 1 :]}
+    assert stated == dict(enumerate(mars2d.record.message.STATUS))
+
+
+ELSEWHERE = {
+    "--version", "--host", "--no-dashboard", "--nworkers", "--nthreads", "--network",
+    "--pids-limit", "--read-only",
+}  # fmt: skip
+"""Options of `mars2d` itself, of Dask and of Docker."""
+
+
+def test_options_named_anywhere_exist():
+    known = {o for sub in verbs().values() for a in sub._actions for o in a.option_strings}
+    for document in DOCUMENTS:
+        for option in re.findall(r"`(--[a-z-]+)", prose(document)):
+            assert option in {*known, *ELSEWHERE}, f"{document.name}: {option}"
+
+
+def test_tests_named_in_the_documents_exist():
+    written = {
+        name
+        for file in (ROOT / "tests").rglob("test_*.py")
+        for name in re.findall(r"^def (test_\w+)", file.read_text(encoding="utf-8"), flags=re.M)
+    }
+    for document in EVERYTHING:
+        named = set(re.findall(r"`(test_\w+)`", prose(document)))
+        assert named <= written, f"{document.name}: {named - written}"
+
+
+def test_files_named_in_the_text_exist():
+    for document in EVERYTHING:
+        for name in re.findall(
+            r"`((?:mars2d|docs|tests|benchmarks|examples)/[^`\s]*)`", prose(document)
+        ):
+            assert (ROOT / name).exists(), f"{document.name}: {name}"
+    commands = [b.text for b in blocks(ROOT / "CONTRIBUTING.md") if b.language == "sh"]
+    for name in re.findall(r"(?:python |^)([\w.]+/[\w./]+)", "\n".join(commands), flags=re.M):
+        assert (ROOT / name).exists(), f"CONTRIBUTING.md: {name}"
+
+
+def test_every_module_stands_in_the_picture_of_the_design():
+    picture = next(b.text for b in blocks(ROOT / "docs" / "design.md") if "__main__.py" in b.text)
+    package = ROOT / "mars2d"
+    parts = {path.name for path in package.glob("*.py")}
+    parts |= {f"{path.parent.name}/" for path in package.glob("*/__init__.py")}
+    parts.discard("examples/")
+    folders = "bodies|sensors|addons|props|joints|commands|view|output|testing|bench|kernel"
+    folders += "|maps|paper|formats|study"
+    named = set(re.findall(rf"\w+\.py|\b(?:{folders})/", picture))
+    assert named - {"base.py"} == parts
+
+
+def test_the_layers_in_the_design_are_those_of_the_code():
+    text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
+    section = text.partition("## Layers")[2].partition("\n## ")[0]
+    layers = [set(line.split(", ")) for line in re.findall(r"^\d+\. (.+)$", section, flags=re.M)]
+    assert layers == module(ROOT / "tests" / "test_imports.py").LAYERS
+
+
+# -- names ------------------------------------------------------------------------------------
+
+OWNERS: dict[str, Any] = {
+    "mars2d": mars2d,
+    "RobotView": RobotView,
+    **{name: getattr(mars2d, name) for name in mars2d.__all__ if name[0].isupper()},
+    "PropView": PropView,
+    **{kind.__name__: kind for family in (bodies, sensors, props, joints, shapes)
+       for kind in vars(family).values() if isinstance(kind, type)},
+    **{name: getattr(addons, name) for name in ("Burst", "Communication", "Map")},
+}  # fmt: skip
+
+
+def has(owner: Any, name: str) -> bool:
+    """Whether objects of a class, or a module, have an attribute."""
+    if hasattr(owner, name):
+        return True
+    if is_dataclass(owner) and name in {field.name for field in fields(owner)}:
+        return True
+    if owner is mars2d.World:
+        return name in vars(mars2d.World(mars2d.Scenario()))
+    if owner is RobotView:
+        return name in vars(mars2d.World(mars2d.Scenario()).robots[0])
+    return False
+
+
+@pytest.mark.parametrize("document", EVERYTHING, ids=lambda path: path.name)
+def test_names_in_the_text_exist(document):
+    for code in re.findall(r"`([^`\n]+)`", prose(document)):
+        named = re.match(r"(\w+)((?:\.\w+)+)", code)
+        if named is None or named[1] not in OWNERS:
+            continue
+        if (ROOT / "mars2d" / code.partition(" ")[0]).exists():
+            continue
+        owner = OWNERS[named[1]]
+        for name in named[2][1:].split("."):
+            assert has(owner, name), f"{document.name}: {code}"
+            owner = getattr(owner, name, None)
+            if owner is None or not isinstance(owner, (type, ModuleType)):
+                break

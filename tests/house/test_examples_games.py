@@ -1,0 +1,201 @@
+"""The examples in which things are shoved, towed, wrestled with and squeezed through a door."""
+
+import dataclasses
+import json
+import re
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d.cli.command_line import main
+from mars2d.core.errors import LawError
+from mars2d.scenario.experiment import examples, open_experiment, open_module
+from mars2d.session import run
+
+PLAYERS = ("pusher", "flanker", "dodger")
+PURSUERS, EVADERS = ("straight", "ahead", "inside"), ("away", "corners", "round")
+
+
+def play(name, seed=0, **options):
+    """Run an example; return its record and its predictions by name."""
+    record = run(name, seed=seed, options=options)
+    found = open_experiment(name, options).predictions(record)
+    return record, {prediction.name: prediction for prediction in found}
+
+
+def bout(red, blue, seed=0):
+    """Let two players wrestle and return who wins, or "a draw"."""
+    laws = {"red": f"sumo_players/{red}.py", "blue": f"sumo_players/{blue}.py"}
+    return mars2d.run("sumo", seed=seed, options=laws).over_message.partition(" wins")[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("shove_and_spin", {}),
+        ("shove_and_spin", {"mu": 0.6, "lever": -0.1}),  # the discs' slip ends
+        ("shove_and_spin", {"e": 1.0, "v": 0.4}),
+        ("tug_of_war", {}),
+        ("tug_of_war", {"blue": 6.3, "tow": 3.0}),
+        ("sumo", {}),
+        ("sumo", {"blue": "sumo_players/flanker.py"}),
+        ("crowd", {}),
+    ],
+)
+def test_a_game_agrees_with_its_predictions(name, options):
+    _, predictions = play(name, **options)
+    assert predictions
+    assert [p for p in predictions.values() if not p.ok] == []
+
+
+def test_a_blow_beside_the_middle_gives_less_speed_and_more_spin():
+    record, _ = play("shove_and_spin")
+    end = np.diff(record.prop_pose[-2:], axis=0)[0]
+    assert end[0, 1] < end[0, 0]
+    assert end[2, 1] > 0.0
+    assert end[2, 0] == 0.0
+
+
+@pytest.mark.parametrize(("blue", "winner"), [(5.0, "red"), (7.0, "blue")])
+def test_the_stronger_team_wins_the_tug_of_war(blue, winner):
+    record, _ = play("tug_of_war", blue=blue)
+    assert record.over_message.startswith(f"{winner} wins")
+
+
+def test_equal_teams_stand_still():
+    record, predictions = play("tug_of_war", blue=6.0)
+    assert predictions["end of the game"].ok
+    assert np.abs(record.pose[-1, :, :3] - record.pose[0, :, :3]).max() < 1e-3
+
+
+def test_no_player_beats_all_others():
+    wins = {}
+    for one, other in (("pusher", "flanker"), ("flanker", "dodger"), ("dodger", "pusher")):
+        first = [bout(one, other, seed) for seed in range(8)]
+        second = [bout(other, one, seed) for seed in range(8)]
+        wins[one, other] = first.count("red") + second.count("blue")
+        wins[other, one] = first.count("blue") + second.count("red")
+    assert wins["pusher", "flanker"] > wins["flanker", "pusher"]
+    assert wins["flanker", "dodger"] > wins["dodger", "flanker"]
+    assert min(wins["dodger", "pusher"], wins["pusher", "dodger"]) >= 2
+
+
+def test_luck_plays_a_part_and_a_seed_repeats_it():
+    outcomes = {bout("pusher", "dodger", seed) for seed in range(12)}
+    assert outcomes == {"red", "blue"}
+    assert len({mars2d.run("sumo", seed=3).digest for _ in range(2)}) == 1
+
+
+def test_equal_pushers_end_in_a_draw():
+    assert bout("pusher", "pusher") == "a draw"
+
+
+def test_a_class_plays_with_laws_from_the_current_folder(tmp_path, monkeypatch, capsys):
+    (tmp_path / "coward.py").write_text("def control(robot):\n    return -1.0, 0.0\n")
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", "sumo", "--headless", "--json", "--set", "red=coward.py"]) == 0
+    outcome = json.loads(capsys.readouterr().out)
+    assert re.match(r"blue wins: the other has left the ring after 0\.7\d s", outcome["message"])
+    assert all(check["ok"] for check in outcome["checks"])
+
+
+def test_a_player_that_is_not_there_is_named(capsys):
+    assert main(["run", "sumo", "--headless", "--set", "red=sumo_players/pushr.py"]) == 2
+    assert "pusher" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("folder", "players"),
+    [("sumo_players", PLAYERS), ("corner_pursuers", PURSUERS), ("corner_evaders", EVADERS)],
+)
+def test_players_lie_beside_the_examples_and_are_none(folder, players):
+    folder = examples()["sumo"].parent / folder
+    assert {file.stem for file in folder.glob("*.py")} == set(players)
+    assert not set(players) & set(examples())
+    for file in folder.glob("*.py"):
+        lines = file.read_text().splitlines()
+        assert lines[0].startswith('"""')
+        assert len(lines) <= 30
+
+
+# -- corner_game --------------------------------------------------------------------------------
+
+
+def hunt(pursuer, evader, mu, seed=0, **options):
+    """Let two laws play corner_game; return the outcome and the record."""
+    laws = {"pursuer": f"corner_pursuers/{pursuer}.py", "evader": f"corner_evaders/{evader}.py"}
+    record = mars2d.run("corner_game", seed=seed, options={**laws, "mu": mu, **options})
+    return record.scenario.addons[0].outcome(record), record
+
+
+def claimed():
+    """What the example says it measured: captures of 10 by pursuer, evader, at each mu."""
+    doc = (open_module(examples()["corner_game"]).__doc__ or "").splitlines()
+    rows = {
+        line.split()[0]: [int(n) for n in line.split()[1:]] for line in doc if line[-2:] == "10"
+    }
+    assert set(rows) == set(PURSUERS)
+    return {(p, e): n[5 * k : 5 * k + 5] for p, n in rows.items() for k, e in enumerate(EVADERS)}
+
+
+@pytest.mark.parametrize(
+    ("pursuer", "evader", "mu", "captures"),
+    [
+        ("straight", "away", 0.8, 10),
+        ("straight", "corners", 0.9, 0),
+        ("inside", "corners", 0.9, 10),
+        ("inside", "round", 0.95, 10),
+        ("ahead", "corners", 0.9, 10),
+        ("ahead", "round", 0.8, 0),
+    ],
+)
+def test_two_matches_of_the_corner_game_end_as_the_example_says(pursuer, evader, mu, captures):
+    """All of them, in a few minutes, are the test below."""
+    assert claimed()[pursuer, evader][[0.8, 0.85, 0.9, 0.95, 1.0].index(mu)] == captures
+    for seed in (0, 5):
+        assert len(hunt(pursuer, evader, mu, seed)[0].captures) == captures // 10
+
+
+@pytest.mark.soak
+def test_all_matches_of_the_corner_game_end_as_the_example_says():
+    for (pursuer, evader), counts in claimed().items():
+        for mu, count in zip([0.8, 0.85, 0.9, 0.95, 1.0], counts, strict=True):
+            played = [len(hunt(pursuer, evader, mu, seed)[0].captures) for seed in range(10)]
+            assert sum(played) == count, (pursuer, evader, mu)
+
+
+def test_starts_of_the_corner_game_are_drawn_from_the_seed_apart_from_each_other():
+    starts = [mars2d.run("corner_game", 0, seed=seed).pose[0, :2] for seed in (*range(30), 7)]
+    assert min(np.hypot(*(at[:, 0] - at[:, 1])) for at in starts) > 4.0
+    assert np.abs(starts).max() <= 4.0
+    assert len({at.tobytes() for at in starts}) == 30
+    assert (starts[7] == starts[-1]).all()
+
+
+def test_no_law_of_the_corner_game_goes_faster_than_the_rules_allow(tmp_path):
+    cheat = tmp_path / "cheat.py"
+    cheat.write_text("def control(robot):\n    return 1e6, 1e6\n")
+    laws = {"pursuer": str(cheat), "evader": str(cheat)}
+    record = mars2d.run("corner_game", 20, options={**laws, "mu": 0.8})
+    speed = np.hypot(*np.diff(record.pose[:, :2], axis=0).transpose(1, 0, 2)) / 0.1
+    assert speed[:20].max(axis=0) == pytest.approx([0.4, 0.5])
+    assert np.abs(record.pose[:, :2]).max() < 5.0  # the walls hold them
+
+
+def test_laws_of_the_corner_game_see_positions_only(tmp_path):
+    spy = tmp_path / "spy.py"
+    spy.write_text("def control(robot):\n    return robot.neighbours[0].pose[:2]\n")
+    with pytest.raises(LawError, match="positions only: a neighbour's pose is not available"):
+        mars2d.run("corner_game", options={"evader": str(spy)})
+
+
+def test_the_crowds_checks_see_who_overlaps_or_comes_through_a_wall():
+    record, _ = play("crowd", stop_time=12.0)
+    experiment = open_experiment("crowd", {"stop_time": 12.0})
+    pose = record.pose.copy()
+    pose[-1, :2, 49] = pose[-1, :2, 48] + [0.298, 0.0]
+    pose[-1, :2, 0] = 5.0, 2.0  # in the hall, from nowhere
+    pose[-2, :2, 0] = -0.5, 2.0
+    wrong = experiment.predictions(dataclasses.replace(record, pose=pose))
+    assert {"deepest overlap", "robots in the hall"} <= {p.name for p in wrong if not p.ok}

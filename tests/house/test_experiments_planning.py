@@ -1,0 +1,246 @@
+"""The experiments path_planning and leader_following, and the floor that the first is played on."""
+
+import dataclasses
+from collections import Counter
+from math import hypot, pi
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+from scipy.optimize import brentq, minimize
+
+import mars2d
+from mars2d.addons import Map
+from mars2d.scenario.experiment import examples, open_experiment, open_module
+
+FLOOR = examples()["path_planning"].with_name("maps") / "department.dxf"
+SOLUTIONS = FLOOR.parents[2] / "solutions"
+
+
+def play(name, **options):
+    """Run an example or a file; return its record and its predictions by name."""
+    experiment = open_experiment(name, options)
+    record = mars2d.run(experiment.scenario, control=experiment.control)
+    return record, {p.name: p for p in experiment.predictions(record)}
+
+
+@pytest.fixture(scope="module")
+def planned():
+    return play("path_planning")
+
+
+@pytest.fixture(scope="module")
+def followed():
+    return play("leader_following")
+
+
+def failed(name, record, **options):
+    found = open_experiment(name, options).predictions(record)
+    return {prediction.name for prediction in found if not prediction.ok}
+
+
+# -- the floor ------------------------------------------------------------------------------------
+
+
+def entities(drawing):
+    """What stands in a drawing, apart from its handles: kinds, layers and coordinates."""
+    found = Counter()
+    for space in (drawing.modelspace(), *(drawing.blocks.get(n) for n in ("DESK", "BENCH"))):
+        for each in space:
+            kept = {k: str(v) for k, v in each.dxfattribs().items() if "handle" not in k}
+            kept = {k: v for k, v in kept.items() if k not in ("owner", "geometry")}
+            corners = str(each.get_points()) if each.dxftype() == "LWPOLYLINE" else ""
+            found[each.dxftype(), corners, *sorted(kept.items())] += 1
+    return found
+
+
+def test_the_drawing_is_the_one_that_its_script_makes(tmp_path):
+    open_module(FLOOR.with_name("make_department.py")).department().saveas(tmp_path / "made.dxf")
+    made, kept = ezdxf.readfile(tmp_path / "made.dxf"), ezdxf.readfile(FLOOR)
+    assert entities(made) == entities(kept)
+    assert len(entities(kept)) > 80
+    assert kept.units == made.units == ezdxf.units.MM
+
+
+def test_the_drawing_has_what_drawings_have():
+    drawing = ezdxf.readfile(FLOOR)
+    kinds = {(e.dxftype(), e.dxf.layer) for e in drawing.modelspace()}
+    assert {
+        ("SOLID", "WALLS"), ("LWPOLYLINE", "WALLS"), ("LINE", "WALLS"), ("ARC", "WALLS"),
+        ("ARC", "DOORS"), ("LINE", "DOORS"), ("INSERT", "FURNITURE"), ("TEXT", "TEXT"),
+        ("DIMENSION", "DIMENSIONS"),
+    } == kinds  # fmt: skip
+    assert not drawing.audit().errors
+    polylines = drawing.modelspace().query("LWPOLYLINE")
+    assert any(bulge for p in polylines for *_, bulge in p.get_points("xyb"))
+
+
+def test_the_floor_is_30_by_20_metres_and_its_doors_are_open():
+    walls = Map.from_file(FLOOR, layers=["WALLS", "FURNITURE"])
+    points = np.array([p for outline in walls.obstacles() for p in outline])
+    assert points.min(axis=0).tolist() == [0, 0]
+    assert points.max(axis=0).tolist() == [30, 20]
+    lines = [shapely.LineString([*o, o[0]] if len(o) > 2 else o) for o in walls.obstacles()]
+    for door in [(3.7, 6.075), (16.5, 8.625), (26.5, 8.625), (10.2, 8.625), (22.075, 9.8)]:
+        room = min(line.distance(shapely.Point(door)) for line in lines)
+        assert room >= 0.499, door
+
+
+# -- path_planning --------------------------------------------------------------------------------
+
+
+def test_two_robots_arrive_and_the_third_is_stuck_where_theory_puts_the_minimum(planned):
+    record, predictions = planned
+    assert [p for p in predictions.values() if not p.ok] == []
+    ways = record.scenario.addons[1]
+    assert ways.of(record.frame(-1)) == (6, 5, 4)
+    assert predictions["robot2 is stuck at x"].predicted == pytest.approx(21.561, abs=1e-3)
+    assert hypot(*(record.pose[-1, :2, 2] - [21.561, 14.326])) < 0.01
+    assert not record.command[-1].any()
+
+
+def test_the_predicted_minimum_is_one_of_the_potential_found_without_forces(planned):
+    """Of the potential alone, by a simplex that knows neither the force nor the run."""
+    record, predictions = planned
+    _, ways, addon = record.scenario.addons
+    field, goal = addon.of(record.scenario), ways.routes[2][-1]
+    options = {"xatol": 1e-9, "fatol": 1e-14}
+    start = [21.2, 13.4]  # in the store
+    found = minimize(lambda at: field.potential(at, goal), start, method="Nelder-Mead",
+                     options=options)  # fmt: skip
+    stuck = [predictions[f"robot2 is stuck at {axis}"].predicted for axis in "xy"]
+    assert found.x == pytest.approx(stuck, abs=1e-6)
+    around = [(stuck[0] + 0.01 * np.cos(a), stuck[1] + 0.01 * np.sin(a)) for a in range(7)]
+    assert all(field.potential(at, goal) > field.potential(stuck, goal) for at in around)
+
+
+@pytest.mark.parametrize("detour", [(22, 9.8), (24, 10)])
+def test_a_waypoint_by_the_door_frees_the_third(detour):
+    record, predictions = play("path_planning", detour=detour)
+    assert record.scenario.addons[1].of(record.frame(-1)) == (6, 5, 6)
+    assert [p for p in predictions.values() if not p.ok] == []
+    assert "robot2 is stuck at x" not in predictions
+
+
+@pytest.mark.parametrize(
+    ("option", "end"),
+    [
+        ({"detour": (20, 10)}, (21.548, 11.519)),
+        ({"addons.1.routes.2.4": (26, 12.6)}, (21.561, 12.811)),
+        ({"addons.2.repulsion": 0.03}, (16.5, 8.26)),
+        ({"addons.2.reach": 1.5}, (21.527, 14.164)),
+    ],
+)
+def test_what_is_set_otherwise_is_predicted_otherwise(option, end):
+    record, predictions = play("path_planning", **option)
+    assert [p for p in predictions.values() if not p.ok] == []
+    assert record.pose[-1, :2, 2] == pytest.approx(end, abs=0.005)
+
+
+def test_of_robots_that_are_still_on_their_way_nothing_is_said():
+    _, predictions = play("path_planning", stop_time=30.0)
+    assert set(predictions) == {"contacts"}
+
+
+def test_the_checks_of_path_planning_see_another_end(planned):
+    record, _ = planned
+    pose = record.pose.copy()
+    pose[-1, 1, 2] += 0.02
+    pose[:, 0, 0] += 1.0
+    wrong = failed("path_planning", dataclasses.replace(record, pose=pose))
+    assert wrong == {"robot2 is stuck at y", "waypoints that robot0 reaches"}
+
+
+def test_another_map_takes_the_place_of_the_floor():
+    walls = open_experiment("path_planning", {"map": str(FLOOR), "layers": "WALLS"}).scenario
+    assert 0 < len(walls.obstacles) < len(open_experiment("path_planning").scenario.obstacles)
+
+
+def test_the_numbers_of_the_model_answer_on_walls_and_doors(planned):
+    record, _ = planned
+    field = record.scenario.addons[2].of(record.scenario)
+
+    def push(rho):
+        return 0.01 * (1 / rho - 1 / 0.6) / rho**2 if rho < 0.6 else 0.0
+
+    rho = brentq(lambda r: push(r) + push(r + 0.15) - 0.5, 0.05, 0.5)
+    assert rho == pytest.approx(0.239, abs=5e-4)
+    assert record.pose[-1, 0, 2] == pytest.approx(22 - 0.2 - rho, abs=0.003)
+    door = [0.5 + field.force((26.5, y), (26.5, -100))[1] for y in np.linspace(8.7, 9.5, 400)]
+    assert max(door) == pytest.approx(0.2263, abs=1e-3)
+
+
+def test_the_model_answer_brings_the_third_by_a_plan_that_is_hardly_longer():
+    record, predictions = play(SOLUTIONS / "path_planning.py")
+    assert [p for p in predictions.values() if not p.ok] == []
+    ways = record.scenario.addons[1]
+    assert ways.of(record.frame(-1)) == tuple(map(len, ways.routes))
+    rise = predictions["rise of the potential"]
+    backwards = dataclasses.replace(record, pose=record.pose[::-1].copy())
+    seen = open_experiment(SOLUTIONS / "path_planning.py").predictions(backwards)
+    assert next(p for p in seen if p.name == rise.name).ok is False
+
+
+# -- leader_following -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("options", [{"radius": 1.5}, {"radius": -2.5}, {"speed": 0.15}])
+def test_the_followers_go_on_circles_that_geometry_tells(options):
+    _, predictions = play("leader_following", **options)
+    assert len(predictions) == 8
+    assert [p for p in predictions.values() if not p.ok] == []
+
+
+def test_the_followers_keep_their_places(followed):
+    """Distance and bearing of the points ahead of the axles, in the frame of the leader."""
+    record, _ = followed
+    base = open_module("leader_following")
+    x, y, theta = record.pose[-1]
+    px, py = x + base.D * np.cos(theta) - x[0], y + base.D * np.sin(theta) - y[0]
+    for i, (distance, bearing) in enumerate(base.PLACES, start=1):
+        assert hypot(px[i], py[i]) == pytest.approx(distance, abs=1e-3)
+        seen = np.arctan2(py[i], px[i]) - theta[0]
+        assert (seen - bearing + pi) % (2 * pi) - pi == pytest.approx(0, abs=1e-3)
+
+
+def test_nobody_knows_a_pose_and_only_the_leader_talks(followed):
+    record, _ = followed
+    assert {robot.sees for robot in record.scenario.robots} == {"sensors"}
+    assert set(record.messages["sender"].tolist()) == {0}
+    assert record.collisions == 0
+
+
+def test_errors_of_distance_fade_by_the_gain(followed):
+    record, _ = followed
+    base = open_module("leader_following")
+    x, y, theta = record.pose.swapaxes(0, 1)
+    far = np.hypot(x[:, 2] + base.D * np.cos(theta[:, 2]) - x[:, 0],
+                   y[:, 2] + base.D * np.sin(theta[:, 2]) - y[:, 0])  # fmt: skip
+    a, b = np.searchsorted(record.time, [2, 6])
+    left = np.abs(far[[a, b]] - base.PLACES[1][0])
+    assert left[1] / left[0] == pytest.approx(np.exp(-4 * base.GAIN), abs=0.01)
+
+
+def test_the_checks_of_leader_following_see_another_circle(followed):
+    record, _ = followed
+    pose, command = record.pose.copy(), record.command.copy()
+    pose[-1, :2, 1] *= 1.02
+    command[-1, 0, 4] *= 1.02
+    wrong = failed("leader_following", dataclasses.replace(record, pose=pose, command=command))
+    assert wrong == {"radius of robot1", "speed of robot4"}
+
+
+def test_the_examples_followers_need_each_message_and_those_of_the_model_answer_do_not():
+    _, example = play("leader_following", **{"addons.0.loss": 0.5})
+    assert not any(p.ok for p in example.values())
+    _, answer = play(SOLUTIONS / "leader_following.py", loss=0.8)
+    assert all(p.ok for p in answer.values())
+
+
+def test_who_takes_the_leader_to_stand_still_lags_behind():
+    _, answer = play(SOLUTIONS / "leader_following.py")
+    lag = answer["robot3: distance"]
+    assert lag.ok
+    assert lag.predicted == pytest.approx(1.646, abs=1e-3)
+    assert open_module("leader_following").PLACES[2][0] == 1.4

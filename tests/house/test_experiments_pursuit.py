@@ -1,0 +1,191 @@
+"""The pursuits and the herding: what the paper found, and what theory says of it."""
+
+from functools import partial
+from math import hypot
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d.core.errors import LawError
+from mars2d.geometry.voronoi import Tessellation
+from mars2d.scenario.experiment import open_experiment
+
+
+def played(name, seed=0, **options):
+    """The experiment's record, its game's outcome and its predictions."""
+    experiment = open_experiment(name, options)
+    record = mars2d.run(experiment.scenario, control=experiment.control, seed=seed)
+    game = next((a for a in record.scenario.addons if a.key == "game"), None)
+    return record, game and game.outcome(record), experiment.predictions(record)
+
+
+def areas(record):
+    """The area of the evader's cell at each row."""
+    region, last = record.scenario.workspace, record.pose.shape[2] - 1
+    return np.array([Tessellation(at, region).areas[last] for at in record.pose[:, :2]])
+
+
+# -- pursuit_corners ----------------------------------------------------------------------------
+
+
+def test_the_evader_of_the_paper_escapes_at_0_9_for_500_seconds():
+    record, outcome, predictions = played("pursuit_corners")
+    assert record.over_message == "blue was not caught in 500 s: evader wins"
+    assert (record.time[-1], outcome.winner, record.collisions) == (500.0, "evader", 0)
+    assert len(predictions) == 1
+    assert predictions[0].ok
+
+
+@pytest.mark.parametrize(("mu", "winner"), [(0.94, "evader"), (0.955, "pursuer"), (1, "pursuer")])
+def test_capture_begins_where_the_cycle_gets_as_narrow_as_a_robot(mu, winner):
+    """The formula says 0.9446."""
+    _, outcome, predictions = played("pursuit_corners", mu=mu)
+    assert outcome.winner == winner
+    assert all(p.ok for p in predictions)
+
+
+@pytest.mark.parametrize(
+    "name", ["pursuit_corners", pytest.param("pursuit_voronoi", marks=pytest.mark.soak)]
+)
+def test_the_checks_see_a_pursuer_that_is_slower_than_it_should_be(name):
+    experiment = open_experiment(name)
+    red, blue = experiment.scenario.robots
+    law, control = red.controller, experiment.control
+    if law is None:  # a centralised law
+
+        def control(world, law=experiment.control):
+            for command in law(world):
+                yield command * [0.0, 1.0]
+    else:
+        red = red.replace(controller=partial(lambda mu, robot: (0.0, 0.0), *law.args))
+    record = mars2d.run(experiment.scenario.replace(robots=[red, blue]), control=control)
+    assert not all(p.ok for p in experiment.predictions(record))
+
+
+def test_before_the_cycle_is_there_nothing_is_said_of_it():
+    _, _, predictions = played("pursuit_corners", stop_time=100)
+    assert predictions == ()
+
+
+@pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])
+def test_a_run_of_no_steps_is_no_error(name):
+    assert played(name, stop_time=0)[2] == ()
+
+
+def test_a_thinner_evader_is_caught_by_a_quicker_pursuer_only():
+    _, outcome, predictions = played("pursuit_corners", mu=0.96, **{"robots.*.diameter": 0.3})
+    assert outcome.winner == "evader"
+    assert predictions[0].ok
+    assert predictions[0].predicted == pytest.approx(0.389, abs=1e-3)
+
+
+def test_on_a_straight_way_r_times_mu_plus_cos_phi_grows_by_one_minus_mu_squared():
+    record, _, _ = played("pursuit_corners", mu=0.8, stop_time=200)
+    x, y = (record.pose[:, :2, 1] - record.pose[:, :2, 0]).T
+    way = record.command[:, :, 1].T / 0.2
+    grown = np.diff(0.8 * np.hypot(x, y) + x * way[0] + y * way[1]) / 0.02
+    straight = (np.abs(way[:, 1:] - way[:, :-1]) < 1e-6).all(axis=0)
+    assert straight.mean() > 0.95
+    assert np.median(grown[straight]) == pytest.approx(1 - 0.8**2, abs=3e-3)
+
+
+def test_the_evader_goes_round_the_four_points_and_both_see_positions_only():
+    record, _, _ = played("pursuit_corners", stop_time=200)
+    x, y = record.pose[:, :2, 1].T
+    assert np.maximum(np.abs(x), np.abs(y)).min() == pytest.approx(4.5)
+    corners = {(round(a), round(b)) for a, b in zip(x / 4.5, y / 4.5, strict=True)}
+    assert {(-1, -1), (1, -1), (1, 1), (-1, 1)} <= corners
+    assert {robot.sees for robot in record.scenario.robots} == {"positions"}
+
+
+# -- pursuit_voronoi ----------------------------------------------------------------------------
+
+
+def test_the_pursuer_of_the_paper_catches_at_0_8_after_about_98_seconds():
+    record, outcome, predictions = played("pursuit_voronoi")
+    assert outcome.winner == "pursuer"
+    assert outcome.capture_time == pytest.approx(98, abs=2)
+    assert record.collisions == 1
+    assert len(predictions) == 2
+    assert all(p.ok for p in predictions)
+
+
+@pytest.mark.soak
+def test_it_does_so_from_other_starts_too():
+    rng = np.random.default_rng(1)
+    starts = [at for at in rng.uniform(-4.5, 4.5, (12, 2)) if hypot(*(at + 4.5)) > 2][:4]
+    for x, y in starts:
+        record, outcome, _ = played("pursuit_voronoi", **{"robots.0.pose": (x, y, 0)})
+        assert 45 < outcome.capture_time < 101, record.over_message
+
+
+@pytest.mark.soak
+def test_it_does_not_at_0_7():
+    assert played("pursuit_voronoi", ratio=0.7, stop_time=150)[1].winner == "evader"
+
+
+@pytest.mark.parametrize("start", [(1, 2), (-2, -1), (4, 4)])
+def test_at_equal_speeds_the_pursuers_cell_never_falls(start):
+    record, outcome, predictions = played(
+        "pursuit_voronoi", ratio=1.0, **{"robots.0.pose": (*start, 0)}
+    )
+    assert outcome.winner == "pursuer"
+    assert np.diff(areas(record)).max() < 1e-9
+    assert all(p.ok for p in predictions)
+
+
+def test_at_0_8_the_evaders_cell_may_grow():
+    """So the test of equal speeds can fail."""
+    rising = np.diff(areas(played("pursuit_voronoi")[0])) > 0
+    assert 0.2 < rising.mean() < 0.35
+
+
+def test_the_rate_of_a_cells_area_is_that_of_the_formula():
+    """Central differences over random points and velocities, three robots."""
+    rng = np.random.default_rng(2)
+    region, h = ((-5, -5), (-5, 5), (5, 5), (5, -5)), 1e-6
+    for _ in range(20):
+        at, velocity = rng.uniform(-4, 4, (2, 3)), rng.normal(size=(2, 3))
+        cells = Tessellation(at, region)
+        rate = 0.0
+        for i in cells.neighbours(2):
+            a, b = np.array(cells.edge(i, 2))
+            to = ((a + b) / 2)[:, None] - at
+            part = np.hypot(*(a - b)) / np.hypot(*(at[:, i] - at[:, 2]))
+            rate += part * (to[:, 2] @ velocity[:, 2] - to[:, i] @ velocity[:, i])
+        later, sooner = (Tessellation(at + s * h * velocity, region).areas[2] for s in (1, -1))
+        assert (later - sooner) / (2 * h) == pytest.approx(rate, abs=1e-5)
+
+
+def test_its_law_may_not_see_headings():
+    experiment = open_experiment("pursuit_voronoi")
+    with pytest.raises(LawError, match="positions only"):
+        mars2d.run(experiment.scenario, control=lambda world: world.pose[:2])
+
+
+# -- herding ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("start", range(1, 9))
+def test_the_dog_brings_all_sheep_in(start):
+    _, _, predictions = played("herding", seed=start, start=start)
+    assert [p.ok for p in predictions] == [True, True]
+
+
+def test_without_fear_the_sheep_stay_where_they_are():
+    experiment = open_experiment("herding", {"robots.0.pose": (-30, 0, 0), "stop_time": 5})
+    record = mars2d.run(experiment.scenario, control=experiment.control)
+    assert np.ptp(record.pose[:, :, 1:], axis=0).max() == 0
+    assert [p.ok for p in experiment.predictions(record)] == [False, True]
+
+
+@pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])
+def test_the_model_answers_do_what_they_say(name):
+    _, outcome, predictions = played(
+        f"{mars2d.scenario.experiment.examples()[name].parent}/solutions/{name}.py"
+    )
+    assert all(p.ok for p in predictions)
+    if outcome:
+        before = played(name)[1]
+        assert not before.capture_time < outcome.capture_time

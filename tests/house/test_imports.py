@@ -1,0 +1,217 @@
+"""Imports point downwards only, and importing MARS2D is quick and has no side effects."""
+
+from __future__ import annotations
+
+import ast
+import statistics
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import mars2d
+from mars2d.core.registry import FAMILIES, members, snake_case
+
+PACKAGE = Path(mars2d.__file__).parent
+
+LAYERS = [
+    {"core"},
+    {"geometry"},
+    {"bodies", "sensors", "addons"},
+    {"scenario"},
+    {"record"},
+    {"physics", "output"},
+    {"world"},
+    {"window", "study", "testing", "session"},
+    {"reports"},
+    {"cli"},
+]
+"""The rooms of the house, low to high: each imports from below only, for types as well."""
+
+LAZY_UPWARDS = {
+    ("record", "output"): "figures, films, pages, files: Record.plot, Record.save, ...",
+    ("scenario", "output"): "the picture of a scenario in a notebook",
+    ("session", "window"): "run(..., show=True)",
+}
+"""The conveniences that import from above, when they are called."""
+
+HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "svgelements", "yaml"}
+
+FILES = sorted(path for path in PACKAGE.rglob("*.py") if "examples" not in path.parts)
+
+
+ROOMS = sorted({room for layer in LAYERS for room in layer})
+
+
+def _level(room: str) -> int:
+    return next(i for i, layer in enumerate(LAYERS) if room in layer)
+
+
+def _imports(tree: ast.AST, kind: str = "module") -> Iterator[tuple[str, str]]:
+    """Yield each module that is imported, and its kind: "module", "typing" or "lazy"."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, kind) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, "imports are absolute"
+            assert node.module is not None
+            for alias in node.names:
+                module = node.module
+                folder = PACKAGE.parent / module.replace(".", "/")
+                is_module = any(
+                    (folder / place).exists()
+                    for place in (f"{alias.name}.py", f"{alias.name}/__init__.py")
+                )
+                yield (f"{module}.{alias.name}" if is_module else module), kind
+        elif isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            yield from _imports(node, "typing")
+        elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+            yield from _imports(node, "lazy")
+        else:
+            yield from _imports(node, kind)
+
+
+@cache
+def _own_imports(path: Path) -> list[tuple[str, str]]:
+    return list(_imports(ast.parse(path.read_text(encoding="utf-8"))))
+
+
+def _at_run_time(path: Path) -> set[str]:
+    return {module for module, kind in _own_imports(path) if kind != "typing"}
+
+
+def _room(path: Path) -> str:
+    return path.relative_to(PACKAGE).with_suffix("").parts[0]
+
+
+def test_the_top_of_the_package_shows_its_rooms_and_nothing_else() -> None:
+    there = {_room(path) for path in FILES} - {"__init__", "__main__"}
+    assert there == set(ROOMS)
+    assert len(there) <= 17
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_a_module_imports_only_from_rooms_below(path: Path) -> None:
+    room = _room(path)
+    if room in ("__init__", "__main__"):
+        return  # the public names may come from anywhere
+    for module, kind in _own_imports(path):
+        names = module.split(".")
+        if names[0] != "mars2d" or names[1:2] == [room]:
+            continue
+        if len(names) == 1:
+            assert kind == "lazy" or room == "cli", f"{path} imports mars2d itself: a circle"
+            continue
+        if kind == "lazy" and (room, names[1]) in LAZY_UPWARDS:
+            continue
+        assert _level(names[1]) < _level(room), f"{path} imports {module}, which is not below it"
+
+
+def test_each_lazy_import_upwards_that_is_listed_is_used() -> None:
+    used = {
+        (_room(path), module.split(".")[1])
+        for path in FILES
+        for module, kind in _own_imports(path)
+        if kind == "lazy" and module.startswith("mars2d.")
+    }
+    assert set(LAZY_UPWARDS) <= used
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_parts_of_one_family_do_not_import_each_other(family: str) -> None:
+    parts = {f"{FAMILIES[family]}.{snake_case(name)}" for name in members(family)}
+    for part in parts:
+        path = PACKAGE.parent / f"{part.replace('.', '/')}.py"
+        assert not _at_run_time(path) & parts, path
+
+
+@pytest.mark.parametrize("room", ["core", "geometry", "sensors", "addons", "record", "output"])
+def test_who_draws_senses_or_reports_never_touches_the_engine(room: str) -> None:
+    for path in (path for path in FILES if _room(path) == room):
+        modules = {module for module, _ in _own_imports(path)}
+        assert not {m for m in modules if m.startswith(("mars2d.physics", "pymunk"))}, path
+
+
+def test_physics_alone_knows_the_engine_library_and_the_bare_loop_that_it_is_measured_by() -> None:
+    knows = {path for path in FILES for m, _ in _own_imports(path) if m.startswith("pymunk")}
+    outside = {path.name for path in knows if _room(path) != "physics"}
+    assert outside == {"yardstick.py"}
+    assert {path.name for path in knows} == {"rays.py", "space.py", "chipmunk.py", "yardstick.py"}
+
+
+def test_no_module_imports_anything_heavy_when_it_is_imported() -> None:
+    for path in FILES:
+        if _room(path) in ("window", "output"):
+            continue
+        at_once = {module.split(".")[0] for module, kind in _own_imports(path) if kind == "module"}
+        assert not at_once & HEAVY, path
+
+
+def test_the_import_test_tells_imports_in_functions_and_those_for_types() -> None:
+    code = (
+        "if TYPE_CHECKING:\n    from mars2d.world.world import World\n"
+        "def f():\n    from mars2d.output.figures.figure import plot\n"
+        "try:\n    import mars2d.physics.engine\nexcept ImportError:\n    pass\n"
+    )
+    assert list(_imports(ast.parse(code))) == [
+        ("mars2d.world.world", "typing"),
+        ("mars2d.output.figures.figure", "lazy"),
+        ("mars2d.physics.engine", "module"),
+    ]
+
+
+def test_importing_the_package_loads_nothing_heavy(child) -> None:
+    code = f"import mars2d, sys; print(sorted({HEAVY!r} & set(sys.modules)))"
+    assert child(code).stdout.strip() == "[]"
+
+
+def test_running_a_small_experiment_loads_no_display(child) -> None:
+    code = (
+        "import mars2d, sys; mars2d.run(mars2d.Scenario(), stop_time=1);"
+        "print(sorted({'pygame', 'matplotlib'} & set(sys.modules)))"
+    )
+    assert child(code).stdout.strip() == "[]"
+
+
+def test_importing_the_package_has_no_side_effects(child, tmp_path) -> None:
+    code = (
+        "import os, random, sys, warnings, signal\n"
+        "import numpy as np\n"
+        f"os.chdir({str(tmp_path)!r})\n"
+        "def state():\n"
+        "    legacy = np.random.get_state()\n"
+        "    return (random.getstate(), legacy[1].tolist(), legacy[2:], np.geterr(),\n"
+        "            np.get_printoptions(), dict(os.environ), os.getcwd(),\n"
+        "            list(warnings.filters), signal.getsignal(signal.SIGINT))\n"
+        "before = state()\n"
+        "import mars2d\n"
+        "assert state() == before\n"
+        "print('same')"
+    )
+    result = child(code)
+    assert result.stdout.strip() == "same", result.stderr
+    assert result.stderr == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_importing_mars2d_takes_less_than_one_and_a_half_times_numpy_and_pymunk(
+    child, tmp_path
+) -> None:
+    """The processor's time of both in one process: machines, and how busy they are, differ.
+
+    Modules are compiled by the first run, as those of an installed package are.
+    """
+    code = (
+        "import time; start = time.process_time()\n"
+        "import numpy, pymunk, pymunk.batch; middle = time.process_time()\n"
+        "import mars2d; print(middle - start, time.process_time() - middle)"
+    )
+    # Other tests' libraries may leave numpy one thread, without which it starts quicker.
+    threads = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "")
+    written = {"PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": str(tmp_path)}
+    times = [
+        [float(each) for each in child(code, **threads, **written).stdout.split()] for _ in range(6)
+    ]
+    ratios = [ours / theirs for theirs, ours in times[1:]]  # one right after the other: the clock
+    assert statistics.median(ratios) < 1.5  # of a processor changes within seconds

@@ -1,0 +1,149 @@
+"""Every field of the paper's Table 1 has its home, as docs/from_mars.md says.
+
+Source: Casini & Garulli (2016), Table 1.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import MISSING, fields
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import mars2d
+from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle, World
+
+PAGE = Path(__file__).parents[2] / "docs" / "from_mars.md"
+
+TABLE_1 = [
+    "Robots",
+    "Pose",
+    "Initial_pose",
+    "Sampling_time",
+    "Iteration",
+    "Time",
+    "Stop_time",
+    "Workspace",
+    "Bounds",
+    "Non-holonomic",
+    "Command_delay",
+    "Geometric_center",
+    "Exp_over",
+    "Exp_over_msg",
+    "Filename",
+    "Version",
+    "Addons",
+    "Addons_suffix",
+    "Robot.Max_linear_speed",
+    "Robot.Wheels_semiaxis_length",
+    "Robot.Diameter",
+    "Robot.Distance_center_barycenter",
+    "Animation.Title",
+    "Animation.Grid",
+    "Animation.Show_initial_pose",
+    "Animation.Show_real_shape",
+    "Animation.Wake",
+    "Animation.Wake_style",
+    "Animation.Playback_speed",
+    "Animation.Base_colors",
+    "History.Time",
+    "History.Pose",
+    "History.Command",
+    "History.Command_time",
+]
+
+DESCRIPTIONS: dict[str, type] = {
+    kind.__name__: kind for kind in (Scenario, Robot, Animation, Unicycle, Holonomic)
+}
+
+
+def rows() -> list[list[str]]:
+    """The rows of the table: MARS's name, homes, meaning, default there, default here."""
+    text = PAGE.read_text(encoding="utf-8").partition("## The fields of Table 1")[2]
+    lines = [line for line in text.partition("\n## ")[0].splitlines() if line.startswith("| ")]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[1:]]
+
+
+def homes(row: list[str]) -> list[str]:
+    return re.findall(r"`([^`]+)`", row[1])
+
+
+def declared(kind: type, name: str) -> Any:
+    """The dataclass field of a description, or None."""
+    return next((field for field in fields(kind) if field.name == name), None)
+
+
+def written(default: str) -> Any:
+    """The value that stands in the column of defaults."""
+    text = default.strip("`")
+    made = {"Unicycle()": Unicycle(), "Holonomic()": Holonomic()}
+    return made[text] if text in made else ast.literal_eval(text)
+
+
+def test_the_table_has_every_field_of_the_paper_once():
+    assert [row[0] for row in rows()] == TABLE_1
+
+
+@pytest.mark.parametrize("row", rows(), ids=lambda row: row[0])
+def test_each_home_exists(row):
+    assert homes(row)
+    scenario = Scenario()
+    live: dict[str, Any] = {"World": World(scenario), "Record": World(scenario).record}
+    live |= {"Scenario": scenario, "Robot": Robot(), "Animation": Animation()}
+    live |= {"Unicycle": Unicycle(), "Holonomic": Holonomic(), "mars2d": mars2d}
+    for home in homes(row):
+        owner, *names = home.split(".")
+        value = live[owner]
+        for name in names:
+            assert hasattr(value, name), home
+            value = getattr(value, name)
+
+
+@pytest.mark.parametrize("row", rows(), ids=lambda row: row[0])
+def test_each_default_is_the_one_stated(row):
+    stated = []
+    for home in homes(row):
+        owner, _, name = home.partition(".")
+        field = declared(DESCRIPTIONS[owner], name) if owner in DESCRIPTIONS else None
+        if field is not None:
+            default = field.default if field.default is not MISSING else field.default_factory()
+            assert default == written(row[4]), home
+            assert type(default) is type(written(row[4])), home
+            stated.append(home)
+    assert stated or row[4] == "-"
+
+
+def test_the_defaults_that_table_1_states_are_those_here():
+    scenario = Scenario()
+    assert len(scenario.robots) == 1
+    assert isinstance(scenario.robots[0].drive, Unicycle)
+    assert scenario.title == "[Simulation]"
+    look = scenario.animation
+    assert (look.grid, look.show_initial_pose, look.show_real_shape, look.wake) == (True,) * 4
+    assert look.wake_style == "-"
+    assert look.playback_speed == 1
+
+
+def test_the_turns_of_algorithm_2_are_not_clipped_but_would_be_with_marss_wheels():
+    import numpy as np
+
+    fastest = np.array([[0.0], [3 * np.pi / 2]])
+    assert np.array_equal(Unicycle().saturate(fastest), fastest)
+    marss = Unicycle(max_linear_speed=0.2, wheel_semiaxis=0.05)
+    assert marss.saturate(fastest)[1, 0] == pytest.approx(4.0)
+
+
+def test_hooks_are_those_that_take_the_place_of_marss_suffixes():
+    row = next(row for row in rows() if row[0] == "Addons_suffix")
+    named = re.findall(r"`(on_\w+)`", row[2])
+    assert named[:3] == ["on_start", "on_step", "on_draw"]
+    assert set(named) == set(mars2d.addons.HOOKS)
+
+
+def test_marss_letters_for_colours_and_styles_are_understood():
+    look = Animation(base_colors=list("krgbmcy"), wake_style="--", playback_speed="max")
+    assert len(look.base_colors) == 7
+    assert Animation(playback_speed=0).playback_speed == 0

@@ -1,0 +1,55 @@
+"""What docs/theory.md says is measured anew: every number is within its tolerance."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+_spec = importlib.util.spec_from_file_location("make_theory", ROOT / "docs" / "make_theory.py")
+make_theory = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(make_theory)
+
+PAGE = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+ROW = re.compile(r"^\| (?P<what>.+?) \| (?P<predicted>\S+)[^|]* \| (?P<measured>\S+).* \| ok \|$")
+
+
+def rows(section: str) -> dict[str, float]:
+    """Return what a section of the page predicts, by what it is."""
+    part = PAGE.partition(f"## {section}")[2].partition("\n## ")[0]
+    found = [ROW.match(line) for line in part.splitlines()[4:] if line.startswith("|")]
+    assert all(found), "every row of the page is ok"
+    return {match["what"]: float(match["predicted"]) for match in found}
+
+
+LONG = {"friction_threshold"}
+"""Facts that take seconds to measure: `pytest -m soak`."""
+
+
+@pytest.mark.parametrize(
+    "fact",
+    [
+        pytest.param(f, id=f.__name__, marks=[pytest.mark.soak] if f.__name__ in LONG else [])
+        for f in make_theory.FACTS
+    ],
+)
+def test_a_fact_of_the_page_holds(fact):
+    stated = rows("The physics")
+    predictions = list(fact())
+    assert predictions
+    for prediction in predictions:
+        assert prediction.ok, prediction
+        assert stated[prediction.name] == pytest.approx(prediction.predicted, rel=1e-4, abs=1e-12)
+
+
+@pytest.mark.soak
+def test_what_examples_say_of_themselves_is_on_the_page_and_holds():
+    stated = rows("The examples")
+    measured = make_theory.of_examples()
+    assert len(measured) >= 9
+    named = {f"`{name}`: {p.name}": p for name, found in measured.items() for p in found}
+    assert set(stated) == set(named)
+    assert [name for name, p in named.items() if not p.ok] == []

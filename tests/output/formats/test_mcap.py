@@ -1,0 +1,613 @@
+"""Logs: written tick by tick, read back bit by bit, whatever ended them."""
+
+from __future__ import annotations
+
+import errno
+import os
+import random
+import signal
+import struct
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mars2d
+from mars2d import InputError, LawError, Record, Robot, Scenario, World
+from mars2d.output.formats.mcap import Log
+from mars2d.output.formats.mcap.reading import BROKEN_OFF
+from mars2d.output.formats.mcap.row import decoded, schema
+from mars2d.output.formats.mcap.scanning import scan
+from mars2d.record.columns import DiskError
+from mars2d.scenario import serialize
+from mars2d.scenario.experiment import open_experiment
+from mars2d.world.loop import simulate
+from tests.output.formats.records import cut_to, everything
+
+pytest.importorskip("mcap")
+
+EXAMPLES = ["token_ring", "many_push_one", "wall_follower", "billiards", "sumo"]
+"""With messages, contacts and props, a sensor, joints, and add-ons."""
+
+
+def run(name: str, path: Path, until: float = 8.0) -> Record:
+    return simulate(open_experiment(name, {"stop_time": until}), 1, log=Log(path)).record
+
+
+def torn(path: Path, size: int) -> Path:
+    """Return a copy of the first bytes of a file."""
+    part = path.with_name("torn.mcap")
+    part.write_bytes(path.read_bytes()[:size])
+    return part
+
+
+def same_up_to(part: Record, whole: Record) -> None:
+    """Check that a record is the beginning of another, to the last bit."""
+    n = len(part)
+    for name, column in part.columns().items():
+        if name.startswith(("contact:", "message:", "content")):
+            continue
+        np.testing.assert_array_equal(column, whole.columns()[name][:n])
+    for mine, other in ((part.contacts, whole.contacts), (part.messages, whole.messages)):
+        for name in mine.dtype.names:
+            if name != "status":  # of messages that were on their way when it broke off
+                np.testing.assert_array_equal(mine[name], other[name][: len(mine)])
+    assert tuple(part.contents) == tuple(whole.contents[: len(part.contents)])
+
+
+def unclosed(name: str, path: Path, until: float = 8.0) -> Record:
+    """Run an example with a log that is left as it was at the last step, as by kill -9."""
+    log = Log(path)
+    experiment = open_experiment(name, {"stop_time": until})
+    world = World(experiment.scenario, experiment.control, 1, filename=experiment.filename)
+    while not world.over:
+        world.step()
+        log.follow(world)
+    log._file.close()
+    return world.record
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_log_holds_the_same_bits_as_the_record_of_the_run(name, tmp_path) -> None:
+    record = run(name, tmp_path / "run.mcap")
+    without = simulate(open_experiment(name, {"stop_time": 8.0}), 1).record
+    read = mars2d.load(tmp_path / "run.mcap")
+    assert read.digest == record.digest == without.digest
+    assert (read.over_message, read.finished, read.seed) == (record.over_message, True, 1)
+    other = mars2d.load(without.save(tmp_path / "run.npz"))
+    assert serialize.from_description(read.scenario) == serialize.from_description(other.scenario)
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_record_is_saved_as_a_log_and_stays_the_same(name, tmp_path) -> None:
+    record = simulate(open_experiment(name, {"stop_time": 8.0}), 1).record
+    first = mars2d.load(record.save(tmp_path / "first.mcap"))
+    second = mars2d.load(first.save(tmp_path / "second.mcap"))
+    assert first.digest == second.digest == record.digest
+
+
+@pytest.mark.parametrize("library", ["mcap", "foxglove_schemas_protobuf", "google"])
+def test_without_a_library_a_log_says_what_to_install(library, child, tmp_path) -> None:
+    code = (
+        "import sys\n"
+        "class Blocked:\n"
+        "    def find_spec(self, name, path=None, target=None):\n"
+        f"        if name.partition('.')[0] == {library!r}:\n"
+        "            raise ModuleNotFoundError(name)\n"
+        "sys.meta_path.insert(0, Blocked())\n"
+        "from mars2d.cli import command_line as cli\n"
+        f"path = {str(tmp_path)!r} + '/a.mcap'\n"
+        "sys.exit(cli.main(['run', 'head_on', '--headless', '--record', path]))\n"
+    )
+    result = child(code)
+    told = f'mars2d: {tmp_path}/a.mcap: a log needs mcap: pip install "mars2d[log]"\n'
+    assert (result.returncode, result.stderr) == (2, told)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_no_run_gives_is_not_written_as_a_log_that_could_not_be_read(tmp_path) -> None:
+    record = everything()
+    part = replace(cut_to(record, 5), messages=record.messages, contents=record.contents)
+    none = replace(cut_to(record, 0), contacts=record.contacts)
+    early, late = (replace(record, time=record.time + shift) for shift in (-9.0, 1e11))
+    for each in (part, none, early, late):
+        with pytest.raises(InputError, match=r"run\.mcap: can't be written: a log is of a whole"):
+            each.save(tmp_path / "run.mcap")
+        assert mars2d.load(each.save(tmp_path / "run.npz")).digest == each.digest
+    first = cut_to(record, 5)
+    assert mars2d.load(first.save(tmp_path / "run.mcap")).digest == first.digest
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_log_that_nobody_closed_has_all_rows(name, tmp_path) -> None:
+    record = unclosed(name, tmp_path / "run.mcap")
+    read = mars2d.load(tmp_path / "run.mcap")
+    assert len(read) == len(record)
+    same_up_to(read, record)
+    assert len(read.contacts) == len(record.contacts)
+    assert len(read.messages) == len(record.messages)
+    assert (read.over_message, read.finished) == (BROKEN_OFF, False)
+
+
+def test_wherever_a_log_breaks_off_all_rows_before_are_there(tmp_path) -> None:
+    record = unclosed("token_ring", tmp_path / "run.mcap", 30.0)
+    whole = (tmp_path / "run.mcap").read_bytes()
+    chosen = random.Random(1)
+    first = whole.index(b"/mars2d/row") + 20_000  # behind the header
+    count = 0
+    for size in sorted(chosen.randrange(first, len(whole)) for _ in range(40)):
+        read = mars2d.load(torn(tmp_path / "run.mcap", size))
+        assert len(read) >= count
+        count = len(read)
+        same_up_to(read, record)
+    assert count > 200
+
+
+@given(size=st.integers(0, 60_000), place=st.integers(0, 60_000), value=st.integers(0, 255))
+def test_a_damaged_log_is_refused_in_one_line_or_read(size, place, value, tmp_path_factory) -> None:
+    path = tmp_path_factory.getbasetemp() / "whole.mcap"
+    if not path.exists():
+        run("many_push_one", path, 3.0)
+    data = bytearray(path.read_bytes())
+    if place < len(data):
+        data[place] = value
+    part = path.with_name("damaged.mcap")
+    part.write_bytes(data[: max(1, len(data) - size)])
+    told = f"{part}: "
+    try:
+        mars2d.load(part)
+    except InputError as error:
+        told = str(error)
+    assert told.startswith(f"{part}: ")
+    assert "\n" not in told
+
+
+def test_a_row_is_a_message_that_protocol_buffers_can_read(tmp_path) -> None:
+    from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+
+    record = run("token_ring", tmp_path / "run.mcap")
+    pool = descriptor_pool.DescriptorPool()
+    for file in descriptor_pb2.FileDescriptorSet.FromString(schema()).file:
+        pool.Add(file)
+    kind = message_factory.GetMessageClass(pool.FindMessageTypeByName("mars2d.Row"))
+    with (tmp_path / "run.mcap").open("rb") as file:
+        rows = [data[22:] for code, data in scan(tmp_path / "run.mcap", file, 2**31) if code == 5]
+    mine = [row for row in rows if _is_row(row)]
+    assert len(mine) == len(record)
+    for k in (0, len(record) - 1):
+        row = kind.FromString(mine[k])
+        assert (row.row, row.time) == (k, record.time[k])
+        assert list(row.pose) == record.pose[k].ravel().tolist()
+    talked = [kind.FromString(row) for row in mine]
+    assert [text for row in talked for text in row.contents] == list(record.contents)
+
+
+def _is_row(data: bytes) -> bool:
+    try:
+        decoded(data)
+    except Exception:
+        return False
+    return True
+
+
+def test_foxglove_gets_poses_frames_scans_and_the_scene(tmp_path) -> None:
+    from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
+    from foxglove_schemas_protobuf.LaserScan_pb2 import LaserScan
+    from foxglove_schemas_protobuf.PosesInFrame_pb2 import PosesInFrame
+    from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
+    from mcap.reader import make_reader
+
+    from mars2d.sensors import RangeFinder
+
+    scanner = RangeFinder(
+        beams=9, range=2.0, field_of_view=np.pi, mount=(0.1, 0.0, 0.3), name="eye"
+    )
+    robots = [Robot(pose=(0, 0, 0.5), sensors=[scanner]), Robot(pose=(1, 0.5, 2))]
+    scenario = Scenario(robots=robots, stop_time=1.0, on_exit="wall")
+    record = mars2d.run(scenario, record=tmp_path / "run.mcap")
+    kinds = {kind.DESCRIPTOR.full_name: kind for kind in
+             (FrameTransforms, LaserScan, PosesInFrame, SceneUpdate)}  # fmt: skip
+    found: dict[str, list] = {}
+    with (tmp_path / "run.mcap").open("rb") as file:
+        reader = make_reader(file, validate_crcs=True)
+        for told, channel, message in reader.iter_messages():
+            if told.name in kinds:
+                found.setdefault(channel.topic, []).append(
+                    kinds[told.name].FromString(message.data)
+                )
+        counts = reader.get_summary().statistics.channel_message_counts
+    assert sorted(found) == ["/poses", "/robot0/eye", "/scene", "/tf"]
+    assert len(found["/scene"]) == 1
+    assert max(counts.values()) == len(record)
+    pose = found["/poses"][-1].poses[1]
+    assert (pose.position.x, pose.position.y) == (1, 0.5)
+    assert 2 * np.arctan2(pose.orientation.z, pose.orientation.w) == pytest.approx(2)
+    link = found["/tf"][-1].transforms[0]
+    assert (link.parent_frame_id, link.child_frame_id) == ("world", "robot0")
+    assert link.timestamp.ToNanoseconds() == 10**9
+    scan_ = found["/robot0/eye"][3]
+    assert list(scan_.ranges) == record.sensors["eye"][3, 0].tolist()
+    assert (scan_.start_angle, scan_.end_angle) == pytest.approx((-np.pi / 2, np.pi / 2))
+    assert (scan_.frame_id, scan_.pose.position.x) == ("robot0", 0.1)
+    names = {entity.frame_id for entity in found["/scene"][0].entities}
+    assert names == {"world", "robot0", "robot1"}
+
+
+def test_a_scan_has_the_time_at_which_it_was_measured(tmp_path) -> None:
+    from foxglove_schemas_protobuf.LaserScan_pb2 import LaserScan
+    from mcap.reader import make_reader
+
+    from mars2d.sensors import RangeFinder
+
+    scanner = RangeFinder(beams=3, rate=5, latency=0.1, name="eye")
+    scenario = Scenario(robots=[Robot(sensors=[scanner])], sampling_time=0.1, stop_time=0.6)
+    mars2d.run(scenario, record=tmp_path / "run.mcap")
+    with (tmp_path / "run.mcap").open("rb") as file:
+        found = [
+            (message.log_time, LaserScan.FromString(message.data).timestamp.ToNanoseconds())
+            for _, _, message in make_reader(file).iter_messages(topics="/robot0/eye")
+        ]
+    ms = 10**6
+    assert found == [(100 * ms, 0), (300 * ms, 200 * ms), (500 * ms, 400 * ms)]
+
+
+# -- what ends a run ------------------------------------------------------------------------------
+
+
+def test_a_run_that_a_law_ends_is_in_its_log(tmp_path) -> None:
+    def law(world):
+        if world.iteration == 7:
+            raise ValueError("no more")
+        return np.zeros((2, 1))
+
+    with pytest.raises(LawError) as caught:
+        mars2d.run(Scenario(), control=law, record=tmp_path / "run.mcap")
+    read = mars2d.load(tmp_path / "run.mcap")
+    assert read.digest == caught.value.record.digest
+    assert "no more" in read.over_message
+    assert not read.finished
+
+
+def test_ctrl_c_ends_a_log_as_it_ends_a_run(tmp_path) -> None:
+    def law(world):
+        if world.iteration == 5:
+            raise KeyboardInterrupt
+        return np.zeros((2, 1))
+
+    with pytest.raises(KeyboardInterrupt):
+        mars2d.run(Scenario(), control=law, record=tmp_path / "run.mcap")
+    assert mars2d.load(tmp_path / "run.mcap").over_message == "Interrupted by Ctrl-C"
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".mcap"])
+def test_run_takes_the_name_of_a_record(suffix, tmp_path) -> None:
+    path = tmp_path / f"run{suffix}"
+    record = mars2d.run("random_walk", stop_time=5, record=path)
+    assert mars2d.load(path).digest == record.digest
+
+
+def test_a_world_that_one_steps_oneself_can_be_logged(tmp_path) -> None:
+    with Log(tmp_path / "run.mcap") as log:
+        world = World(Scenario(), storage=log.storage)
+        for _ in range(5):
+            world.step([[0.1], [0.2]])
+            log.follow(world)
+        world.hands.place(0, (1, 1, 0))
+        world.step([[0.1], [0.2]])
+    read = mars2d.load(tmp_path / "run.mcap")
+    assert read.digest == world.record.digest
+    assert read.interventions == world.record.interventions
+
+
+def test_steps_that_were_not_followed_one_by_one_are_caught_up_with(tmp_path) -> None:
+    experiment = open_experiment("many_push_one", {"stop_time": 6.0})
+    with Log(tmp_path / "run.mcap") as log:
+        world = World(experiment.scenario, experiment.control, filename=experiment.filename)
+        while not world.over:
+            world.step()
+            if world.iteration % 7 == 0:
+                log.follow(world)
+    assert mars2d.load(tmp_path / "run.mcap").digest == world.record.digest
+
+
+# -- kill -9 --------------------------------------------------------------------------------------
+
+ENDLESS = """
+import os, sys
+import mars2d
+from mars2d.scenario.experiment import open_experiment
+from mars2d.output.formats.mcap import Log
+from mars2d.world.loop import open_world
+experiment = open_experiment("token_ring", {"stop_time": float(sys.argv[2])})
+with Log(sys.argv[1]) as log:
+    world = open_world(experiment, 1, (), log.storage)
+    while not world.over:
+        world.step()
+        log.follow(world)
+        os.write(1, world.iteration.to_bytes(8, "little"))
+    os.write(1, bytes(8))
+"""
+"""A run that tells of each step that is finished: how many there are; and 0 before it is packed."""
+
+
+def killed(path: Path, after: float, until: float) -> int:
+    """Kill a run some seconds after its first step; return how many it had finished."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", ENDLESS, str(path), str(until)], stdout=subprocess.PIPE
+    )
+    assert process.stdout is not None
+    first = process.stdout.read(8)
+    assert first, "it did not begin"
+    time.sleep(after)
+    process.send_signal(signal.SIGKILL)
+    told = first + process.stdout.read()
+    process.stdout.close()
+    process.wait()
+    steps = [int.from_bytes(told[i : i + 8], "little") for i in range(0, len(told) // 8 * 8, 8)]
+    return max(steps)
+
+
+def check_kills(count: int, tmp_path: Path) -> None:
+    whole = simulate(open_experiment("token_ring", {"stop_time": 200.0}), 1).record
+    chosen = random.Random(count)
+    for k in range(count):
+        path = tmp_path / f"{k}.mcap"
+        finished = killed(path, chosen.uniform(0.0, 0.8), 200.0)
+        read = mars2d.load(path)
+        # One more may have been written, and not told of.
+        assert finished <= len(read) <= finished + 1 or len(read) == len(whole)
+        same_up_to(read, whole)
+        path.unlink()
+
+
+def test_a_run_that_is_killed_loses_no_finished_step(tmp_path) -> None:
+    check_kills(6, tmp_path)
+
+
+@pytest.mark.soak
+def test_a_run_that_is_killed_a_hundred_times_loses_no_finished_step(tmp_path) -> None:
+    check_kills(100, tmp_path)
+
+
+def test_a_run_that_is_killed_while_it_is_packed_keeps_all(tmp_path, child) -> None:
+    path = tmp_path / "run.mcap"
+    code = (
+        "import os, signal, mcap.writer as w\n"
+        "calls, add = [0], w.Writer.add_message\n"
+        "def dying(*args, **kwargs):\n"
+        "    calls[0] += 1\n"
+        "    if calls[0] == 30: os.kill(os.getpid(), signal.SIGKILL)\n"
+        "    return add(*args, **kwargs)\n"
+        "w.Writer.add_message = dying\n"  # only packing uses it
+        f"import mars2d; mars2d.run('token_ring', stop_time=20, record={str(path)!r})"
+    )
+    assert child(code).returncode == -signal.SIGKILL
+    read = mars2d.load(path)
+    assert read.digest == mars2d.run("token_ring", stop_time=20).digest
+    assert read.finished
+
+
+# -- a disk that is full, a folder that is gone ---------------------------------------------------
+
+
+def test_a_full_disk_ends_the_run_and_leaves_a_file_that_can_be_read(tmp_path) -> None:
+    folder = tmp_path / "small"
+    folder.mkdir()
+    made = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=2m", "tmpfs", folder], capture_output=True, check=False
+    )
+    if made.returncode:
+        pytest.skip("a small disk can't be mounted here")
+    try:
+        experiment = open_experiment("random_walk", {"stop_time": 1e5, "on_exit": "ignore"})
+        with pytest.raises(DiskError, match="No space left on device") as caught:
+            simulate(experiment, log=Log(folder / "run.mcap"))
+        record = caught.value.record
+        read = mars2d.load(folder / "run.mcap")
+        assert len(read) > 50
+        assert len(record) - 1 <= len(read) <= len(record)  # one may not have fitted
+        same_up_to(read, record)
+        assert "No space left" in record.over_message
+    finally:
+        subprocess.run(["umount", "-l", folder], check=True)
+
+
+def test_a_file_that_may_not_grow_ends_the_run(tmp_path, child) -> None:
+    path = tmp_path / "run.mcap"
+    code = (
+        "import resource, mars2d, numpy as np\n"
+        "from mars2d import Scenario, World\n"
+        "from mars2d.output.formats.mcap import Log\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))\n"
+        "world = World(Scenario(stop_time=1e5))\n"
+        "try:\n"
+        f"    with Log({str(path)!r}) as log:\n"
+        "        while True:\n"
+        "            world.step([[0.0], [0.1]])\n"
+        "            log.follow(world)\n"
+        "except mars2d.InputError as error:\n"
+        "    print(error)\n"
+        "    print(len(error.record))\n"
+    )
+    told, count = child(code).stdout.splitlines()
+    assert told == f"{path}: can't be written: {os.strerror(errno.EFBIG)}"
+    assert len(mars2d.load(path)) == int(count) - 1
+    assert path.stat().st_size <= 60_000
+
+
+def test_a_folder_that_vanishes_ends_the_run_within_seconds(tmp_path) -> None:
+    folder = tmp_path / "gone"
+    folder.mkdir()
+    path = folder / "run.mcap"
+
+    def law(world):
+        if world.iteration == 20:
+            path.unlink()
+            folder.rmdir()
+        time.sleep(0.01)
+        return np.zeros((2, 1))
+
+    scenario = Scenario(stop_time=1e5)
+    with pytest.raises(DiskError, match=r"run.mcap: it was deleted or moved") as caught:
+        mars2d.run(scenario, control=law, record=path)
+    assert 20 < len(caught.value.record) < 400
+    assert caught.value.record.save(tmp_path / "saved.npz").exists()
+
+
+def test_a_file_that_is_deleted_at_the_very_end_is_missed(tmp_path) -> None:
+    path = tmp_path / "run.mcap"
+
+    def law(world):
+        if world.time > 0.9:
+            path.unlink(missing_ok=True)
+        return np.zeros((2, 1))
+
+    with pytest.raises(DiskError, match="deleted or moved") as caught:
+        mars2d.run(Scenario(stop_time=1.0), control=law, record=path)
+    assert len(caught.value.record) == 11
+
+
+def test_where_nothing_can_be_written_the_run_does_not_begin(tmp_path) -> None:
+    with pytest.raises(InputError, match="there is no folder"):
+        mars2d.run(Scenario(), record=tmp_path / "nowhere" / "run.mcap")
+    (tmp_path / "run.mcap").mkdir()
+    with pytest.raises(InputError, match="this is a folder"):
+        mars2d.run(Scenario(), record=tmp_path / "run.mcap")
+
+
+def test_memory_stays_flat_while_a_run_is_logged(tmp_path, child) -> None:
+    code = (
+        "import sys, mars2d, numpy as np\n"
+        "from mars2d import Robot, Scenario\n"
+        "from mars2d.addons import Communication\n"
+        "def talk(robot):\n"
+        "    robot.send({'t': robot.time, 'text': 'x' * 3000})\n"
+        "    return 0.05, 0.3\n"
+        "def peak():\n"
+        "    lines = open('/proc/self/status').read().splitlines()\n"
+        "    return int(next(l for l in lines if l.startswith('VmHWM')).split()[1])\n"
+        "robots = [Robot(pose=(x, 0, 0), controller=talk) for x in (-1, 1)]\n"
+        "for time in (100, 300):\n"
+        "    scenario = Scenario(robots=robots, stop_time=time, on_exit='ignore',\n"
+        "                        addons=[Communication()])\n"
+        f"    record = mars2d.run(scenario, record={str(tmp_path / 'run.mcap')!r})\n"
+        "    print(len(record), len(record.messages), record.digest and peak())\n"
+    )
+    if not Path("/proc/self/status").exists():
+        pytest.skip("this system does not tell of its memory so")
+    lines = [[int(each) for each in line.split()] for line in child(code).stdout.splitlines()]
+    (rows, sent, before), (more, later, after) = lines
+    assert (more, later) > (2 * rows, 2 * sent)
+    kept = (later - sent) * 3  # kB, were the messages kept in memory
+    assert after < before + kept / 3
+
+
+# -- what is no log of ours -----------------------------------------------------------------------
+
+
+def test_foreign_files_are_refused_in_one_line(tmp_path) -> None:
+    from mcap.writer import Writer
+
+    path = tmp_path / "run.mcap"
+    for data, why in (
+        (b"", "empty: the run was killed before it began"),
+        (b"hello", "this is no MCAP file"),
+        (b"\x89MCAP0\r\n", "it has no rows of a run"),
+    ):
+        path.write_bytes(data)
+        with pytest.raises(InputError, match=why):
+            mars2d.load(path)
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        channel = writer.register_channel("/imu", "json", 0)
+        writer.add_message(channel, 0, b"{}", 0)
+        writer.finish()
+    with pytest.raises(InputError, match=r"run.mcap: an MCAP file, but not of MARS2D"):
+        mars2d.load(path)
+
+
+def chunk(claimed: int, data: bytes, kind: str = "zstd") -> bytes:
+    body = struct.pack("<QQQII", 0, 0, claimed, 0, len(kind)) + kind.encode()
+    body += struct.pack("<Q", len(data)) + data
+    return b"\x89MCAP0\r\n" + struct.pack("<BQ", 6, len(body)) + body
+
+
+def test_a_chunk_that_claims_terabytes_or_unpacks_to_them_is_refused(tmp_path) -> None:
+    import zstandard
+
+    path = tmp_path / "run.mcap"
+    small = zstandard.compress(bytes(1000))
+    path.write_bytes(chunk(2**42, small))
+    with pytest.raises(InputError, match=r"claims to hold, 4\.4 TB"):
+        mars2d.load(path)
+    bomb = zstandard.compress(bytes(2**26))  # 64 MB in some kB, which claims to be small
+    path.write_bytes(chunk(1000, bomb))
+    with pytest.raises(InputError, match="not a record of MARS2D, or damaged"):
+        mars2d.load(path)
+    path.write_bytes(chunk(1000, small, "lz4"))
+    with pytest.raises(InputError, match="compressed by 'lz4'"):
+        mars2d.load(path)
+
+
+def test_a_log_of_a_newer_version_says_so_and_a_large_one_how_to_read_it(tmp_path) -> None:
+    path = tmp_path / "run.mcap"
+    record = unclosed("token_ring", path, 2.0)
+    newer = path.read_bytes().replace(b'"format": 3', b'"format": 9')
+    path.with_name("newer.mcap").write_bytes(newer)
+    with pytest.raises(InputError, match="written by a newer version of MARS2D"):
+        mars2d.load(path.with_name("newer.mcap"))
+    with pytest.raises(InputError, match="largest="):
+        mars2d.load(path, largest=5000)
+    assert len(mars2d.load(path, largest=100_000)) == len(record)
+
+
+# -- a window's branches --------------------------------------------------------------------------
+
+
+def test_a_log_follows_the_branches_of_a_timeline(tmp_path) -> None:
+    from mars2d.world.timeline import Timeline
+
+    path = tmp_path / "run.mcap"
+    log = Log(path)
+    timeline = Timeline(open_experiment("many_push_one", {"stop_time": 8.0}), 1, log=log)
+    for _ in range(50):
+        timeline.advance()
+    assert len(mars2d.load(path)) == 50
+    timeline.go(20)
+    timeline.change(lambda world: world.hands.steer(0, (0.0, 0.5)))
+    for _ in range(10):
+        timeline.advance()
+    read = mars2d.load(path)
+    assert len(read) == 30
+    same_up_to(read, timeline.record)
+    assert read.interventions == timeline.record.interventions
+    timeline.other_branch()
+    assert len(mars2d.load(path)) == 50
+    timeline.other_branch()
+    log.close(timeline.record)
+    assert mars2d.load(path).digest == timeline.record.digest
+    assert mars2d.load(path).over_message == "The window was closed"
+
+
+def test_a_run_that_begins_anew_begins_its_log_anew(tmp_path) -> None:
+    from mars2d.world.timeline import Timeline
+
+    path = tmp_path / "run.mcap"
+    log = Log(path)
+    timeline = Timeline(open_experiment("token_ring", {"stop_time": 8.0}), 1, log=log)
+    for _ in range(30):
+        timeline.advance()
+    timeline.restart()
+    assert len(mars2d.load(path)) == 0
+    for _ in range(20):
+        timeline.advance()
+    same_up_to(mars2d.load(path), timeline.record)
+    log.close(timeline.record)
+    assert mars2d.load(path).digest == timeline.record.digest

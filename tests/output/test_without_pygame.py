@@ -1,0 +1,191 @@
+"""Where pygame can't be installed, as in a browser, all works but windows, films and pixels.
+
+Each test runs Python in a child process in which pygame is not to be found. What Pyodide, which is
+Python in a browser, has not either raises there as well: threads, processes, signals by the clock;
+and the kernel in C is switched off.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import mars2d
+from mars2d.scenario.experiment import examples
+
+BLOCKED = """
+import importlib.abc, os, signal, subprocess, sys, threading
+
+class Blocked(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path=None, target=None):
+        if name in ("pygame", "cffi", "fcntl", "pwd", "resource", "termios", "tkinter"):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+def refuse(*args, **kwargs):
+    raise RuntimeError("a browser has neither threads nor processes")
+
+sys.meta_path.insert(0, Blocked())
+threading.Thread.start = subprocess.Popen.__init__ = os.fork = refuse
+del signal.setitimer, signal.alarm
+"""
+
+PIP = "which is not installed: pip install pygame-ce"
+
+
+def run_in_browser(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run code as a browser would; return what it prints."""
+    return subprocess.run(
+        [sys.executable, "-P", "-c", BLOCKED + code],
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+        cwd=folder,
+        env=os.environ | {"MARS2D_PLAIN": "1", "MPLBACKEND": "agg"},
+    )
+
+
+@pytest.fixture
+def browser(tmp_path):
+    """Run code as a browser would, in a folder of its own; return what it prints."""
+    return lambda code: run_in_browser(code, tmp_path)
+
+
+COMMANDS = """
+import contextlib, io, json
+from mars2d.cli.command_line import main
+said = []
+for words in {words}:
+    out, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+        code = main(words)
+    said.append((code, errors.getvalue()))
+print(json.dumps(said))
+"""
+
+
+def commands(words: list[list[str]], folder: Path) -> list[tuple[int, str]]:
+    """Run command lines as a browser would, one after the other; return codes and errors."""
+    done = run_in_browser(COMMANDS.format(words=words), folder)
+    assert done.returncode == 0, done.stderr
+    return [tuple(each) for each in json.loads(done.stdout)]
+
+
+def test_the_child_has_neither_pygame_nor_threads(browser):
+    assert "No module named 'pygame'" in browser("import pygame").stderr
+    assert "neither threads" in browser("threading.Thread(target=print).start()").stderr
+    assert "neither threads" in browser("subprocess.run(['true'])").stderr
+
+
+def test_every_example_runs_and_can_be_seen(browser):
+    code = (
+        "import mars2d, json\n"
+        "from mars2d.scenario.experiment import examples\n"
+        "found = {}\n"
+        "for name in examples():\n"
+        "    record = mars2d.run(name, stop_time=1.0)\n"
+        "    assert record._repr_svg_().startswith('<svg')\n"
+        "    assert record.scenario._repr_svg_().startswith('<svg')\n"
+        "    found[name] = record.digest\n"
+        "assert 'pygame' not in sys.modules\n"
+        "print(json.dumps(found))"
+    )
+    done = browser(code)
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert set(found) == set(examples())
+    for name in ("random_walk", "billiards"):  # the same to the last bit
+        assert mars2d.run(name, stop_time=1.0).digest == found[name]
+
+
+def test_a_record_is_saved_loaded_drawn_and_played(browser, tmp_path):
+    code = (
+        "import mars2d\n"
+        "record = mars2d.run('random_walk', stop_time=5)\n"
+        "again = mars2d.load(record.save('run.npz'))\n"
+        "assert again.digest == record.digest\n"
+        "record.plot().figure.savefig('paths.png')\n"
+        "record.plot_snapshots([0, 2]).savefig('snapshots.png')\n"
+        "record.plot_signals('x')[0].figure.savefig('signals.png')\n"
+        "record.plot_contacts()[0].figure.savefig('contacts.png')\n"
+        "record.plot_distances().figure.savefig('distances.png')\n"
+        "record.save_html('run.html')\n"
+        "assert '<iframe' in record._repr_html_()\n"
+        "assert 'pygame' not in sys.modules\n"
+    )
+    done = browser(code)
+    assert done.returncode == 0, done.stderr
+    figures = ("paths", "snapshots", "signals", "contacts", "distances")
+    wanted = {"run.npz", "run.html", *(f"{name}.png" for name in figures)}
+    assert {path.name for path in tmp_path.iterdir()} == wanted
+
+
+def test_a_world_is_stepped_by_hand_and_shows_itself(browser):
+    code = (
+        "from mars2d import Robot, Scenario, World\n"
+        "from mars2d.sensors import RangeFinder\n"
+        "world = World(Scenario(robots=[Robot(pose=(0, 0, 0), sensors=[RangeFinder()])]))\n"
+        "for _ in range(10): world.step([[0.3], [0.1]])\n"
+        "assert world._repr_svg_().startswith('<svg')\n"
+    )
+    done = browser(code)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_command_line_runs_saves_draws_and_checks(tmp_path):
+    saved = ["--record", "run.npz", "--figure", "paths.pdf", "--html", "run.html"]
+    every = [
+        ["run", "random_walk", "--headless", "--stop-time", "5", *saved],
+        ["list"],
+        ["check", "run.npz"],
+        ["check", "random_walk"],
+        ["demo"],
+        ["run", "random_walk", "--stop-time", "2"],
+    ]
+    said = commands(every, tmp_path)
+    assert [code for code, _ in said] == [0] * len(every), said
+    assert {"run.npz", "paths.pdf", "run.html"} == {path.name for path in tmp_path.iterdir()}
+    assert "this runs without a window" in said[-1][1]
+
+
+WINDOWS_AND_FILMS = [
+    (["run", "random_walk", "--headless", "--stop-time", "2", "--video", "a.gif"], "a film"),
+    (["demo", "random_walk", "--headless"], "a film"),
+    (["replay", "run.npz"], "a window"),
+    (["run", "random_walk", "--speed", "0"], "a window"),
+    (["run", "random_walk", "--human", "0"], "a window"),
+    (["edit"], "a window"),
+]
+
+
+def test_a_command_that_needs_pygame_says_so_in_one_line(tmp_path):
+    mars2d.run("random_walk", stop_time=1.0).save(tmp_path / "run.npz")
+    said = commands([words for words, _ in WINDOWS_AND_FILMS], tmp_path)
+    for (words, what), (code, errors) in zip(WINDOWS_AND_FILMS, said, strict=True):
+        assert code == 2, (words, errors)
+        assert errors.strip().splitlines()[-1] == f"mars2d: {what} needs pygame, {PIP}", words
+        assert "Traceback" not in errors
+
+
+CALLS = [
+    "mars2d.run('random_walk', show=True)",
+    "mars2d.run('random_walk', speed=0)",
+    "mars2d.run('random_walk', human=0)",
+    "mars2d.run('random_walk', stop_time=1).film('a.gif')",
+    "mars2d.run('random_walk', stop_time=1).film('a.mp4')",
+]
+
+
+def test_a_call_that_needs_pygame_raises_what_is_missing(browser):
+    missing = "mars2d.core.errors.MissingExtraError"
+    tried = "".join(f"try: {call}\nexcept {missing} as error: print(error)\n" for call in CALLS)
+    done = browser("import mars2d\n" + tried)
+    assert done.stderr == ""
+    lines = done.stdout.splitlines()
+    assert len(lines) == len(CALLS)
+    assert [line for line in lines if not line.endswith(PIP)] == []

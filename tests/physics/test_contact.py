@@ -1,0 +1,430 @@
+"""Contacts are reported as rows: who, when, where, which way and how hard."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mars2d import Holonomic, LawError, Robot, Scenario, Unicycle, World
+from mars2d.addons import Map
+from mars2d.bodies.props import Box, Puck
+from mars2d.record.contact import CONTACT, ContactLog, Solved, episodes
+from mars2d.world.verify import rerun
+
+
+def world_of(*robots: Robot, **fields) -> World:
+    fields.setdefault("workspace", None)
+    return World(Scenario(robots=list(robots), **fields))
+
+
+def drive(world: World, command, ticks: int) -> np.ndarray:
+    for _ in range(ticks):
+        world.step(command)
+    return world.record.contacts
+
+
+def wall_at(x: float) -> list[tuple[float, float]]:
+    return [(x, -1.0), (x, 1.0)]
+
+
+def test_without_contact_there_are_no_rows():
+    world = world_of(Robot(), Robot(pose=(1, 0, 0)))
+    contacts = drive(world, [[0, 0], [0, 0]], 3)
+    assert contacts.dtype == CONTACT
+    assert len(contacts) == 0
+    assert world.record.collisions == 0
+
+
+def test_two_robots_that_meet_make_one_row_each_control_step():
+    world = world_of(Robot(), Robot(pose=(0.51, 0, np.pi)))
+    contacts = drive(world, [[0.2, 0.2], [0, 0]], 20)
+    assert set(zip(contacts["a"].tolist(), contacts["b"].tolist(), strict=True)) == {(0, 1)}
+    # The gap of 0.21 m closes at 0.4 m/s: they meet after 0.525 s.
+    assert contacts["time"][0] == pytest.approx(0.525, abs=5e-3)
+    assert len(contacts) == pytest.approx(15, abs=1)
+    steps = np.floor(contacts["time"] / 0.1 + 1e-9)
+    assert len(np.unique(steps)) == len(contacts)
+
+
+def test_a_contact_has_began_only_in_its_first_step():
+    world = world_of(Robot(), Robot(pose=(0.5, 0, np.pi)))
+    drive(world, [[0.2, 0.2], [0, 0]], 20)
+    drive(world, [[-0.2, -0.2], [0, 0]], 10)
+    contacts = drive(world, [[0.2, 0.2], [0, 0]], 30)
+    assert contacts["began"].sum() == 2
+    assert contacts["began"][0]
+    assert world.record.collisions == 2
+
+
+def test_the_normal_points_from_a_to_b_and_the_point_lies_on_the_surface_of_a():
+    world = world_of(Robot(pose=(1, 1, 0)), Robot(pose=(1.4, 1.3, 0), drive=Holonomic()))
+    command = [[0, -0.2], [0, -0.15]]
+    contacts = drive(world, command, 10)
+    assert len(contacts) > 0
+    row = contacts[0]
+    assert row["normal"] == pytest.approx([0.8, 0.6], abs=1e-3)
+    assert row["point"] == pytest.approx([1 + 0.15 * 0.8, 1 + 0.15 * 0.6], abs=2e-3)
+
+
+def test_the_lower_index_is_a_even_if_the_other_one_drives():
+    world = world_of(Robot(pose=(0.5, 0, 0)), Robot(pose=(0, 0, 0)), Robot(pose=(-9, 0, 0)))
+    contacts = drive(world, [[0, 0.3, 0], [0, 0, 0]], 15)
+    assert (contacts["a"] == 0).all()
+    assert (contacts["b"] == 1).all()
+    assert contacts["normal"][0] == pytest.approx([-1, 0], abs=1e-6)
+
+
+@pytest.mark.parametrize("sampling_time", [0.05, 0.1, 1.0])
+@pytest.mark.parametrize("force", [2.0, 5.0])
+def test_pressing_against_a_wall_gives_the_impulse_force_times_time(force, sampling_time):
+    world = world_of(
+        Robot(drive=Unicycle(max_force=force)),
+        addons=[Map([wall_at(0.3)])],
+        sampling_time=sampling_time,
+    )
+    contacts = drive(world, [[0.2], [0]], round(4 / sampling_time))
+    late = contacts[contacts["time"] > 2]
+    assert len(late) > 0
+    assert late["impulse"] == pytest.approx(force * sampling_time, rel=0.01)
+    assert (late["b"] == -1).all()
+    assert late["normal"] == pytest.approx(np.tile([1.0, 0], (len(late), 1)))
+    assert late["point"][:, 0] == pytest.approx(0.3, abs=1e-3)
+
+
+def test_an_impact_gives_the_impulse_mass_times_speed():
+    world = world_of(Robot(mass=2.0, drive=Unicycle(max_force=1e-6)), addons=[Map([wall_at(0.3)])])
+    contacts = drive(world, [[0.4], [0]], 10)
+    assert contacts["impulse"].sum() == pytest.approx(2.0 * 0.4, rel=1e-3)
+
+
+def test_between_two_robots_a_push_is_the_weaker_drives_force():
+    world = world_of(
+        Robot(drive=Unicycle(max_force=5)),
+        Robot(pose=(0.4, 0, np.pi), drive=Unicycle(max_force=5)),
+    )
+    contacts = drive(world, [[0.2, 0.2], [0, 0]], 100)
+    assert contacts["impulse"][-20:] == pytest.approx(0.5, rel=0.02)
+
+
+def test_obstacles_are_numbered_from_minus_one_down_over_all_addons():
+    maps = [
+        Map([wall_at(50), wall_at(60)], name="far"),
+        Map([wall_at(70), wall_at(0.3)], name="near"),
+    ]
+    world = world_of(Robot(), addons=maps)
+    contacts = drive(world, [[0.3], [0]], 10)
+    assert len(contacts) > 0
+    assert (contacts["b"] == -4).all()
+    assert world.obstacles[3] == tuple(wall_at(0.3))
+
+
+def test_the_walls_of_the_workspace_come_last():
+    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    maps = [Map([[(0.5, 5), (0.5, 6)], [(0.6, 5), (0.6, 6)]])]
+    world = world_of(Robot(), addons=maps, workspace=square, on_exit="wall")
+    contacts = drive(world, [[0.5], [0]], 30)
+    assert len(contacts) > 0
+    assert (contacts["b"] == -3).all()
+
+
+def test_all_edges_of_an_obstacle_are_one_thing():
+    corner = [(0.3, -0.3), (0.3, 0.16), (-1, 0.16), (-1, 2), (2, 2), (2, -0.3)]
+    robot = Robot(drive=Holonomic())
+    world = world_of(robot, addons=[Map([corner])])
+    contacts = drive(world, [[0.2], [0.2]], 20)
+    assert set(contacts["b"]) == {-1}
+    steps = np.floor(contacts["time"] / 0.1 + 1e-9)
+    assert len(np.unique(steps)) == len(contacts)  # pressed in the corner, still one row a step
+
+
+def test_a_robot_between_two_others_makes_two_rows():
+    world = world_of(Robot(), Robot(pose=(0.35, 0, 0)), Robot(pose=(0.7, 0, np.pi)))
+    drive(world, [[0.2, 0, 0.2], [0, 0, 0]], 20)
+    pairs = sorted((int(r["a"]), int(r["b"])) for r in world.contacts)
+    assert pairs == [(0, 1), (1, 2)]
+
+
+def test_the_views_of_a_law_show_its_own_contacts_of_the_last_step():
+    seen: list[list[int]] = []
+
+    def law(world):
+        seen.append([len(robot.contacts) for robot in world.robots])
+        return [[0.2, 0.2, 0.0], [0, 0, 0]]
+
+    robots = [Robot(), Robot(pose=(0.5, 0, np.pi)), Robot(pose=(0, 3, 0))]
+    world = World(Scenario(robots=robots, workspace=None), control=law)
+    for _ in range(20):
+        world.step()
+    assert seen[0] == [0, 0, 0]
+    assert seen[-1] == [1, 1, 0]
+
+
+def test_a_robot_that_has_parted_makes_no_more_rows():
+    world = world_of(Robot(), Robot(pose=(0.31, 0, np.pi)))
+    drive(world, [[0.2, 0.2], [0, 0]], 10)
+    drive(world, [[-0.2, -0.2], [0, 0]], 2)
+    count = len(world.record.contacts)
+    drive(world, [[-0.2, -0.2], [0, 0]], 10)
+    assert len(world.record.contacts) == count
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-15, -1e-15])
+def test_robots_that_stand_at_exactly_zero_distance_are_no_trouble(gap):
+    world = world_of(Robot(), Robot(pose=(0.3 + gap, 0, 0)), addons=[Map([wall_at(0.45)])])
+    drive(world, [[0, 0], [0, 0]], 5)
+    assert np.abs(world.pose[0] - [0, 0.3]).max() < 5e-5  # a quarter of the slop each
+
+
+def solved(*rows: dict) -> Solved:
+    """What the solver would list: each row a dict of what differs from these."""
+    usual = {"bodies": (0, -2), "impulse": (0.0, 0.0), "normal": (1.0, 0.0),
+             "on_first": (0.1, 0.2), "on_second": (0.3, 0.4), "velocity": (0.0, 0.0)}  # fmt: skip
+    full = [usual | row for row in rows]
+    columns = {name: np.array([row[name] for row in full]) for name in usual}
+    return Solved(**columns)
+
+
+def pairs(*touching: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
+    a, b = np.array(touching, dtype=np.int64).reshape(-1, 2).T
+    return a, b
+
+
+def test_a_log_sums_the_substeps_of_a_pair_as_vectors():
+    log = ContactLog()
+    for time, impulse in ((0.1, (3.0, 0.0)), (0.2, (0.0, 4.0))):
+        log.add(time, 0.1, solved({"impulse": impulse}), pairs((0, -2)))
+    rows = log.take()
+    assert len(rows) == 1
+    assert rows["time"][0] == 0.1
+    assert rows["duration"][0] == pytest.approx(0.1)  # from then to the end of the next substep
+    assert (rows["a"][0], rows["b"][0]) == (0, -2)
+    assert rows["impulse"][0] == pytest.approx(5.0)
+    assert rows["normal_impulse"][0] == pytest.approx(3.0)
+    assert rows["tangential_impulse"][0] == pytest.approx(4.0)
+    assert rows["began"][0]
+    assert not rows["ended"][0]
+    assert len(log.take()) == 0
+
+
+def test_a_log_turns_pairs_round_and_leaves_out_those_that_do_not_touch():
+    log = ContactLog()
+    two = solved(
+        {"bodies": (2, 1), "impulse": (-1.0, 0.25), "velocity": (-0.5, 0.125)},
+        {"bodies": (-1, 2), "impulse": (9.0, 0.0), "on_first": (5, 5), "on_second": (5, 5)},
+    )
+    log.add(0.0, 0.1, two, pairs((2, 1)))
+    rows = log.take()
+    assert [(int(r["a"]), int(r["b"])) for r in rows] == [(1, 2)]
+    row = rows[0]
+    assert row["normal"].tolist() == [-1, 0]
+    assert row["point"].tolist() == [0.3, 0.4]
+    # The tangent is (0, -1). What is pressed on b = 2 is (-1, 0.25); a = 1 moves by (-0.5, 0.125)
+    # against 2 by the solver's listing, so 2 by (0.5, -0.125) against 1: away from it.
+    assert (row["normal_impulse"], row["tangential_impulse"]) == (1.0, -0.25)
+    assert row["speed"] == 0.5
+    assert row["slip"] == 0.125
+
+
+@pytest.mark.parametrize("bodies", [(0, 1), (1, 0)])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_impulse_is_that_on_b_whatever_the_solvers_sign_and_order(bodies, sign):
+    log = ContactLog()
+    turned = -1.0 if bodies == (1, 0) else 1.0
+    row = {"bodies": bodies, "normal": (turned, 0.0), "impulse": (sign * 2.0, sign * -1.0),
+           "velocity": (turned * -0.3, turned * 0.2)}  # fmt: skip
+    log.add(0.0, 0.1, solved(row), pairs(bodies))
+    found = log.take()[0]
+    assert found["normal"].tolist() == [1, 0]
+    assert (found["normal_impulse"], found["tangential_impulse"]) == (2.0, -1.0)
+    assert found["speed"] == pytest.approx(0.3)
+    assert found["slip"] == pytest.approx(0.2)
+
+
+def test_a_touch_lasts_from_the_substep_that_finds_it_and_nothing_in_between():
+    log = ContactLog()
+    touch = solved({"impulse": (1.0, 0)}), pairs((0, -2))
+    log.add(0.1, 0.5, *touch)  # it came nearer during the 0.5 s
+    log.add(0.2, 0.1, *touch)
+    log.add_nothing()
+    log.add(0.4, 0.1, *touch)
+    log.add(0.5, 0.07, *touch)
+    assert log.take()["duration"] == pytest.approx([0.17])
+    log.add(0.6, 0.03, *touch)  # in the next control step it still touches
+    assert log.take()["duration"] == pytest.approx([0.03])
+
+
+def test_a_contact_at_two_points_lasts_as_long_as_one_at_one_point():
+    log = ContactLog()
+    for k in range(3):
+        log.add(0.1 * k, 0.1, solved({"impulse": (1.0, 0)}, {"impulse": (2.0, 0)}), pairs((0, -2)))
+    row = log.take()[0]
+    assert row["duration"] == pytest.approx(0.2)
+    assert row["normal_impulse"] == pytest.approx(9.0)
+
+
+def test_began_and_ended_go_by_the_last_substep_of_a_step():
+    log = ContactLog()
+    touch = solved({"impulse": (1.0, 0)})
+
+    def step(*substeps: bool) -> list[tuple[bool, bool]]:
+        for k, touches in enumerate(substeps):
+            if touches:
+                log.add(0.1 * k, 0.1, touch, pairs((0, -2)))
+            elif k % 2:
+                log.add_nothing()
+            else:  # something else touches
+                log.add(0.1 * k, 0.1, touch, pairs((4, -2)))
+        return [(bool(row["began"]), bool(row["ended"])) for row in log.take()]
+
+    assert step(False, True) == [(True, False)]
+    assert step(True, True) == [(False, False)]
+    assert step(True, False) == [(False, True)]
+    assert step(True, False) == [(True, True)]
+    assert step(True, True) == [(True, False)]
+    assert step(False) == []
+    assert step(True) == [(True, False)]
+
+
+def test_speed_is_that_of_the_first_touch_and_0_in_the_steps_after():
+    log = ContactLog()
+    for time, speed in ((0.1, -0.5), (0.2, -0.3)):
+        log.add(time, 0.1, solved({"impulse": (1, 0), "velocity": (speed, 0.0)}), pairs((0, -2)))
+    assert log.take()["speed"].tolist() == [0.5]
+    log.add(0.3, 0.1, solved({"impulse": (1, 0), "velocity": (-0.2, 0.0)}), pairs((0, -2)))
+    assert log.take()["speed"].tolist() == [0.0]
+
+
+def test_the_order_in_which_the_solver_lists_contacts_does_not_matter():
+    # It depends on addresses in memory. Two edges of one obstacle touch the same robot.
+    rng = np.random.default_rng(0)
+    listed = []
+    for impulse, angle in ((0.3, 0.2), (7.0, 0.7), (0.7, 0.3)):
+        normal = np.array([np.cos(angle), np.sin(angle)])
+        listed.append({"bodies": (0, -1), "impulse": impulse * normal, "normal": normal,
+                       "on_first": rng.normal(size=2), "velocity": rng.normal(size=2)})  # fmt: skip
+    results = []
+    for order in ([0, 1, 2], [2, 1, 0], [1, 2, 0]):
+        log = ContactLog()
+        log.add(0.5, 0.1, solved(*(listed[k] for k in order)), pairs((0, -1)))
+        results.append(log.take().tobytes())
+    assert len(set(results)) == 1
+    row = np.frombuffer(results[0], dtype=CONTACT)[0]
+    assert row["normal"].tolist() == listed[1]["normal"].tolist()  # that of the strongest
+
+
+# -- the fields of a contact, as a run gives them -------------------------------------------------
+
+
+def test_an_impact_has_the_speed_and_slip_at_which_the_surfaces_met():
+    # It slides along the wall at 0.3 m/s as it comes towards it at 0.4 m/s; no friction turns it.
+    robot = Robot(drive=Holonomic(max_force=1e-6), friction=0.0)
+    world = world_of(robot, addons=[Map([wall_at(0.3)])])
+    row = drive(world, [[0.4], [0.3]], 6)[0]
+    assert row["began"]
+    assert row["speed"] == pytest.approx(0.4, rel=1e-3)
+    assert row["slip"] == pytest.approx(-0.3, rel=1e-3)  # of the wall along the robot
+    assert row["normal_impulse"] == pytest.approx(0.4, rel=1e-3)
+    assert abs(row["tangential_impulse"]) < 1e-9
+
+
+def test_friction_is_the_tangential_impulse_and_bounded_by_mu_times_the_normal_one():
+    robot = Robot(drive=Holonomic(max_force=2.0), friction=0.25)
+    world = world_of(robot, addons=[Map([[(0.3, -9), (0.3, 9)]])])
+    contacts = drive(world, [[0.4], [0.4]], 60)
+    late = contacts[contacts["time"] > 3]
+    assert len(late) > 20
+    # The wall drags b, itself, along with the robot: +y, the normal turned by 90 degrees.
+    ratio = late["tangential_impulse"] / late["normal_impulse"]
+    assert ratio == pytest.approx(np.full(len(late), 0.25), rel=0.02)
+    total = np.hypot(late["normal_impulse"], late["tangential_impulse"])
+    assert late["impulse"] == pytest.approx(total, rel=1e-3)
+
+
+def test_durations_add_up_to_the_time_in_touch():
+    world = world_of(Robot(), addons=[Map([wall_at(0.3)])])
+    contacts = drive(world, [[0.4], [0.0]], 20)
+    touched = contacts["time"][0]
+    assert contacts["duration"].sum() == pytest.approx(2.0 - touched, abs=5e-3)
+    assert (contacts["duration"] <= 0.1 + 1e-12).all()
+
+
+def test_a_bounce_begins_and_ends_and_is_one_episode():
+    robot = Robot(drive=Holonomic(max_force=1e-6), restitution=1.0)
+    world = world_of(robot, addons=[Map([wall_at(0.5)])])
+    contacts = drive(world, [[0.4], [0.0]], 20)
+    assert contacts["began"].sum() == 1
+    assert contacts["ended"][-1]
+    (episode,) = episodes(contacts)
+    assert episode["speed"] == pytest.approx(0.4, rel=1e-3)
+    assert episode["normal_impulse"] == pytest.approx(0.8, rel=0.02)
+    assert 0 <= episode["ended"] - episode["began"] < 0.01
+
+
+def test_episodes_join_the_steps_of_a_touch_and_keep_pairs_apart():
+    rows = np.zeros(6, dtype=CONTACT)
+    rows["time"] = [0.05, 0.1, 0.1, 0.2, 0.2, 0.5]
+    rows["duration"] = [0.05, 0.1, 0.1, 0.03, 0.1, 0.01]
+    rows["a"], rows["b"] = [0, 0, 1, 0, 1, 0], [-1, -1, 2, -1, 2, -1]
+    rows["began"] = [True, False, True, False, False, True]
+    rows["speed"] = [0.3, 0, 0.7, 0, 0, 0.1]
+    rows["normal_impulse"] = [1, 2, 4, 8, 16, 32]
+    rows["tangential_impulse"] = [-1, -2, -4, -8, -16, -32]
+    found = episodes(rows)
+    assert found["began"].tolist() == [0.05, 0.1, 0.5]
+    assert found["ended"] == pytest.approx([0.23, 0.3, 0.51])
+    assert list(zip(found["a"].tolist(), found["b"].tolist(), strict=True)) == [
+        (0, -1), (1, 2), (0, -1),
+    ]  # fmt: skip
+    assert found["speed"].tolist() == [0.3, 0.7, 0.1]
+    assert found["normal_impulse"].tolist() == [11, 20, 32]
+    assert found["tangential_impulse"].tolist() == [-11, -20, -32]
+    assert len(episodes(rows[:0])) == 0
+
+
+def test_props_are_numbered_after_the_robots():
+    props = [Puck(pose=(3, 3)), Box(pose=(0.5, 0, 0))]
+    world = world_of(Robot(), Robot(pose=(0, 5, 0)), props=props)
+    contacts = drive(world, [[0.3, 0], [0, 0]], 15)
+    assert set(zip(contacts["a"].tolist(), contacts["b"].tolist(), strict=True)) == {(0, 3)}
+    assert contacts["normal"][0] == pytest.approx([1, 0], abs=1e-6)
+
+
+def test_two_props_and_a_prop_and_a_wall_make_contacts_too():
+    props = [Puck(pose=(0, 0), velocity=(1, 0, 0), ground_friction=0.0),
+             Puck(pose=(0.5, 0), ground_friction=0.0)]  # fmt: skip
+    far = Robot(pose=(0, 5, 0))
+    world = world_of(far, props=props, addons=[Map([wall_at(0.8)])])
+    contacts = drive(world, [[0], [0]], 30)
+    met = set(zip(contacts["a"].tolist(), contacts["b"].tolist(), strict=True))
+    assert met == {(1, 2), (2, -1)}
+
+
+@pytest.mark.parametrize("physics", ["stop", "ideal"])
+def test_without_forces_contacts_are_reported_without_impulses(physics):
+    world = world_of(Robot(), Robot(pose=(0.5, 0, np.pi)), physics=physics)
+    contacts = drive(world, [[0.2, 0.2], [0, 0]], 12)
+    assert contacts["time"][0] == pytest.approx(0.5, abs=5e-3)
+    assert contacts["began"].sum() == 1
+    assert contacts["speed"][0] == pytest.approx(0.4)
+    assert not contacts["impulse"].any()
+    assert (contacts["normal"] == pytest.approx(np.tile([1.0, 0], (len(contacts), 1)))) is True
+
+
+def test_a_run_that_a_law_breaks_off_in_contact_can_be_run_again():
+    """The last control step may have been done, and its contacts noted, but no row written."""
+
+    def law(world):
+        if world.iteration == 60:
+            raise RuntimeError("no more")
+        return [[0.3, 0.3], [0.0, 0.0]]
+
+    scenario = Scenario(
+        robots=[Robot(pose=(0, 0, 0)), Robot(pose=(0.6, 0, np.pi))], sampling_time=0.05
+    )
+    world = World(scenario, law)
+    with pytest.raises(LawError) as error:
+        while True:
+            world.step()
+    record = error.value.record
+    assert record.contacts["time"][-1] == record.time[-1]
+    assert rerun(record) is None

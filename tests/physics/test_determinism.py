@@ -1,0 +1,296 @@
+"""The same scenario, seed and version give the same run, to the last bit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, World, sensors
+from mars2d.bodies.props import Ball, Bar, Box, Puck
+from mars2d.core.registry import members
+from mars2d.geometry.shapes import Polygon
+from mars2d.scenario.experiment import open_experiment
+from mars2d.sensors import Proximity, RangeBearing, RangeFinder, Sensor
+
+BUSTLE = Path(__file__).parent / "bustle" / "bustle.py"
+
+CODE = f"""
+import mars2d
+for discs in (False, True):
+    record = mars2d.run({str(BUSTLE)!r}, seed=5, options={{"discs": discs}})
+    print(record.digest, record.collisions)
+"""
+
+
+def test_processes_with_other_hash_seeds_give_the_same_digests(child):
+    results = [child(CODE, PYTHONHASHSEED=seed) for seed in ("0", "1", "2", "4242", "random")]
+    for result in results:
+        assert result.returncode == 0, result.stderr
+    printed = {result.stdout for result in results}
+    assert len(printed) == 1
+    words = printed.pop().split()
+    assert [len(digest) for digest in words[::2]] == [64, 64]
+    assert all(int(collisions) >= 5 for collisions in words[1::2])  # something happens
+
+
+def wander(robot):
+    return 0.3, robot.rng.normal()
+
+
+def crowd(**fields) -> Scenario:
+    robots = [
+        Robot(pose=(0.4 * x, 0.4 * y, x), controller=wander, **fields)
+        for x in range(3)
+        for y in range(3)
+    ]
+    box = [(-0.5, -0.5), (1.5, -0.5), (1.5, 1.5), (-0.5, 1.5)]
+    return Scenario(robots=robots, workspace=box, on_exit="wall", stop_time=3)
+
+
+def test_running_twice_gives_the_same_and_other_seeds_give_others():
+    first, second = mars2d.run(crowd(), seed=1), mars2d.run(crowd(), seed=1)
+    assert first.digest == second.digest
+    assert first.collisions > 0
+    assert len({mars2d.run(crowd(), seed=seed).digest for seed in range(6)}) == 6
+
+
+def test_worlds_stepped_in_turn_give_what_each_gives_alone():
+    alone = [mars2d.run(crowd(), seed=seed).digest for seed in (1, 2)]
+    worlds = [World(crowd(), seed=seed) for seed in (1, 2)]
+    while not worlds[0].over:
+        for world in worlds:
+            world.step()
+    assert [world.record.digest for world in worlds] == alone
+
+
+def test_a_sensor_more_changes_neither_noise_nor_laws():
+    class Noise(Sensor):
+        def read(self, robot, world, rng):
+            return rng.normal()
+
+    plain = mars2d.run(crowd(sensors=[Noise()]), seed=3)
+    more = mars2d.run(crowd(sensors=[Noise(name="first"), Noise(), Proximity(range=1)]), seed=3)
+    assert np.array_equal(plain.pose, more.pose)
+    assert np.array_equal(plain.sensors["noise"], more.sensors["noise"])
+
+
+# -- what is added changes nothing else -----------------------------------------------------------
+
+
+SENSORS = {name: {} for name in sensors.__all__ if name in members("sensors")}
+SENSORS |= {"Proximity": {"range": 0.5}, "Beacon": {"range": 2.0}}
+"""The fields of each shipped sensor that is added, without noise."""
+
+ADDONS: dict[str, dict] = {
+    "Beacon": {"at": (0.4, 0.1)},
+    "Density": {"function": lambda x, y: 1 / (1 + x * x + y * y)},
+    "Estimate": {},
+    "FieldOfView": {},
+    "Floor": {"color": "#00ff00"},
+    "PotentialField": {},
+    "Theory": {"draws": lambda scene, frame: None},
+    "Trails": {},
+    "Voronoi": {},
+    "Waypoints": {"routes": [[(0.1, 0.1), (1.0, 0.3)]]},
+}
+"""The fields of each shipped add-on that is added."""
+
+ACTING = {
+    "Communication": "carries messages, which laws hear, and draws which are lost",
+    "Game": "is a referee: who is caught stands still, and the run may end",
+    "Map": "puts obstacles in the way",
+    "Ring": "is a referee: who is out has lost, and the run ends",
+}
+"""Add-ons that are there to change a run, and how."""
+
+SHOWN_BY_OTHERS = {"Floor": {"sensor:ground"}}
+"""Columns of others that are to change: what a floor's colour is measured by."""
+
+
+def bustle(**options) -> Scenario:
+    return open_experiment(BUSTLE, options, seed=3).scenario
+
+
+@pytest.fixture(scope="module")
+def plain() -> mars2d.Record:
+    record = mars2d.run(bustle(discs=True), seed=3)
+    assert record.collisions >= 5
+    assert record.contents
+    return record
+
+
+def changed(before: mars2d.Record, after: mars2d.Record) -> set[str]:
+    """The columns of one run that are other ones, in a single bit, in another."""
+    columns = after.columns()
+    assert before.over_message == after.over_message
+    return {
+        name for name, column in before.columns().items()
+        if column.tobytes() != columns[name].tobytes()
+    }  # fmt: skip
+
+
+def test_all_shipped_sensors_and_addons_are_added_below():
+    assert set(SENSORS) >= {n for n, kind in members("sensors").items() if shipped(kind)}
+    assert {*ADDONS, *ACTING} == {n for n, kind in members("addons").items() if shipped(kind)}
+
+
+def shipped(kind: type) -> bool:
+    return kind.__module__.startswith("mars2d.")
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_a_sensor_without_noise_more_changes_nothing_else(name, plain):
+    more = members("sensors")[name](name="more", **SENSORS[name])
+    scenario = bustle(discs=True)
+    robots = [robot.replace(sensors=[more, *robot.sensors]) for robot in scenario.robots]
+    record = mars2d.run(scenario.replace(robots=robots), seed=3)
+    assert len(record.sensors["more"]) == len(plain)
+    assert changed(plain, record) == set()
+
+
+@pytest.mark.parametrize("name", ADDONS)
+def test_an_addon_without_physics_and_chance_more_changes_nothing_else(name, plain):
+    more = members("addons")[name](name="more", **ADDONS[name])
+    scenario = bustle(discs=True)
+    record = mars2d.run(scenario.replace(addons=[*scenario.addons, more]), seed=3)
+    assert changed(plain, record) == SHOWN_BY_OTHERS.get(name, set())
+
+
+def test_nor_do_all_of_them_among_props_joints_and_polygons():
+    scenario = bustle()
+    plain = mars2d.run(scenario, seed=3)
+    kinds = members("sensors")
+    more = [kinds[name](name=f"more_{name}", **fields) for name, fields in SENSORS.items()]
+    robots = [robot.replace(sensors=[*more, *robot.sensors]) for robot in scenario.robots]
+    kinds = members("addons")
+    addons = [kinds[name](name=f"more_{name}", **fields) for name, fields in ADDONS.items()]
+    full = scenario.replace(robots=robots, addons=[*scenario.addons, *addons])
+    assert changed(plain, mars2d.run(full, seed=3)) == {"sensor:ground"}
+
+
+# -- the order of robots --------------------------------------------------------------------------
+
+
+WEDGE = Polygon([(-0.15, -0.12), (0.2, 0), (-0.15, 0.12)])
+
+DRIVES = (
+    Unicycle(noise=0.1), Holonomic(noise=0.1), Car(), Differential(noise=0.1),
+    Unicycle(dead_time=0.15, max_acceleration=0.5), Car(max_steering_rate=1.0),
+    Differential(command="twist", max_linear_speed=0.2),
+)  # fmt: skip
+
+
+def loose(n: int, shape: Polygon | None = None, props: int = 0, **fields) -> Scenario:
+    """Robots of all drives, and props, far enough from each other to meet nothing."""
+    look = [RangeFinder(beams=7, range=3.0, noise=0.01), RangeBearing(noise=0.01, identity=False)]
+    robots = [
+        Robot(
+            name=f"r{k}",
+            pose=(2.0 * (k % 8), 2.0 * (k // 8) + 0.01 * (k % 3), 0.7 * k),
+            drive=DRIVES[k % len(DRIVES)],
+            mass=1.0 + 0.1 * (k % 5),
+            shape=shape if k % 2 else None,
+            controller=wander,
+            sensors=look if k % 3 == 0 and n < 64 else (),
+        )
+        for k in range(n)
+    ]
+    things = [
+        [Ball, Bar, Box, Puck][k % 4](
+            name=f"p{k}", pose=(2.0 * k, -3.0, k), velocity=(0.1, 0.2 * k, 1.0 - k)
+        )
+        for k in range(props)
+    ]
+    return Scenario(
+        robots=robots, props=things, workspace=None, stop_time=2.0, command_delay=0.03, **fields
+    )
+
+
+@pytest.mark.parametrize(
+    "scenario",
+    [loose(16, WEDGE, props=6), loose(21), loose(130), loose(21, physics="ideal")],
+    ids=["polygons and props", "discs, in the kernel", "groups of discs", "without physics"],
+)
+def test_robots_and_props_in_another_order_go_the_same_ways_in_that_order(scenario):
+    rng = np.random.default_rng(1)
+    robots, props = (rng.permutation(len(x)) for x in (scenario.robots, scenario.props))
+    other = scenario.replace(
+        robots=[scenario.robots[k] for k in robots], props=[scenario.props[k] for k in props]
+    )
+    before, after = mars2d.run(scenario, seed=1), mars2d.run(other, seed=1)
+    assert before.collisions == 0
+    assert np.hypot(*np.ptp(before.pose, axis=0)[:2]).min() > 0.001
+    for name in ("pose", "command", "effort"):
+        assert np.array_equal(getattr(before, name)[..., robots], getattr(after, name)), name
+    assert np.array_equal(before.prop_pose[..., props], after.prop_pose)
+    for name, values in before.sensors.items():
+        place = {robot: k for k, robot in enumerate(before.sensor_robots[name])}
+        rows = [place[robots[k]] for k in after.sensor_robots[name]]
+        assert np.array_equal(values[:, rows], after.sensors[name], equal_nan=True), name
+
+
+def test_in_contact_another_order_changes_last_digits_alone_until_chaos_makes_more_of_them():
+    """The solver takes the pairs in order: what touches is the same to a tenth of a millimetre."""
+    robots = [
+        Robot(name="left", pose=(-0.6, 0, 0)),
+        Robot(name="right", pose=(0.6, 0.12, np.pi), mass=2),
+        Robot(name="above", pose=(0.1, 0.8, -np.pi / 2)),
+    ]
+    scenario = Scenario(robots=robots, stop_time=3.0)
+
+    def law(world):
+        return np.outer([0.3, 0.0], np.ones(3))
+
+    before = mars2d.run(scenario, control=law)
+    after = mars2d.run(scenario.replace(robots=robots[::-1]), control=law)
+    assert before.collisions >= 2
+    assert np.abs(before.pose - after.pose[..., ::-1]).max() < 1e-4
+
+
+def test_a_robot_more_changes_no_other_robots_stream():
+    few = Scenario(robots=[Robot(controller=wander)], stop_time=1)
+    more = Scenario(
+        robots=[Robot(controller=wander), Robot(pose=(2, 2, 0), controller=wander)], stop_time=1
+    )
+    assert np.array_equal(mars2d.run(few).command[:, :, 0], mars2d.run(more).command[:, :, 0])
+
+
+def test_the_recorded_commands_alone_give_the_same_run():
+    scenario = crowd().replace(command_delay=0.25)
+    record = mars2d.run(scenario, seed=4)
+    bare = scenario.replace(robots=[robot.replace(controller=None) for robot in scenario.robots])
+    world = World(bare)
+    for command in record.command:
+        world.step(command)
+    assert world.record.digest == record.digest
+
+
+def test_saturated_commands_given_again_are_not_changed():
+    rng = np.random.default_rng(0)
+    robots = [Robot(), Robot(pose=(3, 0, 0), drive=Holonomic(max_linear_speed=0.37))]
+    scenario = Scenario(robots=robots, workspace=None)
+    first, second = World(scenario), World(scenario)
+    for _ in range(200):
+        first.step(rng.uniform(-2, 2, (2, 2)))
+    for command in first.record.command:
+        second.step(command)
+    assert np.array_equal(first.record.command, second.record.command)
+
+
+def test_global_random_numbers_are_neither_used_nor_changed():
+    np.random.seed(0)  # noqa: NPY002 - this is what is tested
+    before = np.random.get_state()[1].tolist()  # noqa: NPY002
+    digest = mars2d.run(crowd(), seed=1).digest
+    assert np.random.get_state()[1].tolist() == before  # noqa: NPY002
+    np.random.seed(1)  # noqa: NPY002
+    assert mars2d.run(crowd(), seed=1).digest == digest
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("seed", range(20))
+def test_long_crowded_runs_are_the_same_twice(seed):
+    scenario = crowd().replace(stop_time=60)
+    assert mars2d.run(scenario, seed=seed).digest == mars2d.run(scenario, seed=seed).digest

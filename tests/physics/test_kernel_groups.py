@@ -1,0 +1,229 @@
+"""Large teams are stepped in groups: what happens to a robot is what happens in a small team."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+import pytest
+
+from mars2d import Holonomic, Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.physics.engine import GROUP
+from mars2d.physics.kernel import reason_without
+from mars2d.reports.bench.overlap import deepest
+from mars2d.reports.bench.scenes import team
+from mars2d.reports.bench.worlds import world_of
+from mars2d.sensors import Proximity, RangeFinder
+
+pytestmark = pytest.mark.skipif(bool(reason_without()), reason=f"no kernel: {reason_without()}")
+
+MANY = 2 * GROUP + 40
+APART = 3.0
+ROW = 16
+"""How many robots stand in a row of the large teams here."""
+
+
+def place(i: int) -> tuple[float, float]:
+    """Return where the i-th robot of a large team stands."""
+    return APART * (i % ROW), APART * (i // ROW)
+
+
+def standing(**robots: Robot) -> list[Robot]:
+    """Return a large team that stands on a grid, but for some robots: i=robot, by "r17" say."""
+    team = [Robot(pose=(*place(i), 0.0)) for i in range(MANY)]
+    for name, robot in robots.items():
+        team[int(name[1:])] = robot
+    return team
+
+
+def scenario(robots: list[Robot], **settings) -> Scenario:
+    return Scenario(robots=robots, on_exit="ignore", sampling_time=0.05, stop_time=100, **settings)
+
+
+def test_only_large_teams_of_about_equal_masses_are_stepped_in_groups():
+    def groups(n, heaviest=1.0):
+        robots = [Robot(pose=(*place(i), 0.0)) for i in range(n - 1)]
+        robots.append(Robot(pose=(-9.0, 0.0, 0.0), mass=heaviest))
+        return World(scenario(robots))._engine._groups
+
+    assert groups(2 * GROUP - 1) == 1
+    assert groups(2 * GROUP) == 2
+    assert groups(MANY) == MANY // GROUP
+    assert groups(MANY, heaviest=2.0) == MANY // GROUP
+    assert groups(MANY, heaviest=2.1) == 1
+
+
+def duel(left: Robot, right: Robot) -> tuple[World, World, list[int]]:
+    """Return a large team of which two robots move towards each other, and these two alone.
+
+    They stand at opposite ends of the grid's first column, in different groups, and the way between
+    is free.
+    """
+    rows = MANY // ROW
+    i, j = 0, ROW * (rows - 1)
+    column = {f"r{ROW * k}": Robot(pose=(-50.0 - k, 0.0, 0.0)) for k in range(1, rows - 1)}
+    large = standing(**column, **{f"r{i}": left, f"r{j}": right})
+    return World(scenario(large)), World(scenario([left, right])), [i, j]
+
+
+@pytest.mark.parametrize("drive", [None, Holonomic()])
+def test_two_robots_of_different_groups_meet_as_two_robots_alone(drive):
+    length = APART * (MANY // ROW - 1)
+    options = {} if drive is None else {"drive": drive}
+    down = np.pi / 2 if drive is None else 0.0
+    left = Robot(pose=(0.02, 0.0, down), mass=1.5, **options)
+    right = Robot(pose=(-0.03, length, -down), **options)
+    large, alone, who = duel(left, right)
+    command = np.zeros((2, MANY))
+    if drive is None:
+        command[0, who] = 0.4
+    else:
+        command[1, who] = 0.4, -0.4
+    met = 0
+    while alone.time < length / 0.8 + 6:
+        large.step(command)
+        alone.step(command[:, who])
+        assert np.array_equal(large.pose[:, who], alone.pose)
+        assert np.array_equal(large.effort[who], alone.effort)
+        met += len(alone.contacts)
+        for field in ("time", "duration", "point", "normal", "impulse", "speed", "began", "ended"):
+            assert np.array_equal(large.contacts[field], alone.contacts[field]), field
+    assert met > 50
+    others = np.delete(np.arange(MANY), who)
+    start = np.array([robot.pose for robot in large.scenario.robots]).T
+    assert np.array_equal(large.pose[:, others], start[:, others])
+
+
+def test_a_robot_of_a_large_team_slides_along_a_wall_as_one_alone_does():
+    wall = Map([[(-1.0, 0.45), (5.0, 0.45)]])
+    robot = Robot(pose=(0.0, 0.0, 0.6))
+    large = World(scenario(standing(r0=robot, r1=Robot(pose=(-60, 0, 0))), addons=[wall]))
+    alone = World(scenario([robot], addons=[wall]))
+    command = np.zeros((2, MANY))
+    command[0, 0] = 0.3
+    for _ in range(100):
+        large.step(command)
+        alone.step(command[:, :1])
+        assert np.array_equal(large.pose[:, :1], alone.pose)
+    assert len(alone.record.contacts) > 50
+    assert np.array_equal(large.record.contacts, alone.record.contacts)
+
+
+def test_free_motion_of_a_large_team_is_exact():
+    rng = np.random.default_rng(3)
+    omega = rng.uniform(-1, 1, MANY)
+    world = World(scenario(standing()))
+    for _ in range(40):
+        world.step([np.full(MANY, 0.1), omega])
+    t = world.time
+    start = np.array([robot.pose for robot in world.scenario.robots]).T
+    x, y = (
+        start[0] + 0.1 / omega * np.sin(omega * t),
+        start[1] + 0.1 / omega * (1 - np.cos(omega * t)),
+    )
+    assert np.abs(world.pose - [x, y, omega * t]).max() < 1e-9
+
+
+@pytest.mark.parametrize("max_overlap", [1e-3, 0.02])
+def test_a_crowd_in_groups_stays_within_its_walls_and_its_overlap(max_overlap):
+    scene = team(400, 0.05)
+    world = world_of(scene, max_overlap)
+    poses = []
+    for _ in range(200):
+        world.step()
+        poses.append(world.pose)
+    assert len(world.record.contacts) > 5000
+    assert deepest(scene, np.array(poses)) < max_overlap
+
+
+def test_groups_stay_small_while_robots_wander_and_meet():
+    world = world_of(team(400, 0.05))
+    for _ in range(200):
+        world.step()
+    kernel = world._engine._kernel
+    sizes = [kernel._lib.mars2d_kernel_group_size(kernel._kernel, g) for g in range(400 // GROUP)]
+    assert sum(sizes) == 400
+    assert max(sizes) < 2 * GROUP
+
+
+def test_contacts_tell_of_the_momentum_that_a_crowd_gets():
+    world = world_of(team(200, 0.05))
+    for _ in range(100):
+        world.step()
+    contacts = world.record.contacts
+    assert (contacts["normal_impulse"] >= -1e-12).all()
+    assert (contacts["duration"] <= 0.05 + 1e-12).all()
+    began = contacts[contacts["began"]]
+    again = contacts[~contacts["began"]]
+    last = {(int(c["a"]), int(c["b"])) for c in began}
+    assert {(int(c["a"]), int(c["b"])) for c in again} <= last  # what goes on has begun once
+
+
+def test_the_same_large_team_has_the_same_digest():
+    def digest():
+        world = world_of(team(200, 0.05))
+        for _ in range(60):
+            world.step()
+        return world.record.digest
+
+    assert digest() == digest()
+
+
+def test_two_large_worlds_do_not_disturb_each_other():
+    def run(worlds):
+        for _ in range(40):
+            for world in worlds:
+                world.step()
+        return [world.record.digest for world in worlds]
+
+    both = run([world_of(team(200, 0.05)), world_of(team(150, 0.05))])
+    alone = run([world_of(team(200, 0.05))]) + run([world_of(team(150, 0.05))])
+    assert both == alone
+
+
+def test_sensors_of_a_large_team_see_robots_where_they_are():
+    seeing = Robot(
+        pose=(*place(5), np.pi / 2),
+        sensors=[Proximity(range=0.5), RangeFinder(beams=1, range=5.0)],
+    )
+    coming = Robot(pose=(place(5)[0], 2.0, -np.pi / 2))
+    world = World(scenario(standing(r5=seeing, **{f"r{5 + ROW}": coming})))
+    command = np.zeros((2, MANY))
+    command[0, 5 + ROW] = 0.4
+    for _ in range(80):
+        world.observe()
+        gap = world.pose[1, 5 + ROW] - world.robots[5].radius
+        sense = world.robots[5].sense
+        assert sense.range_finder[0] == pytest.approx(gap, abs=1e-9)
+        assert sense.proximity == (gap < 0.5)
+        ray = world.surroundings.ray(place(5), np.pi / 2, 5.0, 5)
+        assert ray == pytest.approx(gap, abs=1e-9)
+        world.step(command)
+
+
+ENDED = """
+import gc, resource
+from mars2d.reports.bench.scenes import team
+from mars2d.reports.bench.worlds import world_of
+
+scene = team(300, 0.05)
+
+def turn():
+    world = world_of(scene)
+    for _ in range(3):
+        world.step()
+    del world
+    gc.collect()
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+before = max(turn() for _ in range(10))
+print(max(turn() for _ in range(20)) / before)
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="it does not tell how much memory a process takes")
+def test_worlds_that_end_give_their_memory_back(child):
+    """In a process of its own: what counts is the most that it ever took."""
+    done = child(ENDED)
+    assert float(done.stdout) < 1.1, done.stderr

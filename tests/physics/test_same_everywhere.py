@@ -1,0 +1,276 @@
+"""One experiment, one seed, one digest: however it is run, and by whatever.
+
+The experiment is `tests/physics/bustle/bustle.py`, in which there is a bit of everything.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import World
+from mars2d.physics.kernel import reason_without
+from mars2d.scenario.experiment import open_experiment
+from mars2d.world.timeline import Timeline
+from mars2d.world.verify import rerun
+
+FOLDER = Path(__file__).parent / "bustle"
+BUSTLE, SEED = FOLDER / "bustle.py", 3
+
+
+@pytest.fixture(scope="module")
+def record() -> mars2d.Record:
+    return mars2d.run(BUSTLE, seed=SEED)
+
+
+@pytest.fixture(scope="module")
+def digest(record) -> str:
+    return record.digest
+
+
+@pytest.fixture(scope="module")
+def discs() -> str:
+    """The digest of the bustle of discs, which the kernel in C moves where there is one."""
+    world = bustle(discs=True)
+    assert bool(reason_without()) == (world._engine._kernel is None)
+    while not world.over:
+        world.step()
+    assert world.record.collisions >= 5
+    return world.record.digest
+
+
+def bustle(seed: int = SEED, **options: bool) -> World:
+    experiment = open_experiment(BUSTLE, options, seed=seed)
+    return World(experiment.scenario, experiment.control, seed=seed)
+
+
+def test_there_is_a_bit_of_everything_in_the_bustle(record):
+    pairs = set(zip(record.contacts["a"].tolist(), record.contacts["b"].tolist(), strict=True))
+    robots = len(record.scenario.robots)
+    assert any(0 <= b < robots for _, b in pairs), "no robot meets another"
+    assert any(b >= robots for _, b in pairs), "no prop is met"
+    assert any(b < 0 for _, b in pairs), "no wall is met"
+    assert record.collisions >= 5
+    assert len(set(record.messages["status"].tolist())) == 3  # some arrive, some don't
+    assert all((values != values[0]).any() for values in record.sensors.values())
+    assert (np.abs(record.pose[-1] - record.pose[0]).max(axis=0) > 0.01).all()
+    assert {type(robot.drive).__name__ for robot in record.scenario.robots} == set(
+        mars2d.bodies.__all__
+    ) - {"Drive"}
+
+
+# -- in this process ------------------------------------------------------------------------------
+
+
+def test_a_world_that_is_stepped_by_hand(digest):
+    world = bustle()
+    while not world.over:
+        world.step()
+    assert world.record.digest == digest
+
+
+def test_a_world_that_is_looked_at_all_the_time_beside_another_one(digest):
+    world, other = bustle(), bustle(seed=4)
+    while not world.over:
+        world.step()
+        assert world.frame.readings
+        assert len(world.record) == world.iteration + world.over
+        other.step()
+        np.random.default_rng().normal()
+    assert world.record.digest == digest
+    assert other.record.digest != digest
+
+
+def test_two_threads_neither_of_which_is_the_main_one(digest):
+    digests = {}
+
+    def run(seed: int) -> None:
+        digests[seed] = mars2d.run(BUSTLE, seed=seed).digest
+
+    threads = [threading.Thread(target=run, args=(seed,)) for seed in (SEED, 4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert digests[SEED] == digest
+    assert digests[4] != digest
+
+
+def test_its_commands_given_again(record):
+    assert rerun(record) is None
+
+
+def test_a_timeline_in_which_somebody_goes_back_and_on(digest):
+    timeline = Timeline(open_experiment(BUSTLE, seed=SEED), SEED)
+    while timeline.newest < 10:
+        timeline.advance()
+    for row in (2, 9, 0):
+        timeline.go(row)
+        timeline.idle(0.05)
+        assert timeline.frame.iteration == row
+    timeline.go(10)
+    while not timeline.over:
+        timeline.advance()
+    assert timeline.record.digest == digest
+
+
+def test_a_log_that_is_written_as_the_run_goes_on_and_read_again(digest, tmp_path):
+    pytest.importorskip("mcap")
+    log = tmp_path / "log.mcap"
+    assert mars2d.run(BUSTLE, seed=SEED, record=log).digest == digest
+    assert mars2d.load(log).digest == digest
+
+
+# -- in a window ----------------------------------------------------------------------------------
+
+
+class Person:
+    """Plays with time in a window, from a thread: posts real key presses, and looks at the row."""
+
+    KEYS = (
+        (2, "space"), (0, "left"), (0, "left"), (0, "home"), (0, "right"), (0, "end"),
+        (0, "right"), (0, "="), (0, "="), (0, "space"), (8, "page up"), (0, "s"), (0, "x"),
+        (0, "end"), (0, "page down"), (0, "-"), (0, "space"), (20, "tab"), (0, "home"),
+        (0, "space"),
+    )  # fmt: skip
+
+    def __init__(self, window, timeline: Timeline) -> None:
+        self.window, self.timeline, self.rows = window, timeline, []
+        self.end = time.monotonic() + 60
+        self.thread = threading.Thread(target=self.play)
+
+    def play(self) -> None:
+        self.wait(lambda: self.window._open)
+        for row, key in self.KEYS:
+            self.wait(lambda row=row: self.timeline.newest >= row)
+            self.press(key)
+        self.wait(lambda: self.timeline.over)
+        self.press("end")
+        self.post("QUIT")
+
+    def wait(self, reached: Callable[[], bool]) -> None:
+        while not reached() and time.monotonic() < self.end:
+            time.sleep(0.002)
+
+    def press(self, name: str) -> None:
+        import pygame
+
+        told = {"key": pygame.key.key_code(name), "mod": 0, "scancode": 0}
+        self.post("KEYDOWN", unicode="", **told)
+        self.post("KEYUP", **told)
+        time.sleep(0.05)  # some pictures
+        self.rows.append(self.timeline.row)
+
+    def post(self, kind: str, **told: object) -> None:
+        import pygame
+
+        pygame.event.post(pygame.Event(getattr(pygame, kind), **told))
+
+
+def test_a_window_in_which_somebody_pauses_goes_back_and_changes_the_speed(
+    digest, monkeypatch, tmp_path
+):
+    pytest.importorskip("pygame")
+    from mars2d.window import display
+    from mars2d.window.window import Window
+
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.setattr(display, "NOT_REAL", ())  # it will do: nobody looks
+    monkeypatch.chdir(tmp_path)
+    timeline = Timeline(open_experiment(BUSTLE, seed=SEED), SEED)
+    window = Window(timeline, 1.0, size=(400, 300))
+    person = Person(window, timeline)
+    person.thread.start()
+    window.run()
+    person.thread.join()
+    assert timeline.world.over
+    assert sum(a > b for a, b in zip(person.rows, person.rows[1:], strict=False)) >= 3
+    assert timeline.record.digest == digest
+
+
+# -- in other processes ---------------------------------------------------------------------------
+
+
+def bare_environment(**more: str) -> dict[str, str]:
+    return {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")} | more
+
+
+def test_the_command_line_which_saves_it_and_says_so(digest, tmp_path):
+    out = tmp_path / "out.npz"
+    done = subprocess.run(
+        [sys.executable, "-m", "mars2d", "run", BUSTLE, "--seed", str(SEED), "--headless",
+         "--record", out, "--json"],
+        env=bare_environment(PYTHONHASHSEED="77"), capture_output=True, text=True, check=True,
+        cwd=tmp_path,
+    )  # fmt: skip
+    assert json.loads(done.stdout)["digest"] == digest
+    assert mars2d.load(out).digest == digest
+
+
+PRINTED = f"import mars2d; print(mars2d.run({str(BUSTLE)!r}, seed={SEED}).digest)"
+BOTH = f"""
+import mars2d
+for discs in (False, True):
+    print(mars2d.run({str(BUSTLE)!r}, seed={SEED}, options={{"discs": discs}}).digest)
+"""
+
+
+@pytest.mark.parametrize(
+    ("flags", "environment"),
+    [((), {"MARS2D_PLAIN": "1"}), (("-OO",), {"OMP_NUM_THREADS": "1"})],
+    ids=["without the C kernel", "without asserts and docstrings"],
+)
+def test_a_python_that_is(digest, discs, child, flags, environment):
+    done = child(BOTH, *flags, **environment)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == [digest, discs]
+
+
+def test_the_workers_of_a_sweep(digest, discs):
+    table = mars2d.sweep(
+        BUSTLE, {"discs": [False, True]}, seeds=[SEED], workers=2, show_progress=False
+    )
+    assert [row.digest for row in table.results] == [digest, discs]
+
+
+def test_a_match_of_a_tournament_whose_laws_are_isolated(digest, tmp_path):
+    mars2d.tournament(
+        BUSTLE,
+        {"hunter": "hunter.py", "prey": "prey.py"},
+        seeds=[SEED],
+        workers=1,
+        replays=False,
+        out=tmp_path,
+        show_progress=False,
+    )
+    with (tmp_path / "matches.csv").open(newline="", encoding="utf-8") as file:
+        (row,) = csv.DictReader(file)
+    assert (row["verdict"], row["digest"]) == ("", digest)
+
+
+def test_a_notebook(digest, tmp_path):
+    for module in ("nbclient", "ipykernel"):
+        pytest.importorskip(module)
+    import nbformat.v4
+    from nbclient import NotebookClient
+
+    cells = [nbformat.v4.new_code_cell(text) for text in ("%matplotlib agg", PRINTED)]
+    notebook = nbformat.v4.new_notebook(cells=cells)
+    client = NotebookClient(
+        notebook, kernel_name="python3", timeout=60,
+        resources={"metadata": {"path": str(tmp_path)}},
+    )  # fmt: skip
+    client.execute()
+    printed = "".join(output.get("text", "") for output in notebook.cells[1].outputs)
+    assert printed.strip() == digest

@@ -1,0 +1,438 @@
+"""Contact physics against the textbook: stalemates, momentum, energy, restitution, impulses."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mars2d import Holonomic, Robot, Scenario, Unicycle, World
+from mars2d.addons import Map
+from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
+from mars2d.bodies.props import Ball, Bar, Box, Puck, Solid
+from mars2d.geometry.shapes import Compound, Disc, Polygon
+from mars2d.physics.floor import GRAVITY
+from mars2d.record.contact import CONTACT, episodes
+
+IDLE = Robot(pose=(50, 50, 0))
+ELL = Polygon([(0, 0), (0.3, 0), (0.3, 0.1), (0.1, 0.1), (0.1, 0.3), (0, 0.3)])
+TEE = Polygon(
+    [
+        (-0.3, -0.05),
+        (0, -0.05),
+        (0, -0.2),
+        (0.1, -0.2),
+        (0.1, 0.2),
+        (0, 0.2),
+        (0, 0.05),
+        (-0.3, 0.05),
+    ]
+)
+SQUARE = Polygon([(-0.15, -0.15), (0.15, -0.15), (0.15, 0.15), (-0.15, 0.15)])
+DUMBBELL = Compound([Disc(0.12).moved(-0.1, 0), Disc(0.12).moved(0.1, 0)])
+
+
+def world_of(robots, props=(), **fields) -> World:
+    """A world without limits."""
+    fields = {"workspace": None, "stop_time": 1e5} | fields
+    return World(Scenario(robots=robots, props=props, **fields))
+
+
+def drive(world: World, command, seconds: float) -> None:
+    """Command the same for some seconds."""
+    for _ in range(round(seconds / world.scenario.sampling_time)):
+        world.step(command)
+
+
+def coast(world: World, seconds: float) -> None:
+    drive(world, np.zeros((2, len(world.scenario.robots))), seconds)
+
+
+# -- stalemates -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("shape", "between"),
+    [(None, ()), (None, (Box(),)), (SQUARE, ()), (SQUARE, (Ball(),)), (SQUARE, (Box(),))],
+    ids=["discs", "discs and box", "squares", "squares and ball", "squares and box"],
+)
+def test_two_equal_robots_head_on_do_not_drift_whatever_is_between(shape, between):
+    robots = [Robot(pose=(x, 0, pi * (x > 0)), shape=shape) for x in (-0.6, 0.6)]
+    world = world_of(robots, [prop.replace(ground_friction=0.1) for prop in between])
+    drive(world, [[0.3, 0.3], [0, 0]], 5)
+    start = np.hstack([world.pose, world.prop_pose])
+    drive(world, [[0.3, 0.3], [0, 0]], 15)
+    poses = np.hstack([world.pose, world.prop_pose])
+    # Three bodies pressed together buckle a little, those with flat faces the most.
+    turns = 1e-5 if not between else 2e-4 if shape is None else 5e-3
+    assert np.abs(world.pose[:2].mean(axis=1)).max() < turns
+    assert np.abs(poses - start).max() < turns
+    assert world.effort == pytest.approx([1, 1], abs=1e-3)
+
+
+# -- walls ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("shape", [None, SQUARE], ids=["disc", "square"])
+@pytest.mark.parametrize("slope", [0.3, 0.8, 1.2])
+def test_along_a_wall_without_friction_a_robot_slides_at_v_cos_a(shape, slope):
+    robot = Robot(
+        pose=(0, 0.2, 0), shape=shape, friction=0, drive=Holonomic(max_torque=50, max_force=5)
+    )
+    world = world_of([robot], addons=[Map([[(-1, 0), (9, 0)]], friction=0)])
+    command = [[0.4 * cos(slope)], [-0.4 * sin(slope)]]
+    drive(world, command, 3)
+    start = world.pose[0, 0]
+    drive(world, command, 3)
+    assert (world.pose[0, 0] - start) / 3 == pytest.approx(0.4 * cos(slope), rel=1e-3)
+
+
+@pytest.mark.parametrize("shape", [None, SQUARE], ids=["disc", "square"])
+@pytest.mark.parametrize("mu", [0.3, 0.8])
+def test_a_robot_sticks_to_a_wall_within_the_cone_of_friction(shape, mu):
+    """The drive pulls against the error of velocity: sticking, along the command."""
+
+    def way(slope: float) -> float:  # of the command against the normal of the wall
+        robot = Robot(pose=(0, 0.16, 0), shape=shape, friction=mu, drive=Holonomic(max_torque=50))
+        world = world_of([robot], addons=[Map([[(-1, 0), (9, 0)]], friction=1)])
+        command = [[0.4 * sin(slope)], [-0.4 * cos(slope)]]
+        drive(world, command, 2)
+        start = world.pose[0, 0]
+        drive(world, command, 1)
+        return float(world.pose[0, 0] - start)
+
+    limit = np.arctan(mu)
+    assert abs(way(0.97 * limit)) < 1e-4
+    assert way(1.05 * limit) > 1e-3
+
+
+# -- what is kept ---------------------------------------------------------------------------
+
+
+def balance(world: World) -> tuple[np.ndarray, float, float]:
+    """Linear momentum [N s], angular momentum [N m s], kinetic energy [J] of the props."""
+    inertia = [prop.inertia for prop in world.scenario.props]
+    mass, moment = np.array(inertia).T
+    vx, vy, spin = world.prop_velocity
+    x, y, _ = world.prop_pose
+    momentum = np.array([(mass * vx).sum(), (mass * vy).sum()])
+    angular = float((moment * spin + mass * (x * vy - y * vx)).sum())
+    energy = float((mass * (vx**2 + vy**2) + moment * spin**2).sum() / 2)
+    return momentum, angular, energy
+
+
+def tangle(seed: int, restitution: float, friction: float, *, tied: bool):
+    """Props without friction on the floor that fly into each other; joints between some."""
+    rng = np.random.default_rng(seed)
+    kinds = [
+        Ball(diameter=0.25), Box(length=0.3, width=0.2), Puck(diameter=0.2), Solid(ELL),
+        Bar(length=0.5), Solid(DUMBBELL), Box(length=0.2, width=0.2), Ball(diameter=0.15),
+        Solid(Polygon([(0, 0), (0.3, 0), (0.1, 0.25)])),
+    ]  # fmt: skip
+    props = []
+    for k, kind in enumerate(kinds):
+        x, y = 0.7 * (k % 3 - 1), 0.7 * (k // 3 - 1)
+        velocity = -0.8 * np.array([x, y]) + rng.uniform(-0.3, 0.3, 2)
+        props.append(
+            kind.replace(
+                name=f"p{k}", ground_friction=0, friction=friction, restitution=restitution,
+                mass=float(rng.choice([1.0, 2.0, 5.0])), pose=(x, y, rng.uniform(-3, 3)),
+                velocity=(*velocity, rng.uniform(-3, 3)),
+            )
+        )  # fmt: skip
+    if not tied:
+        return props, []
+    (x0, y0, _), (x1, y1, _) = props[6].pose, props[7].pose
+    joint = Hinge(
+        a="p6", b="p7",
+        anchor_a=into(props[6].pose, ((x0 + x1) / 2, (y0 + y1) / 2)),
+        anchor_b=into(props[7].pose, ((x0 + x1) / 2, (y0 + y1) / 2)),
+    )  # fmt: skip
+    return props, [
+        Rope(a="p0", b="p3", length=1.0),
+        Rod(a="p1", b="p2"),
+        Spring(a="p4", b="p5", rest_length=0.4, stiffness=15),
+        joint,
+    ]
+
+
+def into(pose, point) -> tuple[float, float]:
+    """A point of the world in the frame of a body."""
+    x, y, theta = pose
+    dx, dy = point[0] - x, point[1] - y
+    return cos(theta) * dx + sin(theta) * dy, -sin(theta) * dx + cos(theta) * dy
+
+
+@pytest.mark.parametrize("tied", [False, True])
+@pytest.mark.parametrize("seed", range(2))
+def test_linear_momentum_is_kept_to_a_billionth(seed, tied):
+    props, joints = tangle(seed, 0.7, 0.5, tied=tied)
+    world = world_of([IDLE], props, joints=joints)
+    before, _, _ = balance(world)
+    for _ in range(30):
+        coast(world, 0.1)
+        assert np.abs(balance(world)[0] - before).max() < 1e-9
+    assert len(world.record.contacts) > 3
+
+
+@pytest.mark.parametrize("tied", [False, True])
+@pytest.mark.parametrize("seed", range(2))
+def test_angular_momentum_is_kept_up_to_overlaps_times_impulses(seed, tied):
+    """The solver's impulses act at two points, one on each body, as far apart as they overlap."""
+    props, joints = tangle(seed, 0.7, 0.5, tied=tied)
+    world = world_of([IDLE], props, joints=joints)
+    _, before, _ = balance(world)
+    scale = sum(p.inertia.mass * np.hypot(*p.velocity[:2]) * 1.0 for p in props)
+    coast(world, 3)
+    assert abs(balance(world)[1] - before) < 2e-3 * scale
+
+
+@pytest.mark.parametrize(("seed", "friction"), [(0, 0.0), (1, 0.5), (2, 1.0)])
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_energy_never_grows(seed, restitution, friction):
+    """Never above that of the start; impacts of three at once may win back what one has lost."""
+    props, _ = tangle(seed, restitution, friction, tied=False)
+    world = world_of([IDLE], props)
+    start = last = balance(world)[2]
+    for _ in range(30):
+        coast(world, 0.1)
+        energy = balance(world)[2]
+        assert energy <= start * (1 + 1e-9)
+        assert energy <= last + 5e-3 * start
+        last = energy
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_energy_of_jointed_things_never_grows(seed):
+    props, joints = tangle(seed, 0.5, 0.5, tied=True)
+    joints = [joint for joint in joints if not isinstance(joint, Spring)]
+    world = world_of([IDLE], props, joints=joints)
+    start = balance(world)[2]
+    for _ in range(40):
+        coast(world, 0.1)
+        assert balance(world)[2] <= start * 1.005
+
+
+# -- restitution ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.7, 1.0])
+@pytest.mark.parametrize(
+    "prop", [Ball(), Box(), Solid(TEE), Puck()], ids=["ball", "box", "tee", "puck"]
+)
+@pytest.mark.parametrize("speed", [0.1, 2.0])
+def test_a_prop_bounces_off_a_wall_at_its_restitution(restitution, prop, speed):
+    prop = prop.replace(restitution=restitution, ground_friction=0, velocity=(speed, 0, 0))
+    world = world_of([IDLE], [prop], addons=[Map([[(0.5, -1), (0.5, 1)]])])
+    coast(world, 0.6 / speed)
+    assert world.prop_velocity[0, 0] == pytest.approx(-restitution * speed, abs=0.02 * speed)
+    assert abs(world.prop_velocity[2, 0]) < 0.05 * speed
+
+
+def test_a_bar_that_hits_a_wall_with_its_end_is_turned_by_the_impulse_times_its_lever():
+    # It lies along the wall but for a small angle; its lower corner hits.
+    bar = Bar(
+        pose=(0, 0, pi / 2 + 0.05), velocity=(1, 0, 0), ground_friction=0, friction=0,
+        restitution=0.5,
+    )  # fmt: skip
+    world = world_of([IDLE], [bar], addons=[Map([[(0.5, -1), (0.5, 1)]])], sampling_time=0.01)
+    while not len(world.record.contacts):
+        coast(world, 0.01)
+    corner = np.array([cos(0.05) * 0.03 + sin(0.05) * 0.5, -cos(0.05) * 0.5 + sin(0.05) * 0.03])
+    mass, moment = bar.inertia
+    impulse = 1.5 / (1 / mass + corner[1] ** 2 / moment)
+    row = world.record.contacts[0]
+    assert row["normal_impulse"] == pytest.approx(impulse, rel=0.02)
+    assert row["point"][1] == pytest.approx(corner[1], abs=2e-3)
+    assert world.prop_velocity[0, 0] == pytest.approx(1 - impulse / mass, abs=0.02)
+    # The wall pushes the corner, which lies below the centre, back: that turns it clockwise.
+    assert world.prop_velocity[2, 0] == pytest.approx(corner[1] * impulse / moment, rel=0.02)
+
+
+@pytest.mark.parametrize("restitution", [0.25, 0.5, 1.0])
+@pytest.mark.parametrize("masses", [(1, 1), (1, 3), (5, 1)])
+def test_balls_in_line_part_as_the_laws_of_impact_say(restitution, masses):
+    m, n = masses
+    balls = [
+        Ball(velocity=(1, 0, 0), mass=m, restitution=restitution),
+        Ball(pose=(0.55, 0, 0), mass=n),
+    ]
+    world = world_of([IDLE], balls)
+    coast(world, 1)
+    common = m / (m + n)
+    expected = [common - restitution * n / (m + n), common + restitution * m / (m + n)]
+    assert world.prop_velocity[0] == pytest.approx(expected, abs=1e-3)
+    [row] = world.record.contacts
+    assert row["normal_impulse"] == pytest.approx((1 + restitution) * m * n / (m + n), rel=1e-3)
+    assert row["impulse"] == pytest.approx(row["normal_impulse"], rel=1e-6)
+    assert row["speed"] == pytest.approx(1, rel=1e-6)
+    assert abs(row["tangential_impulse"]) < 1e-9
+    assert row["began"]
+    assert row["ended"]
+    assert row["time"] == pytest.approx(0.35, abs=2e-3)
+    assert row["normal"] == pytest.approx([1, 0], abs=1e-9)
+    assert row["point"] == pytest.approx([0.45, 0], abs=2e-3)
+
+
+@pytest.mark.parametrize("restitution", [0.5, 1.0])
+@pytest.mark.parametrize("offset", [0.05, -0.12, 0.17])
+def test_balls_that_meet_obliquely_part_along_the_normal_alone(restitution, offset):
+    balls = [
+        Ball(velocity=(1, 0, 0), restitution=restitution),
+        Ball(pose=(0.6, offset, 0), mass=2),
+    ]
+    world = world_of([IDLE], balls, sampling_time=0.02)
+    coast(world, 1)
+    normal = np.array([sqrt(0.04 - offset**2), offset]) / 0.2
+    impulse = (1 + restitution) * normal[0] / (1 + 1 / 2)
+    expected = np.array([[1, 0] - impulse * normal, impulse / 2 * normal]).T
+    assert world.prop_velocity[:2] == pytest.approx(expected, abs=0.01)
+
+
+@pytest.mark.parametrize("mu", [0.05, 0.1, 0.2])
+def test_a_rough_ball_that_slides_over_a_wall_is_turned_by_mu_times_the_impulse(mu):
+    slope = 1.0
+    ball = Ball(
+        pose=(0, 0.3, 0), velocity=(sin(slope), -cos(slope), 0), friction=mu, restitution=0.5
+    )
+    world = world_of([IDLE], [ball], addons=[Map([[(-1, 0), (9, 0)]])], sampling_time=0.02)
+    coast(world, 1)
+    impulse = 1.5 * cos(slope)
+    vx, vy, spin = world.prop_velocity[:, 0]
+    assert vy == pytest.approx(0.5 * cos(slope), rel=0.02)
+    assert vx == pytest.approx(sin(slope) - mu * impulse, rel=0.01)
+    assert spin == pytest.approx(-mu * impulse * 0.1 / (0.1**2 / 2), rel=0.02)
+    [row] = world.record.contacts
+    assert (row["a"], row["b"]) == (1, -1)
+    assert row["normal_impulse"] == pytest.approx(impulse, rel=0.02)
+    # On the wall, along its normal (0, -1) turned by +90 degrees: (1, 0).
+    assert row["tangential_impulse"] == pytest.approx(mu * row["normal_impulse"], rel=1e-6)
+    assert row["slip"] == pytest.approx(-sin(slope), rel=1e-6)  # of the wall against the ball
+    assert row["speed"] == pytest.approx(cos(slope), rel=1e-6)
+
+
+# -- steady contacts ------------------------------------------------------------------------
+
+
+def test_a_stalled_robot_presses_with_its_force_times_the_time():
+    wall = Map([[(0.5, -1), (0.5, 1)]])
+    world = world_of([Robot(drive=Unicycle(max_force=3))], addons=[wall])
+    drive(world, [[0.3], [0]], 5)
+    rows = world.record.contacts
+    assert rows["normal_impulse"][-10:] == pytest.approx(3 * 0.1, rel=1e-6)
+    assert rows["duration"][-10:] == pytest.approx(0.1, abs=1e-9)
+    assert rows["began"].tolist() == [True] + [False] * (len(rows) - 1)
+    assert not rows["ended"].any()
+    assert not rows["speed"][1:].any()
+    assert rows["speed"][0] == pytest.approx(0.3, rel=1e-6)
+    [episode] = episodes(rows)
+    assert episode["began"] == rows["time"][0]
+    assert episode["ended"] == pytest.approx(5)
+    assert episode["normal_impulse"] == pytest.approx(rows["normal_impulse"].sum())
+
+
+def test_pushing_a_box_steadily_takes_mu_m_g_in_the_contact_and_at_the_middle_of_the_face():
+    shape = Polygon([(-0.15, -0.1), (0.15, -0.1), (0.15, 0.1), (-0.15, 0.1)])
+    robot = Robot(pose=(-0.4, 0, 0), shape=shape)
+    world = world_of([robot], [Box(ground_friction=0.3, mass=1.2)])
+    drive(world, [[0.2], [0]], 3)
+    row = world.contacts[0]
+    assert row["normal_impulse"] / 0.1 == pytest.approx(0.3 * 1.2 * GRAVITY, rel=1e-3)
+    assert (row["a"], row["b"]) == (0, 1)
+    assert row["normal"] == pytest.approx([1, 0], abs=5e-3)
+    assert row["point"][1] == pytest.approx(0, abs=2e-3)
+    assert 0.13 - 1e-3 < row["point"][0] - world.pose[0, 0] < 0.15 + 1e-3  # early in the step
+    assert abs(row["slip"]) < 1e-3
+
+
+def test_sliding_along_a_wall_the_tangential_impulse_is_mu_times_the_normal_one():
+    robot = Robot(pose=(0, 0.2, 0), shape=SQUARE, friction=0.5, drive=Holonomic(max_torque=50))
+    world = world_of([robot], addons=[Map([[(-1, 0), (9, 0)]], friction=0.4)])
+    drive(world, [[0.4 * sin(0.6)], [-0.4 * cos(0.6)]], 4)
+    row = world.contacts[0]
+    assert (row["a"], row["b"]) == (0, -1)
+    assert row["tangential_impulse"] / row["normal_impulse"] == pytest.approx(0.2, rel=1e-3)
+    assert row["slip"] == pytest.approx(-world.velocity[0, 0], rel=1e-3)
+    # The drive pulls along the error of velocity with all of its force.
+    assert row["normal_impulse"] / 0.1 <= 5
+    assert row["duration"] == pytest.approx(0.1)
+
+
+def test_the_times_of_touching_add_up_to_that_between_touch_and_parting():
+    world = world_of([Robot()], addons=[Map([[(0.5, -1), (0.5, 1)]])])
+    drive(world, [[0.2], [0]], 3)
+    drive(world, [[-0.2], [0]], 1)
+    drive(world, [[0.2], [0]], 3)
+    rows = world.record.contacts
+    first, second = episodes(rows)
+    assert first["began"] == pytest.approx(0.35 / 0.2, abs=1e-2)
+    assert first["ended"] == pytest.approx(3, abs=0.03)  # a substep in contact
+    assert second["began"] == pytest.approx(5, abs=0.03)
+    assert second["ended"] == pytest.approx(7)
+    total = sum(float(e["ended"] - e["began"]) for e in (first, second))
+    assert rows["duration"].sum() == pytest.approx(total, abs=1e-6)
+    assert rows["ended"].sum() == 1
+    assert rows["began"].sum() == 2
+    assert world.record.collisions == 2
+
+
+def made(*rows) -> np.ndarray:
+    """Rows of a log: time, duration, a, b, began, ended, impulse."""
+    log = np.zeros(len(rows), dtype=CONTACT)
+    names = ["time", "duration", "a", "b", "began", "ended", "normal_impulse"]
+    for name, values in zip(names, zip(*rows, strict=True), strict=True):
+        log[name] = values
+    log["speed"] = np.where(log["began"], 1 + np.arange(len(rows)), 0)
+    return log
+
+
+def test_episodes_of_a_log_made_by_hand():
+    log = made(
+        (0.1, 0.05, 0, 1, True, True, 1.0),  # a bounce
+        (0.2, 0.10, 0, 1, True, False, 2.0),  # three steps in touch ...
+        (0.25, 0.05, 0, -1, True, False, 9.0),
+        (0.3, 0.10, 0, 1, False, False, 3.0),
+        (0.3, 0.10, 0, -1, False, False, 9.0),
+        (0.4, 0.03, 0, 1, False, True, 4.0),  # ... and apart
+    )
+    found = episodes(log)
+    assert found[["a", "b"]].tolist() == [(0, 1), (0, 1), (0, -1)]
+    assert found["began"].tolist() == [0.1, 0.2, 0.25]
+    assert found["ended"] == pytest.approx([0.15, 0.43, 0.4])
+    assert found["normal_impulse"].tolist() == [1, 9, 18]
+    assert found["speed"].tolist() == [1, 2, 3]
+    assert len(episodes(log[:0])) == 0
+
+
+@settings(max_examples=5)
+@given(seed=st.integers(0, 2**32))
+def test_contacts_tell_all_of_the_momentum_that_bodies_get(seed):
+    """What a free ball gains is the sum of the impulses of its contacts."""
+    rng = np.random.default_rng(seed)
+    balls = []
+    for k in range(9):
+        x, y = 0.5 * (k % 3 - 1), 0.5 * (k // 3 - 1)
+        velocity = (*(rng.uniform(-0.3, 0.3, 2) - [x, y]), rng.uniform(-5, 5))
+        balls.append(
+            Ball(pose=(x, y, 0), velocity=velocity, friction=0.7, restitution=0.5,
+                 mass=rng.uniform(1, 5))
+        )  # fmt: skip
+    world = world_of([IDLE], balls, sampling_time=0.02)
+    mass = np.array([ball.inertia.mass for ball in balls])
+    before = mass * world.prop_velocity[:2]
+    gained = np.zeros_like(before)
+    for _ in range(75):
+        coast(world, 0.02)
+        for row in world.contacts:
+            n = row["normal"]
+            impulse = row["normal_impulse"] * n
+            impulse = impulse + row["tangential_impulse"] * np.array([-n[1], n[0]])
+            gained[:, row["a"] - 1] -= impulse
+            gained[:, row["b"] - 1] += impulse
+    change = mass * world.prop_velocity[:2] - before
+    assert np.abs(change).max() > 0.1
+    # A row has the first of the normals, which turns a little while two balls touch.
+    assert gained == pytest.approx(change, abs=0.01 * np.abs(change).max())

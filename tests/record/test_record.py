@@ -1,0 +1,460 @@
+"""Records: row k is the world at k sampling times; what is saved comes back to the last bit."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Addon, Holonomic, InputError, Record, Robot, Scenario, Sensor, World
+from mars2d.addons import Map
+from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
+from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
+from mars2d.bodies.rigid import Inertia
+from mars2d.cli.command_line import main
+from mars2d.geometry.shapes import Compound, Disc, Polygon
+from mars2d.record.contact import CONTACT
+from mars2d.scenario import serialize
+from mars2d.sensors import Proximity
+from mars2d.world.verify import rerun
+
+
+class Beams(Sensor):
+    """Three readings that tell when and on whom they were taken."""
+
+    def read(self, robot, world, rng):
+        return np.array([world.time, robot.index, robot.pose[0]])
+
+
+def law(robot):
+    return 0.3, 0.1 * robot.index
+
+
+def scenario(**fields) -> Scenario:
+    robots = [
+        Robot(sensors=[Proximity(range=0.4), Beams()], controller=law),
+        Robot(pose=(1, 0, np.pi), drive=Holonomic()),
+        Robot(pose=(0, 2, 0), sensors=[Beams()], controller=law, name="last"),
+    ]
+    props = [Puck(pose=(-0.5, 2)), Box(pose=(0.5, 2.0, 0.3), length=0.2, name="load")]
+    defaults = {"addons": [Map([[(0.5, -1), (0.5, 1)]])], "stop_time": 2, "command_delay": 0.05,
+                "props": props}  # fmt: skip
+    return Scenario(robots=robots, **(defaults | fields))
+
+
+@pytest.fixture
+def record() -> Record:
+    return mars2d.run(scenario(), seed=7)
+
+
+# -- columns --------------------------------------------------------------------------------
+
+
+def test_columns_have_time_first(record):
+    assert record.time.shape == (21,)
+    assert record.pose.shape == (21, 3, 3)
+    assert record.command.shape == (21, 2, 3)
+    assert record.command_time.shape == (21,)
+    assert record.prop_pose.shape == (21, 3, 2)
+    assert record.effort.shape == (21, 3)
+    assert record.sensors["proximity"].shape == (21, 1)
+    assert record.sensors["beams"].shape == (21, 2, 3)
+    assert record.sensor_robots == {"proximity": (0,), "beams": (0, 2)}
+    assert record.contacts.dtype == CONTACT
+    assert len(record) == 21
+
+
+def test_row_k_is_the_world_at_k_sampling_times_up_to_the_stop_time(record):
+    assert np.array_equal(record.time, np.arange(21) * 0.1)
+    assert record.pose[0].tolist() == record.scenario.initial_pose.tolist()
+    assert np.array_equal(record.sensors["beams"][:, 0, 0], record.time)
+    assert np.array_equal(record.sensors["beams"][:, 0, 2], record.pose[:, 0, 0])
+    assert record.sensors["beams"][:, :, 1].tolist() == [[0, 2]] * 21
+    assert np.array_equal(record.command_time, record.time + 0.05)
+
+
+def test_a_command_of_row_k_moves_the_robot_from_row_k_to_row_k_plus_1():
+    speeds = [0.1, 0.3, -0.2, 0.0, 0.4]
+    world = World(Scenario(robots=[Robot(drive=Holonomic())]))
+    for speed in speeds:
+        world.step([[speed], [0]])
+    record = world.record
+    assert record.command[:, 0, 0].tolist() == speeds
+    assert np.diff(record.pose[:, 0, 0]) == pytest.approx(0.1 * np.array(speeds[:-1]))
+
+
+def test_contacts_belong_to_the_interval_before_their_row(record):
+    assert len(record.contacts) > 5
+    assert np.all(np.diff(record.contacts["time"]) >= 0)
+    of_robot0 = record.contacts[record.contacts["a"] == 0]
+    assert of_robot0["time"].min() > 1.0  # 0.35 m at 0.3 m/s, and the delay
+    assert record.collisions == int(record.contacts["began"].sum()) >= 1
+
+
+@pytest.mark.parametrize(("stop_time", "rows"), [(0, 1), (0.05, 1), (0.1, 2), (0.3, 4), (5, 51)])
+def test_a_record_has_a_row_for_every_sampling_time_up_to_the_stop_time(stop_time, rows):
+    assert len(mars2d.run(Scenario(stop_time=stop_time))) == rows
+
+
+def test_a_long_run_keeps_all_its_rows():
+    record = mars2d.run(Scenario(stop_time=10_000, sampling_time=1.0, robots=2))
+    assert len(record) == 10_001
+    assert np.array_equal(record.time, np.arange(10_001))
+
+
+def test_why_it_ended_is_kept(record):
+    assert record.over_message == "Time is over: 2 s"
+    assert record.finished
+    assert record.seed == 7
+    assert record.versions["mars2d"] == mars2d.__version__
+    assert {"pymunk", "numpy", "python", "platform"} <= set(record.versions)
+
+
+def test_its_columns_cannot_be_exchanged(record):
+    with pytest.raises(AttributeError):
+        record.pose = None
+
+
+# -- digest ---------------------------------------------------------------------------------
+
+
+def test_the_digest_depends_on_every_column(record):
+    digests = {record.digest}
+    for change in (
+        {"pose": record.pose + 1e-15},
+        {"command": record.command + 1e-15},
+        {"time": record.time + 1e-15},
+        {"command_time": record.command_time + 1},
+        {"prop_pose": record.prop_pose + 1e-15},
+        {"effort": record.effort + 1e-15},
+        {"over_message": "x"},
+        {"sensors": {**record.sensors, "beams": record.sensors["beams"] + 1e-9}},
+        {"sensors": {"proximity": record.sensors["proximity"]}},
+        {"contacts": record.contacts[:-1]},
+    ):
+        digests.add(_with(record, **change).digest)
+    assert len(digests) == 11
+    assert _with(record).digest == record.digest
+
+
+def _with(record: Record, **changes) -> Record:
+    kept = ("scenario", "seed", "time", "pose", "command", "command_time", "prop_pose", "effort",
+            "sensors", "sensor_robots", "contacts", "over_message")  # fmt: skip
+    return Record(**({name: getattr(record, name) for name in kept} | changes))
+
+
+# -- frames ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("row", "same"), [(0, 0), (7, 7), (-1, 20), (-21, 0)])
+def test_a_frame_is_what_was_seen_at_a_row(record, row, same):
+    frame = record.frame(row)
+    assert frame.iteration == same
+    assert frame.time == record.time[same]
+    assert np.array_equal(frame.pose, record.pose[same])
+    assert np.array_equal(frame.path, record.pose[:same])
+    robot, values = frame.readings["beams"][1]
+    assert robot == 2
+    assert np.array_equal(values, record.sensors["beams"][same, 1])
+    assert bool(frame.over_message) is (same == 20)
+
+
+@pytest.mark.parametrize("row", [21, -22, 10**6])
+def test_there_is_no_frame_beyond_the_end(record, row):
+    with pytest.raises(IndexError):
+        record.frame(row)
+
+
+def test_a_frame_has_the_props_and_the_efforts_of_its_row(record):
+    moved = [k for k in range(21) if not np.array_equal(record.prop_pose[k], record.prop_pose[0])]
+    assert moved  # the last robot has pushed the box
+    for row in (0, moved[0], 20):
+        frame = record.frame(row)
+        assert np.array_equal(frame.prop_pose, record.prop_pose[row])
+        assert np.array_equal(frame.effort, record.effort[row])
+
+
+def test_a_frame_has_the_contacts_of_the_control_step_that_led_to_its_row():
+    live: list[np.ndarray] = []
+    world = World(scenario(), watch=lambda world: live.append(world.frame.contacts.copy()))
+    while not world.over:
+        world.step()
+    record = world.record
+    assert sum(map(len, live)) == len(record.contacts) > 10
+    for row, seen in enumerate(live):
+        frame = record.frame(row)
+        assert frame.contacts.tobytes() == seen.tobytes(), row
+        times = frame.contacts["time"]
+        assert (times > record.time[row] - 0.1 - 1e-9).all()
+        assert (times + frame.contacts["duration"] <= record.time[row] + 1e-9).all()
+        assert len(frame.contact_log()) == sum(map(len, live[: row + 1]))
+
+
+@pytest.mark.parametrize("sampling_time", [0.01, 0.1, 0.3, 1 / 3, 1e-6])
+def test_a_contact_at_the_very_end_of_a_control_step_belongs_to_it(sampling_time):
+    robots = [Robot(), Robot(pose=(0.2999, 0, np.pi))]  # in touch from the start
+    stop_time = 100 * sampling_time
+    world = World(Scenario(robots=robots, sampling_time=sampling_time, stop_time=stop_time))
+    for _ in range(30):
+        world.step([[0.2, 0.2], [0, 0]])
+    record = world.record
+    assert [len(record.frame(row).contacts) for row in range(30)] == [0] + [1] * 29
+
+
+# -- files ----------------------------------------------------------------------------------
+
+
+def test_what_is_saved_comes_back_to_the_last_bit(record, tmp_path):
+    path = record.save(tmp_path / "run.npz")
+    again = mars2d.load(path)
+    assert again.digest == record.digest
+    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort", "contacts")
+    for name in columns:
+        assert np.array_equal(getattr(again, name), getattr(record, name))
+    for name, values in record.sensors.items():
+        assert np.array_equal(again.sensors[name], values)
+        assert again.sensors[name].dtype == values.dtype
+    for name in ("seed", "over_message", "finished", "filename", "versions", "sensor_robots"):
+        assert getattr(again, name) == getattr(record, name)
+    assert mars2d.load(again.save(tmp_path / "twice.npz")).digest == record.digest
+
+
+def test_the_scenario_comes_back_without_its_laws_and_own_parts(record, tmp_path):
+    again = mars2d.load(record.save(tmp_path / "run.npz")).scenario
+    assert again.obstacles == record.scenario.obstacles
+    assert again.bounds == record.scenario.bounds
+    assert [r.pose for r in again.robots] == [r.pose for r in record.scenario.robots]
+    assert [r.name for r in again.robots] == ["robot0", "robot1", "last"]
+    assert [type(r.drive) for r in again.robots] == [type(r.drive) for r in record.scenario.robots]
+    assert [len(r.sensors) for r in again.robots] == [1, 0, 0]  # Beams is not known here
+    assert all(r.controller is None for r in again.robots)
+    assert (again.stop_time, again.command_delay) == (2, 0.05)
+
+
+def test_the_obstacles_of_an_own_addon_come_back(tmp_path):
+    class Room(Addon):
+        def obstacles(self):
+            return [[(1, 1), (2, 1)], [(3, 3), (4, 3), (4, 4)]]
+
+    run = mars2d.run(Scenario(addons=[Room(name="room")], stop_time=0))
+    again = mars2d.load(run.save(tmp_path / "run.npz"))
+    assert again.scenario.obstacles == run.scenario.obstacles
+
+
+def test_the_record_so_far_of_a_world_can_be_saved(tmp_path):
+    world = World(scenario())
+    empty = mars2d.load(world.record.save(tmp_path / "empty.npz"))
+    assert len(empty) == 0
+    world.step()
+    assert len(mars2d.load(world.record.save(tmp_path / "one.npz"))) == 1
+
+
+@pytest.mark.parametrize("name", ["run", "run.npy", "run.mat.txt", "run.pkl"])
+def test_a_records_name_says_its_format(record, tmp_path, name):
+    with pytest.raises(InputError, match=r"a name that ends in .npz, .mat, .csv, .nc or .mcap"):
+        record.save(tmp_path / name)
+    assert not (tmp_path / name).exists()
+
+
+def test_a_missing_file_and_a_folder_are_refused(tmp_path):
+    with pytest.raises(InputError, match=r"none.npz: there is no such file"):
+        mars2d.load(tmp_path / "none.npz")
+    with pytest.raises(InputError, match="a folder; expected a record"):
+        mars2d.load(tmp_path)
+
+
+# -- props, joints and shapes as plain data, and run again ----------------------------------------
+
+ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
+ARROW = Polygon([(-0.15, -0.1), (0.2, 0), (-0.15, 0.1), (-0.1, 0)])
+
+
+def pushes(robot):
+    return 0.3, 0.2 * np.sin(robot.time + robot.index)
+
+
+def workshop(**fields) -> Scenario:
+    """One of everything: each kind of prop, joint and shape, and materials."""
+    robots = [
+        Robot(pose=(0, 0, 0), controller=pushes, friction="rubber"),
+        Robot(pose=(0, 1, 0), controller=pushes, shape=ARROW, moment=0.02, center_offset=0.02),
+        Robot(pose=(0, 2, 0), controller=pushes, drive=Holonomic(max_force=3), restitution="wood",
+              shape=Compound([Disc(0.2), ARROW.moved(0.1, 0), Compound([Disc(0.1)])])),
+    ]  # fmt: skip
+    props = [
+        Box(pose=(0.5, 0.1, 0.2), material="cardboard", height=0.2),
+        Ball(pose=(0.6, 1.05), velocity=(0, 0.1, 1)),
+        Puck(pose=(1.2, 1), friction="ice", mass=0.5),
+        Bar(pose=(0.6, 2.1, 1.5), length=0.8, ground_friction=0.2, moment=0.06),
+        Gate(pose=(1.5, 0, np.pi / 2), stiffness=1.0, limits=(-1, 1.5)),
+        Solid(ELL, pose=(-1, 0, 0.5), name="ell", color="red"),
+        Solid(Compound([Disc(0.3).moved(-0.2, 0), ELL.moved(0.1, 0)]), pose=(-1, 2)),
+    ]
+    joints = [
+        Rope(a="robot0", b="ell", length=1.5),
+        Rod(a="robot1", b="solid6", anchor_a=(-0.1, 0)),
+        Spring(a="ball1", b="puck2", stiffness=5, damping=0.1),
+        Hinge(a="bar3", anchor_b=(0.6, 2.1), limits=(-1, 1), stiffness=0.5, damping=0.1),
+    ]
+    everything = {"robots": robots, "props": props, "joints": joints, "stop_time": 3}
+    return Scenario(**(everything | fields))
+
+
+def in_json(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
+    return serialize.to_scenario(json.loads(json.dumps(serialize.from_description(scenario))))
+
+
+def without_laws(scenario: Scenario) -> Scenario:
+    return scenario.replace(robots=[robot.replace(controller=None) for robot in scenario.robots])
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+def test_props_joints_shapes_and_materials_come_back_from_a_file(physics):
+    scenario = workshop(physics=physics)
+    again, missing = in_json(scenario)
+    assert missing == ()
+    assert again == without_laws(scenario)
+    assert again.bodies == scenario.bodies
+    assert [tie._replace(joint=None) for tie in again.ties] == [
+        tie._replace(joint=None) for tie in scenario.ties
+    ]
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+def test_a_record_with_props_and_joints_runs_again_to_the_last_bit(physics, tmp_path):
+    record = mars2d.run(workshop(physics=physics), seed=3)
+    assert not np.array_equal(record.prop_pose[0], record.prop_pose[-1])
+    assert len(record.contacts) > 5
+    again = mars2d.load(record.save(tmp_path / "run.npz"))
+    assert again.digest == record.digest
+    assert rerun(again) is None
+
+
+def test_check_says_that_a_record_with_props_and_joints_is_bit_identical(tmp_path, capsys):
+    path = mars2d.run(workshop()).save(tmp_path / "run.npz")
+    assert main(["check", str(path)]) == 0
+    assert "run again   bit-identical" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("column", ["prop_pose", "effort"])
+def test_a_record_whose_props_or_efforts_were_others_departs(column):
+    record = mars2d.run(workshop())
+    values = getattr(record, column).copy()
+    values[17, ..., 0] += 1e-12
+    departure = rerun(_with(record, **{column: values}))
+    assert departure is not None
+    assert departure.row == 17
+
+
+class Trolley(Prop):
+    """A prop of the user's own: two discs on a plank, heavier than it looks, and slippery."""
+
+    gap: float = 0.2
+    friction = 0.1
+
+    @cached_property
+    def shape(self):
+        ends = [Disc(0.1).moved(side * self.gap, 0) for side in (-1, 1)]
+        return Compound([*ends, Bar(length=2 * self.gap, thickness=0.04).shape])
+
+    @property
+    def inertia(self):
+        return Inertia(2.0, 0.05)
+
+
+class Trap(Prop):
+    """A prop of the user's own that brings a joint."""
+
+    @cached_property
+    def shape(self):
+        return Disc(0.2)
+
+    def joints(self):
+        return (Rope(a=self.name, anchor_b=self.pose[:2], length=0.5),)
+
+
+class Tow(Rope):
+    """A joint of the user's own."""
+
+    length: float | None = 0.9
+
+
+class Slab(Polygon):
+    """A shape of the user's own."""
+
+    outline = ((-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1))
+
+
+def test_for_a_prop_of_the_users_own_a_solid_stands_in_that_moves_alike(tmp_path):
+    robot = Robot(controller=lambda robot: (0.3, 0.1))
+    trolley = Trolley(pose=(0.5, 0.05, 1.0), velocity=(0, 0.2, 0), name="trolley")
+    record = mars2d.run(Scenario(robots=[robot], props=[trolley], stop_time=3))
+    assert len(record.contacts) > 5
+    again = mars2d.load(record.save(tmp_path / "run.npz"))
+    assert again.missing == ("prop Trolley",)
+    stand_in = again.scenario.props[0]
+    assert type(stand_in) is Solid
+    assert (stand_in.shape, stand_in.inertia) == (trolley.shape, trolley.inertia)
+    assert (stand_in.name, stand_in.pose, stand_in.surface) == (
+        "trolley", trolley.pose, trolley.surface,
+    )  # fmt: skip
+    assert rerun(again) is None
+
+
+@pytest.mark.parametrize(
+    ("fields", "missing"),
+    [
+        ({"props": [Trap(pose=(1, 0))]}, ("prop Trap", "joint Rope of Trap")),
+        ({"props": [Box(pose=(0.8, 0))], "joints": [Tow(a="robot0", b="box0")]}, ("joint Tow",)),
+        ({"robots": [Robot(shape=Slab())]}, ("shape Slab",)),
+        ({"props": [Solid(Slab(), pose=(1, 0))]}, ("shape Slab",)),
+    ],
+)
+def test_without_joints_or_shapes_of_the_users_own_a_record_is_not_run_again(
+    fields, missing, tmp_path
+):
+    record = mars2d.run(Scenario(stop_time=0.5, **fields))
+    again = mars2d.load(record.save(tmp_path / "run.npz"))
+    assert again.missing == missing
+    assert again.digest == record.digest
+    named = [part for part in missing if not part.startswith("prop")]
+    with pytest.raises(InputError, match=f"does not hold the {', '.join(named)}"):
+        rerun(again)
+
+
+def test_a_shape_of_the_users_own_comes_back_as_what_was_drawn_of_it():
+    again, _ = in_json(Scenario(robots=[Robot(shape=Slab())]))
+    shape = again.robots[0].shape
+    assert type(shape) is Compound
+    assert shape.rims == Slab().rims
+    assert shape.area == pytest.approx(0.04)
+
+
+def test_a_robot_or_scenario_of_a_derived_class_comes_back_as_one_of_ours():
+    class Walker(Robot):
+        diameter: float = 0.2
+        legs: int = 6
+
+    class Stage(Scenario):
+        title: str = "on stage"
+
+    again, missing = in_json(Stage(robots=[Walker(legs=4)]))
+    assert missing == ()
+    assert (type(again), again.title) == (Scenario, "on stage")
+    assert [(type(r), r.diameter) for r in again.robots] == [(Robot, 0.2)]
+
+
+def test_a_run_that_ends_with_half_a_character_is_kept(tmp_path):
+    def law(world):
+        if world.iteration == 3:
+            raise OSError("caf\udce9.txt")  # a name of a file that is not in UTF-8
+        return np.zeros((2, 1))
+
+    with pytest.raises(InputError, match="law raised OSError") as raised:
+        mars2d.run(Scenario(stop_time=1), control=law)
+    record = raised.value.record
+    assert record.over_message.endswith("law raised OSError: caf?.txt")
+    assert len(mars2d.load(record.save(tmp_path / "run.npz"))) == 3

@@ -1,0 +1,359 @@
+"""`mars2d bench`: what it measures, keeps and compares, and what it says when it can not."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from mars2d import InputError, Robot, Scenario, World
+from mars2d.cli import command_line as cli
+from mars2d.reports.bench import suite
+from mars2d.reports.bench.overlap import deepest
+from mars2d.reports.bench.report import ALIKE, FORMAT, Change, Figures, Report, Row, load_report
+from mars2d.reports.bench.scenes import SCENES, Scene, Turns, team
+from mars2d.reports.bench.worlds import SETTINGS, world_of
+from mars2d.reports.bench.yardstick import Bare
+
+BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+
+TINY = suite.Effort(rounds=2, time=0.0, yardstick=5)
+
+STEADY = tuple(1e-4 * (1 + 0.01 * np.sin(range(9))))
+"""What a step of the bare loop takes on a quiet machine, in each of some rounds."""
+
+
+def row(seconds, bare=STEADY, name="S2 default"):
+    times = np.broadcast_to(seconds, len(bare)).tolist()
+    return Row(name, "100 robots", tuple(zip(bare, times, strict=True)))
+
+
+def bench(capsys, *arguments):
+    """Run the command and return its exit code, and what it prints."""
+    code = cli.main(["bench", *map(str, arguments)])
+    printed = capsys.readouterr()
+    return code, printed.out, printed.err
+
+
+def refused(capsys, *arguments):
+    """Return the one line by which the command refuses its arguments."""
+    code, out, err = bench(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    return err
+
+
+# -- scenes ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_scene_is_the_same_each_time_and_nothing_touches_in_it(name):
+    scene, again = SCENES[name](), SCENES[name]()
+    assert scene.name == name
+    assert np.array_equal(scene.poses, again.poses)
+    assert scene.boxes == again.boxes
+    assert deepest(scene, scene.poses.T[None]) == 0
+    assert np.abs(scene.poses[:, :2]).max() < scene.side / 2 - scene.radius
+
+
+def test_teams_of_all_sizes_cover_as_much_of_the_arena():
+    for n in (10, 100, 1000):
+        scene = team(n, 0.1)
+        assert scene.poses.shape == (n, 3)
+        assert n * np.pi * scene.radius**2 / scene.side**2 == pytest.approx(0.05)
+        assert len(scene.boxes) == n // 50
+
+
+def test_a_world_of_a_scene_has_its_robots_sensors_obstacles_and_settings():
+    world = world_of(SCENES["S3"](), SETTINGS["loose"])
+    assert world.scenario.max_overlap == 0.02
+    assert world.scenario.sampling_time == 0.1
+    assert len(world.obstacles) == 51  # and the wall
+    world.step()
+    assert world.record.sensors["range_finder"].shape == (1, 20, 180)
+
+
+def test_the_law_of_a_team_turns_anew_once_a_second():
+    law = Turns(3, 0.25)
+    omega = [law(k)[1].tolist() for k in range(9)]
+    assert omega[0] == omega[3] != omega[4] == omega[7] != omega[8]
+    assert law(9)[0].tolist() == [0.3] * 3
+
+
+# -- the yardstick --------------------------------------------------------------------------------
+
+
+def test_the_bare_loop_moves_free_robots_as_a_world_does():
+    scene = Scene("free", "", 0.05, 50.0, np.array([[-5.0, 0, 1], [5, 3, 2]]), [])
+    world, bare = world_of(scene), Bare(scene, 3)
+    for _ in range(40):
+        world.step()
+        bare()
+    assert np.abs(world.pose - scene.poses.T).max() > 0.3
+    assert bare.pose == pytest.approx(world.pose, abs=1e-9)
+
+
+def test_the_robots_of_the_bare_loop_get_less_deep_into_each_other_with_more_substeps():
+    scene = SCENES["S2"]()
+    overlaps = []
+    for substeps in (1, 15):
+        bare, poses = Bare(scene, substeps), []
+        for _ in range(100):
+            bare()
+            poses.append(bare.pose)
+        overlaps.append(deepest(scene, np.array(poses)))
+    assert 0.005 < overlaps[0] < 0.04
+    assert overlaps[1] < overlaps[0] / 4
+
+
+# -- overlaps -------------------------------------------------------------------------------------
+
+BOX = [(1.0, -0.5), (1.0, 0.5), (2.0, 0.5), (2.0, -0.5)]
+
+
+@pytest.mark.parametrize(
+    ("places", "expected"),
+    [
+        ([(0, 0), (0, 1)], 0.0),
+        ([(0, 0), (0, 0.28)], 0.02),  # each other
+        ([(0.87, 0), (0, 1)], 0.02),  # the box
+        ([(1.0, 0), (0, 1)], 0.15),
+        ([(0, 0), (-2.9, 2.86)], 0.05),  # a wall, and another
+    ],
+)
+def test_the_deepest_overlap_is_that_which_one_works_out(places, expected):
+    scene = Scene("", "", 0.1, 6.0, np.zeros((2, 3)), [BOX])
+    pose = np.array([(*place, 0.3) for place in places]).T
+    apart = np.array([(-1.0, 0, 0), (-2, 0, 0)]).T
+    assert deepest(scene, np.array([apart, pose, apart])) == pytest.approx(expected, abs=1e-12)
+
+
+def test_robots_that_were_at_the_same_place_at_different_times_do_not_overlap():
+    scene = Scene("", "", 0.1, 6.0, np.zeros((2, 3)), [])
+    first, second = np.array([(0, 0, 0), (1, 0, 0)]).T, np.array([(1, 0, 0), (0, 0, 0)]).T
+    assert deepest(scene, np.array([first, second] * 50)) == 0
+
+
+# -- the suite ------------------------------------------------------------------------------------
+
+
+def test_the_suite_has_each_scene_at_both_settings_and_the_starts():
+    names = [f"{scene} {setting}" for scene in SCENES for setting in ("default", "loose")]
+    starts = ["import mars2d", "mars2d run random_walk --headless"]
+    assert list(suite.jobs(suite.NAMES)) == names + starts
+
+
+def test_a_scene_is_timed_and_looked_at():
+    rows = {name: job(TINY) for name, job in suite.jobs(["S2"]).items()}
+    tight, loose = rows["S2 default"], rows["S2 loose"]
+    assert tight.name == "S2 default"
+    assert len(tight.rounds) == 2
+    assert 0 < tight.seconds < 1
+    assert tight.figures.sampling_time == 0.05
+    assert 1e-4 < tight.figures.deepest < 1e-3
+    assert 1e-3 < loose.figures.deepest < 0.02
+    # Pose, command and effort are 48 bytes, two times for all robots, and contacts.
+    assert 48.16 < tight.figures.bytes < 150
+
+
+def test_the_size_of_a_record_is_that_of_its_columns():
+    world = World(Scenario(robots=[Robot(pose=(0, 0, 0)), Robot(pose=(2, 0, 0))]))
+    for _ in range(10):
+        world.step([[0.1, 0.1], [0, 0]])
+    assert suite._size(world.record) == 10 * (2 * 48 + 16)
+
+
+# -- one run against another ----------------------------------------------------------------------
+
+
+def test_what_takes_half_as_long_is_twice_as_fast():
+    change = Change.between(row(2e-3), row(1e-3))
+    assert change.times_as_fast == pytest.approx(2, rel=0.03)
+    assert not change.noise
+
+
+def test_on_a_machine_half_as_fast_the_same_program_is_as_fast_as_before():
+    change = Change.between(row(1e-3), row(2e-3, bare=tuple(2 * np.array(STEADY))))
+    assert change == (pytest.approx(1), True)
+
+
+def test_a_small_difference_is_noise():
+    assert Change.between(row(1e-3), row(1e-3 * (1 + 0.8 * ALIKE))).noise
+    assert not Change.between(row(1e-3), row(1.2e-3)).noise
+
+
+def test_a_difference_is_noise_where_the_yardstick_varied_by_as_much():
+    restless = tuple(1e-4 * (1 + 0.5 * np.array([0, 1, 0, 1, 0, 1, 0, 1, 0])))
+    shares = 13 * np.array(restless)
+    assert Change.between(row(1e-3), row(shares, restless)).times_as_fast == pytest.approx(
+        0.77, 0.02
+    )
+    assert Change.between(row(1e-3), row(shares, restless)).noise
+    assert not Change.between(row(1e-3), row(13 * np.array(STEADY))).noise
+
+
+def test_between_a_quick_and_a_slow_machine_smaller_differences_are_noise():
+    slow = tuple(1.6 * np.array(STEADY))
+    assert Change.between(row(1e-3), row(1.6 * 1.12e-3, bare=slow)).noise
+    assert not Change.between(row(1e-3), row(1.6 * 1.5e-3, bare=slow)).noise
+
+
+def test_a_difference_is_noise_where_the_rounds_disagree():
+    scattered = 1e-3 * np.array([0.3, 2.0, 0.4, 1.5, 2.1, 0.5, 1.8, 0.6, 1.7])
+    assert Change.between(row(1e-3), row(scattered)).noise
+
+
+def test_rounds_are_compared_one_by_one_as_they_do_different_work():
+    work = 1e-3 * np.array([1, 40, 3, 60, 2, 70, 5, 50, 4])
+    change = Change.between(row(work), row(work / 1.5))
+    assert change == (pytest.approx(1.5), False)
+
+
+def test_the_time_of_a_row_is_the_mean_of_its_rounds():
+    assert row([1e-3, 3e-3], bare=(1e-4, 1e-4)).seconds == pytest.approx(2e-3)
+
+
+# -- files ----------------------------------------------------------------------------------------
+
+
+def test_a_saved_report_is_the_same_when_it_is_read(tmp_path):
+    figures = Figures(sampling_time=0.05, max_overlap=1e-3, deepest=7e-4, bytes=48.2)
+    scene = Row("S2 default", "100 robots", ((1e-4, 1e-3), (1.5e-4, 1e-3)), figures)
+    report = Report((scene, row(0.3, name="import mars2d")))
+    report.save(tmp_path / "a.json")
+    assert load_report(tmp_path / "a.json") == report
+
+
+def test_the_command_saves_and_compares(tmp_path, capsys):
+    old = tmp_path / "old.json"
+    code, out, err = bench(capsys, "S1", "--quick", "--save", old)
+    assert (code, err) == (0, "")
+    assert [line.split()[:2] for line in out.splitlines()[2:4]] == [
+        ["S1", "default"],
+        ["S1", "loose"],
+    ]
+    assert max(map(len, out.splitlines())) <= 100
+    code, out, err = bench(capsys, "S1", "--quick", "--compare", old, "--save", old)
+    assert (code, err) == (0, "")
+    for line in out.splitlines()[2:4]:
+        assert " x" in line
+    assert f"times as fast as in {old}" in out
+
+
+def test_the_command_prints_one_line_of_json(tmp_path, capsys):
+    saved = tmp_path / "old.json"
+    Report((row(1e-3, name="S1 default"), row(1e-3, name="S4 default"))).save(saved)
+    code, out, _ = bench(capsys, "S1", "--quick", "--json", "--compare", saved)
+    assert code == 0
+    assert out.count("\n") == 1
+    data = json.loads(out)
+    assert [made["name"] for made in data["rows"]] == ["S1 default", "S1 loose"]
+    assert data["rows"][0]["seconds"] > 0
+    assert list(data["compared"]) == ["S1 default"]  # what both runs have
+    assert set(data["compared"]["S1 default"]) == {"times_as_fast", "noise"}
+
+
+def test_a_run_without_the_kernel_says_so(capsys, monkeypatch):
+    monkeypatch.setenv("MARS2D_PLAIN", "1")
+    _, out, _ = bench(capsys, "S1", "--quick")
+    assert "without the kernel: the environment variable MARS2D_PLAIN is 1" in out
+
+
+# -- what it can't do -----------------------------------------------------------------------------
+
+
+def test_an_unknown_scene_is_answered_with_the_nearest(capsys):
+    assert "bench S22: the suite has no such scene; did you mean 'S2'?" in refused(capsys, "S22")
+    assert "known: S1, S2, S3, S4, start" in refused(capsys, "crowd")
+
+
+def test_what_can_not_be_written_is_refused_before_the_suite_is_run(tmp_path, capsys):
+    assert "ends in .json" in refused(capsys, "--save", tmp_path / "a.npz")
+    assert "there is no folder" in refused(capsys, "--save", tmp_path / "gone" / "a.json")
+    (tmp_path / "b.json").mkdir()
+    assert "this is a folder" in refused(capsys, "--save", tmp_path / "b.json")
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path, capsys):
+    assert "gone.json: can't be read: No such file" in refused(
+        capsys, "--compare", tmp_path / "gone.json"
+    )
+
+
+def test_a_record_is_not_a_saved_suite(tmp_path, capsys):
+    World(Scenario(stop_time=0)).record.save(tmp_path / "run.npz")
+    message = refused(capsys, "--compare", tmp_path / "run.npz")
+    assert "run.npz: not saved by mars2d bench, or damaged" in message
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"kind": "something else"},
+        {"format": 0},
+        {"rows": []},
+        {"rows": [{"name": "S2 default", "title": "", "rounds": [], "figures": None}]},
+        {"rows": [{"name": "S2 default", "title": "", "rounds": [[0, 1]], "figures": None}]},
+        {"rows": [{"name": "S2 default", "title": "", "rounds": [[1, "NaN"]], "figures": None}]},
+        {"rows": [{"name": "S2 default"}]},
+        {"versions": None},
+    ],
+)
+def test_a_damaged_file_is_refused(tmp_path, change):
+    path = tmp_path / "a.json"
+    path.write_text(json.dumps(Report((row(1e-3),)).as_data() | change))
+    with pytest.raises(InputError, match=r"a\.json: not saved by mars2d bench, or damaged"):
+        load_report(path)
+
+
+def test_a_file_of_a_newer_version_says_so(tmp_path):
+    path = tmp_path / "a.json"
+    data = Report((row(1e-3),)).as_data() | {"format": FORMAT + 1, "rows": "otherwise"}
+    data["versions"]["mars2d"] = "9.1"
+    path.write_text(json.dumps(data))
+    with pytest.raises(InputError, match=r"written by a newer version of MARS2D, 9\.1"):
+        load_report(path)
+
+
+# -- the scripts in benchmarks/ -------------------------------------------------------------------
+
+
+def script(name, *arguments, cwd):
+    """Run a script of the benchmarks, and return what it prints."""
+    command = [sys.executable, BENCHMARKS / name, *map(str, arguments)]
+    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_the_growth_is_measured_fitted_and_drawn(tmp_path):
+    arguments = ("--sizes", 4, 16, "--time", 0, "--json", "a.json", "--figure", "a.png")
+    printed = script("growth.py", *arguments, cwd=tmp_path)
+    assert "default: time grows with n to the power " in printed
+    result = json.loads((tmp_path / "a.json").read_text())
+    rows = result["rows"]
+    assert [(row["n"], row["setting"]) for row in rows] == [
+        (4, "default"), (16, "default"), (4, "loose"), (16, "loose"),
+    ]  # fmt: skip
+    slope = np.log(rows[1]["tick_s"] / rows[0]["tick_s"]) / np.log(4)
+    assert result["exponents"]["default"] == pytest.approx(slope)
+    for row in rows:
+        assert row["real_time"] == pytest.approx(0.1 / row["tick_s"])
+        assert row["bytes_needed"] == 48 + 16 / row["n"] + row["bytes_of_contacts"]
+    with Image.open(tmp_path / "a.png") as picture:
+        assert picture.size == (1210, 462)
+        assert len(picture.getcolors()) <= 128
+
+
+def test_the_stages_of_a_control_step_are_all_of_it(tmp_path):
+    script("stages.py", "S1", "--seconds", 0.2, "--json", "a.json", cwd=tmp_path)
+    rows = json.loads((tmp_path / "a.json").read_text())
+    assert list(rows) == ["S1 default", "S1 loose"]
+    for stages in rows.values():
+        parts = {name: part for name, part in stages.items() if name != "us"}
+        assert list(parts) == ["sense", "law", "limits", "record", "motion", "rest"]
+        assert sum(parts.values()) == pytest.approx(1)
+        assert min(parts.values()) > 0

@@ -1,0 +1,78 @@
+"""The benchmarks run, and write the figures that they promise."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parents[2] / "benchmarks"
+
+
+def run(name, *arguments, cwd):
+    command = [sys.executable, str(FOLDER / name), "--json", "out.json", *arguments]
+    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads((cwd / "out.json").read_text())
+
+
+def test_the_control_loop_is_compared_with_bare_pymunk(tmp_path):
+    result = run("control_loop.py", "--sizes", "4", "--rounds", "1", cwd=tmp_path)
+    [team] = result["teams"]
+    assert team["n"] == 4
+    assert team["time_ratio"] > 0
+    assert result["random_walk"]["ticks"] == 1000
+
+
+def test_the_start_is_timed(tmp_path):
+    result = run("start.py", "--rounds", "1", cwd=tmp_path)
+    assert result["import mars2d"] > result["bare python"]
+
+
+def test_crowds_are_watched_and_a_run_does_not_depend_on_the_workers(tmp_path):
+    result = run("crowds.py", "--robot-runs", "30", "--seed", "3", "--workers", "2", cwd=tmp_path)
+    assert result["all"]["robot_runs"] >= 30
+    assert result["all"]["escapes"] == 0
+    worst = result["all"]["worst of two bodies"]
+    assert 0 < worst["m"] <= 1e-3
+    alone = run("crowds.py", "--seed", "3", "--run", str(worst["run"]), cwd=tmp_path)
+    assert alone["deepest"]["bodies"] == worst["m"]
+
+
+def test_rays_are_timed_and_are_those_of_the_public_method(tmp_path):
+    result = run("rays.py", "--sizes", "20", "200", "--rounds", "1", cwd=tmp_path)
+    assert [row["segments"] for row in result["rays"]] == [20, 200] * 2
+    assert all(row["largest_difference"] < 1e-9 for row in result["rays"])
+    assert result["team"]["readings"] == [201, 20, 180]
+
+
+@pytest.mark.soak
+def test_drawing_and_films_are_timed(tmp_path):
+    pytest.importorskip("av")
+    rows = run("drawing.py", "--rounds", "1", "--steps", "4", cwd=tmp_path)["drawing"]
+    figures = {row["what"]: row for row in rows}
+    for what in ("paths, real time", "paths, each step", "scans, real time", "scans, each step"):
+        assert figures[f"dummy: {what}"]["least_ms"] > 0
+    assert all(figures[f"{suffix}: scans"]["ratio"] > 0 for suffix in ("mp4", "gif"))
+    assert figures["dummy: bare"]["ratio"] == 1.0
+
+
+def test_cells_are_timed(tmp_path):
+    result = run("voronoi.py", "--sizes", "4", "--rounds", "1", cwd=tmp_path)
+    assert [row["region"] for row in result["cells"]] == ["square", "circle", "hook"]
+    assert all(row[way]["ms"] > 0 for row in result["cells"] for way in ("cells", "density"))
+    assert result["drawing"][0]["painting"]["ms"] > 0
+
+
+def test_scrubbing_and_branching_are_timed(tmp_path):
+    result = run("scrubbing.py", "--rows", "60", "--robots", "3", cwd=tmp_path)
+    for law in ("plain", "sensing"):
+        assert 0 < result[law]["look"] < result[law]["branch from the start"][0]
+        assert len(result[law]["branch from those waiting"]) == 7
+
+
+def test_studies_by_one_worker_and_by_two_are_timed(tmp_path):
+    result = run("sweeps.py", "--runs", "3", "--rounds", "1", "--stop-time", "10", cwd=tmp_path)
+    assert result["whole"][0] > 0
+    assert len(result["whole_s"]) == 2

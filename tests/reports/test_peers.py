@@ -1,0 +1,217 @@
+"""The comparison with other simulators runs, checks what it runs, and says what is wrong."""
+
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+FOLDER = Path(__file__).parents[2] / "benchmarks" / "peers"
+SCRIPTS = {
+    "navground": "navground_peer.py",
+    "ir-sim": "irsim_peer.py",
+    "vmas": "vmas_peer.py",
+    "aitk.robots": "aitk_peer.py",
+}
+
+
+def variable(peer):
+    """The environment variable that names the interpreter which has a peer."""
+    return "MARS2D_PEER_" + peer.upper().replace("-", "_").replace(".", "_")
+
+
+def run(*arguments, cwd):
+    command = [sys.executable, str(FOLDER / "run.py"), *map(str, arguments)]
+    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+
+
+@pytest.fixture(scope="module")
+def peer():
+    """The module that all scripts share."""
+    spec = importlib.util.spec_from_file_location("peer", FOLDER / "peer.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["peer"] = module
+    spec.loader.exec_module(module)
+    yield module
+    del sys.modules["peer"]
+
+
+@pytest.fixture
+def bare(tmp_path):
+    """An interpreter that has nothing but what comes with Python."""
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "bare"], check=True)
+    return tmp_path / "bare" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+
+
+def test_without_peers_both_settings_of_mars2d_are_compared(tmp_path):
+    (tmp_path / "page.md").write_text(
+        "before\n<!-- measured: start -->\nold\n<!-- measured: end -->\nafter\n"
+    )
+    done = run(
+        *("--scenes", "S1", "S2", "--steps", 8, "--rounds", 2),
+        *("--json", "out.json", "--markdown", "page.md"),
+        cwd=tmp_path,
+    )
+    assert done.returncode == 0, done.stderr
+    result = json.loads((tmp_path / "out.json").read_text())
+    assert list(result["scenes"]) == ["S1", "S2"]
+    for rows in result["scenes"].values():
+        assert list(rows) == ["MARS2D, default", "MARS2D, loose"]
+        for row in rows.values():
+            assert row["steps_per_s"] > 0
+            assert row["steps"] == 16
+            assert row["lost"] == 0
+        middle, least, most = rows["MARS2D, default"]["ratios"]["MARS2D, loose"]
+        assert 0 < least <= middle <= most
+        assert rows["MARS2D, default"]["overlap_mm"]["robots"] < 1.0
+    page = (tmp_path / "page.md").read_text()
+    assert page.startswith("before\n")
+    assert page.endswith("after\n")
+    assert "| S2 | MARS2D, loose |" in page
+    assert "old" not in page
+
+
+def test_a_page_without_the_marks_is_not_written(tmp_path):
+    (tmp_path / "page.md").write_text("mine\n")
+    done = run("--scenes", "S1", "--steps", 8, "--rounds", 1, "--markdown", "page.md", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "page.md: no such file with the lines <!-- measured: start -->" in done.stderr
+    assert (tmp_path / "page.md").read_text() == "mine\n"
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ("navgroud=python", "no peer 'navgroud'; did you mean 'navground'?"),
+        ("gazebo=python", "no peer 'gazebo'. There are navground, ir-sim, vmas, aitk.robots."),
+        ("vmas", "--peer vmas: say which interpreter has it, vmas=DIR/bin/python"),
+        ("ir-sim=nowhere/python", "--peer ir-sim: there is no interpreter nowhere/python"),
+        ("ir-sim=nowhere/python", "pip install ir-sim=="),
+    ],
+)
+def test_what_is_wrong_with_a_peer_is_said(given, says, tmp_path):
+    done = run("--peer", given, cwd=tmp_path)
+    assert done.returncode == 2
+    assert says in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_an_interpreter_without_the_peer_gets_the_line_for_pip(bare, tmp_path):
+    done = run("--peer", f"navground={bare}", cwd=tmp_path)
+    assert done.returncode == 2
+    assert f"--peer navground: {bare} has no navground" in done.stderr
+    assert f"{bare} -m pip install navground==" in done.stderr
+
+
+@pytest.mark.parametrize("script", [*SCRIPTS.values(), "mars2d_peer.py"])
+def test_each_script_says_what_its_peer_does_not_do_and_what_was_set(script):
+    text = (FOLDER / script).read_text()
+    assert "What was set, and how: " in text
+    assert ("What it does not do in these scenes:" in text) == (script != "mars2d_peer.py")
+
+
+def drawn(peer, **wrong):
+    """A simulator that draws the motion by the formula, alone, but for what is to be wrong."""
+
+    class Drawn(peer.Peer):
+        def build(self):
+            self._at = self.scene.poses.copy()
+            self._geometry = peer.Geometry(self.scene)
+
+        def move(self, command):
+            h = self.scene.sampling_time
+            v, omega = command * wrong.get("pace", 1.0)
+            now = self._at[:, 2] + omega * h / 2
+            way = v * h * np.sinc(omega * h / 2 / np.pi)
+            self._at += np.column_stack([way * np.cos(now), way * np.sin(now), omega * h])
+
+        def poses(self):
+            return self._at.copy()
+
+        def near(self):
+            points = self._at[:, :2]
+            distance = np.minimum(self._geometry.off(points), self._geometry.apart(points))
+            return distance < self.scene.proximity + wrong.get("blind", 0.0)
+
+        def ranges(self):
+            return self._geometry.ranges(self._at)[0] + wrong.get("far", 0.0)
+
+    return Drawn
+
+
+@pytest.mark.parametrize("scene", ["S1", "S2", "S3"])
+def test_a_run_that_does_as_it_is_told_is_fit_to_be_timed(scene, peer):
+    run = peer.Run(drawn(peer), peer.SCENES[scene](), "")
+    assert run.looked_at(8, 60.0)["steps"] == 8
+    assert run.timed(5, 60.0)["steps"] == 5
+
+
+@pytest.mark.parametrize(
+    ("scene", "wrong", "says"),
+    [
+        ("S2", {"pace": 0.0}, "which nothing is near, was told to go 0.0150 m"),
+        ("S2", {"pace": 1.1}, "it went 0.0165 m"),
+        ("S1", {"blind": -0.3}, "is what is 0.[0-2].* m away near?"),
+        ("S3", {"far": -0.1}, "of the ranges are not right"),
+    ],
+)
+def test_a_run_that_is_not_what_it_seems_is_not_timed(scene, wrong, says, peer):
+    run = peer.Run(drawn(peer, **wrong), peer.SCENES[scene](), "")
+    with pytest.raises(ValueError, match=says):
+        run.looked_at(200, 60.0)
+
+
+def test_robots_that_leave_the_walls_are_missed(peer):
+    run = peer.Run(drawn(peer), peer.SCENES["S2"](), "")
+    with pytest.raises(ValueError, match="robots are outside the walls or deep in boxes"):
+        run.timed(1000, 60.0)
+
+
+def test_distances_and_ranges_are_those_worked_out_by_hand(peer):
+    scene = SimpleNamespace(
+        walls=[(-2, -2), (-2, 2), (2, 2), (2, -2)],
+        boxes=[[(1, -0.5), (2, -0.5), (2, 0.5), (1, 0.5)]],
+        side=4.0,
+        radius=0.25,
+        beams=4,
+        range=1.5,
+    )
+    geometry = peer.Geometry(scene)
+    points = np.array([(0.0, 0.0), (0.0, 1.0), (1.1, 0.0), (0.0, 2.5), (-1.5, -1.75)])
+    assert geometry.off(points) == pytest.approx([1.0, 1.0, -0.1, -0.5, 0.25])
+    assert geometry.apart(points[:3]) == pytest.approx([0.75, 0.75, 0.85])
+    # The first beam looks back, the second to the right, the third ahead.
+    ranges, robot = geometry.ranges(np.array([(0.0, 0.0, 0.0), (0.0, 1.0, np.pi / 2)]))
+    assert ranges == pytest.approx(np.array([(1.5, 1.5, 1.0, 0.75), (0.75, 1.5, 1.0, 1.5)]))
+    assert robot.tolist() == [[False, False, False, True], [True, False, False, False]]
+
+
+def test_the_law_draws_the_numbers_that_it_draws_in_mars2d(peer):
+    from mars2d import Robot, Scenario, World
+
+    world = World(Scenario(robots=[Robot(pose=(0, 0, 0)), Robot(pose=(2, 0, 0))]))
+    twin = drawn(peer)(peer.SCENES["S1"](), "")
+    for mine, robot in zip(twin._streams, world.robots, strict=True):
+        assert mine.random() == robot.rng.random()
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_a_peer_runs_a_scene_as_it_should(name, tmp_path):
+    python = os.environ.get(variable(name))
+    if python is None:
+        pytest.skip(f"{name} is not here: {variable(name)} names the interpreter that has it")
+    done = run(
+        *("--peer", f"{name}={python}", "--scenes", "S1", "S2", "--steps", 8, "--rounds", 1),
+        *("--json", "out.json"),
+        cwd=tmp_path,
+    )
+    assert done.returncode == 0, done.stderr
+    result = json.loads((tmp_path / "out.json").read_text())
+    assert name in result["versions"]
+    for rows in result["scenes"].values():
+        assert any(label.startswith(name) for label in rows)

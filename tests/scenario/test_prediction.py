@@ -1,0 +1,251 @@
+"""Predictions beside what was measured: the value, its table, and the file that makes them."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mars2d
+from mars2d import InputError, LawError, Prediction
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.prediction import table
+
+HEAD = """\
+import numpy as np
+from mars2d import Prediction, Scenario
+scenario = Scenario(stop_time=1)
+"""
+
+
+# -- one prediction ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("measured", "ok"),
+    [(1.0, True), (1.25, True), (0.75, True), (1.26, False), (0.74, False), (-1.0, False),
+     (math.nan, False), (math.inf, False), (-math.inf, False)],
+)  # fmt: skip
+def test_a_prediction_holds_within_its_tolerance(measured, ok):
+    assert Prediction("speed", 1.0, measured, 0.25).ok is ok
+
+
+def test_a_tolerance_of_zero_asks_for_the_very_number():
+    assert Prediction("winners", 1, 1, 0).ok
+    assert not Prediction("winners", 1, 2, 0).ok
+
+
+def test_numbers_of_numpy_become_those_of_python():
+    made = Prediction("n", np.int64(3), np.float32(2.5), np.float64(1), "m")
+    assert [type(v) for v in made.as_dict().values()] == [str, float, float, float, bool]
+    assert made.as_dict() == {
+        "name": "n", "predicted": 3.0, "measured": 2.5, "tolerance": 1.0, "ok": True
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("measured", [math.nan, math.inf, -math.inf])
+def test_what_could_not_be_measured_is_null_in_json(measured):
+    text = json.dumps(Prediction("n", 1, measured, 1).as_dict(), allow_nan=False)
+    assert json.loads(text)["measured"] is None
+    assert json.loads(text)["ok"] is False
+
+
+def test_a_share_of_the_predicted_number_is_a_tolerance():
+    assert Prediction.within("force", -4.0, -4.1, percent=5, unit="N") == Prediction(
+        "force", -4.0, -4.1, 0.2, "N"
+    )
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Prediction("n", math.nan, 1, 1), "Prediction.predicted = nan: expected a number"),
+        (lambda: Prediction("n", math.inf, 1, 1), "Prediction.predicted = inf"),
+        (lambda: Prediction("n", 1, None, 1), "Prediction.measured = None: expected a number, or"),
+        (lambda: Prediction("n", 1, np.array([1.0, 2.0]), 1), "Prediction.measured = array([1."),
+        (lambda: Prediction("n", 1, True, 1), "Prediction.measured = True"),
+        (lambda: Prediction("n", 1, 10**400, 1), "Prediction.measured = 1000"),
+        (lambda: Prediction("n", 1, 1, -0.1), "Prediction.tolerance = -0.1: expected a number >= "),
+        (lambda: Prediction("n", 1, 1, math.nan), "Prediction.tolerance = nan"),
+        (lambda: Prediction("n", 1, 1), "Prediction.tolerance is missing"),
+        (lambda: Prediction("", 1, 1, 1), "Prediction.name = ''"),
+        (lambda: Prediction("a\nb", 1, 1, 1), "Prediction.name = 'a\\nb': expected one line"),
+        (lambda: Prediction(1, 1, 1, 1), "Prediction.name = 1"),
+        (lambda: Prediction("n", 1, 1, 1, 5), "Prediction.unit = 5"),
+        (lambda: Prediction("n", 1, 1, tolerence=1), "did you mean 'tolerance'?"),
+        (lambda: Prediction.within("n", 0, 0, 2), "2 % of a predicted 0 is 0"),
+        (lambda: Prediction.within("n", 1, 1, 0), "Prediction.within(percent) = 0"),
+        (lambda: Prediction.within("n", "1", 1, 2), "Prediction.predicted = '1'"),
+    ],
+)
+def test_what_is_no_prediction_is_refused(make, words):
+    with pytest.raises(InputError) as caught:
+        make()
+    assert words in str(caught.value)
+
+
+# -- the table --------------------------------------------------------------------------------
+
+
+def test_a_table_shows_the_digits_that_the_tolerance_needs():
+    rows = [
+        Prediction("path", 2, 1.99996, 0.001, "m"),
+        Prediction("speed of the box", 0.2, 0.25, 0.01, "m/s"),
+        Prediction("turns", 3, 3, 0),
+        Prediction("force", 4.905, math.nan, 0.02, "N"),
+    ]
+    assert table(rows).splitlines() == [
+        "                  predicted      measured  tolerance",
+        "path                 2.0000        2.0000      0.001  m    ok",
+        "speed of the box      0.200         0.250       0.01  m/s  NOT OK",
+        "turns                     3             3          0       ok",
+        "force                 4.905  not a number       0.02  N    NOT OK",
+        "2 of 4 predictions ok",
+    ]
+
+
+def test_a_table_of_nothing_is_empty():
+    assert table([]) == ""
+
+
+def test_a_value_that_is_almost_zero_has_no_sign():
+    assert "-0.0" not in table([Prediction("drift", 0, -1e-9, 0.01, "m")])
+
+
+def test_very_large_and_very_small_numbers_stay_short():
+    text = table(
+        [
+            Prediction("arc", 1.5, 1.5 + 1e-13, 1e-12, "m"),
+            Prediction("light", 299792458, 299792458.4, 1e-6, "m/s"),
+            Prediction("sun", 1.989e30, 1.9891e30, 1e27, "kg"),
+            Prediction("atom", 1.7e-27, 1.6e-27, 1e-28, "kg"),
+        ]
+    )
+    assert "1.9890e+30" in text
+    assert "1.70e-27" in text
+    assert max(map(len, text.splitlines())) <= 80
+
+
+def test_a_long_name_goes_over_several_lines():
+    name = "the speed at which the second of two robots leaves the first one behind"
+    lines = table([Prediction(name, 1, 1, 0.1, "m/s"), Prediction("b", 1, 1, 0.1)]).splitlines()
+    assert max(map(len, lines)) <= 80
+    assert " ".join(line.partition("  ")[0] for line in lines[1:3]) == name
+    assert lines[2].endswith("m/s  ok")
+
+
+numbers_ = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@given(
+    st.lists(
+        st.tuples(st.text("abc ", min_size=1).filter(str.strip), numbers_, st.floats(),
+                  st.floats(min_value=0, allow_nan=False, allow_infinity=False)),
+        min_size=1, max_size=5,
+    )
+)  # fmt: skip
+def test_any_numbers_make_a_table_of_80_columns_and_json(rows):
+    made = [Prediction(*row, "m/s^2") for row in rows]
+    lines = table(made).splitlines()
+    assert max(map(len, lines)) <= 80
+    assert sum(line.endswith((" ok", " NOT OK")) for line in lines[:-1]) == len(rows)
+    json.dumps([p.as_dict() for p in made], allow_nan=False)
+
+
+# -- checks in an experiment's file -----------------------------------------------------------
+
+
+def opened(tmp_path, text):
+    (tmp_path / "mine.py").write_text(HEAD + text)
+    return open_experiment(tmp_path / "mine.py")
+
+
+def finished(experiment):
+    return mars2d.run(experiment.scenario)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "    return [Prediction('end', 1, record.time[-1], 1e-9, 's')]\n",
+        "    return (Prediction('end', 1, record.time[-1], 1e-9, 's'),)\n",
+        "    yield Prediction('end', 1, record.time[-1], 1e-9, 's')\n",
+    ],
+)
+def test_checks_are_a_list_or_a_generator_of_predictions(tmp_path, body):
+    experiment = opened(tmp_path, "def checks(record):\n" + body)
+    made = experiment.predictions(finished(experiment))
+    assert made == (Prediction("end", 1, 1, 1e-9, "s"),)
+    assert made[0].ok
+
+
+def test_a_file_without_checks_and_a_scenario_have_no_predictions(tmp_path):
+    experiment = opened(tmp_path, "")
+    assert experiment.checks is None
+    assert experiment.predictions(finished(experiment)) == ()
+    assert open_experiment(experiment.scenario).predictions(finished(experiment)) == ()
+
+
+def test_of_a_run_that_was_cut_short_no_checks_are_made(tmp_path):
+    experiment = opened(tmp_path, "def checks(record):\n    return 1 / 0\n")
+    world = mars2d.World(experiment.scenario)
+    world.step()
+    world.break_off("The window was closed")
+    assert experiment.predictions(world.record) == ()
+    with pytest.raises(LawError, match="ZeroDivisionError"):
+        experiment.predictions(finished(experiment))
+
+
+@pytest.mark.parametrize(
+    ("body", "where", "words"),
+    [
+        ("pass", "mine.py, line 4", "checks returned nothing: expected a list of Prediction("),
+        ("return 3", "mine.py, line 4", "checks returned 3: expected a list"),
+        ("return 'ok'", "mine.py, line 4", "checks returned 'ok'"),
+        ("return {'a': 1}", "mine.py, line 4", "checks returned {'a': 1}"),
+        ("return Prediction('n', 1, 1, 1)", "mine.py, line 4", "returned Prediction(name='n'"),
+        ("return [Prediction('n', 1, 1, 1), 1.5]", "mine.py, line 4", "returned 1.5 as item 1"),
+        ("return record.poses", "mine.py, line 5", "did you mean 'pose'?"),
+        ("yield Prediction('n', 1, 1, -1)", "mine.py, line 5", "Prediction.tolerance = -1"),
+        ("yield np.array([1.0])[record.seed + 9]", "mine.py, line 5", "IndexError"),
+        ("import sys; sys.exit(0)", "mine.py, line 5", "SystemExit"),
+    ],
+)
+def test_what_checks_do_wrong_is_named_with_file_and_line(tmp_path, body, where, words):
+    experiment = opened(tmp_path, f"def checks(record):\n    {body}\n")
+    with pytest.raises(LawError) as caught:
+        experiment.predictions(finished(experiment))
+    assert caught.value.where == where
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("checks = 3\n", "mine.py: checks = 3: expected a function of one argument, the record"),
+        ("def checks():\n    pass\n", "exactly one argument, the record"),
+        ("def checks(record, more):\n    pass\n", "checks(record, more)"),
+    ],
+)
+def test_checks_that_are_no_function_of_the_record_are_refused_before_the_run(
+    tmp_path, text, words
+):
+    with pytest.raises(InputError) as caught:
+        opened(tmp_path, text)
+    assert words in str(caught.value)
+
+
+def test_an_experiment_keeps_the_first_line_of_its_docstring(tmp_path):
+    (tmp_path / "mine.py").write_text('"""How far does it go?\n\nMore.\n"""\n' + HEAD)
+    assert open_experiment(tmp_path / "mine.py").summary == "How far does it go?"
+    assert opened(tmp_path, "").summary == ""
+
+
+def test_an_exact_zero_is_short_where_the_tolerance_is_tiny():
+    from mars2d.scenario.prediction import number
+
+    assert number(0.0, 1.44e-10) == number(0.0, 3.49e-11) == "0"
+    assert number(0.0, 0.02) == "0.000"
+    assert number(3e-12, 1.44e-10) == "0.00000000000"

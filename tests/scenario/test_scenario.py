@@ -1,0 +1,476 @@
+"""A scenario is complete by its defaults, and holds only what can be simulated truthfully."""
+
+from __future__ import annotations
+
+import copy
+import inspect
+import pickle
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from mars2d import Animation, Holonomic, InputError, Robot, Scenario, Unicycle
+from mars2d.addons import Addon, Map
+from mars2d.bodies.joints import Hinge, Joint, Rod, Rope, Spring
+from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
+from mars2d.bodies.rigid import Inertia
+from mars2d.core.materials import MATERIALS
+from mars2d.geometry.shapes import Compound, Disc, Polygon
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.options import parse_setting
+from mars2d.sensors import Proximity
+
+SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+
+
+def wall(x: float) -> Map:
+    return Map([[(x, -1), (x, 1)]])
+
+
+def test_one_robot_is_a_complete_scenario():
+    scenario = Scenario(robots=[Robot(pose=(0, 0, 0))])
+    assert scenario.bounds == (-5, 5, -5, 5)
+    assert scenario.sampling_time == 0.1
+    assert scenario.robots[0].name == "robot0"
+    assert scenario.obstacles == ()
+
+
+def test_even_nothing_at_all_is_a_complete_scenario():
+    assert len(Scenario().robots) == 1
+
+
+def test_the_defaults_are_those_of_the_paper():
+    scenario = Scenario()
+    assert scenario.title == "[Simulation]"
+    assert scenario.command_delay == 0
+    assert scenario.stop_time == 100
+    robot = scenario.robots[0]
+    assert (robot.diameter, robot.mass, robot.friction, robot.restitution) == (0.3, 1, 0.5, 0)
+    assert isinstance(robot.drive, Unicycle)
+
+
+def test_a_number_of_robots_stands_on_a_circle_facing_its_centre():
+    scenario = Scenario(robots=4)
+    x, y, theta = scenario.initial_pose
+    assert np.hypot(x, y) == pytest.approx([3.5] * 4)
+    assert np.cos(theta) == pytest.approx(-x / 3.5)
+    assert np.sin(theta) == pytest.approx(-y / 3.5)
+
+
+def test_at_copies_a_robot_elsewhere():
+    walker = Robot(diameter=0.2, name="a")
+    there = walker.at(1, 2, 3)
+    assert there.pose == (1, 2, 3)
+    assert there.diameter == 0.2
+    assert walker.pose == (0, 0, 0)
+
+
+def test_the_geometric_centre_lies_behind_the_centre_of_rotation():
+    assert Robot(pose=(1, 2, np.pi / 2), center_offset=0.1).center == pytest.approx((1, 1.9))
+
+
+def test_robots_without_a_name_get_one_that_is_free():
+    robots = [Robot(name="robot1"), Robot(pose=(1, 0, 0)), Robot(pose=(2, 0, 0))]
+    assert [r.name for r in Scenario(robots=robots).robots] == ["robot1", "robot1_", "robot2"]
+
+
+def test_two_robots_or_addons_of_one_name_are_refused():
+    with pytest.raises(InputError, match="two are called 'a'"):
+        Scenario(robots=[Robot(name="a"), Robot(name="a", pose=(1, 0, 0))])
+    with pytest.raises(InputError, match=r"two are called 'map'.*give one another name"):
+        Scenario(addons=[wall(1), wall(2)])
+    assert len(Scenario(addons=[wall(1), wall(2).replace(name="second")]).obstacles) == 2
+
+
+def test_a_misspelt_field_gives_the_nearest_name():
+    with pytest.raises(InputError, match=r"Scenario has no field 'robot'; did you mean 'robots'"):
+        Scenario(robot=[Robot()])
+    with pytest.raises(InputError, match=r"did you mean 'diameter'"):
+        Robot(diametr=0.3)
+    with pytest.raises(InputError, match=r"did you mean 'max_linear_speed'"):
+        Unicycle(max_speed=1)
+
+
+@pytest.mark.parametrize(
+    ("robots", "fields", "problem"),
+    [
+        ([Robot(), Robot(pose=(0.2, 0, 0))], {}, "robot0 .* and of robot1 .* inside each other"),
+        ([Robot(pose=(9, 0, 0))], {}, "robot0 .* starts outside the workspace"),
+        ([Robot(pose=(4.9, 0, 0))], {"on_exit": "wall"}, "starts in the workspace's wall"),
+        ([Robot()], {"addons": [wall(0.1)]}, "in contact with obstacle 0"),
+        ([Robot()], {"addons": [Map([SQUARE])]}, "inside obstacle 0.*draw it as walls"),
+        ([Robot(), Robot(pose=(1, 0, 0), mass=11)], {}, "ratio of at most 10"),
+        ([Robot()], {"stop_time": 1e9, "sampling_time": 1e-3}, "sampling times of 0.001 s"),
+    ],
+)
+def test_what_could_not_start_is_refused_with_the_reason(robots, fields, problem):
+    with pytest.raises(InputError, match=problem):
+        Scenario(robots=robots, **fields)
+
+
+@pytest.mark.parametrize(
+    ("robots", "fields"),
+    [
+        ([Robot(), Robot(pose=(0.3, 0, 0))], {}),
+        ([Robot(), Robot(pose=(0.2995, 0, 0))], {}),
+        ([Robot(pose=(9, 0, 0))], {"on_exit": "ignore"}),
+        ([Robot(pose=(9, 0, 0))], {"workspace": None}),
+        ([Robot(pose=(4.9, 0, 0))], {"on_exit": "stop"}),
+        ([Robot(pose=(4.85, 0, 0))], {"on_exit": "wall"}),
+        ([Robot()], {"addons": [wall(0.15)]}),
+        ([Robot(), Robot(pose=(1, 0, 0), mass=10)], {}),
+        # in the notch of a concave obstacle, which its convex hull would fill
+        ([Robot(pose=(0.2, 1, 0), diameter=0.1)],
+         {"addons": [Map([[(0, 0), (-1, 1), (1, 2), (0, 1)]])]}),
+        # in a room that is drawn as walls
+        ([Robot()], {"addons": [Map([[a, b] for a, b in pairwise(SQUARE)])]}),
+    ],
+)  # fmt: skip
+def test_what_can_start_is_accepted(robots, fields):
+    assert Scenario(robots=robots, **fields)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_thousands_of_robots_in_a_row_are_checked_quickly(axis):
+    places = np.zeros((2000, 2))
+    places[:, axis] = np.arange(2000)
+    robots = [Robot(pose=(x, y, 0)) for x, y in places]
+    assert len(Scenario(robots=robots, workspace=None).robots) == 2000
+    robots[1500] = robots[1500].at(*(places[1499] + 0.1))
+    with pytest.raises(InputError, match=r"robot1499 .* robot1500"):
+        Scenario(robots=robots, workspace=None)
+
+
+@pytest.mark.parametrize(
+    ("stop_time", "sampling_time", "iterations"),
+    [(0, 0.1, 0), (1, 0.1, 10), (0.3, 0.1, 3), (0.99, 0.1, 9), (1000, 1, 1000), (100, 0.3, 333),
+     (0.05, 0.1, 0), (1e4, 1e-3, 10_000_000)],
+)  # fmt: skip
+def test_the_last_iteration_is_the_last_that_is_not_after_the_stop_time(
+    stop_time, sampling_time, iterations
+):
+    scenario = Scenario(stop_time=stop_time, sampling_time=sampling_time)
+    assert scenario.last_iteration == iterations
+
+
+def test_initial_poses_are_columns():
+    scenario = Scenario(robots=[Robot(pose=(1, 2, 3)), Robot(pose=(4, 5, 6))], workspace=None)
+    assert scenario.initial_pose.tolist() == [[1, 4], [2, 5], [3, 6]]
+
+
+def test_without_a_workspace_the_bounds_hold_robots_and_obstacles():
+    scenario = Scenario(robots=[Robot(pose=(7, 0, 0))], workspace=None, addons=[wall(-3)])
+    assert scenario.bounds == (-4, 8, -2, 2)
+
+
+def test_colours_are_the_robots_own_or_the_next_of_the_base_colours():
+    robots = [Robot(), Robot(pose=(1, 0, 0), color="red"), Robot(pose=(2, 0, 0))]
+    scenario = Scenario(robots=robots, animation=Animation(base_colors=["k", "#123456"]))
+    assert scenario.colors == ("#000000", "#d62728", "#000000")
+
+
+@pytest.mark.parametrize("speed", [0, 1, 2.5, "max", np.float32(3), np.int64(2)])
+def test_a_playback_speed_is_a_factor_or_max(speed):
+    assert Animation(playback_speed=speed).playback_speed == speed
+
+
+def test_a_scenario_can_be_hashed_compared_copied_and_sent_to_a_worker():
+    scenario = Scenario(
+        robots=[Robot(sensors=[Proximity(range=1)]), Robot(pose=(1, 0, 0), drive=Holonomic())],
+        addons=[wall(3)],
+        title="x",
+    )
+    for twin in (pickle.loads(pickle.dumps(scenario)), copy.deepcopy(scenario), scenario.replace()):
+        assert twin == scenario
+        assert hash(twin) == hash(scenario)
+        assert twin.obstacles == scenario.obstacles
+    assert scenario != scenario.replace(title="y")
+
+
+def test_a_scenario_does_not_change_when_what_it_was_made_of_does():
+    corners = np.array(SQUARE, dtype=float)
+    robots = [Robot()]
+    scenario = Scenario(robots=robots, workspace=corners)
+    corners[:] = 0
+    robots.clear()
+    assert scenario.bounds == (-1, 1, -1, 1)
+    assert len(scenario.robots) == 1
+
+
+def test_obstacles_of_an_addon_are_asked_for_once():
+    class Random(Addon):
+        def obstacles(self):
+            return [[(2, y), (3, y)] for y in np.random.default_rng().uniform(0, 1, 1)]
+
+    scenario = Scenario(addons=[Random()])
+    assert scenario.obstacles == scenario.obstacles
+
+
+def test_a_concave_obstacle_is_kept_vertex_by_vertex():
+    concave = [(5, 2), (4, 3), (6, 4), (5, 3)]
+    scenario = Scenario(addons=[Map([concave])])
+    assert scenario.obstacles == (tuple(concave),)
+
+
+def test_every_field_has_a_meaning_and_no_law_is_called_by_a_constructor():
+    kinds = (Scenario, Robot, Animation, Unicycle, Holonomic, Map, Proximity, Ball, Bar, Box, Gate,
+             Puck, Solid, Hinge, Rod, Rope, Spring, Disc, Polygon, Compound)  # fmt: skip
+    for kind in kinds:
+        for name, field in kind.__dataclass_fields__.items():
+            if "ClassVar" not in str(field.type):
+                assert field.metadata["doc"], f"{kind.__name__}.{name}"
+        assert inspect.getdoc(kind)
+
+    def law(robot):
+        raise AssertionError
+
+    assert Robot(controller=law).controller is law
+
+
+# -- props, shapes and joints ---------------------------------------------------------------------
+
+ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
+
+
+def refused(message: str, **fields) -> None:
+    with pytest.raises(InputError, match=message):
+        Scenario(**fields)
+
+
+def test_props_are_named_by_kind_and_place_and_never_like_another():
+    props = [Box(pose=(1, 0)), Ball(pose=(2, 0)), Box(pose=(3, 0)), Puck(pose=(4, 0), name="box4"),
+             Box(pose=(1, 2))]  # fmt: skip
+    scenario = Scenario(robots=[Robot(name="ball1")], props=props)
+    assert [p.name for p in scenario.props] == ["box0", "ball1_", "box2", "box4", "box4_"]
+
+
+def test_a_robot_takes_no_name_that_a_prop_was_given():
+    scenario = Scenario(robots=[Robot()], props=[Box(pose=(1, 0), name="robot0")])
+    assert (scenario.robots[0].name, scenario.props[0].name) == ("robot0_", "robot0")
+    assert scenario.replace(title="x").robots[0].name == "robot0_"
+
+
+def test_bodies_are_the_robots_then_the_props():
+    props = [Puck(pose=(1, 0, 2), velocity=(1, 2, 3), mass=2)]
+    first, second = Scenario(robots=[Robot()], props=props).bodies
+    assert (first.kind, first.name, first.velocity) == ("Robot", "robot0", (0, 0, 0))
+    assert (second.kind, second.name, second.velocity) == ("Puck", "puck0", (1, 2, 3))
+    assert second.inertia == (2, 2 * 0.1**2 / 2)
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        (
+            {"props": [Box(pose=(1, 0), material="steel")]},
+            ("box0 has 125.6 kg and robot0 1 kg; contacts hold a ratio of at most 10. box0 is of "
+            "steel: give its mass, or make its height 13 times smaller"),
+        ),
+        (
+            {"props": [Box(pose=(1, 0), material="foam", height=0.01)]},
+            "robot0 1 kg|box0 is of foam: give its mass, or more height",
+        ),
+        (
+            {"robots": [Robot(mass=1e6)],
+             "props": [Box(pose=(1, 0), length=0.5, width=1.5, material="steel", height=1e3)]},
+            "Box.mass of box0 = 5887500.0: .*that of steel; give it, or another height",
+        ),
+        (
+            {"props": [Box(pose=(1, 0), moment=1.0)]},
+            r"Box.moment of box0 = 1.0: expected .*mass x \(greatest distance\)\^2",
+        ),
+        (
+            {"props": [Box(pose=(1, 0), velocity=(99, 0, 9))]},
+            "Box.velocity of box0 = .*no point of it faster than 100 m/s; one has 101.5 m/s",
+        ),
+        (
+            {"props": [Puck(pose=(1, 0), velocity=(20, 0))], "max_overlap": 1e-5},
+            "no point of it faster than 10 m/s, as max_overlap is 1e-05 m",
+        ),
+        (
+            {"robots": [Robot(drive=Unicycle(max_force=1e5))], "max_overlap": 1e-5},
+            r"Scenario.max_overlap = 1e-05: expected at least 0.0001 m.*100000 N and robot0 has 1",
+        ),
+        (
+            {"robots": [Robot(shape=ELL, drive=Unicycle(max_linear_speed=50))]},
+            "robot0.drive: Unicycle turns at up to 500 rad/s",
+        ),
+        (
+            {"props": [Box(pose=(1, 0)), Box(pose=(1.2, 0.2, 0.7))]},
+            r"Box.pose of box0 = \(1.0, 0.0, 0.0\) and of box1 = .*inside each other",
+        ),
+        ({"props": [Solid(ELL, pose=(0.3, 0.3))]}, "robot0 .* and of solid0"),
+        (
+            {"props": [Gate(pose=(4.8, 0))], "on_exit": "wall"},
+            "Gate.pose of gate0 = .*: starts in the workspace's wall",
+        ),
+        (
+            {"props": [Box(pose=(2, 0))], "addons": [wall(2.1)]},
+            "Box.pose of box0 = .*in contact with obstacle 0",
+        ),
+    ],
+)  # fmt: skip
+def test_a_body_that_cannot_be_held_is_refused_with_its_name_and_the_reason(fields, message):
+    refused(message, **fields)
+
+
+@pytest.mark.parametrize("material", MATERIALS)
+def test_a_light_thing_of_any_material_is_accepted(material):
+    plate = Box(pose=(1, 0), length=0.3, width=0.2, height=0.02, material=material)
+    heavy = plate.inertia.mass
+    assert heavy == pytest.approx(MATERIALS[material].density * 0.3 * 0.2 * 0.02)
+    robot = Robot(mass=max(heavy, 0.1))
+    assert Scenario(robots=[robot], props=[plate]).bodies[1].surface == MATERIALS[material][1:]
+
+
+def test_props_may_lie_in_the_notch_of_another_one():
+    ell = Solid(ELL, pose=(2, 0))
+    x, y = ELL.centroid
+    notch = Puck(pose=(2 - x + 0.4, 0.4 - y), diameter=0.2)
+    assert len(Scenario(props=[ell, notch]).props) == 2
+    refused("inside each other", props=[ell, notch.at(2 - x + 0.1, 0.4 - y)])
+
+
+JOINTED = {"robots": [Robot(), Robot(pose=(1, 0, 0))], "props": [Box(pose=(0, 1, 0))]}
+
+
+@pytest.mark.parametrize(
+    ("joint", "message"),
+    [
+        (Rope(a="robto0", b="box0"), r"joints\[0\].a = 'robto0': .*did you mean 'robot0'"),
+        (Rope(a="robot0", b="bax0"), r"joints\[0\].b = 'bax0': .*did you mean 'box0'"),
+        (Rope(a="xyz", b="box0"), "known: box0, robot0, robot1"),
+        (Rod(a="box0", b="box0"), "b = 'box0': expected another body than a"),
+        (Rope(a="robot0", b="robot1", length=0.5),
+         r"joints\[0\].length = 0.5: .*\(0, 0\) and \(1, 0\).*start 1 m apart; expected at least"),
+        (Rod(a="robot0", b="robot1", length=1.5), "start 1 m apart; expected just that, or None"),
+        (Rod(a="robot0"), "its ends start at one point; use a Hinge"),
+        (Rope(a="robot0", length=1e-9), "length = 1e-09: expected a number >= 0.001"),
+        (Hinge(a="robot0", b="robot1", anchor_a=(0.5, 0), anchor_b=(-0.4, 0)),
+         r"its anchors, \(0.5, 0\) and \(0.6, 0\) in the world, lie 0.1 m apart"),
+        (Spring(a="robot0", b="box0", stiffness=9e5),
+         "stiffness = 900000.0: expected at most 5e.05"),
+        (Spring(a="robot0", b="box0", stiffness=1e5, rest_length=10),
+         "rest_length = 10.0: .*would throw its bodies at 4.02e.03 m/s"),
+        (Hinge(a="robot0", stiffness=5e4), "stiffness = 50000.0: expected at most 1.1.e.04"),
+        (Rope(a="robot0", b="box0", anchor_a=(3, 0)),
+         "anchor_a = .* a point within 1.5 m of robot0"),
+        (Joint(a="robot0"), "expected a Rope, Rod, Spring or Hinge"),
+    ],
+)  # fmt: skip
+def test_a_joint_that_cannot_hold_is_refused_with_the_reason(joint, message):
+    refused(message, **JOINTED, joints=[joint])
+
+
+def test_joints_that_can_hold_are_accepted():
+    joints = [
+        Rope(a="robot0", b="box0"), Rope(a="robot0", b="robot1", length=3),
+        Rod(a="robot1", anchor_b=(2, 2)), Spring(a="box0", anchor_b=(-1, 1), rest_length=0),
+        Hinge(a="robot0", b="robot1", anchor_a=(0.5, 0), anchor_b=(-0.5, 0)),
+    ]  # fmt: skip
+    scenario = Scenario(**JOINTED, joints=joints)
+    assert [tie.length for tie in scenario.ties] == pytest.approx([1, 3, np.sqrt(5), 0, 0])
+    assert scenario.joined == {(0, 1)}
+
+
+def test_bodies_on_one_hinge_may_overlap_and_others_not():
+    robots = [Robot(), Robot(pose=(0.2, 0, 0))]
+    pin = Hinge(a="robot0", b="robot1", anchor_a=(0.1, 0), anchor_b=(-0.1, 0))
+    assert Scenario(robots=robots, joints=[pin]).joined == {(0, 1)}
+    refused("inside each other", robots=robots, joints=[Rod(a="robot0", b="robot1")])
+
+
+def test_a_class_derived_from_a_joint_ties_as_that_does():
+    class Tow(Rope):
+        length: float | None = 2.0
+
+    (tie,) = Scenario(**JOINTED, joints=[Tow(a="robot0", b="box0")]).ties
+    assert (tie.a, tie.b, tie.length) == (0, 2, 2.0)
+
+
+def test_a_prop_of_the_users_own_is_checked_like_any_other():
+    class Beside(Prop):
+        @property
+        def shape(self):
+            return Disc(0.2).moved(0.05, 0)
+
+    class Heavy(Box):
+        @property
+        def inertia(self):
+            return Inertia(float("nan"), 1.0)
+
+    refused(r"Beside.shape of beside0: its centre of mass lies at \(0.05, 0\)", props=[Beside()])
+    refused("Heavy.mass of heavy0 = nan", props=[Heavy(pose=(1, 0))])
+    refused(r"prop 'prop0' raised NotImplementedError: Prop must say", props=[Prop(pose=(1, 0))])
+
+
+def test_ten_thousand_props_are_checked_within_seconds():
+    props = [Puck(pose=(x, y), diameter=0.5) for x in range(100) for y in range(100)]
+    scenario = Scenario(robots=[Robot(pose=(-1, -1, 0))], props=props, workspace=None)
+    assert len(scenario.bodies) == 10_001
+
+
+# -- options --------------------------------------------------------------------------------------
+
+
+def with_options(*settings: str) -> Scenario:
+    scenario = Scenario(
+        props=[Box(pose=(1, 0)), Ball(pose=(2, 0)), Gate(pose=(0, 3))],
+        joints=[Rope(a="robot0", b="box0", length=2), Spring(a="ball1", b="box0")],
+    )
+    return open_experiment(scenario, dict(map(parse_setting, settings))).scenario
+
+
+def test_fields_of_props_and_joints_are_options():
+    changed = with_options("props.0.mass=2", "joints.0.length=1.5", "joints.1.stiffness=7")
+    assert changed.bodies[1].inertia.mass == 2
+    assert [changed.ties[0].length, changed.joints[1].stiffness] == [1.5, 7]
+    assert changed.props[0].name == "box0"
+
+
+def test_a_star_sets_a_field_of_all_props():
+    changed = with_options(
+        "props.*.ground_friction=0.25", "props.*.material=wood", "props.1.mass=3",
+        "props.*.height=0.01",
+    )  # fmt: skip
+    assert [prop.ground_friction for prop in changed.props] == [0.25] * 3
+    assert [prop.surface.restitution for prop in changed.props] == [0.71, 1.0, 0.71]
+    assert changed.props[1].inertia.mass == 3
+
+
+def test_options_of_props_and_joints_pass_the_same_gate():
+    for setting, message in (
+        ("props.0.mass=20", "contacts hold a ratio of at most 10"),
+        ("props.0.mass=-1", "Box.mass = -1"),
+        ("props.3.mass=1", "there is no option 'props.3': expected \\* or 0 to 2"),
+        ("props.0.radius=1", "Box has no field 'radius'"),
+        ("props.*.diameter=1", "Box has no field 'diameter'"),
+        ("joints.0.length=0.5", "start 1 m apart"),
+        ("joints.0.b=ball2", "did you mean 'ball1'"),
+        ("physics=contcat", "did you mean 'contact'"),
+    ):
+        with pytest.raises(InputError, match=message):
+            with_options(setting)
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+def test_physics_is_an_option(physics):
+    assert with_options(f"physics={physics}").physics == physics
+
+
+@pytest.mark.parametrize(
+    ("name", "option", "message"),
+    [
+        ("pursuit_corners", {"mu": "0,9"}, "scenario(mu) = '0,9': expected a number; its default"),
+        ("pursuit_corners", {"mu": (0, 9)}, "scenario(mu) = (0, 9): expected a number"),
+        ("herding", {"flock": None}, "scenario(flock) = None: expected a number"),
+        ("coverage_square", {"holonomic": "false"}, "scenario(holonomic) = 'false': expected True"),
+        ("cyclic_pursuit", {"n": 2.5}, "cyclic_pursuit.py, line 35, with n = 2.5: TypeError"),
+        ("pursuit_voronoi", {"ratio": -1}, "with ratio = -1: Holonomic.max_linear_speed = -0.2"),
+    ],
+)
+def test_what_a_scenario_function_cannot_use_is_named(name, option, message):
+    with pytest.raises(InputError) as caught:
+        open_experiment(name, option)
+    assert message in str(caught.value)

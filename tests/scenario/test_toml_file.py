@@ -1,0 +1,507 @@
+"""Scenario files: what is saved comes back, what is wrong is pointed at, nothing else is raised."""
+
+import random
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mars2d
+from mars2d import Addon, InputError, Robot, Scenario, Sensor
+from mars2d.addons import Density, Floor, Map
+from mars2d.bodies.props import Ball, Box, Gate
+from mars2d.cli import command_line as cli
+from mars2d.scenario import serialize, toml_file
+from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.law_reference import Reference
+
+EVERYTHING = (Path(__file__).parent / "everything.toml").read_text(encoding="utf-8")
+
+LAWS = """
+def walk(robot):
+    return 0.1, 0.0
+
+def team(world):
+    return 0.2, 0.0
+
+def two(a, b):
+    return 0.0, 0.0
+"""
+
+
+def saved(scenario, folder, control=None):
+    """Save a scenario; return its text, what is missing of it, and the scenario read again."""
+    path = folder / "scene.toml"
+    missing = scenario.save(path, control)
+    return path.read_text(encoding="utf-8"), missing, Scenario.from_file(path)
+
+
+def read(folder, text):
+    path = folder / "scene.toml"
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    (folder / "walk.py").write_text(LAWS)
+    return Scenario.from_file(path)
+
+
+def bare(scenario):
+    return scenario.replace(robots=[robot.replace(controller=None) for robot in scenario.robots])
+
+
+# -- what is saved comes back ------------------------------------------------------------------
+
+
+def test_all_kinds_of_parts_come_back(tmp_path):
+    scenario = read(tmp_path, EVERYTHING)
+    text, missing, again = saved(scenario, tmp_path)
+    assert missing == ()
+    assert again == scenario
+    assert saved(again, tmp_path)[0] == text
+    for place in ("robots", "props", "joints", "addons"):
+        assert len(getattr(scenario, place)) == EVERYTHING.count(f"\n[[{place}]]\n") > 1
+
+
+def test_the_file_of_all_kinds_is_laid_out_as_it_is_saved(tmp_path):
+    text = saved(read(tmp_path, EVERYTHING), tmp_path)[0]
+    assert text == EVERYTHING.replace("everything.toml", "scene.toml")
+
+
+@pytest.mark.parametrize("name", examples())
+def test_an_example_comes_back_but_for_its_code(name, tmp_path):
+    experiment = open_experiment(name)
+    text, missing, again = saved(experiment.scenario, tmp_path, experiment.control)
+    kept, lost = serialize.without_code(experiment.scenario)
+    assert bare(again) == bare(kept)
+    assert set(lost) <= set(missing)
+    assert all(name in text for name in lost)
+    named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
+    assert max(map(len, named)) <= 100
+
+
+@pytest.mark.parametrize("name", ["billiards", "go_to_point", "push_box", "sumo", "tug_of_war"])
+def test_a_run_of_the_file_is_that_of_the_experiment(name, tmp_path):
+    experiment = open_experiment(name, {"addons": []})
+    experiment.scenario.save(tmp_path / "scene.toml", experiment.control)
+    before = mars2d.run(experiment.scenario, stop_time=2, control=experiment.control)
+    after = mars2d.run(tmp_path / "scene.toml", stop_time=2)
+    assert after.digest == before.digest
+    assert after.filename == "scene.toml"
+
+
+number = st.floats(allow_nan=False, allow_infinity=False, min_value=-5, max_value=5)
+
+
+titles = st.text(st.characters(exclude_categories=["Cc", "Cs", "Zl", "Zp"]))
+
+
+@given(number, number, st.floats(min_value=1e-3, max_value=1e3), titles)
+def test_numbers_and_texts_come_back_exactly(tmp_path_factory, x, theta, mass, title):
+    robot = Robot(pose=(x, 0.1 + 0.2, theta), mass=mass)
+    scenario = Scenario(title=title, robots=[robot], workspace=None)
+    again = saved(scenario, tmp_path_factory.mktemp("text"))[2]
+    assert again == scenario
+    assert repr(again.robots[0].pose) == repr(scenario.robots[0].pose)
+
+
+def test_what_is_none_but_not_by_default_comes_back(tmp_path):
+    props = [Ball(friction=None, name="none"), Gate(pose=(2, 0, 0), limits=None)]
+    scenario = Scenario(title="none", workspace=None, props=props, robots=[Robot(pose=(0, 3, 0))])
+    text, _, again = saved(scenario, tmp_path)
+    assert again == scenario
+    assert 'workspace = "none"' in text
+
+
+def test_only_what_is_not_the_default_is_written(tmp_path):
+    text = saved(Scenario(robots=[Robot(), Robot(pose=(1, 0, 0), mass=2)]), tmp_path)[0]
+    lines = [line for line in text.splitlines() if line and not line.startswith("#")]
+    assert lines == [
+        "format = 1",
+        "[[robots]]",
+        "[[robots]]",
+        "pose = [1.0, 0.0, 0.0]",
+        "mass = 2.0",
+    ]
+
+
+def test_names_that_others_have_had_stay(tmp_path):
+    robots = [Robot(name="robot1"), Robot(pose=(1, 0, 0)), Robot(pose=(2, 0, 0), name="robot0")]
+    scenario = Scenario(robots=robots)
+    assert saved(scenario, tmp_path)[2] == scenario
+
+
+def test_thousands_of_robots_are_written_and_read(tmp_path):
+    robots = [Robot(pose=(i % 100, i // 100, 0.1 * i)) for i in range(3000)]
+    scenario = Scenario(robots=robots, workspace=None)
+    assert saved(scenario, tmp_path)[2] == scenario
+
+
+@pytest.mark.parametrize("image", [Floor, Density])
+def test_an_image_beside_the_file_is_found_and_named_relative_to_it(image, tmp_path, monkeypatch):
+    (tmp_path / "floor.png").write_bytes(b"")
+    monkeypatch.chdir("/")
+    path, bounds = str(tmp_path / "floor.png"), (0, 1, 0, 1)
+    scenario = Scenario(addons=[image(image=path, bounds=bounds)])
+    text, _, again = saved(scenario, tmp_path)
+    assert 'image = "floor.png"' in text
+    assert again == scenario
+
+
+def test_a_file_that_cannot_be_written_says_so(tmp_path):
+    with pytest.raises(InputError, match="can't be written: No such file or directory"):
+        Scenario().save(tmp_path / "nowhere" / "scene.toml")
+    with pytest.raises(InputError, match=r"saved as \.toml, this ends in '\.yaml'"):
+        Scenario().save(tmp_path / "scene.yaml")
+    picture = tmp_path / "caf\udce9.png"  # a name that is not in UTF-8
+    picture.write_bytes(b"")
+    floor = Scenario(addons=[Floor(image=str(picture), bounds=(0, 1, 0, 1))])
+    with pytest.raises(InputError, match="half a character can't be written, in 'image = \"caf"):
+        floor.save(tmp_path / "scene.toml")
+    assert list(tmp_path.iterdir()) == [picture]
+
+
+def test_half_a_character_is_no_text():
+    with pytest.raises(InputError, match=r"Scenario.title = 'caf.ud800': expected text without"):
+        Scenario(title="caf\ud800")
+    with pytest.raises(InputError, match=r"Robot.name = '.ud800': expected text without half a"):
+        Robot(name="\ud800")
+
+
+# -- laws and other code ------------------------------------------------------------------------
+
+
+def test_laws_are_named_by_their_place_and_loaded_anew_for_each_robot(tmp_path):
+    (tmp_path / "laws").mkdir()
+    count = "n = 0\ndef walk(robot):\n    global n\n    n += 1\n    return 0.1 * n, 0.0\n"
+    (tmp_path / "laws" / "count.py").write_text(count)
+    text = 'format = 1\n[[robots]]\ncontroller = "laws/count.py:walk"\n'
+    scenario = read(
+        tmp_path, text + '[[robots]]\npose = [0, 1]\ncontroller = "laws/count.py:walk"\n'
+    )
+    first, second = (robot.controller for robot in scenario.robots)
+    assert [first(None), first(None), second(None)] == [(0.1, 0.0), (0.2, 0.0), (0.1, 0.0)]
+    again, missing, _ = saved(scenario, tmp_path)
+    assert again.count('controller = "laws/count.py:walk"') == 2
+    assert missing == ()
+
+
+def test_the_law_of_the_team_is_taken_from_the_file(tmp_path):
+    read(tmp_path, 'format = 1\ncontrol = "walk.py:team"\nstop_time = 1.0\n')
+    experiment = open_experiment(tmp_path / "scene.toml")
+    assert experiment.control.__name__ == "team"
+    assert experiment.path == tmp_path / "scene.toml"
+    record = mars2d.run(tmp_path / "scene.toml")
+    assert record.pose[-1, 0, 0] == pytest.approx(0.2)
+    stands = mars2d.run(tmp_path / "scene.toml", control=lambda world: (0.0, 0.0))
+    assert stands.pose[-1, 0, 0] == 0
+    missing = experiment.scenario.save(tmp_path / "again.toml", experiment.control)
+    assert missing == ()
+    assert 'control = "walk.py:team"\n' in (tmp_path / "again.toml").read_text()
+
+
+def test_a_file_alone_means_its_control(tmp_path):
+    (tmp_path / "team.py").write_text("def control(world):\n    return 0.1, 0.0\n")
+    read(tmp_path, 'format = 1\ncontrol = "team.py"\n')
+    assert open_experiment(tmp_path / "scene.toml").control.__name__ == "control"
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("walk.py:walk", ("walk.py", "walk")),
+        ("walk.py", ("walk.py", "control")),
+        (r"C:\laws\walk.py", (r"C:\laws\walk.py", "control")),
+        (r"C:\laws\walk.py:turn", (r"C:\laws\walk.py", "turn")),
+    ],
+)
+def test_where_a_law_stands_is_read(text, found):
+    assert Reference.read("controller", text) == found
+
+
+def test_an_experiment_is_opened_anew_as_it_was(tmp_path):
+    read(tmp_path, 'format = 1\ncontrol = "walk.py:team"\n')
+    experiment = open_experiment(tmp_path / "scene.toml", {"stop_time": 7})
+    again = experiment.reopened()
+    assert again.scenario == experiment.scenario
+    assert again.scenario.stop_time == 7
+    assert again.control is not experiment.control
+
+
+def test_laws_that_cannot_be_found_again_are_named(tmp_path):
+    scenario = Scenario(robots=[Robot(controller=lambda robot: (0, 0))])
+    text, missing, again = saved(scenario, tmp_path, lambda world: (0, 0))
+    assert missing == ("law <lambda>",)
+    hint = 'add controller = "file.py:function"'
+    assert f"# law: <lambda> can't be written down; {hint}\n" in text
+    assert "# law: <lambda> can't be written down; add control = " in text
+    assert again.robots[0].controller is None
+
+
+class Nose(Sensor):
+    """A sensor of one's own."""
+
+    def read(self, robot, world, rng):
+        return 0.0
+
+
+class Lamps(Addon):
+    """An add-on of one's own, with obstacles."""
+
+    def obstacles(self):
+        return [[(2, 2), (3, 3)]]
+
+
+def test_parts_of_ones_own_are_named_and_their_obstacles_stay(tmp_path):
+    scenario = Scenario(robots=[Robot(sensors=[Nose()])], addons=[Lamps(), Density(lambda x, y: x)])
+    text, missing, again = saved(scenario, tmp_path)
+    assert missing == ("sensor Nose", "add-on Lamps", "Density, with its function <lambda>")
+    for name in missing:
+        assert f"# This is code, which is not written down: {name}\n" in text
+    assert again.addons == (Map([[(2, 2), (3, 3)]], name=None),)
+    assert again.robots[0].sensors == ()
+
+
+# -- what people write ----------------------------------------------------------------------------
+
+
+def test_what_people_write_is_understood(tmp_path):
+    scenario = read(
+        tmp_path,
+        "\ufeff# by hand\r\nformat = 1 # first\r\nrobots = 3\r\nneighbours = 'Delaunay'\r\n"
+        "workspace = 'none'\r\nanimation = { grid = false }\r\n"
+        "props = [{ type = 'Box', pose = [2, 2] }]\r\n",
+    )
+    assert len(scenario.robots) == 3
+    assert scenario == Scenario(
+        robots=3,
+        neighbours=mars2d.Delaunay(),
+        workspace=None,
+        animation=mars2d.Animation(grid=False),
+        props=[Box(pose=(2, 2, 0))],
+    )
+
+
+def test_a_file_is_looked_for_beside_the_file_that_asks(tmp_path, monkeypatch):
+    read(tmp_path, "format = 1\ntitle = 'beside'\n")
+    (tmp_path / "asks.py").write_text(
+        "from mars2d import Scenario\nscenario = Scenario.from_file('scene.toml')\n"
+    )
+    monkeypatch.chdir("/")
+    assert open_experiment(tmp_path / "asks.py").scenario.title == "beside"
+
+
+def test_the_verbs_take_scenario_files(tmp_path, monkeypatch, capsys):
+    read(tmp_path, "format = 1\ncontrol = 'walk.py:team'\nstop_time = 2.0\ntitle = 'Walk'\n")
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["run", "scene.toml", "--headless", "--set", "stop_time=1"]) == 0
+    assert "Walk: Time is over: 1 s. 10 steps" in capsys.readouterr().out
+    assert cli.main(["check", "scene.toml"]) == 0
+    told = capsys.readouterr().out
+    assert "law team" in told
+    assert "control steps done" in told
+    assert cli.main(["compare", "scene.toml", "--stop-time", "1", "--figure", "c.png"]) == 0
+    assert cli.main(["run", "scen.toml", "--headless"]) == 2
+    assert "did you mean 'scene.toml'?" in capsys.readouterr().err
+    assert cli.main(["run", "scene.toml", "--headless", "--set", "stop_tim=1"]) == 2
+    assert "scene.toml: there is no option 'stop_tim'" in capsys.readouterr().err
+
+
+# -- what is wrong ------------------------------------------------------------------------------
+
+ROBOT = "[[robots]]\n"
+
+WRONG = [
+    ("", "scene.toml: no scenario: the first line should be format = 1"),
+    ("title = 'x'", "scene.toml: no scenario: the first line should be format = 1"),
+    ("format = 2", "scene.toml, line 1: format = 2: newer than this MARS2D, which reads 1"),
+    ("format = 0", "scene.toml, line 1: format = 0: expected 1"),
+    ("format = true", "scene.toml, line 1: format = True: expected 1"),
+    ('\n\ntitle = "x', "scene.toml, line 3: "),
+    ("\ntitle = 'x", "scene.toml, at its end: Expected"),
+    ("\ngrid = True", "line 2: Invalid value: grid = True; TOML writes true, false"),
+    ("\npose = (1, 2)", "line 2: Invalid value: pose = (1, 2); TOML writes true, false and [1, 2]"),
+    ("\ntitle = 'a'\ntitle = 'b'", "scene.toml, line 3: Cannot overwrite a value: title = 'b'"),
+    ("\nstop_time = 1" + "0" * 5000, "scene.toml, line 2: a number has too many digits"),
+    ("\na = " + "[" * 5000, "lists and tables lie in each other too deeply"),
+    ("\ntitel = 'x'", "line 2: Scenario has no field 'titel'; did you mean 'title'?"),
+    ("\ncontroll = 'x'", "did you mean 'control'?"),
+    ("\ntitle = 5", "scene.toml, line 2: Scenario.title = 5: expected text in quotes"),
+    ("\ntitle.x = 5", "scene.toml, line 2: Scenario.title = {'x': 5}: expected text"),
+    ("\nstop_time = inf", "line 2: Scenario.stop_time = inf: expected a number"),
+    ("\nphysics = 'contct'", "did you mean 'contact'?"),
+    ("\nworkspace = [[0,0],[1,1],[0,1],[1,0]]", "line 2: Scenario.workspace: the polygon crosses"),
+    ("\nrobots = 0", "line 2: Scenario.robots = 0: expected a list of robots, or how many"),
+    ("\nrobots = [5]", 'line 2: robots[0] = 5: expected a table, as { type = "Robot" }'),
+    ("\n[robots]", "line 2: robots: expected a list of tables; write [[robots]] above each"),
+    (
+        f"\n{ROBOT}pose = [0,0]\n\n{ROBOT}pose = [1,1]\nposee = [1]",
+        "scene.toml, line 7, robots[1]: Robot has no field 'posee'; did you mean 'pose'?",
+    ),
+    (f"\n{ROBOT}pose = 1979-05-27", "line 3, robots[0]: Robot.pose = datetime.date(1979, 5, 27)"),
+    (
+        f"\n{ROBOT}drive = 'Unicycl'",
+        "type = 'Unicycl': no Drive is called so; did you mean 'Unicycle'",
+    ),
+    (
+        f"\n{ROBOT}drive = 5",
+        'line 3, robots[0]: drive = 5: expected a table, as { type = "Unicycle" }',
+    ),
+    (
+        f"\n{ROBOT}\n{ROBOT}pose = [1,1]\n[robots.drive]\nmax_force = -1",
+        "scene.toml, line 7, robots[1].drive: Unicycle.max_force = -1: expected a number > 0",
+    ),
+    (
+        f"\n{ROBOT}[[robots.sensors]]\ntype = 'Pose'\n[[robots.sensors]]\ntype = 'RangeFindr'",
+        "line 6, robots[0].sensors[1]: type = 'RangeFindr': no Sensor is called so; did you mean",
+    ),
+    (
+        f"\n{ROBOT}[[robots.sensors]]\nrange = 5",
+        "robots[0].sensors[0]: its type is missing, as type",
+    ),
+    (
+        f"\n{ROBOT}[robots.sensors]\ntype = 'Pose'",
+        "expected a list of tables; write [[robots.sensors]]",
+    ),
+    (f"\n{ROBOT}shape = {{ outline = [] }}", "robots[0].shape: its type is missing"),
+    (
+        f"\n{ROBOT}shape = {{ type = 'Compound', parts = ['Disc'] }}",
+        "line 3, robots[0].shape.parts[0]: Disc.diameter is missing",
+    ),
+    (f"\n{ROBOT}controller = 5", "line 3, robots[0]: controller = 5: expected where a law stands"),
+    (f"\n{ROBOT}controller = 'walk'", "controller = 'walk': expected where a law stands"),
+    (
+        f"\n{ROBOT}controller = 'wlk.py:walk'",
+        "line 3, robots[0]: wlk.py: there is no such file beside",
+    ),
+    (f"\n{ROBOT}controller = 'walk.py:wlak'", "walk.py: has no law 'wlak'; did you mean 'walk'?"),
+    (
+        f"\n{ROBOT}controller = 'walk.py:two'",
+        "expected a function of exactly one argument, the robot",
+    ),
+    (f"\n{ROBOT}controller = '{'x' * 300}.py'", "line 3, robots[0]: controller = 'xxx"),
+    ("\ncontrol = []", "scene.toml, line 2: control = []: expected where a law stands"),
+    ("\ncontrol = 'walk.py:two'", "expected a function of exactly one argument, the world"),
+    (f"\n{ROBOT}{ROBOT}pose = [0.1, 0]", "they start 0.2 m inside each other"),
+    ("\n[[props]]\nlength = 1", "line 2, props[0]: its type is missing"),
+    (
+        "\nprops = [{ type = 'Bx' }]",
+        "line 2, props[0]: type = 'Bx': no Prop is called so; did you mean",
+    ),
+    ("\n[[joints]]\ntype = 'Rope'", "line 2, joints[0]: Rope.a is missing"),
+    ("\n[[joints]]\ntype = 'Rope'\na = 'robt0'", "line 2: Scenario.joints[0].a = 'robt0'"),
+    ("\n[[addons]]\ntype = 'Map'\noutlines = [[0, 0], [1, 1]]", "line 4, addons[0]: Map.outlines"),
+    (
+        "\n[[addons]]\ntype = 'Communication'\nburst = { to_bad = 7 }",
+        "addons[0].burst: Burst.to_bad",
+    ),
+    ("\n[[addons]]\ntype = ['Map']", "line 3, addons[0]: type = ['Map']: no Addon is called so"),
+    ("\nneighbours = 'Wthin'", "line 2, neighbours: type = 'Wthin': no Neighbourhood is called so"),
+    (
+        "\n[animation]\nwake = 'yes'",
+        "line 3, animation: Animation.wake = 'yes': expected true or false",
+    ),
+    (
+        "\nprops = " + "[" + "'Box'," * 10_001 + "]",
+        "line 2: props: expected at most 10000, not 10001",
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "expected"), WRONG, ids=range(len(WRONG)))
+def test_what_is_wrong_is_pointed_at(text, expected, tmp_path):
+    with pytest.raises(InputError) as caught:
+        read(tmp_path, text if text[:1] != "\n" else f"format = 1{text}\n")
+    assert expected in str(caught.value)
+    assert "scene.toml" in str(caught.value) or "walk.py" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("data", "expected"),
+    [
+        (b"format = 1\ntitle = '\xe9'", "scene.toml, line 2: expected text in UTF-8"),
+        ("format = 1".encode("utf-16"), "scene.toml, line 1: expected text in UTF-8"),
+        (b"#" * 5_000_001, "expected at most 5 MB, it is larger"),
+        (b"\0", "scene.toml, line 1: Invalid statement"),
+    ],
+)
+def test_what_is_no_text_is_refused(data, expected, tmp_path):
+    with pytest.raises(InputError, match=re.escape(expected)):
+        read(tmp_path, data)
+
+
+def test_what_is_no_file_is_refused(tmp_path):
+    with pytest.raises(InputError, match="there is no such file"):
+        Scenario.from_file(tmp_path / "scene.toml")
+    with pytest.raises(
+        InputError, match=r"a folder; expected a scenario, a file that ends in \.toml"
+    ):
+        Scenario.from_file(tmp_path)
+    with pytest.raises(InputError, match=r"Scenario.from_file\(path\) = 5: expected the name"):
+        Scenario.from_file(5)
+    (tmp_path / "scene.py").write_text("")
+    with pytest.raises(InputError, match=r"expected a scenario, a file that ends in \.toml"):
+        Scenario.from_file(tmp_path / "scene.py")
+
+
+VALUES = [
+    "true", "-1", "0", "1e308", "nan", "-inf", "''", "'none'", "'x'", "[]", "[[]]", "[1]", "[1,2]",
+    "[1,2,3]", "{}", "{type='Car'}", "{a=1}", "1979-05-27", "9" * 30, "[nan,1]", "['a','a']",
+    "'contact'", "[[0,0],[1,0],[1,1]]", "[true]", '"\\u0000"', "'a.png'", "-0.0", "5e-324", "1e-7",
+]  # fmt: skip
+
+TYPES = ["Map", "Box", "Car", "RangeFinder", "Graph", "Robot", "Scenario", "Beacon", "Polygon"]
+
+
+def mutated(chance, text):
+    """Change a file in up to three places."""
+    lines = text.split("\n")
+    for _ in range(chance.randint(1, 3)):
+        i = chance.randrange(len(lines))
+        key = re.match(r"\w+ = ", lines[i])
+        kind = chance.randrange(6)
+        if kind == 0 and key:
+            lines[i] = key[0] + chance.choice(VALUES)
+        elif kind == 1:
+            lines[i : i + 1] = []
+        elif kind == 2:
+            lines[i:i] = lines[chance.randrange(len(lines)) :][: chance.randint(1, 4)]
+        elif kind == 3:
+            lines[i] = re.sub(r"-?\d+\.\d+", lambda _: chance.choice(VALUES), lines[i])
+        elif kind == 4 and lines[i]:
+            at = chance.randrange(len(lines[i]))
+            lines[i] = (
+                lines[i][:at] + chance.choice("\0\n\r\t'\"[]{}=.,#\x7f\u20281a") + lines[i][at:]
+            )
+        else:
+            lines[i] = re.sub(r'type = "\w+"', f'type = "{chance.choice(TYPES)}"', lines[i])
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize(
+    "block", [0, *(pytest.param(k, marks=pytest.mark.soak) for k in range(1, 24))]
+)
+def test_a_changed_file_is_read_or_refused_in_words(block, tmp_path):
+    good = 0
+    for seed in range(100 * block, 100 * (block + 1)):
+        text = mutated(random.Random(seed), EVERYTHING)
+        try:
+            scenario = read(tmp_path, text)
+        except InputError as error:
+            assert str(error).startswith("scene.toml"), seed  # noqa: PT017
+        else:
+            good += 1
+            assert saved(scenario, tmp_path)[2] == scenario, seed
+    assert 5 < good < 95
+
+
+@pytest.mark.parametrize("name", ["addo-s", '"a.b"', '"a[1"', '""', '"\\n"', "robots-1"])
+def test_a_table_of_any_name_is_refused(name, tmp_path):
+    with pytest.raises(InputError, match=r"scene\.toml"):
+        read(tmp_path, f"format = 1\n[[robots]]\n[[{name}]]\ntype = 'Map'\n")
+
+
+def test_the_reader_knows_the_lines_of_nested_tables():
+    table = "[[robots]]\npose = 1\n[[robots.sensors]]\nrate = 1\n"
+    found = toml_file._lines_of("a = 1\n" + table + table.replace("rate", "rate.x"))
+    assert found["robots[0].sensors[0].rate"] == 5
+    assert found["robots[1].sensors[0].rate"] == 9

@@ -1,0 +1,516 @@
+"""Range and bearing: of other robots, and of beacons that stand or move."""
+
+from __future__ import annotations
+
+import copy
+import re
+import time
+from math import atan2, hypot, inf, isnan, nan, pi
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import InputError, LawError, Robot, Scenario, World, addons, sensors
+from mars2d.addons import Map
+from mars2d.bodies.props import Box
+from mars2d.core.plane import wrap
+from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.geometry.bearings import hold_missing, sighted
+from mars2d.output.layers import parts
+from mars2d.sensors import RangeBearing
+
+
+def world_of(sensor, others=(), outlines=(), pose=(0, 0, 0), extra=(), props=(), seed=0):
+    """A world whose robot 0 carries the sensor, after the first measurement."""
+    carrier = Robot(pose=pose, diameter=0.2, sensors=[sensor], name="carrier")
+    robots = [carrier, *(Robot(pose=place, diameter=0.2) for place in others)]
+    scenario = Scenario(
+        robots=robots, props=props, addons=[Map(list(outlines)), *extra], workspace=None
+    )
+    world = World(scenario, seed=seed)
+    world.observe()
+    return world
+
+
+def seen(sensor, others=(), outlines=(), **more):
+    """What robot 0 finds of its sensor."""
+    return getattr(world_of(sensor, others, outlines, **more).robots[0].sense, sensor.key)
+
+
+def rows(sensor, others=(), outlines=(), **more):
+    """What is recorded of robot 0's sensor, (k, 2)."""
+    world = world_of(sensor, others, outlines, **more)
+    world.step()
+    return world.record.sensors[sensor.key][0, 0]
+
+
+# -- geometry ----------------------------------------------------------------------------------
+
+
+def all_sighted(pose, points, reach, field_of_view):
+    """Range and bearing of each point by themselves, as `sighted` says: no point is left out."""
+    x, y, theta = pose
+    found = np.full((len(points), 2), (inf, nan))
+    for row, (u, v) in zip(found, points, strict=True):
+        distance = np.hypot(u - x, v - y)
+        bearing = float(wrap(atan2(v - y, u - x) - theta)) + 0.0
+        if distance <= reach and (field_of_view == 2 * pi or abs(bearing) <= field_of_view / 2):
+            row[:] = distance, bearing
+    return found
+
+
+@pytest.mark.parametrize("field_of_view", [2 * pi, 2.0])
+@pytest.mark.parametrize("reach", [0.3, 2.0, 1e6])
+def test_what_is_sighted_is_the_same_to_the_last_bit_however_many_are_far_off(reach, field_of_view):
+    rng = np.random.default_rng(4)
+    points = np.vstack([rng.uniform(-5, 5, (200, 2)), np.round(rng.uniform(-3, 3, (100, 2)), 1)])
+    for pose in ((0.0, 0.0, 0.0), (0.1, -0.2, 2.5), (1e5, 0.3, -7.0), (points[3, 0], 2.0, 0.0)):
+        found = sighted(np.array(pose), points, reach, field_of_view)
+        assert found.tobytes() == all_sighted(pose, points, reach, field_of_view).tobytes()
+
+
+def test_the_bound_of_the_range_is_in_sight():
+    points = np.array([[0.3, 0.0], [0.0, -0.3], [0.1 + 0.2, 0.0]])
+    found = sighted(np.zeros(3), points, 0.3, 2 * pi)
+    assert found[:, 0].tolist() == [0.3, 0.3, inf]
+
+
+# -- other robots ---------------------------------------------------------------------------
+
+
+def test_range_and_bearing_are_those_of_plane_geometry():
+    rng = np.random.default_rng(1)
+    places = rng.uniform(-4, 4, (30, 3))
+    places = places[np.hypot(places[:, 0] - 0.3, places[:, 1] + 0.2) > 0.3]
+    sensor = RangeBearing(range=20, through_walls=True)
+    for heading in (0.0, 2.5, -7.0):
+        pose = (0.3, -0.2, heading)
+        for i, place in enumerate(places):
+            ((distance, bearing, robot),) = seen(sensor, [tuple(place)], pose=pose)
+            x, y = place[0] - 0.3, place[1] + 0.2
+            assert robot == 1, i
+            assert distance == pytest.approx(hypot(x, y), abs=1e-12)
+            assert bearing == pytest.approx(float(wrap(atan2(y, x) - heading)), abs=1e-12)
+
+
+def test_the_nearest_comes_first_and_each_has_its_index():
+    found = seen(RangeBearing(), [(3, 0, 0), (0, 1, 0), (-2, 0, 0)])
+    assert [each.robot for each in found] == [2, 3, 1]
+    assert [each.range for each in found] == [1, 2, 3]
+    assert [each.bearing for each in found] == pytest.approx([pi / 2, pi, 0])
+
+
+def test_with_identity_row_i_is_robot_i_and_its_own_is_missing():
+    found = rows(RangeBearing(), [(9, 0, 0), (0, 1, 0)])
+    assert np.array_equal(found, [[inf, nan], [inf, nan], [1, pi / 2]], equal_nan=True)
+
+
+def test_without_identity_rows_are_nearest_first_and_nobody_has_an_index():
+    sensor = RangeBearing(identity=False)
+    others = [(3, 0, 0), (0, 1, 0), (9, 0, 0)]
+    expected = [[1, pi / 2], [3, 0], [inf, nan]]
+    assert np.array_equal(rows(sensor, others), expected, equal_nan=True)
+    assert seen(sensor, others) == ((1, pi / 2, None), (3, 0, None))
+
+
+def test_a_robot_alone_sees_nobody():
+    assert seen(RangeBearing()) == ()
+    assert rows(RangeBearing()).shape == (1, 2)
+    assert rows(RangeBearing(identity=False)).shape == (0, 2)
+
+
+def test_who_is_further_than_the_range_is_not_seen():
+    assert len(seen(RangeBearing(range=2), [(2, 0, 0)])) == 1
+    assert seen(RangeBearing(range=1.999), [(2, 0, 0)]) == ()
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("angle", [0.2, 2.0, pi, 6.0])
+def test_the_field_of_view_ends_half_its_angle_to_either_side(angle, side):
+    def sees(bearing):
+        there = (2 * np.cos(1.1 + bearing), 2 * np.sin(1.1 + bearing), 0)
+        return len(seen(RangeBearing(field_of_view=angle), [there], pose=(0, 0, 1.1)))
+
+    assert sees(side * (angle / 2 - 1e-6))
+    assert not sees(side * (angle / 2 + 1e-6))
+
+
+def test_the_mount_is_where_it_looks_from():
+    sensor = RangeBearing(mount=(0.5, 0.1, pi / 2))
+    ((distance, bearing, _),) = seen(sensor, [(1, 3, 0)], pose=(1, 1, pi / 2))
+    # The mount lies at (0.9, 1.5), turned to pi.
+    assert distance == pytest.approx(hypot(0.1, 1.5))
+    assert bearing == pytest.approx(atan2(1.5, 0.1) - pi)
+
+
+@pytest.mark.parametrize(
+    ("what", "hides"),
+    [
+        ({"outlines": [[(1, -1), (1, 1)]]}, True),
+        ({"outlines": [[(1, 0.2), (1, 1)]]}, False),
+        ({"outlines": [[(0.8, -0.3), (1.2, -0.3), (1.2, 0.3), (0.8, 0.3)]]}, True),
+        ({"others": [(1, 0.09, 0)]}, True),
+        ({"others": [(1, 0.11, 0)]}, False),
+        ({"props": [Box(pose=(1, 0, 0.3))]}, True),
+    ],
+)
+def test_what_stands_before_a_robot_hides_it(what, hides):
+    others = [(2, 0, 0), *what.pop("others", [])]
+    for through in (False, True):
+        found = seen(RangeBearing(through_walls=through), others, **what)
+        assert (1 in [each.robot for each in found]) is (through or not hides)
+
+
+def test_of_three_in_a_row_the_outer_ones_see_the_middle_one_alone():
+    robots = [Robot(pose=(x, 0, 0), sensors=[RangeBearing()]) for x in (0, 1, 2)]
+    world = World(Scenario(robots=robots))
+    world.observe()
+    views = [{each.robot for each in r.sense.range_bearing} for r in world.robots]
+    assert views == [{1}, {0, 2}, {1}]
+
+
+def test_noise_has_its_deviations_and_what_is_not_seen_stays_so():
+    others = [(2, 0, 0), (0, 9, 0), (0, -3, 0)]
+    sensor = RangeBearing(noise=(0.1, 0.02))
+    carrier = Robot(sensors=[sensor], name="carrier")
+    robots = [carrier, *(Robot(pose=place) for place in others)]
+    record = mars2d.run(Scenario(robots=robots, workspace=None, stop_time=200))
+    found = record.sensors["range_bearing"][:, 0]
+    for i, (distance, bearing) in {1: (2, 0), 3: (3, -pi / 2)}.items():
+        error = found[:, i] - [distance, bearing]
+        assert error.mean(axis=0) == pytest.approx([0, 0], abs=0.01)
+        assert error.std(axis=0) == pytest.approx([0.1, 0.02], rel=0.1)
+    assert not np.isfinite(found[:, [0, 2]]).any()
+
+
+def test_outliers_strike_only_what_is_seen_and_both_values_are_there_or_none():
+    sensor = RangeBearing(range=3, outliers=0.5, dropouts=0.2, noise=(0.3, 0.1))
+    robots = [Robot(sensors=[sensor]), Robot(pose=(2.9, 0, 0)), Robot(pose=(0, 4, 0))]
+    found = mars2d.run(Scenario(robots=robots, stop_time=50)).sensors["range_bearing"][:, 0]
+    there = np.isfinite(found)
+    assert (there[..., 0] == there[..., 1]).all()
+    assert not there[:, [0, 2]].any()
+    assert 0.2 < there[:, 1, 0].mean() < 0.8
+    assert (found[there[:, 1, 0], 1, 0] <= 3).all()
+
+
+def test_without_identity_noisy_rows_are_nearest_first_too():
+    sensor = RangeBearing(identity=False, noise=(0.5, 0.1))
+    others = [(2 + 0.3 * k, 0.7 * k, 0) for k in range(6)]
+    robots = [Robot(sensors=[sensor]), *(Robot(pose=place) for place in others)]
+    found = mars2d.run(Scenario(robots=robots, workspace=None, stop_time=5))
+    ranges = found.sensors["range_bearing"][:, 0, :, 0]
+    assert (ranges[:, :-1] <= ranges[:, 1:]).all()
+    assert len(np.unique(ranges[ranges < inf])) > 100
+
+
+def test_a_hundred_robots_look_about_in_no_time():
+    places = [(x, y, 0) for x in range(10) for y in range(10)]
+    robots = [Robot(pose=place, sensors=[RangeBearing()]) for place in places]
+    world = World(Scenario(robots=robots, workspace=None))
+    world.step()
+    seconds = []
+    for _ in range(5):
+        start = time.process_time()  # whatever else the machine does
+        world.step()
+        seconds.append(time.process_time() - start)
+    assert min(seconds) < 0.1  # at 10 Hz: real time
+
+
+def test_points_are_seen_all_round_if_nothing_says_what_hides_them():
+    here = np.array([0.0, 0.0, 0.0])
+    points = np.array([[1.0, 0.0], [0.0, -2.0], [inf, inf]])
+    expected = [[1, 0], [2, -pi / 2], [inf, nan]]
+    assert np.array_equal(sighted(here, points, 5, 2 * pi), expected, equal_nan=True)
+
+
+def test_a_row_is_there_as_a_whole_or_not_at_all():
+    rows = np.array([[1.0, 0.1], [inf, 0.1], [1.0, nan], [1.0, 0.1]])
+    true = np.array([[1.0, 0.0], [1.0, 0.0], [1.0, 0.0], [inf, nan]])
+    kept = hold_missing(rows, true)
+    assert np.array_equal(kept[0], [1.0, 0.1])
+    assert np.array_equal(kept[1:], [[inf, nan]] * 3, equal_nan=True)
+
+
+def test_a_line_is_drawn_to_each_robot_that_is_seen_and_to_nobody_else():
+    scene = Scene()
+    reading = np.array([[inf, nan], [2.0, pi / 2]])
+    RangeBearing(range=3).draw(scene, np.array([1.0, 1.0, 0.0]), reading, "#0072b2")
+    (line,) = [shape for shape in scene.shapes if isinstance(shape, Line)]
+    assert line.points.round(12).tolist() == [[1, 1], [1, 3]]
+    assert any(isinstance(s, Circle) and s.radius == 3 for s in scene.shapes)
+
+
+# -- beacons ---------------------------------------------------------------------------------
+
+
+LAMPS = (addons.Beacon(at=(2, 0), name="lamp"), addons.Beacon(at=(0, -1), name="door"))
+
+
+def test_a_law_finds_beacons_by_name():
+    found = seen(sensors.Beacon(), extra=LAMPS)
+    assert found["lamp"][:2] == (2, 0)
+    assert found["door"][:2] == pytest.approx((1, -pi / 2))
+    assert list(found) == ["door", "lamp"]
+    assert ("lamp" in found, "lampe" in found, len(found)) == (True, False, 2)
+    assert found.get("lamp") == found["lamp"]
+
+
+def test_a_beacon_that_is_not_seen_is_infinitely_far_and_has_no_bearing():
+    found = seen(sensors.Beacon(range=1.5), extra=LAMPS)
+    assert found["lamp"].range == inf
+    assert isnan(found["lamp"].bearing)
+    assert found["door"].range == 1
+
+
+def test_rows_are_in_the_order_of_the_names_or_of_the_alphabet():
+    assert rows(sensors.Beacon(), extra=LAMPS)[:, 0].tolist() == [1, 2]
+    both = sensors.Beacon(names=["lamp", "door"])
+    assert rows(both, extra=LAMPS)[:, 0].tolist() == [2, 1]
+    assert rows(sensors.Beacon(names=["lamp"]), extra=LAMPS).tolist() == [[2, 0]]
+
+
+def test_a_name_that_no_beacon_has_is_an_error_that_knows_the_nearest():
+    def law(robot):
+        robot.sense.beacon["lapm"]
+        return 0, 0
+
+    robot = Robot(sensors=[sensors.Beacon()], controller=law)
+    with pytest.raises(LawError, match=r"no beacon 'lapm'; did you mean 'lamp'\?") as raised:
+        mars2d.run(Scenario(robots=[robot], addons=LAMPS))
+    assert "test_sensors_bearing.py, line" in str(raised.value)
+    with pytest.raises(LawError, match="no beacon 'x'; known: door, lamp"):
+        seen(sensors.Beacon(), extra=LAMPS)["x"]
+
+
+def test_a_world_without_beacons_is_an_error_at_the_start():
+    with pytest.raises(InputError, match="carrier looks for beacons and there are none: add") as no:
+        world_of(sensors.Beacon())
+    with pytest.raises(
+        InputError, match=r"Beacon.names of carrier.*'lam'; did you mean 'lamp'"
+    ) as a:
+        world_of(sensors.Beacon(names=["lam"]), extra=LAMPS)
+    assert not isinstance(no.value, LawError)  # it is no law's fault
+    assert not isinstance(a.value, LawError)
+
+
+def test_a_beacon_asked_for_as_an_attribute_is_told_to_be_asked_for_by_name():
+    found = seen(sensors.Beacon(), extra=LAMPS)
+    with pytest.raises(LawError, match=r"found by their names: write \['lamp'\]"):
+        found.lamp  # noqa: B018
+    with pytest.raises(LawError, match=r"write \[name\]; did you mean 'lamp'\?"):
+        found.lam  # noqa: B018
+    assert copy.deepcopy(found) == found
+
+
+@pytest.mark.parametrize("names", [[3], ["sun", 3], [None, "sun"]])
+def test_beacons_of_an_own_addon_must_have_texts_as_names(names):
+    class Stars(mars2d.Addon):
+        def beacons(self):
+            return dict.fromkeys(names, (1, 0))
+
+    with pytest.raises(LawError, match=r"a beacon is called (3|None): expected of beacons\(\)"):
+        seen(sensors.Beacon(), extra=[Stars()])
+
+
+@pytest.mark.parametrize("place", [3, (1, 2, 3), ("a", "b"), None, "12", (nan, 0), (0, inf)])
+def test_beacons_of_an_own_addon_must_be_points(place):
+    class Stars(mars2d.Addon):
+        def beacons(self):
+            return {"sun": place}
+
+    words = (
+        f"beacon 'sun' is at {place!r}: expected of beacons() of an add-on points (x, y) by name"
+    )
+    with pytest.raises(LawError, match=re.escape(words)):
+        seen(sensors.Beacon(), extra=[Stars()])
+
+
+def test_noise_and_outliers_make_no_beacon_of_one_that_is_not_seen():
+    sensor = sensors.Beacon(noise=(0.1, 0.02), outliers=0.3, range=1.5)
+    scenario = Scenario(robots=[Robot(sensors=[sensor])], addons=list(LAMPS), stop_time=20)
+    door, lamp = np.moveaxis(mars2d.run(scenario).sensors["beacon"][:, 0], 1, 0)
+    assert not np.isfinite(lamp).any()
+    assert np.median(door, axis=0) == pytest.approx([1, -pi / 2], abs=0.05)
+    assert np.isfinite(door).all(axis=1).mean() > 0.8
+
+
+def test_a_beacon_that_goes_out_is_not_seen_any_more():
+    class Candle(mars2d.Addon):
+        lit = True
+
+        def on_step(self, world):
+            self.lit = world.time < 0.25
+
+        def beacons(self):
+            return {"candle": (1, 0)} if self.lit else {}
+
+    robot = Robot(sensors=[sensors.Beacon()])
+    record = mars2d.run(Scenario(robots=[robot], addons=[Candle()], stop_time=0.4))
+    assert record.sensors["beacon"][:, 0, 0, 0].tolist() == [1, 1, 1, inf, inf]
+
+
+@pytest.mark.parametrize("names", ["lamp", [], [3], ["a", "a"]])
+def test_names_are_a_list_of_different_texts(names):
+    words = r"stands there twice|expected a list of beacons' names, as \['lamp'\], or None"
+    with pytest.raises(InputError, match=rf"Beacon\.names.*: .*({words})$"):
+        sensors.Beacon(names=names)
+
+
+def test_walls_robots_and_props_hide_a_beacon_but_not_its_own_robot():
+    def sees(**what):
+        return seen(sensors.Beacon(), extra=LAMPS, **what)["lamp"].range < inf
+
+    assert sees()
+    assert not sees(outlines=[[(1, -1), (1, 1)]])
+    assert not sees(others=[(1, 0, 0)])
+    assert not sees(props=[Box(pose=(1, 0, 0))])
+    assert sees(pose=(1.95, 0, 0))  # the robot stands over the lamp
+    through = seen(sensors.Beacon(through_walls=True), outlines=[[(1, -1), (1, 1)]], extra=LAMPS)
+    assert through["lamp"][:2] == (2, 0)
+
+
+def test_a_beacon_on_a_wall_is_seen_from_its_side_and_one_within_an_obstacle_is_not():
+    block = [[(2, -1), (3, -1), (3, 1), (2, 1)]]
+    lamps = [
+        addons.Beacon(at=(2, 0), name="front"),
+        addons.Beacon(at=(3, 0), name="back"),
+        addons.Beacon(at=(2.5, 0), name="within"),
+    ]
+    found = seen(sensors.Beacon(), outlines=block, extra=lamps)
+    assert found["front"].range == 2
+    assert found["back"].range == found["within"].range == inf
+    assert seen(sensors.Beacon(), outlines=block, extra=lamps, pose=(5, 0, 0))["back"].range == 2
+    wall = [[(2, -1), (2, 1)]]
+    for x in (0, 4):
+        assert (
+            seen(sensors.Beacon(), outlines=wall, extra=lamps[:1], pose=(x, 0, 0))["front"][0] == 2
+        )
+
+
+def test_a_beacon_has_range_field_of_view_and_mount():
+    ahead = sensors.Beacon(field_of_view=pi / 2)
+    assert seen(ahead, extra=LAMPS)["door"].range == inf
+    assert seen(ahead, extra=LAMPS, pose=(0, 0, -pi / 2))["door"][:2] == pytest.approx((1, 0))
+    turned = sensors.Beacon(mount=(1, 0, pi / 2))
+    assert seen(turned, extra=LAMPS)["lamp"][:2] == pytest.approx((1, -pi / 2))
+
+
+def test_two_sensors_make_the_eyes_of_a_vehicle():
+    eyes = [
+        sensors.Beacon(name="left", mount=(0.1, 0.1, 0.5), field_of_view=2.0),
+        sensors.Beacon(name="right", mount=(0.1, -0.1, -0.5), field_of_view=2.0),
+    ]
+    world = World(Scenario(robots=[Robot(sensors=eyes)], addons=[addons.Beacon(at=(3, 2))]))
+    world.observe()
+    sense = world.robots[0].sense
+    assert sense.left["beacon"].range < sense.right["beacon"].range
+
+
+# -- the beacons themselves -----------------------------------------------------------------
+
+
+def test_a_beacon_moves_along_its_path_by_arc_length():
+    beacon = addons.Beacon(path=[(0, 0), (3, 0), (3, 4)], speed=2.0)  # 3 + 4 + 5 = 12 m
+    assert beacon.where(0) == (0, 0)
+    assert beacon.where(1.5) == (3, 0)
+    assert beacon.where(2.5) == (3, 2)
+    assert beacon.where(4.75) == pytest.approx((1.5, 2))
+    assert beacon.where(6) == (0, 0)
+    assert beacon.where(6000 + 2.5) == pytest.approx((3, 2))
+    there_and_back = addons.Beacon(path=[(0, 0), (2, 0)], speed=1.0)
+    assert [there_and_back.where(t)[0] for t in (0, 1, 2, 3, 4)] == [0, 1, 2, 1, 0]
+
+
+def test_a_path_that_is_written_closed_or_crosses_itself_is_the_same_path():
+    ring = [(0, 0), (1, 1), (1, 0), (0, 1)]
+    written = addons.Beacon(path=[*ring, ring[0]], speed=1)
+    plain = addons.Beacon(path=ring, speed=1)
+    for now in (0.0, 1.0, 2.7, 4.0, 4.9, 11.0):
+        assert written.where(now) == plain.where(now)
+
+
+def test_a_beacon_on_an_open_path_goes_along_it_once_and_stays_at_its_end():
+    beacon = addons.Beacon(path=[(0, 0), (3, 0), (3, 4)], speed=2.0, closed=False)  # 3.5 s
+    assert beacon.where(1.5) == (3, 0)
+    assert beacon.where(2.5) == (3, 2)
+    assert beacon.where(3.5) == beacon.where(3.75) == beacon.where(7.0) == (3, 4)
+    lap = addons.Beacon(path=[(0, 0), (1, 0), (1, 1), (0, 0)], speed=1.0, closed=False)
+    assert lap.where(2.0) == (1, 1)
+    assert lap.where(100.0) == (0, 0)
+
+
+def test_the_path_of_a_beacon_is_drawn_open_where_it_ends():
+    corners = [(1, 0), (2, 0), (2, 1)]
+    for closed, drawn in ((True, [*corners, corners[0]]), (False, corners)):
+        world = World(Scenario(addons=[addons.Beacon(path=corners, speed=1, closed=closed)]))
+        scene = parts.addons(world.frame)
+        (line,) = [shape for shape in scene.shapes if isinstance(shape, Line)]
+        assert line.points.tolist() == [list(corner) for corner in drawn]
+
+
+def test_the_world_knows_where_a_moving_beacon_is_now():
+    beacon = addons.Beacon(path=[(1, 0), (2, 0)], speed=0.5)
+    robot = Robot(sensors=[sensors.Beacon()])
+    world = World(Scenario(robots=[robot], addons=[beacon]))
+    assert world.surroundings.beacons == {"beacon": (1, 0)}
+    for _ in range(10):
+        world.step()
+    assert world.surroundings.beacons["beacon"] == pytest.approx((1.5, 0))
+    assert world.addons.beacon.position == pytest.approx((1.5, 0))
+    expected = 1 + 0.5 * world.record.time
+    assert world.record.sensors["beacon"][:, 0, 0, 0] == pytest.approx(expected)
+    assert beacon.position == (1, 0)
+
+
+def test_a_beacon_is_drawn_where_it_is_now_with_its_name():
+    beacon = addons.Beacon(path=[(1, 0), (2, 0)], speed=0.5, name="ferry", color="#00ff00")
+    world = World(Scenario(addons=[beacon]))
+    for _ in range(10):
+        world.step()
+    scene = Scene()
+    world.addons.ferry.draw(scene, world.frame)
+    lamp = [shape for shape in scene.shapes if isinstance(shape, Circle)][-1]
+    assert lamp.center == pytest.approx((1.5, 0))
+    assert lamp.fill == "#00ff00"
+    assert [s.text.strip() for s in scene.shapes if isinstance(s, Text)] == ["ferry"]
+
+
+def test_beacons_are_in_nobodys_way():
+    world = World(Scenario(robots=[Robot()], addons=[addons.Beacon(at=(0.5, 0))]))
+    for _ in range(20):
+        world.step([[0.5], [0]])
+    assert world.pose[0, 0] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({}, "expected where it stands"),
+        ({"at": (0, 0), "path": [(0, 0), (1, 0)], "speed": 1}, "expected where it stands"),
+        ({"at": (0, 0), "speed": 1}, r"Beacon.speed = 1: a beacon with `at` stands"),
+        ({"at": (0, 0), "closed": False}, r"Beacon.closed = False: it is said of a `path`"),
+        ({"path": [(0, 0), (1, 0)]}, r"Beacon.speed is missing"),
+        ({"path": [(0, 0)], "speed": 1}, r"Beacon.path = .*: expected at least two points"),
+        ({"path": [(0, 0), (0, 0), (1, 1)], "speed": 1}, r"points 0 and 1 are the same"),
+        ({"path": [(0, 0), (1, "a")], "speed": 1}, r"Beacon.path\[1\]"),
+        ({"at": (0, nan)}, r"Beacon.at = .*: expected a point"),
+        ({"at": (0, 0), "color": "rot"}, r"Beacon.color = 'rot': expected a colour"),
+        ({"path": [(0, 0), (1, 0)], "speed": 0}, r"Beacon.speed = 0: expected a number > 0"),
+    ],
+)
+def test_a_beacon_that_can_not_be_is_an_error(fields, message):
+    with pytest.raises(InputError, match=message):
+        addons.Beacon(**fields)
+
+
+def test_sensor_and_addon_of_the_same_name_come_back_from_a_record(tmp_path):
+    robot = Robot(sensors=[sensors.Beacon(names=["lamp"])])
+    scenario = Scenario(robots=[robot], addons=LAMPS, stop_time=0.2)
+    mars2d.run(scenario).save(tmp_path / "r.npz")
+    loaded = mars2d.load(tmp_path / "r.npz")
+    assert loaded.scenario == scenario
+    assert isinstance(loaded.scenario.addons[0], addons.Beacon)
+    assert isinstance(loaded.scenario.robots[0].sensors[0], sensors.Beacon)
+    assert loaded.missing == ()

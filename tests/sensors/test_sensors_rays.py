@@ -1,0 +1,360 @@
+"""Range finder, sonars, bumper and line camera: what they read, and how they are drawn."""
+
+from __future__ import annotations
+
+from math import cos, inf, nan, pi, sin
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mars2d
+from mars2d import Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.bodies.props import Box
+from mars2d.core.scene import Line, Polygon, Scene
+from mars2d.geometry.shapes import Polygon as PolygonShape
+from mars2d.sensors import Bumper, LineCamera, Proximity, RangeFinder, Sensor, SonarRing
+from mars2d.sensors.bumper import _bearing
+
+
+def world_with(sensor: Sensor, robots=(), outlines=(), pose=(0, 0, 0), **fields) -> World:
+    """A world in which a small robot carries the sensor, among others and obstacles."""
+    carrier = Robot(pose=pose, diameter=0.01, sensors=[sensor], name="carrier")
+    fields = {"workspace": None} | fields
+    return World(Scenario(robots=[carrier, *robots], addons=[Map(list(outlines))], **fields))
+
+
+def reading(sensor: Sensor, *args, **fields):
+    world = world_with(sensor, *args, **fields)
+    world.observe()
+    return getattr(world.robots[0].sense, sensor.key)
+
+
+def drawn(sensor: Sensor, value, pose=(0.0, 0.0, 0.0)) -> list:
+    scene = Scene()
+    sensor.draw(scene, np.array(pose), value, "#0072b2")
+    return scene.shapes
+
+
+# -- how beams lie --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("make", "count"),
+    [
+        (lambda n, view: RangeFinder(beams=n, field_of_view=view), 5),
+        (lambda n, view: SonarRing(sonars=n, field_of_view=view), 5),
+        (lambda n, view: LineCamera(pixels=n, field_of_view=view), 5),
+    ],
+)
+def test_beams_are_spaced_evenly_over_the_field_of_view(make, count):
+    assert make(count, 2.0).angles == pytest.approx([-1, -0.5, 0, 0.5, 1])
+    assert make(4, 2 * pi).angles == pytest.approx([-pi, -pi / 2, 0, pi / 2])  # pi is -pi
+    assert make(1, 2.0).angles.tolist() == [0.0]
+    assert make(2, 2.0).angles.tolist() == [-1.0, 1.0]
+    with pytest.raises(ValueError, match="read-only"):
+        make(count, 2.0).angles[0] = 1.0
+
+
+# -- range finder ---------------------------------------------------------------------------------
+
+
+def test_a_range_finder_measures_along_each_beam_from_right_to_left():
+    room = [[(-2, -1), (3, -1)], [(3, -1), (3, 4)], [(3, 4), (-2, 4)], [(-2, 4), (-2, -1)]]
+    found = reading(RangeFinder(beams=4, range=10), outlines=room)
+    assert found == pytest.approx([2, 1, 3, 4])  # behind, right, ahead, left
+    turned = reading(RangeFinder(beams=4, range=10), outlines=room, pose=(0, 0, pi / 2))
+    assert turned == pytest.approx([1, 3, 4, 2])
+
+
+def test_a_range_finder_reads_inf_beyond_its_range():
+    wall = [[(3, -9), (3, 9)]]
+    found = reading(RangeFinder(beams=3, range=3.1, field_of_view=1.0), outlines=wall)
+    assert found.tolist() == [inf, pytest.approx(3), inf]
+    assert found.shape == (3,)
+
+
+def test_range_finders_are_recorded_as_arrays():
+    robots = [Robot(pose=(k, 0, 0), sensors=[RangeFinder(beams=7, noise=0.01)]) for k in range(3)]
+    record = mars2d.run(Scenario(robots=robots, stop_time=0.5))
+    assert record.sensors["range_finder"].shape == (6, 3, 7)
+
+
+def test_a_scan_is_drawn_as_one_area_and_one_row_of_dots():
+    sensor = RangeFinder(beams=180, range=2.0)
+    value = np.where(np.arange(180) < 20, 1.5, inf)
+    area, dots = drawn(sensor, value, (1.0, 2.0, 0.5))
+    assert isinstance(area, Polygon)
+    far = np.hypot(*(area.points - (1, 2)).T)
+    assert far == pytest.approx(np.where(np.isfinite(value), 1.5, 2.0))
+    assert isinstance(dots, Line)
+    assert (len(dots.points), dots.style) == (20, ".")
+    assert len(drawn(sensor, np.full(180, inf))) == 1
+    partial = drawn(RangeFinder(beams=5, field_of_view=1.0), np.full(5, inf), (1.0, 2.0, 0.5))
+    assert partial[0].points[0].tolist() == [1.0, 2.0]
+
+
+# -- sonars ---------------------------------------------------------------------------------------
+
+places = st.tuples(st.floats(-2.5, 2.5), st.floats(-2.5, 2.5))
+
+
+@given(seed=st.integers(0, 2**32 - 1), cone=st.floats(0.05, 6.2), sonars=st.integers(1, 6))
+def test_a_sonar_hears_the_nearest_point_in_its_cone(seed, cone, sonars):
+    rng = np.random.default_rng(seed)
+    cells = [(-2, 0), (2, 0), (0, 2), (0, -2)]
+    triangle = PolygonShape([(-0.4, -0.3), (0.5, 0), (-0.4, 0.3)])
+    robots = [
+        Robot(pose=(*cells[0], rng.uniform(-3, 3)), diameter=rng.uniform(0.1, 1.5)),
+        Robot(pose=(*cells[1], rng.uniform(-3, 3)), shape=triangle),
+    ]
+    ends = rng.uniform(-0.9, 0.9, (2, 2, 2)) + np.array(cells[2:])[:, None]
+    walls = [[tuple(end) for end in wall] for wall in ends.tolist()]
+    sensor = SonarRing(sonars=sonars, cone=cone, range=rng.uniform(1, 3), field_of_view=2 * pi)
+    world = world_with(sensor, robots, walls, pose=(*rng.uniform(-0.4, 0.4, 2), rng.uniform(-3, 3)))
+    world.observe()
+    x, y, theta = world.pose[:, 0].tolist()
+    things = [shapely.Point(cells[0]).buffer(robots[0].radius, quad_segs=500)]
+    heading = robots[1].pose[2]
+    corners = np.array(triangle.outline) @ [
+        [cos(heading), sin(heading)],
+        [-sin(heading), cos(heading)],
+    ]
+    things += [shapely.Polygon(corners + cells[1]), *map(shapely.LineString, walls)]
+
+    def nearest(axis, angle):
+        """The distance in a cone, which is cut out of the things."""
+        rim = axis + np.linspace(-angle / 2, angle / 2, 2000)
+        far = np.column_stack([x + 9 * np.cos(rim), y + 9 * np.sin(rim)])
+        seen = shapely.intersection(shapely.Polygon([(x, y), *far]), things)
+        found = shapely.distance(shapely.Point(x, y), seen)
+        return np.nanmin(found, initial=inf)
+
+    found = world.robots[0].sense.sonar_ring.tolist()
+    for axis, distance in zip((theta + sensor.angles).tolist(), found, strict=True):
+        least, most = nearest(axis, cone + 1e-3) - 1e-3, nearest(axis, cone - 1e-3) + 1e-3
+        if least > sensor.range:
+            assert distance == inf
+        elif most < sensor.range:
+            assert least <= distance <= most
+
+
+def test_a_sonar_hears_what_beams_would_miss():
+    thing = [Robot(pose=(2 * cos(0.1234), 2 * sin(0.1234), 0), diameter=1e-3)]
+    found = reading(SonarRing(sonars=1, cone=0.4), thing)
+    assert found.tolist() == [pytest.approx(2 - 5e-4, abs=1e-9)]
+    assert reading(SonarRing(sonars=1, cone=0.2), thing).tolist() == [inf]
+
+
+def test_a_sonar_measures_obliquely_to_a_wall_at_the_edge_of_its_cone():
+    wall = [[(-5, 1), (5, 1)]]
+    sensor = SonarRing(sonars=4, cone=0.4, range=10)
+    found = reading(sensor, outlines=wall, pose=(0, 0, 0.5))
+    left, ahead = pi / 2 - (0.5 + pi / 2 - 0.2), pi / 2 - (0.5 + 0.2)
+    assert found[3] == pytest.approx(1 / cos(left), abs=1e-9)
+    assert found[2] == pytest.approx(1 / cos(ahead), abs=1e-9)
+    assert found[1] == inf
+
+
+@pytest.mark.parametrize("where", [(1.0, 0.0), (1.1, 0.05), (0.85, 0.0)])
+def test_a_sonar_inside_or_at_the_edge_of_another_body_reads_zero(where):
+    box = PolygonShape([(-0.15, -0.15), (0.15, -0.15), (0.15, 0.15), (-0.15, 0.15)])
+    sensor = SonarRing(sonars=3, mount=(*where, 0))
+    found = reading(sensor, [Robot(pose=(1, 0, 0), shape=box)])
+    assert found == pytest.approx([0, 0, 0], abs=1e-9)
+
+
+def test_cones_are_drawn_as_far_as_they_are_free():
+    sensor = SonarRing(sonars=2, cone=0.5, range=2.0, field_of_view=1.0)
+    first, arc, second = drawn(sensor, np.array([1.0, inf]))
+    assert np.hypot(*first.points.T).max() == pytest.approx(1.0)
+    assert np.hypot(*arc.points.T) == pytest.approx(np.ones(len(arc.points)))
+    assert np.hypot(*second.points.T).max() == pytest.approx(2.0)
+
+
+# -- bumper ---------------------------------------------------------------------------------------
+
+
+def bumps(direction: float, heading: float = 0.0, steps: int = 30, **fields):
+    """Readings of a robot that drives at a heading, against a wall in some direction."""
+    ahead = np.array([cos(direction), sin(direction)])
+    left = np.array([-ahead[1], ahead[0]])
+    wall = [tuple((0.4 * ahead + side * left).tolist()) for side in (-2, 2)]
+    robot = Robot(pose=(0, 0, heading), drive=mars2d.Holonomic(), sensors=[Bumper(**fields)])
+    scenario = Scenario(robots=[robot], addons=[Map([wall])], workspace=None, stop_time=99)
+    world = World(scenario)
+    for _ in range(steps):
+        world.step(0.2 * ahead[:, None])
+    world.observe()
+    return world
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.7, -2.0, 40.0])
+@pytest.mark.parametrize(
+    ("bearing", "sector"), [(pi, 0), (-2.5, 0), (2.5, 0), (-1.5, 1), (0.0, 2), (0.7, 2), (1.2, 3)]
+)
+def test_a_bumper_tells_on_which_side_the_robot_is_touched(heading, bearing, sector):
+    world = bumps(heading + bearing, heading)
+    column = world.record.sensors["bumper"][:, 0]
+    touched = column.any(axis=1)
+    assert not touched[:10].any()
+    assert touched[20:].all()
+    assert np.array_equal(column[touched], np.tile(np.arange(4) == sector, (touched.sum(), 1)))
+
+
+def test_a_bumper_over_the_front_does_not_feel_the_back():
+    front = {"sectors": 2, "field_of_view": pi}
+    assert bumps(0.3, **front).record.sensors["bumper"][-1, 0].tolist() == [False, True]
+    assert bumps(-0.3, **front).record.sensors["bumper"][-1, 0].tolist() == [True, False]
+    assert not bumps(pi, **front).record.sensors["bumper"].any()
+
+
+def test_the_sectors_of_a_bumper_share_its_field_of_view():
+    assert Bumper(sectors=2, field_of_view=3.0).angles.tolist() == [-0.75, 0.75]
+    assert Bumper(sectors=4).angles == pytest.approx(np.array([-pi, -pi / 2, 0, pi / 2]))
+
+
+class Touched:
+    """A robot that turns by half a radian in a control step, and is touched within it."""
+
+    def __init__(self, point, time=1.0):
+        self.pose = np.zeros(3)
+        kind = [("time", float), ("point", float, 2)]
+        self.contacts = np.array([(time, point)], dtype=kind)
+
+    def felt(self, **fields):
+        class Now:
+            time, sampling_time = 1.0, 0.1
+
+        bumper = Bumper(**fields).live()
+        bumper.on_start(self, Now, None)
+        self.pose = np.array([0.0, 0.0, 0.5])
+        bumper.on_step(self, Now, None)
+        return bumper.read(self, Now, None).tolist()
+
+
+@pytest.mark.parametrize(("bearing", "sector"), [(1.0, 1), (-1.0, 0)])
+def test_a_bumper_feels_a_touch_at_the_very_end_of_its_field_of_view(bearing, sector):
+    point = [cos(bearing + 0.5), sin(bearing + 0.5)]
+    end = abs(_bearing(point, [0.0, 0.0, 0.5]))  # as it is rounded
+    felt = Touched(point).felt(sectors=2, field_of_view=2 * end)
+    assert felt == [k == sector for k in range(2)]
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_a_bumper_feels_a_touch_where_the_robot_was_then(share):
+    for bearing, sector in ((0.01, 1), (-0.01, 0)):
+        angle = 0.5 * share + bearing
+        touched = Touched([cos(angle), sin(angle)], time=0.9 + 0.1 * share)
+        assert touched.felt(sectors=2, field_of_view=1.0) == [k == sector for k in range(2)]
+
+
+def test_a_slow_bumper_keeps_what_it_felt_until_it_is_read():
+    def law(robot):
+        return (0.5, 0.0) if robot.time < 0.55 else (-0.5, 0.0)
+
+    robots = [Robot(sensors=[Bumper(), Bumper(rate=1, name="slow")], controller=law)]
+    wall = Map([[(0.4, -1), (0.4, 1)]])
+    record = mars2d.run(Scenario(robots=robots, addons=[wall], workspace=None, stop_time=3))
+    felt = record.sensors["bumper"].any(axis=(1, 2))
+    slow = record.sensors["slow"].any(axis=(1, 2))
+    assert felt[:10].any()
+    assert not felt[10]
+    assert slow.tolist() == [False] * 10 + [True] * 10 + [False] * 11
+
+
+def test_two_robots_that_meet_both_feel_it():
+    robots = [
+        Robot(pose=(-0.3, 0, 0), sensors=[Bumper()]),
+        Robot(pose=(0.3, 0, 2), sensors=[Bumper()]),
+    ]
+    world = World(Scenario(robots=robots))
+    for _ in range(12):
+        world.step([[0.3, 0.0], [0.0, 0.0]])
+    first, second = world.record.sensors["bumper"][-1]
+    assert first.any()
+    assert second.tolist() == [False, False, False, True]  # at a bearing of pi - 2
+
+
+def test_touched_sectors_are_lit():
+    touched = drawn(Bumper(sectors=3), np.array([False, True, False]))
+    assert len(touched) == 3
+    assert len({shape.stroke for shape in touched}) == 2
+
+
+# -- line camera ----------------------------------------------------------------------------------
+
+
+def test_a_line_camera_sees_the_colours_of_robots_props_and_obstacles():
+    robots = [Robot(pose=(2, -1, 0), color="#ff0000", diameter=0.5)]
+    camera = LineCamera(pixels=3, field_of_view=2 * np.arctan(0.5))
+    seen = reading(
+        camera, robots, [[(2, 0.5), (2, 1.5)]],
+        props=[Box(pose=(2, 0, 0), length=0.3, width=0.3, color="#0000ff")],
+    )  # fmt: skip
+    assert seen[0].tolist() == [1, 0, 0]
+    assert seen[1].tolist() == [0, 0, 1]
+    grey = int("b8", 16) / 255, int("c0", 16) / 255, int("c8", 16) / 255
+    assert seen[2].tolist() == pytest.approx(grey)
+
+
+def test_a_line_camera_sees_nothing_where_nothing_is():
+    seen = reading(LineCamera(pixels=5, range=1.5), [Robot(pose=(2, 0, 0))])
+    assert seen.shape == (5, 3)
+    assert np.isnan(seen).all()
+
+
+def test_what_is_near_hides_what_is_behind():
+    robots = [Robot(pose=(1, 0, 0), color="green"), Robot(pose=(2, 0, 0), color="red")]
+    seen = reading(LineCamera(pixels=1), robots)
+    assert seen.tolist() == [
+        [pytest.approx(44 / 255), pytest.approx(160 / 255), pytest.approx(44 / 255)]
+    ]
+
+
+def test_a_line_camera_with_noise_stays_within_colours():
+    seen = reading(LineCamera(pixels=200, noise=0.3), [Robot(pose=(1, 0, 0), diameter=1.9)])
+    assert seen.min() == 0
+    assert seen.max() == 1
+    lost = reading(LineCamera(pixels=200, dropouts=0.5), [Robot(pose=(1, 0, 0), diameter=1.9)])
+    assert 0.3 < np.isnan(lost).mean() < 0.7
+
+
+def test_pixels_of_one_colour_are_drawn_as_one():
+    sensor = LineCamera(pixels=64)
+    value = np.full((64, 3), np.nan)
+    value[10:20], value[20:30] = (1, 0, 0), (0, 0, 1)
+    shapes = drawn(sensor, value)
+    assert [shape.fill for shape in shapes[1:]] == ["#ff0000", "#0000ff"]
+
+
+# -- all of them ----------------------------------------------------------------------------------
+
+
+def test_no_reading_breaks_the_picture_of_a_camera():
+    values = np.array([[1.2, -0.1, 0.5], [inf, -inf, 0], [nan, 0, 0]])
+    fills = [shape.fill for shape in drawn(LineCamera(pixels=3), values)]
+    assert fills[1:] == ["#ff0080", "#ff0000"]
+
+
+EVERY = [Proximity(range=1), RangeFinder(), SonarRing(), Bumper(), LineCamera()]
+
+
+@pytest.mark.parametrize("sensor", EVERY, ids=lambda sensor: sensor.key)
+def test_drawing_is_light_and_follows_the_mount(sensor):
+    value = reading(sensor, [Robot(pose=(0.8, 0, 0))])
+    assert len(drawn(sensor, value)) < 20
+    here = drawn(sensor.replace(mount=(1, 2, 0.3)), value)
+    there = drawn(sensor, value, (1, 2, 0.3))
+    for a, b in zip(here, there, strict=True):
+        points = [shape.points if hasattr(shape, "points") else shape.center for shape in (a, b)]
+        assert np.allclose(*points)
+
+
+@pytest.mark.parametrize("sensor", EVERY, ids=lambda sensor: sensor.key)
+def test_what_was_lost_can_be_drawn(sensor):
+    value = reading(sensor.replace(dropouts=1.0))
+    assert len(drawn(sensor, value)) < 20

@@ -1,0 +1,1274 @@
+"""The checkers of a user's own parts: each fault is seen and named, and what is sound passes."""
+
+# ruff: noqa: NPY002, PLW0108, PLW0603, E501, SIM105 - faults, as people write them
+
+from __future__ import annotations
+
+import functools
+import random
+import textwrap
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mars2d import Addon, Drive, InputError, Robot, Scenario, Sensor, sensors
+from mars2d.addons import Map
+from mars2d.cli import command_line as cli
+from mars2d.core.deadline import Deadline, Late
+from mars2d.core.description import entry, number
+from mars2d.core.registry import members
+from mars2d.scenario.experiment import examples, open_experiment, open_module
+from mars2d.sensors import ANGLE, COLOR, DISTANCE, FLAG, NUMBER
+from mars2d.testing import (
+    CheckError,
+    addon_findings,
+    check_addon,
+    check_controller,
+    check_drive,
+    check_sensor,
+    controller_findings,
+    drive_findings,
+    sensor_findings,
+)
+from mars2d.testing.file import trials
+from mars2d.testing.state import fingerprint
+
+
+def texts(findings, kind: str) -> list[str]:
+    return [finding.text for finding in findings if finding.kind == kind]
+
+
+def seen(findings, kind: str, *words: str) -> bool:
+    """Whether one of the findings of a kind has all these words."""
+    return any(all(word in text for word in words) for text in texts(findings, kind))
+
+
+def test_a_law_with_fixed_arguments_is_called_by_its_own_name():
+    def steer(robot, speed):
+        return speed
+
+    with pytest.raises(CheckError, match="law steer"):
+        check_controller(functools.partial(steer, speed=0.1))
+
+
+# -- sensors ----------------------------------------------------------------------------------
+
+
+class Whisker(Sensor):
+    """A sound sensor: the distance to what lies ahead."""
+
+    quantities = (DISTANCE,)
+    range: float = number(default=1.0, above=0, unit="m", doc="how far it feels")
+
+    def read(self, robot, world, rng):
+        x, y, theta = self.placed(robot.pose)
+        return world.ray((x, y), theta, self.range, robot.index)
+
+    def draw(self, scene, pose, reading, color):
+        x, y, theta = self.placed(pose)
+        far = min(reading, self.range)
+        scene.line([(x, y), (x + far * np.cos(theta), y + far * np.sin(theta))], stroke=color)
+
+
+class Milestones(Sensor):
+    """A sound sensor that keeps something: the way gone, and how often it has begun anew."""
+
+    quantities = (NUMBER, FLAG)
+
+    def on_start(self, robot, world, rng):
+        self.way, self.last = 0.0, robot.pose
+
+    def on_step(self, robot, world, rng):
+        self.way += float(np.hypot(*(robot.pose - self.last)[:2]))
+        self.last = robot.pose
+
+    def read(self, robot, world, rng):
+        return np.array([self.way, self.way > 0.1])
+
+
+def test_sound_sensors_pass_without_a_finding():
+    check_sensor(Whisker())
+    assert sensor_findings(Whisker()) == ()
+    imperfect = Whisker(rate=5, latency=0.2, noise=0.1, outliers=0.1, dropouts=0.1, resolution=0.01)
+    assert sensor_findings(imperfect) == ()
+    assert sensor_findings(Whisker(mount=(0.1, 0.05, 0.5), recorded=False, rate=20)) == ()
+
+
+def sensor(read=None, **body):
+    """A sensor whose class has these methods and attributes."""
+    body = {"__doc__": "A sensor.", **body} | ({"read": read} if read else {})
+    return type("Probe", (Sensor,), body)()
+
+
+def by_time(first, second):
+    return lambda self, robot, world, rng: first if world.time < 0.15 else second
+
+
+def by_robot(first, second):
+    return lambda self, robot, world, rng: first if robot.index == 0 else second
+
+
+def value(result):
+    return lambda self, robot, world, rng: result
+
+
+SHARED: list[float] = []
+GENERATOR = np.random.default_rng(1)
+
+
+def remembers(self, robot, world, rng):
+    SHARED.append(1.0)
+    return float(len(SHARED))
+
+
+def draws_from_the_file(self, robot, world, rng):
+    return GENERATOR.random()
+
+
+def told_of(self, robot, world, rng):
+    robot.memory.told = world.time
+    return 1.0
+
+
+def of_another(self, robot, world, rng):
+    return robot.rng.random()
+
+
+def of_the_team(self, robot, world, rng):
+    return robot.world.rng.random()
+
+
+def stops(self, robot, world, rng):
+    robot.world.stop("sensed")
+    return 1.0
+
+
+def counts(self, robot, world, rng):
+    self.count = getattr(self, "count", 0) + 1
+    return float(self.count)
+
+
+def fails_late(self, robot, world, rng):
+    return 1.0 / (world.time < 1.05)
+
+
+def clock(self, robot, world, rng):
+    return time.perf_counter()
+
+
+def unseeded(self, robot, world, rng):
+    return np.random.default_rng().random()
+
+
+SENSORS = {
+    "read is missing": (lambda: sensor(), ["no method read", "read(self, robot, world, rng)"]),
+    "an argument is missing": (
+        lambda: sensor(lambda self, robot, world: 1.0),
+        ["Probe.read has the arguments (self, robot, world)", "read(self, robot, world, rng)"],
+    ),
+    "arguments are in another order": (
+        lambda: sensor(lambda self, world, robot, rng: 1.0),
+        ["(self, world, robot, rng)", "another order"],
+    ),
+    "an argument of draw is missing": (
+        lambda: sensor(value(1.0), draw=lambda self, scene, pose, reading: None),
+        ["Probe.draw", "draw(self, scene, pose, reading, color)"],
+    ),
+    "read is no method": (lambda: sensor(read=3), ["Probe.read = 3", "expected read(self"]),
+    "nothing is returned": (lambda: sensor(value(None)), ["Probe.read returned nothing"]),
+    "text is returned": (lambda: sensor(value("near")), ["Probe.read returned 'near'"]),
+    "an object is returned": (lambda: sensor(value(object())), ["Probe.read returned <object"]),
+    "rows have different lengths": (
+        lambda: sensor(value([[1, 2], [3]])), ["Probe.read returned [[1, 2], [3]]"],
+    ),
+    "the shape changes": (
+        lambda: sensor(by_time(np.zeros(3), np.zeros(2))),
+        ["numbers of shape (2,)", "at 0.2 s", "numbers of shape (3,) before", "must stay the same"],
+    ),
+    "the kind changes": (lambda: sensor(by_time(True, 0.5)), ["a number", "True or False before"]),
+    "the shape depends on the robot": (
+        lambda: sensor(by_robot(np.zeros(3), np.zeros(2))), ["shape (2,)", "on robot1"],
+    ),
+    "it raises": (
+        lambda: sensor(fails_late),
+        ["test_testing.py, line", "Probe.read raised ZeroDivisionError", "at 1.1 s"],
+    ),
+    "on_start raises": (
+        lambda: sensor(value(1.0), on_start=lambda self, robot, world, rng: 1 / 0),
+        ["Probe.on_start raised ZeroDivisionError"],
+    ),
+    "shown raises": (
+        lambda: sensor(value(1.0), shown=lambda self, reading: 1 / 0), ["Probe.shown raised"],
+    ),
+    "a pose is written": (
+        lambda: sensor(lambda self, robot, world, rng: robot.pose.sort()),
+        ["Probe.read raised ValueError", "read-only"],
+    ),
+    "a distance is nan": (
+        lambda: sensor(value(np.nan), quantities=(DISTANCE,)), ["nan of distance [m]", "is inf"],
+    ),
+    "a distance is negative": (
+        lambda: sensor(value(-0.1), quantities=(DISTANCE,)), ["-0.1 of distance", "not negative"],
+    ),
+    "a distance is beyond the range": (
+        lambda: sensor(value(2.0), quantities=(DISTANCE,), range=1.0), ["beyond the range, 1 m"],
+    ),
+    "a number is infinite": (lambda: sensor(value(np.inf)), ["inf of value", "is nan"]),
+    "an angle is not wrapped": (
+        lambda: sensor(value(4.0), quantities=(ANGLE,)), ["4 of angle [rad]", "(-pi, pi]", "wrap"],
+    ),
+    "an angle is infinite": (
+        lambda: sensor(value(np.inf), quantities=(ANGLE,)), ["inf of angle", "is nan"],
+    ),
+    "a colour is in bytes": (
+        lambda: sensor(value(np.array([255, 0, 0])), quantities=(COLOR,)),
+        ["255 of color", "0 to 1"],
+    ),
+    "a flag is a number": (
+        lambda: sensor(value(1.0), quantities=(FLAG,)), ["1.0 of flag", "True or False"],
+    ),
+    "a distance is a flag": (
+        lambda: sensor(value(True), quantities=(DISTANCE,)), ["True or False of distance"],
+    ),
+    "the last axis does not fit": (
+        lambda: sensor(value(np.zeros((4, 3))), quantities=(DISTANCE, ANGLE)),
+        ["shape (4, 3)", "has 2 (distance, angle)", "last axis"],
+    ),
+    "numpy's shared generator": (
+        lambda: sensor(lambda self, robot, world, rng: np.random.normal()),
+        ["Probe.read draws from numpy.random", "draw from rng"],
+    ),
+    "Python's shared generator": (
+        lambda: sensor(lambda self, robot, world, rng: random.random()),
+        ["Probe.read draws from random,", "draw from rng"],
+    ),
+    "the shared generator is seeded": (
+        lambda: sensor(lambda self, robot, world, rng: np.random.seed(3) or 1.0),
+        ["draws from numpy.random"],
+    ),
+    "a generator of the file": (
+        lambda: sensor(draws_from_the_file),
+        ["keeps something in GENERATOR, a random generator of the file", "draw from rng"],
+    ),
+    "a generator without a seed": (lambda: sensor(unseeded), ["not repeatable", "without a seed"]),
+    "a clock": (lambda: sensor(clock), ["not repeatable", "a clock"]),
+    "something is kept in the file": (
+        lambda: sensor(remembers), ["keeps something in SHARED, a variable of the file"],
+    ),
+    "something is kept in the class": (
+        lambda: sensor(
+            lambda self, robot, world, rng: self.past.append(1) or float(len(self.past)), past=[]
+        ),
+        ["keeps something in Probe.past, an attribute of the class", "set in on_start"],
+    ),
+    "what was read changes what is read": (
+        lambda: sensor(counts), ["another reading when it is called twice", "on_step"],
+    ),
+    "it writes into the robot's memory": (
+        lambda: sensor(told_of), ["Probe.read changes the memory of robot0", "only looks"],
+    ),
+    "it draws from the robot's stream": (
+        lambda: sensor(of_another), ["changes the random stream of robot0", "draw from rng"],
+    ),
+    "it draws from the team's stream": (
+        lambda: sensor(of_the_team), ["changes the random stream of the team's law"],
+    ),
+    "it ends the experiment": (
+        lambda: sensor(stops), ["changes whether the experiment is over", "only looks"],
+    ),
+    "on_step draws from the robot's stream": (
+        lambda: sensor(value(1.0), on_step=of_another), ["Probe.on_step changes the random stream"],
+    ),
+    "draw raises": (
+        lambda: sensor(value(1.0), draw=lambda self, scene, pose, reading, color: 1 / 0),
+        ["Probe.draw raised ZeroDivisionError"],
+    ),
+    "it draws at nan": (
+        lambda: sensor(
+            value(np.inf), quantities=(DISTANCE,),
+            draw=lambda self, scene, pose, reading, color: scene.circle(pose, reading, fill=color),
+        ),
+        ["Probe.draw draws a circle with nan or inf"],
+    ),
+    "draw knows what only the live one has": (
+        lambda: sensor(
+            lambda self, robot, world, rng: self.own,
+            on_start=lambda self, robot, world, rng: setattr(self, "own", 1.0),
+            draw=lambda self, scene, pose, reading, color: self.own,
+        ),
+        ["Probe.draw raised AttributeError"],
+    ),
+    "drawing draws random numbers": (
+        lambda: sensor(
+            value(1.0),
+            draw=lambda self, scene, pose, reading, color: scene.circle(pose, random.random()),
+        ),
+        ["Probe.draw draws from random"],
+    ),
+    "a field can't be copied": (
+        lambda: type("Probe", (Sensor,), {
+            "__annotations__": {"lock": object},
+            "lock": entry(check=lambda _, v: v, factory=threading.Lock), "read": value(1.0),
+        })(),
+        ["Probe.lock", "can't be copied", "on_start"],
+    ),
+    "a field can't be sent": (
+        lambda: type("Probe", (Sensor,), {
+            "__annotations__": {"gain": object},
+            "gain": entry(check=lambda _, v: v, factory=type("Local", (), {})), "read": value(1.0),
+        })(),
+        ["Probe.gain", "can't be sent to another process"],
+    ),
+    "a field does not come back from a file": (
+        lambda: type("Probe", (Sensor,), {
+            "__annotations__": {"profile": object},
+            "profile": entry(check=lambda _, v: v, factory=lambda: {1, 2}), "read": value(1.0),
+        })(),
+        ["Probe.profile = {1, 2}", "does not come back from a record's file"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", SENSORS)
+def test_a_fault_of_a_sensor_is_named(fault):
+    SHARED.clear()
+    make, words = SENSORS[fault]
+    findings = sensor_findings(make())
+    assert seen(findings, "wrong", *words), texts(findings, "wrong")
+
+
+def test_a_field_that_is_a_function_is_a_hint():
+    class Bent(Sensor):
+        curve: object = entry(check=lambda _, v: v)
+
+        def read(self, robot, world, rng):
+            return self.curve(1.0)
+
+    findings = sensor_findings(Bent(curve=lambda x: 2 * x))
+    assert not texts(findings, "wrong")
+    assert seen(findings, "hint", "Bent.curve", "a saved run is shown without Bent")
+
+
+def test_all_that_is_wrong_is_said_at_once():
+    class Bad(Sensor):
+        quantities = (DISTANCE,)
+
+        def read(self, robot, world, rng):
+            robot.memory.x = world.time
+            return -random.random()
+
+        def draw(self, scene, pose, reading, color):
+            scene.circle((np.nan, 0), 1)
+
+    with pytest.raises(CheckError) as raised:
+        check_sensor(Bad())
+    message = str(raised.value)
+    assert message.startswith("sensor Bad: 4 things wrong\n- ")
+    for words in ("draws from random", "memory of robot0", "not negative", "draws a circle"):
+        assert message.count(words) == 1, message
+    assert len(texts(raised.value.findings, "wrong")) == 4
+
+
+def test_hints_are_given_and_raise_nothing():
+    class Quiet(Sensor):
+        gain: float = 2.0
+        tables = [1.0, 2.0]
+
+        def read(self, robot, world, rng):
+            return self.gain
+
+        def draw(self, scene, pose, reading, color):
+            pass
+
+    quiet = Quiet(mount=(0.1, 0, 0))
+    check_sensor(quiet)
+    findings = sensor_findings(quiet)
+    assert len(texts(findings, "hint")) == 4
+    assert seen(findings, "hint", "Quiet.gain", "unit", "number(")
+    assert seen(findings, "hint", "Quiet.tables", "shared by all")
+    assert seen(findings, "hint", "mount=(0.1, 0.0, 0.0)", "self.placed(robot.pose)")
+    assert seen(findings, "hint", "Quiet.draw drew nothing")
+
+
+def test_a_counter_of_the_class_that_changes_nothing_is_but_a_hint():
+    class Counting(Sensor):
+        calls = []
+
+        def read(self, robot, world, rng):
+            self.calls.append(1)
+            return 1.0
+
+    findings = sensor_findings(Counting())
+    assert texts(findings, "wrong") == []
+    assert seen(findings, "hint", "keeps something in Counting.calls")
+
+
+def test_a_slow_sensor_is_tried_for_fewer_steps_and_all_runs_have_the_same(monkeypatch):
+    monkeypatch.setattr("mars2d.testing.trial.ENOUGH", 0.05)
+    times: list[float] = []
+
+    def slow(self, robot, world, rng):
+        times.append(world.time)
+        time.sleep(0.002 * robot.rng.random() if len(times) < 9 else 0.01)
+        return 1.0
+
+    findings = sensor_findings(sensor(slow))
+    assert not seen(findings, "wrong", "(the end)")
+    assert max(times) < 4.5
+
+
+def test_what_is_set_at_the_start_of_a_world_is_disturbed_by_a_second_world():
+    class Shared(Sensor):
+        places: dict = entry(check=lambda _, v: v, factory=dict)
+        now = {}
+
+        def on_start(self, robot, world, rng):
+            Shared.now[robot.index] = 0.0
+
+        def on_step(self, robot, world, rng):
+            Shared.now[robot.index] += world.pose[0, robot.index]
+
+        def read(self, robot, world, rng):
+            return Shared.now[robot.index]
+
+    findings = sensor_findings(Shared())
+    assert seen(findings, "wrong", "Shared.now", "beside a second world")
+
+
+def test_a_sensor_is_tried_in_a_scenario_where_that_is_asked_for():
+    class Lamplight(Sensor):
+        def read(self, robot, world, rng):
+            return world.beacons["sun"][0]
+
+    class Sun(Addon):
+        def beacons(self):
+            return {"sun": (1.0, 1.0)}
+
+    assert seen(sensor_findings(Lamplight()), "wrong", "KeyError: 'sun'")
+    scenario = Scenario(robots=[Robot(sensors=[Lamplight()]), Robot(pose=(1, 0))], addons=[Sun()])
+    assert sensor_findings(Lamplight(), scenario=scenario) == ()
+
+
+def test_quantities_without_their_comma_are_refused_when_the_sensor_is_made():
+    with pytest.raises(InputError, match=r"Probe.quantities = .*as \(DISTANCE,\).*the comma"):
+        sensor(value(1.0), quantities=DISTANCE)
+
+
+def test_a_class_in_place_of_an_object_is_refused():
+    with pytest.raises(InputError, match=r"write Whisker\(...\)"):
+        check_sensor(Whisker)
+
+
+def test_the_generators_that_all_of_python_shares_are_left_as_they_were():
+    random.seed(5)
+    np.random.seed(5)
+    expected = random.Random(5).random(), np.random.RandomState(5).random_sample()
+    sensor_findings(sensor(lambda self, robot, world, rng: random.random() + np.random.random()))
+    assert (random.random(), np.random.random_sample()) == expected
+
+
+# -- add-ons ----------------------------------------------------------------------------------
+
+
+class Coverage(Addon):
+    """A sound add-on: it measures, draws, and has walls, beacons and a floor."""
+
+    def on_start(self, world):
+        self.seen = set()
+
+    def on_step(self, world):
+        self.seen |= {(int(i), int(j)) for i, j in np.floor(world.pose[:2]).T}
+        self.luck = self.rng.random()
+
+    def on_draw(self, world, scene):
+        for corner in sorted(self.seen):
+            scene.circle(corner, 0.1, fill="red")
+
+    def obstacles(self):
+        return [[(0.1, 1.6), (0.3, 1.6)]]
+
+    def beacons(self):
+        return {"a": (1.0, 2.0)}
+
+    def ground(self, point):
+        return (1.0, 0.0, 0.0) if point[0] > 0 else None
+
+
+def test_a_sound_addon_passes_without_a_finding():
+    check_addon(Coverage())
+    assert addon_findings(Coverage()) == ()
+
+
+def addon(**body):
+    return type("Judge", (Addon,), {"__doc__": "An add-on.", **body})()
+
+
+def lives(self, world):
+    self.lives = getattr(self, "lives", 0) + 1
+
+
+def moves(self, world):
+    self.at = world.time
+
+
+def told(self, world):
+    SHARED.append(1.0)
+    self.score = len(SHARED)
+
+
+ADDONS = {
+    "a hook takes too little": (
+        lambda: addon(on_step=lambda self: None), ["Judge.on_step", "on_step(self, world)"],
+    ),
+    "a hook takes its arguments in another order": (
+        lambda: addon(on_draw=lambda self, scene, world: None), ["another order"],
+    ),
+    "on_start raises": (
+        lambda: addon(on_start=lambda self, world: 1 / 0), ["Judge.on_start raised Zero"],
+    ),
+    "on_step raises": (
+        lambda: addon(on_step=lambda self, world: self.score),
+        ["test_testing.py, line", "Judge.on_step raised AttributeError"],
+    ),
+    "on_stop raises": (
+        lambda: addon(on_stop=lambda self, world: 1 / 0), ["Judge.on_stop raised Zero"],
+    ),
+    "on_draw raises": (
+        lambda: addon(on_draw=lambda self, world, scene: scene.circle()), ["Judge.on_draw raised"],
+    ),
+    "a pose is written": (
+        lambda: addon(on_step=lambda self, world: world.pose.sort()), ["read-only"],
+    ),
+    "on_draw ends the experiment": (
+        lambda: addon(on_draw=lambda self, world, scene: world.stop("seen")),
+        ["Judge.on_draw changes whether the experiment is over", "only look"],
+    ),
+    "on_draw writes into memory": (
+        lambda: addon(on_draw=lambda self, world, scene: setattr(world.robots[0].memory, "x", 1)),
+        ["Judge.on_draw changes the memory of robot0"],
+    ),
+    "on_draw draws from the add-on's stream": (
+        lambda: addon(on_draw=lambda self, world, scene: scene.circle((0, 0), self.rng.random())),
+        ["Judge.on_draw draws from self.rng", "watched"],
+    ),
+    "on_draw matters to on_step": (
+        lambda: addon(
+            on_start=lambda self, world: setattr(self, "drawn", 0),
+            on_step=lambda self, world: setattr(self, "score", 2 * self.drawn),
+            on_draw=lambda self, world, scene: setattr(self, "drawn", world.time),
+        ),
+        ["Judge.on_draw changes how the run goes"],
+    ),
+    "it draws at nan": (
+        lambda: addon(on_draw=lambda self, world, scene: scene.line([(0, np.inf)], stroke="red")),
+        ["Judge.on_draw draws a line with nan or inf"],
+    ),
+    "it draws what the clock says": (
+        lambda: addon(
+            on_draw=lambda self, world, scene: scene.circle((0, 0), time.perf_counter())
+        ),
+        ["in different ways", "clock"],
+    ),
+    "numpy's shared generator": (
+        lambda: addon(on_step=lambda self, world: np.random.random()),
+        ["Judge.on_step draws from numpy.random", "draw from self.rng"],
+    ),
+    "Python's shared generator": (
+        lambda: addon(on_start=lambda self, world: random.random()),
+        ["Judge.on_start draws from random,"],
+    ),
+    "a generator without a seed": (
+        lambda: addon(on_step=lambda self, world: setattr(self, "x", np.random.default_rng().random())),
+        ["Judge is not repeatable", "add-on judge"],
+    ),
+    "something is kept in the file": (
+        lambda: addon(on_step=told), ["keeps something in SHARED, a variable of the file"],
+    ),
+    "something is kept in the class": (
+        lambda: addon(
+            past=[], on_step=lambda self, world: setattr(self, "n", self.past.append(1) or len(self.past))
+        ),
+        ["keeps something in Judge.past, an attribute of the class"],
+    ),
+    "obstacles move": (
+        lambda: addon(
+            on_step=moves,
+            obstacles=lambda self: [[(2 + getattr(self, "at", 0), 1), (2, 1.5)]],
+        ),
+        ["Judge.obstacles() returns other outlines", "never move"],
+    ),
+    "obstacles are no outlines": (
+        lambda: addon(obstacles=lambda self: [(2, 1), (2, 1.5)]), ["Judge.obstacles()", "brackets"],
+    ),
+    "obstacles raise": (lambda: addon(obstacles=lambda self: 1 / 0), ["ZeroDivisionError"]),
+    "beacons are no dict": (
+        lambda: addon(beacons=lambda self: [(1, 2)]), ["Judge.beacons() returned [(1, 2)]", "a dict"],
+    ),
+    "a beacon is no point": (
+        lambda: addon(beacons=lambda self: {"lamp": (1, np.nan)}), ["Judge.beacons()['lamp']"],
+    ),
+    "the ground has no colour": (
+        lambda: addon(ground=lambda self, point: "red"), ["Judge.ground((x, y)) returned 'red'"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", ADDONS)
+def test_a_fault_of_an_addon_is_named(fault):
+    SHARED.clear()
+    make, words = ADDONS[fault]
+    findings = addon_findings(make())
+    assert seen(findings, "wrong", *words), texts(findings, "wrong")
+
+
+def test_an_addon_that_keeps_a_picture_is_but_given_a_hint():
+    keeping = addon(on_draw=lambda self, world, scene: setattr(self, "picture", world.iteration))
+    findings = addon_findings(keeping)
+    assert texts(findings, "wrong") == []
+    assert seen(findings, "hint", "Judge.on_draw sets self.picture", "how often")
+    assert seen(findings, "hint", "Judge.on_draw drew nothing")
+
+
+def test_a_map_of_another_place_is_tried_where_its_walls_leave_room():
+    check_addon(Map([[(-9, -9), (9, 9)], [(-9, 9), (9, -9)]]))
+
+
+def test_an_addon_that_ends_the_experiment_early_is_sound():
+    class Referee(Addon):
+        def on_step(self, world):
+            if world.time > 0.95:
+                world.stop("enough")
+
+    assert addon_findings(Referee()) == ()
+
+
+# -- laws -------------------------------------------------------------------------------------
+
+
+def wander(robot):
+    return 0.3, robot.rng.uniform(-1, 1)
+
+
+def patrol(robot):
+    while True:
+        for _ in range(5):
+            yield 0.3, 0.0
+        yield 0.0, 1.0
+
+
+def gather(world):
+    return np.vstack([0.1 * np.ones(3), world.rng.uniform(-1, 1, 3)])
+
+
+@pytest.mark.parametrize("law", [wander, patrol, gather])
+def test_sound_laws_pass_without_a_finding(law):
+    check_controller(law)
+    assert controller_findings(law) == ()
+
+
+calls = 0
+
+
+def counting(robot):
+    global calls
+    calls += 1
+    return 0.1, 0.001 * calls
+
+
+def closure():
+    past = []
+
+    def law(robot):
+        past.append(1)
+        return 0.1, 0.001 * len(past)
+
+    return law
+
+
+class Pilot:
+    """A law that is an object, with one memory for all robots of all worlds."""
+
+    def __init__(self):
+        self.count = 0
+
+    def __call__(self, robot):
+        self.count += 1
+        return 0.1, 0.001 * self.count
+
+    def method(self, robot):
+        return self(robot)
+
+
+def default(robot, past=[]):  # noqa: B006 - this is the fault
+    past.append(1)
+    return 0.1, 0.001 * len(past)
+
+
+def attribute(robot):
+    attribute.count = getattr(attribute, "count", 0) + 1
+    return 0.1, 0.001 * attribute.count
+
+
+def helped(robot):
+    return 0.1, helper()
+
+
+def helper():
+    SHARED.append(1.0)
+    return 0.001 * len(SHARED)
+
+
+def hurt(robot):
+    if robot.time > 0.5:
+        return 1 / 0
+    return None if robot.time > 0.2 else (np.nan, 0.0)
+
+
+def hurt_late(robot):
+    for _ in range(5):
+        yield 0.1, 0.0
+    raise KeyError("lost")
+
+
+LAWS = {
+    "two arguments": (lambda robot, world: (0, 0), {}, ["exactly one argument, the robot"]),
+    "no argument": (lambda: (0, 0), {}, ["exactly one argument, the robot"]),
+    "no function": (3, {}, ["a function of one argument"]),
+    "nothing is returned": (lambda robot: None, {}, ["returned nothing", "return v, omega"]),
+    "three numbers": (lambda robot: (1, 2, 3), {}, ["returned (1, 2, 3)", "two numbers"]),
+    "text": (lambda robot: "go", {}, ["returned 'go'"]),
+    "nan": (lambda robot: (np.nan, 0.0), {}, ["returned (nan, 0.0)", "finite"]),
+    "another thing later": (hurt, {}, ["hurt raised ZeroDivisionError", "line"]),
+    "a generator fails": (hurt_late, {}, ["hurt_late raised KeyError: 'lost'", "at 0.5 s"]),
+    "the team's has columns for rows": (
+        lambda world: np.zeros((3, 2)), {}, ["shape (3, 2)", "transpose"],
+    ),
+    "the team's returns nothing": (lambda world: None, {}, ["returned nothing", "(2, n)"]),
+    "numpy's shared generator": (
+        lambda robot: (0.1, np.random.normal()), {}, ["draws from numpy.random", "robot.rng"],
+    ),
+    "Python's shared generator, of the team": (
+        lambda world: np.full((2, 3), random.random()), {}, ["draws from random,", "world.rng"],
+    ),
+    "a generator of the file": (
+        lambda robot: (0.1, GENERATOR.random()), {},
+        ["GENERATOR, a random generator of the file", "draw from robot.rng"],
+    ),
+    "a clock": (lambda robot: (0.1, time.perf_counter() % 1), {}, ["not repeatable", "clock"]),
+    "a global variable": (
+        counting, {}, ["keeps something in calls, a variable of the file", "robot.memory"],
+    ),
+    "a variable round it": (
+        closure(), {}, ["keeps something in past, a variable of the function round law"],
+    ),
+    "attributes of an object": (Pilot(), {}, ["the attributes of the Pilot object"]),
+    "attributes of a method's object": (Pilot().method, {}, ["the attributes of the Pilot object"]),
+    "a default": (default, {}, ["a default of default's arguments"]),
+    "an attribute of the function": (attribute, {}, ["an attribute of the function attribute"]),
+    "a helper's variable": (helped, {}, ["keeps something in SHARED"]),
+    "it sees sensors only": (
+        lambda robot: (robot.pose[0], 0), {"sees": "sensors"}, ["robot.pose is not available"],
+    ),
+    "it sees positions only": (
+        lambda robot: (robot.neighbours[0].pose[0], 0), {"sees": "positions"},
+        ["a neighbour's pose is not available"],
+    ),
+    "the team's sees positions only": (
+        lambda world: np.ones((2, 3)) * world.pose[2, 0], {"sees": "positions"},
+        ["world.pose is not available"],
+    ),
+    "a sensor is missing": (
+        lambda robot: (robot.sense.whisker, 0), {}, ["has no sensor 'whisker'"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", LAWS)
+def test_a_fault_of_a_law_is_named(fault):
+    SHARED.clear()
+    law, options, words = LAWS[fault]
+    findings = controller_findings(law, **options)
+    assert seen(findings, "wrong", *words), texts(findings, "wrong")
+
+
+def test_all_faults_of_a_law_are_said_at_once():
+    findings = controller_findings(hurt)
+    for words in ("returned (nan, 0.0)", "returned nothing", "ZeroDivisionError"):
+        assert seen(findings, "wrong", words)
+    assert len(texts(findings, "wrong")) == 3
+
+
+def test_a_law_finds_the_sensors_that_it_is_given():
+    check_controller(lambda robot: (0.1 * robot.sense.whisker < 1, 0.2), sensors=[Whisker()])
+
+
+def test_a_law_is_tried_on_the_robots_of_a_scenario_that_have_it():
+    def unlucky(robot):
+        return 0.1, random.random()
+
+    robots = [Robot(controller=wander), Robot(pose=(1, 0, 0), controller=unlucky)]
+    scenario = Scenario(robots=robots)
+    assert controller_findings(wander, scenario=scenario) == ()
+    assert seen(controller_findings(unlucky, scenario=scenario), "wrong", "random")
+
+
+@pytest.mark.parametrize(
+    ("law", "words"),
+    [
+        (
+            lambda robot: (9.0, 0.0),
+            ["more than the drive can do", "asked for (9, 0), done (0.5, 0)"],
+        ),
+        (lambda robot: (0.0, 0.0), ["nothing but zeros"]),
+        (lambda robot: (yield 0.1, 0.0), ["a generator that ended, at 0.1 s"]),
+    ],
+)
+def test_what_is_seldom_meant_is_a_hint(law, words):
+    findings = controller_findings(law)
+    assert texts(findings, "wrong") == []
+    assert seen(findings, "hint", *words), texts(findings, "hint")
+
+
+# -- drives -----------------------------------------------------------------------------------
+
+
+class Crab(Drive):
+    """A sound drive that goes sideways."""
+
+    def twist(self, command):
+        return np.array([0 * command[0], command[0], command[1]])
+
+
+def test_a_sound_drive_passes_without_a_finding():
+    check_drive(Crab())
+    assert drive_findings(Crab()) == ()
+
+
+def drive(**body):
+    twist = {"twist": Crab.twist}
+    return type("Wheel", (Drive,), {"__doc__": "A drive.", **twist, **body})()
+
+
+def in_place(self, command):
+    command *= 0.5
+    return command
+
+
+DRIVES = {
+    "twist is missing": (lambda: drive(twist=Drive.twist), ["no method twist"]),
+    "an argument is missing": (lambda: drive(twist=lambda self: 1), ["twist(self, command)"]),
+    "two rows": (lambda: drive(twist=lambda self, command: command), ["shape (2, 5)", "(3, 5)"]),
+    "text": (lambda: drive(twist=lambda self, command: "go"), ["returned 'go'"]),
+    "nan": (lambda: drive(twist=lambda self, c: np.full((3, c.shape[1]), np.nan)), ["nan or inf"]),
+    "it raises": (lambda: drive(saturate=lambda self, command: 1 / 0), ["Wheel.saturate raised"]),
+    "columns depend on each other": (
+        lambda: drive(saturate=lambda self, command: command - command.mean()), ["among others"],
+    ),
+    "what is given is changed": (lambda: drive(saturate=in_place), ["changes the array"]),
+    "limiting twice changes something": (
+        lambda: drive(saturate=lambda self, command: command / 2), ["limited already"],
+    ),
+    "something is kept": (
+        lambda: drive(past=[], saturate=lambda self, command: self.past.append(1) or command),
+        ["keeps something in Wheel.past"],
+    ),
+    "shared randomness": (
+        lambda: drive(twist=lambda self, c: np.full((3, c.shape[1]), random.random())),
+        ["draws from random"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", DRIVES)
+def test_a_fault_of_a_drive_is_named(fault):
+    make, words = DRIVES[fault]
+    findings = drive_findings(make())
+    assert seen(findings, "wrong", *words), texts(findings, "wrong")
+
+
+# -- what never ends --------------------------------------------------------------------------
+
+
+def spin(*_):
+    while True:
+        try:
+            time.sleep(0)
+        except Exception:
+            pass
+
+
+@pytest.mark.parametrize(
+    ("findings", "part"),
+    [
+        (sensor_findings, lambda: sensor(spin)),
+        (sensor_findings, lambda: sensor(lambda self, robot, world, rng: spin())),
+        (addon_findings, lambda: addon(on_step=spin)),
+        (addon_findings, lambda: addon(obstacles=spin)),
+        (controller_findings, lambda: spin_for_ever),
+    ],
+)
+def test_what_never_ends_is_broken_off_with_its_line(findings, part):
+    start = time.monotonic()
+    found = findings(part(), deadline=Deadline(0.5))
+    assert time.monotonic() - start < 10
+    assert seen(found, "wrong", "did not come to an end within 0.5 s") or seen(
+        found, "wrong", "has the arguments"
+    )
+
+
+def spin_for_ever(robot):
+    return spin()
+
+
+def test_the_line_that_does_not_end_is_named():
+    found = controller_findings(spin_for_ever, deadline=Deadline(0.3))
+    assert seen(found, "wrong", "test_testing.py, line", "spin_for_ever did not come to an end")
+
+
+def test_a_deadline_ends_with_its_block_and_can_be_used_again():
+    limit = Deadline(0.2)
+    for _ in range(2):
+        with pytest.raises(Late), limit:
+            spin()
+    with limit:
+        for _ in range(6):
+            time.sleep(0.1)
+            limit.alive()
+    time.sleep(0.5)  # nothing is raised once it is left
+
+
+# -- what belongs to MARS2D -------------------------------------------------------------------
+
+
+SENSORS_NEED = {"Proximity": {"range": 1.0}}
+DARK = Path(__file__).parents[2] / "docs" / "pictures" / "random_walk.png"
+ADDONS_NEED = {
+    "Beacon": {"at": (1.0, 1.0)},
+    "Density": {"image": str(DARK), "bounds": (-5, 5, -5, 5)},
+    "FieldOfView": {"sensors": ["proximity"]},
+    "Game": {"roles": {"hunter": ["robot0"], "hunted": ["robot1"]}},
+    "Map": {"outlines": [[(0, 1.6), (0.3, 1.6)]]},
+    "Ring": {"roles": {"red": ["robot0"], "blue": ["robot1"]}},
+    "Theory": {"draws": lambda scene, frame: scene.circle((0, 0), 1.0, stroke="#7b3294")},
+    "Waypoints": {"routes": [[(1.0, 0.0)]]},
+}
+"""What parts of MARS2D's own need."""
+
+
+@pytest.mark.parametrize("name", sorted(members("sensors")))
+def test_the_sensors_of_mars2d_are_sound(name):
+    check_sensor(members("sensors")[name](**SENSORS_NEED.get(name, {})))
+
+
+@pytest.mark.parametrize("name", sorted(members("addons")))
+def test_the_addons_of_mars2d_are_sound(name):
+    addon = members("addons")[name](**ADDONS_NEED.get(name, {}))
+    check_addon(addon, sensors=[sensors.Odometry(), sensors.Proximity(range=1.0)])
+
+
+@pytest.mark.parametrize("name", sorted(members("bodies")))
+def test_the_drives_of_mars2d_are_sound(name):
+    check_drive(members("bodies")[name]())
+
+
+LONG = {
+    "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "dead_reckoning",
+    "formation", "herding", "leader_following", "path_planning", "rendezvous",
+}  # fmt: skip
+"""Examples whose trial takes a second and more: `pytest -m soak`."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=[pytest.mark.soak] if n in LONG else []) for n in sorted(examples())],
+)
+def test_the_parts_and_laws_of_the_examples_are_sound(name):
+    module = open_module(examples()[name])
+    tried = list(trials(module, open_experiment(module)))
+    wrong = [(t.name, text) for t in tried for text in texts(t.findings(), "wrong")]
+    assert wrong == []
+
+
+# -- the command ------------------------------------------------------------------------------
+
+HEAD = """
+import random, time
+from mars2d import Addon, Drive, Robot, Scenario, Sensor
+from mars2d.core.description import number
+"""
+
+GOOD = """
+class Clock(Sensor):
+    def read(self, robot, world, rng):
+        return world.time
+
+class Judge(Addon):
+    def on_step(self, world):
+        self.now = world.time
+
+def control(robot):
+    return 0.1, 0.01 * robot.sense.clock
+"""
+
+
+def checked(tmp_path, capsys, code: str) -> tuple[int, str, str]:
+    """The exit code of `mars2d check`, and what it prints, of a file with this code."""
+    path = tmp_path / "own.py"
+    path.write_text(HEAD + textwrap.dedent(code), encoding="utf-8")
+    result = cli.main(["check", str(path)])
+    printed = capsys.readouterr()
+    return result, printed.out, printed.err
+
+
+def test_a_file_of_parts_and_laws_without_a_scenario_is_checked(tmp_path, capsys):
+    code, out, err = checked(tmp_path, capsys, GOOD)
+    assert (code, err) == (0, "")
+    assert out.splitlines() == [
+        "sensor Clock in a small world: sound",
+        "add-on Judge in a small world: sound",
+        "law control of a robot, in a small world: sound",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("method", "does", "words"),
+    [
+        ("draw(self, scene, frame)", "self.drawn = frame.time", "Halo.draw raised Frozen"),
+        (
+            "theory(self, scene, frame)",
+            "scene.circle((float('nan'), 0), 1.0)",
+            "Halo.theory draws a circle with nan",
+        ),
+        ("paint(self, scene, area)", "scene.polygon(area[9])", "Halo.paint raised IndexError"),
+        ("paint(self, scene)", "pass", "Halo.paint has the arguments (self, scene)"),
+    ],
+)
+def test_what_an_add_on_draws_is_tried(tmp_path, capsys, method, does, words):
+    source = f"class Halo(Addon):\n    def {method}:\n        {does}\n"
+    code, out, err = checked(tmp_path, capsys, source)
+    assert code == 2
+    assert words in out + err
+
+
+def test_classes_that_are_no_parts_are_left_alone(tmp_path, capsys):
+    file = tmp_path / "parts.py"
+    file.write_text(
+        "from typing import Protocol, runtime_checkable\n"
+        "from mars2d.addons import Addon\n"
+        "@runtime_checkable\n"
+        "class Seen(Protocol):\n"
+        "    time: float\n"
+        "class Counter(Addon):\n"
+        "    pass\n"
+    )
+    assert cli.main(["check", str(file)]) == 0
+    assert "add-on Counter" in capsys.readouterr().out
+
+
+def test_parts_are_tried_in_the_files_own_scenario(tmp_path, capsys):
+    use = "scenario = Scenario(robots=[Robot(sensors=[Clock()], controller=steer)])"
+    code, out, err = checked(tmp_path, capsys, GOOD.replace("control", "steer") + use)
+    assert (code, err) == (0, "")
+    assert "sensor Clock in its scenario: sound" in out
+    assert "add-on Judge in a small world: sound" in out
+    assert "law steer of robot0: sound" in out
+    assert out.endswith("sound: 11 control steps done\n")
+
+
+def test_what_is_wrong_is_listed_and_the_exit_code_is_2(tmp_path, capsys):
+    bad = """
+    class Noise(Sensor):
+        def read(self, robot, world, rng):
+            return -random.random()
+
+    class Judge(Addon):
+        def on_draw(self, world, scene):
+            world.stop("seen")
+    """
+    code, out, err = checked(tmp_path, capsys, bad)
+    assert code == 2
+    assert err.endswith("own.py: 2 things are wrong, as said above\n")
+    assert err.count("\n") == 1
+    lines = out.splitlines()
+    assert lines[0] == "sensor Noise in a small world: 1 thing wrong"
+    assert lines[1].startswith("  wrong Noise.read draws from random")
+    assert lines[2] == "add-on Judge in a small world: 1 thing wrong, 1 hint"
+
+
+def test_a_single_fault_stands_in_the_one_line_of_the_error(tmp_path, capsys):
+    code, _, err = checked(tmp_path, capsys, "def control(robot):\n    return None\n")
+    assert code == 2
+    assert "own.py, line" in err
+    assert "control returned nothing" in err
+    assert err.count("\n") == 1
+
+
+def test_a_part_with_required_fields_is_tried_as_the_scenario_has_it(tmp_path, capsys):
+    sonar = """
+    class Sonar(Sensor):
+        reach: float = number(above=0, unit="m")
+
+        def read(self, robot, world, rng):
+            return self.reach
+    """
+    code, out, _ = checked(tmp_path, capsys, sonar)
+    assert code == 0
+    assert "Sonar: not tried: Sonar.reach has no default, and the file has no scenario" in out
+    use = textwrap.dedent(sonar) + "robots = [Robot(sensors=[Sonar(reach=1.0)])]\n"
+    code, out, _ = checked(tmp_path, capsys, use + "scenario = Scenario(robots=robots)\n")
+    assert code == 0
+    assert "sensor Sonar in its scenario: sound" in out
+    code, out, _ = checked(tmp_path, capsys, use + "scenario = Scenario()\n")
+    assert "not tried: Sonar.reach has no default, and no object is in the scenario" in out
+
+
+def test_the_base_of_a_files_own_sensors_is_not_tried_itself(tmp_path, capsys):
+    family = """
+    class Base(Sensor):
+        pass
+
+    class One(Base):
+        def read(self, robot, world, rng):
+            return 1.0
+    """
+    code, out, _ = checked(tmp_path, capsys, family)
+    assert code == 0
+    assert out == "sensor One in a small world: sound\n"
+
+
+def test_a_drive_of_a_file_is_tried(tmp_path, capsys):
+    crooked = """
+    class Crooked(Drive):
+        def twist(self, command):
+            return command
+    """
+    code, out, _ = checked(tmp_path, capsys, crooked)
+    assert code == 2
+    assert "drive Crooked in a small world: 1 thing wrong" in out
+
+
+def test_a_part_is_tried_elsewhere_if_another_one_breaks_the_scenario(tmp_path, capsys):
+    both = """
+    class Fine(Sensor):
+        def read(self, robot, world, rng):
+            return 1.0
+
+    class Broken(Addon):
+        def on_step(self, world):
+            raise OSError("no device")
+
+    scenario = Scenario(robots=[Robot(sensors=[Fine()])], addons=[Broken()])
+    """
+    code, out, err = checked(tmp_path, capsys, both)
+    assert code == 2
+    assert "sensor Fine in its scenario: sound, 1 hint" in out
+    assert "tried in a small world, as its scenario does not run" in out
+    assert "Broken.on_step raised OSError: no device" in err
+
+
+def test_a_fault_is_counted_once_and_no_innocent_law_is_blamed(tmp_path, capsys):
+    both = """
+    class Broken(Addon):
+        def on_step(self, world):
+            raise OSError("no device")
+
+    def steer(robot):
+        return 0.1, 0.0
+
+    def control(world):
+        return 0.1, 0.0
+
+    robots = [Robot(controller=steer), Robot(pose=(1, 1, 0))]
+    scenario = Scenario(robots=robots, addons=[Broken()])
+    """
+    code, out, err = checked(tmp_path, capsys, both)
+    assert code == 2
+    assert "add-on Broken in its scenario: 1 thing wrong" in out
+    assert out.count("  wrong ") == 1
+    for law in ("law steer of robot0", "law control of the team"):
+        assert f"{law}: not tried to the end, 1 hint" in out
+    assert "steer: its scenario does not run: own.py, line 8: add-on 'broken' raised" in out
+    assert err == "mars2d: own.py, line 8: Broken.on_step raised OSError: no device (at 0 s)\n"
+
+
+def test_a_law_whose_scenario_does_not_run_does_not_pass():
+    class Broken(Addon):
+        def on_step(self, world):
+            raise OSError("no device")
+
+    scenario = Scenario(robots=[Robot(controller=wander)], addons=[Broken()])
+    with pytest.raises(CheckError, match=r"its scenario does not run: .* raised OSError"):
+        check_controller(wander, scenario=scenario)
+
+
+READERS = {
+    "add-on": "class Own(Addon):\n    def on_step(self, world):\n        "
+    "self.near = world.robots[0].sense.range_finder\n",
+    "law": "def control(robot):\n    return robot.sense.range_finder[0], 0.0\n",
+}
+
+
+@pytest.mark.parametrize("family", READERS)
+def test_robots_without_the_sensor_that_is_read_are_no_fault_of_a_part(tmp_path, capsys, family):
+    code, out, err = checked(tmp_path, capsys, READERS[family])
+    assert (code, err) == (0, "")
+    assert "in a small world: not tried to the end, 1 hint" in out
+    assert "no sensor 'range_finder'" in out
+    assert "give a scenario whose robots do" in out
+
+
+def test_a_sensor_whose_name_is_misspelt_is_a_fault(tmp_path, capsys):
+    code, out, _ = checked(
+        tmp_path, capsys, GOOD + "\ndef steer(robot):\n    return robot.sense.clok\n"
+    )
+    assert code == 2
+    assert "law steer of a robot, in a small world: 1 thing wrong" in out
+
+
+def test_a_law_that_reads_a_sensor_that_it_is_not_given_does_not_pass():
+    with pytest.raises(CheckError, match=r"no sensor 'sonar'.* give a scenario whose robots do"):
+        check_controller(lambda robot: (robot.sense.sonar, 0.0))
+
+
+@pytest.mark.parametrize("loop", ["while True: pass", "time.sleep(1000)"])
+@pytest.mark.parametrize("place", ["law", "file"])
+def test_a_check_ends_whatever_the_file_does(child, tmp_path, loop, place):
+    body = f"def control(robot):\n    {loop}\n" if place == "law" else f"{loop}\n"
+    (tmp_path / "own.py").write_text(HEAD + body, encoding="utf-8")
+    code = (
+        "import sys; from mars2d.core import deadline; from mars2d.cli import check;"
+        "deadline.GRACE = 0.5; check.LOADING = 0.5; check.PATIENCE = 0.5;"
+        f"from mars2d.cli.command_line import main; sys.exit(main(['check', {str(tmp_path / 'own.py')!r}]))"
+    )
+    done = child(code, timeout=50)
+    assert done.returncode == 2, done.stderr
+    assert "come to an end" in done.stderr
+    line = 6 if place == "law" else 5
+    assert f"own.py, line {line}" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+# -- contents ---------------------------------------------------------------------------------
+
+
+def test_prints_are_of_contents_not_of_addresses():
+    class Thing:
+        def __init__(self, x):
+            self.x = x
+
+    assert fingerprint(Thing([1, {2, 3}])) == fingerprint(Thing([1, {3, 2}]))
+    assert fingerprint(Thing(1)) != fingerprint(Thing(2))
+    assert fingerprint({"a": 1, "b": 2}) == fingerprint({"b": 2, "a": 1})
+    assert fingerprint(np.zeros(3)) != fingerprint(np.zeros((3, 1)))
+    assert fingerprint(object()) == fingerprint(object())
+    one, other = np.random.default_rng(1), np.random.default_rng(1)
+    assert fingerprint(one) == fingerprint(other)
+    one.random()
+    assert fingerprint(one) != fingerprint(other)
+    assert fingerprint(random.Random(1)) != fingerprint(random.Random(2))
+    circle: list = []
+    circle.append(circle)
+    assert fingerprint(circle) != fingerprint([])

@@ -1,5 +1,0 @@
-"""What the tests of the window share: a screen, windows on it, an experiment."""
-
-from tests.view.person import open_window, room, screen
-
-__all__ = ["open_window", "room", "screen"]

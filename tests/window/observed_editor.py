@@ -1,0 +1,81 @@
+"""The editor that test_editor.py starts as a process of its own: it tells what it holds.
+
+Arguments: a scenario file, or nothing but "-" for an empty one; then options as JSON.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+from mars2d.output.raster.painter import Painter
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.editor import Editor, EditorWindow
+
+
+class Observed(EditorWindow):
+    """A window that prints its state as a line of JSON whenever that has changed."""
+
+    told = state = ""
+
+    def draw(self, surface):
+        if self.told != self.state:  # of the picture before, which is on the screen by now
+            self.told = self.state
+            print(self.told, flush=True)
+        super().draw(surface)
+        self.state = json.dumps(state_of(self.editor))
+
+
+def state_of(editor):
+    desk, draft = editor.desk, editor.desk.draft
+    return {
+        "tool": editor.tool_name,
+        "robots": [robot.pose for robot in draft.robots],
+        "props": [[type(p).__name__, *p.pose, *_sizes(p)] for p in draft.props],
+        "outlines": draft.outlines,
+        "walls": draft.walls,
+        "routes": draft.routes,
+        "beacons": [beacon.position for beacon in draft.beacons],
+        "workspace": draft.workspace,
+        "selection": desk.selection,
+        "corner": desk.corner,
+        "notice": desk.notice,
+        "fault": editor.judge.verdict.text,
+        "culprits": sorted(editor.judge.verdict.culprits),
+        "prompt": None if editor.prompt is None else editor.prompt.label,
+        "typed": None if editor.prompt is None else editor.prompt.text,
+        "error": None if editor.prompt is None else editor.prompt.error,
+        "help": editor.help.is_open,
+        "snaps": desk.snaps,
+        "step": desk.step,
+        "changed": desk.history.changed,
+        "title": editor.title,
+        "corners": len(getattr(editor.tool, "corners", ())),
+        "scale": round(desk.camera.scale, 3),
+        "origin": [round(desk.camera.x, 2), round(desk.camera.y, 2)],
+    }
+
+
+def _sizes(prop):
+    return [getattr(prop, name) for name in ("length", "width", "diameter") if hasattr(prop, name)]
+
+
+def main():
+    source, options = sys.argv[1], json.loads(sys.argv[2])
+    scenario = Scenario() if source == "-" else open_experiment(source).scenario
+    path = options.pop("path", None if source == "-" else source)
+    editor = Editor(
+        scenario, Painter(), path=None if path is None else Path(path),
+        empty=source == "-", **options,
+    )  # fmt: skip
+    Observed(editor, (800, 600)).run()
+    outcome = editor.outcome
+    print(json.dumps({
+        "left": True,
+        "when": None if outcome is None else outcome.when,
+        "poses": None if outcome is None else [robot.pose for robot in outcome.scenario.robots],
+    }), flush=True)  # fmt: skip
+
+
+if __name__ == "__main__":
+    main()

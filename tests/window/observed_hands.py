@@ -1,0 +1,69 @@
+"""The window that test_hands_in_window.py starts as a process of its own: a robot, a crate, a wall.
+
+Arguments: the speed, and a robot that is driven by hand, if any.
+"""
+
+import json
+import sys
+
+from mars2d import Robot, Scenario
+from mars2d.addons import Map
+from mars2d.bodies.props import Box
+from mars2d.scenario.experiment import Experiment
+from mars2d.window.window import Window
+from mars2d.world.timeline import Timeline
+
+
+def ahead(robot):
+    return 0.2, 0.0
+
+
+SCENARIO = Scenario(
+    title="Hands",
+    robots=[Robot(name="red", controller=ahead), Robot(name="blue", pose=(-2, -1, 0))],
+    props=[Box(name="crate", pose=(-2, 1, 0), length=0.4, width=0.4, mass=2.0)],
+    workspace=[(-3, -2), (3, -2), (3, 2), (-3, 2)],
+    addons=[Map([[(2.5, -1), (2.5, 1)]])],
+    stop_time=1000.0,
+)
+
+
+class Observed(Window):
+    """A window that prints where everything is whenever that has changed."""
+
+    told = ""
+
+    def draw(self, surface):
+        super().draw(surface)
+        frame = self.player.frame
+        shown = self.hand.shown(frame)
+        state = {
+            "time": round(frame.time, 3),
+            "paused": self.player.paused,
+            "over": self.hand.over,
+            "busy": self.hand.busy,
+            "selected": self.selected,
+            "driving": self.director.driver.robot,
+            "status": self.director.driver.status,
+            "robots": shown.pose.round(4).T.tolist(),
+            "props": shown.prop_pose.round(4).T.tolist(),
+            "pulls": len(self.director.timeline.world.hands.pulls),
+            "branches": len(self.director.timeline.branches),
+            "past": self.player.past,
+            "camera": [self.camera.scale, self.camera.x, self.camera.y],
+        }
+        text = json.dumps(state)
+        if text != self.told:
+            self.told = text
+            print(text, flush=True)
+
+
+def main():
+    window = Observed(Timeline(Experiment(SCENARIO)), float(sys.argv[1]), (800, 600))
+    if len(sys.argv) > 2:
+        window.wait_for(int(sys.argv[2]))
+    window.run()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,145 @@
+"""The window that the tests start as a process of its own: it tells what it shows.
+
+Arguments: speed, then options as JSON: `experiment` or `record`, a file, and `human`, a robot; or
+else fields of Circling. `dark`, `text` and `silent`, without notes, are how it looks; `windows` is
+how many come one after the other.
+"""
+
+import dataclasses
+import json
+import sys
+
+from mars2d.core.errors import LawError
+from mars2d.record.record import load
+from mars2d.scenario.animation import Animation
+from mars2d.scenario.experiment import open_experiment
+from mars2d.window.preferences import Preferences
+from mars2d.window.source import Playback
+from mars2d.window.window import Window
+from mars2d.world.timeline import Timeline
+from tests.window.circling import Circling, circling_scenario
+
+
+class Observed(Window):
+    """A window that prints its state as a line of JSON whenever that has changed."""
+
+    told = state = ""
+    said = 0  # how many notes there were
+    silent = False  # without notes, which fade
+
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        say = self.notes.say
+
+        def count(*words, **more):
+            self.said += 1
+            say(*words, **more)
+
+        self.notes.say = count
+
+    def draw(self, surface, **options):
+        if self.told != self.state:  # of the picture before, which is on the screen by now
+            self.told = self.state
+            print(self.told, flush=True)
+        if self.silent:
+            self.notes.clear()
+        super().draw(surface, **options)
+        self.state = json.dumps(state_of(self) | {"size": surface.get_size()})
+
+
+def state_of(window):
+    player, director = window.player, window.director
+    frame, source, timeline = player.frame, player.source, director.timeline
+    seen = window.hand.shown(frame)
+    bar, slider = window._time_bar, window._slider
+    banner = window._outcome.banner()
+    return {
+        "time": round(frame.time, 3),
+        "row": source.row,
+        "newest": source.newest,
+        "status": player.status()[0],
+        "chip": window._status().text,
+        "speed": str(player.speed),
+        "over": player.over,
+        "past": player.past,
+        "playing": player.playing,
+        "restarts": getattr(source, "restarts", 0),
+        "branches": 0 if timeline is None else len(timeline.branches),
+        "marks": {} if timeline is None else {k: [*v] for k, v in marks_of(window).items()},
+        "bar": [round(bar.x_of(0), 1), round(bar.x_of(source.newest), 1), bar._line.centery],
+        "slider": [slider._line.left, slider._line.right, slider._line.centery],
+        "robots": seen.pose.T.round(4).tolist(),
+        "props": seen.prop_pose.T.round(4).tolist(),
+        "pulls": 0 if timeline is None else len(timeline.world.hands.pulls),
+        "over_body": window.hand.over,
+        "busy": window.hand.busy,
+        "driving": director.driver.robot,
+        "selected": window.selected,
+        "following": window.viewpoint.following is not None,
+        "scale": round(window.camera.scale, 3),
+        "origin": [round(window.camera.x, 1), round(window.camera.y, 1)],
+        "layers": dataclasses.asdict(window.layers),
+        "text": window.text,
+        "dark": window._painter.theme.dark,
+        "help": window.help.page,
+        "notes": [note.text for note in window.notes._notes],
+        "said": window.said,
+        "banner": None if banner is None else banner.text,
+        "line": None if banner is None or banner.excerpt is None else banner.excerpt.line,
+        "filming": window.keeper._film is not None,
+        "editor": None if window.editor is None else editor_of(window.editor),
+    }
+
+
+def marks_of(window):
+    return window._time_state().marks
+
+
+def editor_of(editor):
+    desk = editor.desk
+    return {
+        "tool": editor.tool_name,
+        "robots": [robot.pose for robot in desk.draft.robots],
+        "walls": desk.draft.walls,
+        "outlines": desk.draft.outlines,
+        "selection": desk.selection,
+        "corners": len(getattr(editor.tool, "corners", ())),
+        "prompt": None if editor.prompt is None else editor.prompt.label,
+        "fault": editor.judge.verdict.text,
+        "notice": desk.notice,
+        "camera": [desk.camera.scale, desk.camera.x, desk.camera.y],
+    }
+
+
+def source_of(options):
+    if "experiment" in options:
+        return Timeline(open_experiment(options["experiment"], options.get("set", {})), seed=1)
+    if "record" in options:
+        return Playback(load(options["record"]))
+    changes = options.pop("scenario", {})
+    if "animation" in changes:
+        changes["animation"] = Animation(**changes["animation"])
+    scenario = circling_scenario(rows=options.get("rows", 100), **changes)
+    return Circling(scenario, **options)
+
+
+def main():
+    speed, options = sys.argv[1], json.loads(sys.argv[2])
+    silent = options.pop("silent", False)
+    windows, human = options.pop("windows", 1), options.pop("human", None)
+    look = Preferences(dark=options.pop("dark", False), text=options.pop("text", 1.0))
+    for _ in range(windows):
+        source = source_of({**options})
+        window = Observed(source, speed if speed == "max" else float(speed), (800, 600), look)
+        window.silent = silent
+        if human is not None:
+            window.wait_for(human)
+        try:
+            window.run()
+        except LawError as error:
+            print(json.dumps({"raised": str(error)}), flush=True)
+    print(json.dumps({"left": True}), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,342 @@
+"""The keys and the game controller that drive a robot, and who it is."""
+
+import pygame
+import pytest
+
+import mars2d
+from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scenario, Unicycle
+from mars2d.addons import Game
+from mars2d.cli import base, demo, run
+from mars2d.cli.command_line import BAD_INPUT, main
+from mars2d.window import driver as driver_module
+from mars2d.window import show
+from mars2d.window.driver import Driver
+from mars2d.world.teleop import Stick, command_of, ramped, robot_of
+
+UP, DOWN, LEFT, RIGHT = (
+    pygame.KSCAN_UP, pygame.KSCAN_DOWN, pygame.KSCAN_LEFT, pygame.KSCAN_RIGHT
+)  # fmt: skip
+W, A, S, D = pygame.KSCAN_W, pygame.KSCAN_A, pygame.KSCAN_S, pygame.KSCAN_D
+
+
+def key(code, down=True, mod=0):
+    kind = pygame.KEYDOWN if down else pygame.KEYUP
+    return pygame.event.Event(kind, scancode=code, key=0, unicode="", mod=mod)
+
+
+@pytest.fixture
+def driver(monkeypatch):
+    monkeypatch.setattr(pygame.joystick, "init", lambda: None)
+    made = Driver()
+    made.take(0, "red")
+    return made
+
+
+def settled(driver, drive, seconds=1.0):
+    """The command once all ramps are over."""
+    return driver.command(drive, seconds)
+
+
+# -- from a stick to a command ------------------------------------------------------------
+
+
+def test_a_drive_in_the_worlds_frame_goes_where_the_arrow_points():
+    drive = Holonomic(max_linear_speed=0.8)
+    assert command_of(drive, Stick(1, 0)) == (0.8, 0.0)
+    assert command_of(drive, Stick(0, -0.5)) == (0.0, -0.4)
+
+
+def test_a_unicycle_drives_and_turns_left_where_the_stick_is_left():
+    v, omega = command_of(Unicycle(), Stick(0, 1))
+    assert (v, omega) == pytest.approx((0.5, 0.0))
+    v, omega = command_of(Unicycle(), Stick(-1, 0))
+    assert (v, omega) == pytest.approx((0.0, 1.5))
+
+
+@pytest.mark.parametrize("drive", [Unicycle(), Unicycle(wheel_semiaxis=0.3)])
+@pytest.mark.parametrize("stick", [Stick(1, 1), Stick(-1, 1), Stick(1, -1), Stick(0.3, 1)])
+def test_full_speed_leaves_the_wheels_what_they_need_to_turn(drive, stick):
+    v, omega = command_of(drive, stick)
+    b = drive.wheel_semiaxis
+    assert max(abs(v - b * omega), abs(v + b * omega)) <= drive.max_linear_speed + 1e-12
+    assert omega == pytest.approx(-1.5 * stick.across)
+
+
+def test_wheels_that_are_too_slow_turn_as_quickly_as_they_can():
+    drive = Unicycle(max_linear_speed=0.1, wheel_semiaxis=0.2)
+    assert command_of(drive, Stick(-1, 1)) == pytest.approx((0.0, 0.5))
+
+
+def test_wheels_are_given_their_speeds_where_a_command_is_that():
+    drive = Differential(wheel_radius=0.05)
+    assert command_of(drive, Stick(0, 1)) == pytest.approx((10.0, 10.0))
+    left, right = command_of(drive, Stick(-1, 0))
+    assert left == pytest.approx(-right)
+    assert right > 0
+    assert command_of(Differential(command="twist"), Stick(0, 1)) == pytest.approx((0.5, 0.0))
+
+
+def test_a_car_steers():
+    car = Car(max_steering=0.4, max_linear_speed=2.0)
+    assert command_of(car, Stick(-0.5, 1)) == (2.0, 0.2)
+
+
+def test_a_drive_of_ones_own_is_taken_for_one_that_drives_and_turns():
+    class Own(Drive):
+        def twist(self, command):
+            return command
+
+    assert command_of(Own(), Stick(1, 1)) == (0.5, -1.5)
+
+
+def test_a_stick_is_never_farther_out_than_it_can_be():
+    assert Stick(1, 1).within() == pytest.approx((0.5**0.5, 0.5**0.5))
+    assert Stick(0.3, 0.4).within() == (0.3, 0.4)
+
+
+def test_a_tap_is_a_nudge_and_a_stick_comes_back_sooner_than_it_goes_out():
+    out = ramped(Stick(), Stick(0, 1), 0.05)
+    assert out == pytest.approx((0.0, 0.2))
+    assert ramped(out, Stick(), 0.05) == (0.0, 0.0)
+    assert ramped(Stick(0, 0.5), Stick(0, 1), 10.0) == (0.0, 1.0)
+    assert ramped(Stick(0, 1), Stick(0, -1), 0.1) == pytest.approx((0.0, 0.2))
+
+
+# -- keys -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("keys", "command"),
+    [
+        ([UP], (0.0, 0.5)), ([W], (0.0, 0.5)), ([DOWN], (0.0, -0.5)), ([S], (0.0, -0.5)),
+        ([LEFT], (-0.5, 0.0)), ([A], (-0.5, 0.0)), ([RIGHT], (0.5, 0.0)), ([D], (0.5, 0.0)),
+        ([UP, W], (0.0, 0.5)), ([UP, DOWN], (0.0, 0.0)), ([UP, RIGHT], (0.5**1.5, 0.5**1.5)),
+        ([], (0.0, 0.0)),
+    ],
+)  # fmt: skip
+def test_keys_drive(driver, keys, command):
+    for code in keys:
+        assert driver.handle(key(code))
+    assert settled(driver, Holonomic()) == pytest.approx(command)
+
+
+def test_a_key_that_is_let_go_stops_it(driver):
+    driver.handle(key(UP))
+    settled(driver, Holonomic())
+    assert driver.handle(key(UP, down=False))
+    assert settled(driver, Holonomic()) == (0.0, 0.0)
+
+
+def test_shift_halves_the_speed_as_soon_as_it_is_held(driver):
+    driver.handle(key(UP))
+    assert not driver.handle(key(pygame.KSCAN_LSHIFT, mod=pygame.KMOD_LSHIFT))
+    assert settled(driver, Holonomic()) == (0.0, 0.25)
+    driver.handle(key(pygame.KSCAN_LSHIFT, down=False))
+    assert settled(driver, Holonomic()) == (0.0, 0.5)
+
+
+def test_other_keys_are_left_to_others(driver):
+    assert not driver.handle(key(pygame.KSCAN_SPACE))
+    assert not driver.handle(key(pygame.KSCAN_UP, down=False))  # it was not pressed here
+
+
+def test_without_a_robot_all_keys_are_left_to_others(driver):
+    driver.handle(key(UP))
+    driver.release()
+    assert driver.robot is None
+    assert driver.status == ""
+    assert not driver.handle(key(UP))
+    driver.take(1)
+    assert driver.status == "driving robot 1"
+    assert settled(driver, Holonomic()) == (0.0, 0.0)  # what was held before does not count
+
+
+def test_a_window_that_loses_the_keyboard_stops_the_robot(driver):
+    driver.handle(key(UP, mod=pygame.KMOD_LSHIFT))
+    assert not driver.handle(pygame.event.Event(pygame.WINDOWFOCUSLOST))
+    assert settled(driver, Holonomic()) == (0.0, 0.0)
+
+
+def test_it_gathers_speed_within_a_quarter_of_a_second(driver):
+    driver.handle(key(UP))
+    speeds = [driver.command(Holonomic(), 1 / 60)[1] for _ in range(20)]
+    assert speeds[0] == pytest.approx(0.5 * 4 / 60)
+    assert speeds == sorted(speeds)
+    assert speeds[15] == 0.5
+
+
+# -- controllers ----------------------------------------------------------------------------
+
+
+class Controller:
+    """A game controller as pygame shows it."""
+
+    def __init__(self, number):
+        self.number, self.axes = number, [0.0, 0.0, 0.0]
+
+    def get_instance_id(self):
+        return 10 + self.number
+
+    def get_axis(self, axis):
+        return self.axes[axis]
+
+
+@pytest.fixture
+def controller(driver, monkeypatch):
+    made = Controller(0)
+    monkeypatch.setattr(driver_module.pygame.joystick, "Joystick", lambda number: made)
+    assert driver.handle(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=0))
+    return made
+
+
+def tilt(driver, controller, across, back):
+    controller.axes[:2] = across, back
+    for axis, value in enumerate(controller.axes[:2]):
+        driver.handle(
+            pygame.event.Event(pygame.JOYAXISMOTION, instance_id=10, axis=axis, value=value)
+        )
+
+
+def test_a_controllers_stick_drives(driver, controller):
+    tilt(driver, controller, 0.0, -1.0)
+    assert settled(driver, Holonomic()) == pytest.approx((0.0, 0.5))
+    assert driver.status == "driving red by controller"
+    tilt(driver, controller, 1.0, 0.0)
+    assert settled(driver, Holonomic()) == pytest.approx((0.5, 0.0))
+
+
+def test_a_stick_that_does_not_quite_come_back_is_at_rest(driver, controller):
+    tilt(driver, controller, 0.1, -0.1)
+    assert settled(driver, Holonomic()) == (0.0, 0.0)
+    tilt(driver, controller, 0.16, 0.0)  # from there on it begins softly
+    assert 0 < settled(driver, Holonomic())[0] < 0.01
+
+
+def test_a_d_pad_drives(driver, controller):
+    hat = pygame.event.Event(pygame.JOYHATMOTION, instance_id=10, hat=0, value=(-1, 0))
+    assert driver.handle(hat)
+    assert settled(driver, Holonomic()) == pytest.approx((-0.5, 0.0))
+
+
+def test_keys_come_first(driver, controller):
+    tilt(driver, controller, 0.0, -1.0)
+    driver.handle(key(DOWN))
+    assert settled(driver, Holonomic()) == (0.0, -0.5)
+    assert driver.status == "driving red"
+
+
+def test_unplugged_it_stops_and_plugged_in_again_it_drives(driver, controller):
+    tilt(driver, controller, 0.0, -1.0)
+    assert driver.handle(pygame.event.Event(pygame.JOYDEVICEREMOVED, instance_id=10))
+    assert settled(driver, Holonomic()) == (0.0, 0.0)
+    assert driver.status == "driving red"
+    tilt(driver, controller, 0.0, -1.0)  # a last word of it
+    assert settled(driver, Holonomic()) == (0.0, 0.0)
+    driver.handle(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=0))
+    tilt(driver, controller, 0.0, 1.0)
+    assert settled(driver, Holonomic()) == pytest.approx((0.0, -0.5))
+
+
+def test_nobody_is_driven_by_a_controller_alone(driver, controller):
+    driver.release()
+    tilt(driver, controller, 0.0, -1.0)
+    assert not driver.handle(
+        pygame.event.Event(pygame.JOYAXISMOTION, instance_id=10, axis=0, value=1.0)
+    )
+
+
+# -- who --------------------------------------------------------------------------------------
+
+ROBOTS = [Robot(name=name, pose=(k, 0, 0)) for k, name in enumerate(["red", "blue", "green"])]
+GAME = Game({"pursuer": ["red"], "evader": ["green", "blue"]})
+
+
+@pytest.mark.parametrize(
+    ("who", "index"),
+    [("red", 0), ("blue", 1), ("2", 2), (2, 2), ("pursuer", 0), ("evader", 2)],
+)
+def test_a_robot_is_named_by_its_name_its_index_or_a_role(who, index):
+    assert robot_of(Scenario(robots=ROBOTS, addons=[GAME]), who) == index
+
+
+def test_a_robots_own_name_comes_before_a_role():
+    robots = [*ROBOTS, Robot(name="evader", pose=(0, 3, 0))]
+    assert robot_of(Scenario(robots=robots, addons=[GAME]), "evader") == 3
+
+
+@pytest.mark.parametrize(
+    ("who", "words"),
+    [
+        ("evadr", "human = evadr: there is no such robot or role; did you mean 'evader'?"),
+        ("3", "human = 3: there is no such robot or role; known: blue, evader, green"),
+        (-1, "human = -1: there is no such robot or role"),
+    ],
+)
+def test_nobody_of_that_name_is_an_error_with_the_nearest(who, words):
+    with pytest.raises(InputError) as raised:
+        robot_of(Scenario(robots=ROBOTS, addons=[GAME]), who)
+    assert str(raised.value).startswith(words)
+
+
+# -- on the command line --------------------------------------------------------------------------
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """What the window was opened with, in place of the window."""
+    found = []
+
+    def show_experiment(experiment, speed, seed, *_, human=None, **__):
+        found.append((speed, human))
+        raise InputError("that is all")
+
+    monkeypatch.setattr(show, "show_experiment", show_experiment)
+    for module in (base, run):
+        monkeypatch.setattr(module, "has_display", lambda: True)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("arguments", "speed", "human"),
+    [
+        ([], 20.0, None),
+        (["--human", "evader"], 4.0, 1),
+        (["--human", "0", "--speed", "7"], 7.0, 0),
+        (["--human", "red", "--set", "animation.playback_speed=2.0"], 2.0, 0),
+        (["--human", "red", "--set", "animation.playback_speed=max"], 4.0, 0),
+        (["--human", "red", "--set", "animation.playback_speed=0"], 4.0, 0),
+    ],
+)
+def test_somebody_who_drives_is_not_in_a_hurry(shown, arguments, speed, human, capsys):
+    assert main(["run", "pursuit_corners", *arguments]) == BAD_INPUT
+    assert "that is all" in capsys.readouterr().err
+    assert shown == [(speed, human)]
+
+
+def test_a_demo_can_be_driven_too(shown, monkeypatch):
+    monkeypatch.setattr(demo, "has_display", lambda: True)
+    assert main(["demo", "pursuit_corners", "--human", "blue"]) == BAD_INPUT
+    assert shown == [(4.0, 1)]
+
+
+@pytest.mark.parametrize("verb", ["run", "demo"])
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--human", "evadr"], "--human evadr: there is no such robot or role; did you mean"),
+        (["--human", "evader"], "--human evader: driving by hand needs a window, and there is no"),
+        (["--human", "1", "--headless"], "--human 1: driving by hand needs a window, not --head"),
+    ],
+)
+def test_where_nobody_can_drive_this_is_said_at_once(monkeypatch, capsys, verb, arguments, words):
+    monkeypatch.setattr(base, "has_display", lambda: False)
+    assert main([verb, "pursuit_corners", *arguments]) == BAD_INPUT
+    assert words in capsys.readouterr().err
+
+
+def test_from_python_a_robot_is_driven_in_a_window(shown):
+    with pytest.raises(InputError, match="that is all"):
+        mars2d.run("pursuit_corners", speed=3, human="pursuer")
+    assert shown == [(3.0, 0)]
+    with pytest.raises(InputError, match="human = nobody: there is no such robot or role"):
+        mars2d.run("pursuit_corners", human="nobody")

@@ -1,0 +1,755 @@
+"""The editor, driven by real mouse moves and key presses on a screen of its own."""
+
+import json
+import subprocess
+import sys
+import time
+from functools import partial
+from math import degrees, pi
+
+import numpy as np
+import pytest
+
+from mars2d.addons import Map
+from mars2d.bodies.props import Box
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.editor import keys
+from tests.window.person import Driver, bare_environment, compare, differing, needs_screen
+
+
+class Hands(Driver):
+    """The editor in a process of its own, and the hands and eyes of the person before it."""
+
+    def __init__(self, screen, folder, source="-", **options):
+        self._sit(
+            screen, "observed_editor", source, json.dumps(options), folder=folder, shows="tool"
+        )
+
+    def pixel(self, x, y):
+        """Return the pixel of a point in metres."""
+        (left, top), scale = self.state["origin"], self.state["scale"]
+        return round(left + scale * x), round(top - scale * y)
+
+    def point(self, x, y):
+        self.do("mousemove", *self.pixel(x, y))
+
+    def click(self, x, y, button=1):
+        self.do("mousemove", *self.pixel(x, y), "click", button)
+
+    def drag(self, *places, button=1, drop=True):
+        """Drag through points in metres."""
+        first, *others = (self.pixel(*place) for place in places)
+        moves = [word for place in others for word in ("mousemove", *place, "sleep", 0.03)]
+        self.do("mousemove", *first, "mousedown", button, "sleep", 0.03, *moves)
+        if drop:
+            self.do("mouseup", button)
+
+    def tool(self, letter, name):
+        self.press(letter)
+        self.until(lambda s: s["tool"] == name)
+
+    def type(self, text):
+        self.do("type", "--delay", "15", "--", text)
+
+
+@pytest.fixture
+def open_editor(screen, tmp_path):
+    """Return a function that opens an editor; all are closed at the end."""
+    opened = []
+
+    def start(source="-", **options):
+        if isinstance(source, Scenario):
+            source.save(tmp_path / "given.toml")
+            source = tmp_path / "given.toml"
+        opened.append(Hands(screen, tmp_path, source, **options))
+        return opened[-1]
+
+    yield start
+    for window in opened:
+        window.close()
+
+
+def team(*poses, **changes):
+    return Scenario(robots=[Robot(pose=pose, diameter=0.6) for pose in poses], **changes)
+
+
+def near(a, b, slack=0.011):
+    return np.allclose(np.array(a, dtype=float), np.array(b, dtype=float), atol=slack)
+
+
+# -- tools ----------------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_a_click_puts_a_robot_and_a_drag_turns_it(open_editor):
+    hands = open_editor()
+    assert "no robot" in hands.state["fault"]
+    hands.tool("r", "robot")
+    hands.click(-2, 1)
+    hands.until(lambda s: s["robots"] == [[-2, 1, 0]])
+    hands.until(lambda s: s["fault"] == "" and s["selection"] == [["robot", 0, 0]])
+    hands.drag((2, 1), (2, 2), (2, 3))
+    hands.until(lambda s: len(s["robots"]) == 2 and near(s["robots"][1], (2, 1, pi / 2)))
+
+
+@needs_screen
+def test_boxes_and_balls_are_put_by_click_and_sized_by_drag(open_editor):
+    hands = open_editor(team((4, 4)))
+    hands.tool("b", "box")
+    hands.click(-2, 1)
+    hands.until(lambda s: s["props"] == [["Box", -2, 1, 0, 0.4, 0.4]])
+    hands.drag((0, 0), (1, 1), (2, 1))
+    hands.until(lambda s: near(s["props"][-1][1:], (1, 0.5, 0, 2, 1)))
+    hands.tool("o", "ball")
+    hands.drag((-2, -2), (-1.5, -2), (-1.4, -2))
+    hands.until(lambda s: s["props"][-1] == ["Ball", -2, -2, 0, 1.2])
+    hands.until(lambda s: s["fault"] == "")
+
+
+@needs_screen
+@pytest.mark.parametrize("end", ["Return", "Escape", "button"])
+def test_a_wall_is_a_chain_of_clicks(open_editor, end):
+    hands = open_editor(team((4, 4)))
+    hands.tool("w", "wall")
+    for corner in ((-3, -3), (0, -3), (0, 1)):
+        hands.click(*corner)
+    hands.until(lambda s: s["corners"] == 3)
+    if end == "button":
+        hands.click(2, 2, button=3)
+    else:
+        hands.press(end)
+    hands.until(lambda s: s["walls"] == [[[-3, -3], [0, -3], [0, 1]]] and s["corners"] == 0)
+    hands.click(2, -2)
+    hands.click(3, -2)
+    hands.press("Return")
+    hands.until(lambda s: len(s["walls"]) == 2)
+    assert hands.state["tool"] == "wall"
+
+
+@needs_screen
+@pytest.mark.parametrize("end", ["first corner", "Return"])
+def test_a_polygon_is_closed_at_its_first_corner_or_by_enter(open_editor, end):
+    hands = open_editor(team((4, 4)))
+    hands.tool("p", "polygon")
+    for corner in ((-3, -3), (0, -3), (1, 1)):
+        hands.click(*corner)
+    hands.until(lambda s: s["corners"] == 3)
+    hands.press("BackSpace")
+    hands.until(lambda s: s["corners"] == 2)
+    hands.click(0, 0)
+    hands.until(lambda s: s["corners"] == 3)
+    if end == "Return":
+        hands.press("Return")
+    else:
+        hands.click(-2.95, -2.98)
+    hands.until(lambda s: s["outlines"] == [[[-3, -3], [0, -3], [0, 0]]])
+    assert hands.state["selection"] == [["outline", 0, 0]]
+
+
+@needs_screen
+def test_escape_forgets_a_polygon_and_then_leaves_the_tool(open_editor):
+    hands = open_editor(team((4, 4)))
+    hands.tool("p", "polygon")
+    hands.click(-3, -3)
+    hands.until(lambda s: s["corners"] == 1)
+    hands.press("Escape")
+    hands.until(lambda s: s["corners"] == 0 and s["tool"] == "polygon")
+    hands.press("Escape")
+    hands.until(lambda s: s["tool"] == "select")
+
+
+@needs_screen
+def test_a_rectangle_is_dragged_from_corner_to_corner(open_editor):
+    hands = open_editor(team((4, 4)))
+    hands.tool("k", "rectangle")
+    hands.drag((1, 1), (0, 0), (-2, -1))
+    hands.until(lambda s: s["outlines"] == [[[-2, -1], [1, -1], [1, 1], [-2, 1]]])
+
+
+@needs_screen
+def test_waypoints_are_those_of_the_selected_robot_until_another_is_clicked(open_editor):
+    hands = open_editor(team((-3, 0), (3, 0)))
+    hands.click(3, 0)
+    hands.until(lambda s: s["selection"] == [["robot", 1, 0]])
+    hands.tool("y", "waypoint")
+    hands.click(3, 2)
+    hands.click(2, 3)
+    hands.until(lambda s: s["routes"] == [[], [[3, 2], [2, 3]]])
+    hands.click(-3, 0)
+    hands.until(lambda s: s["selection"] == [["robot", 0, 0]])
+    hands.click(-3, 2)
+    hands.until(lambda s: s["routes"][0] == [[-3, 2]])
+
+
+@needs_screen
+def test_waypoints_without_a_robot_are_refused_in_words(open_editor):
+    hands = open_editor()
+    hands.tool("y", "waypoint")
+    hands.click(1, 1)
+    hands.until(lambda s: "first put one (R)" in s["notice"])
+
+
+@needs_screen
+def test_a_beacon_is_put_by_a_click_and_moved_by_a_drag(open_editor):
+    hands = open_editor(team((4, 4)))
+    hands.tool("n", "beacon")
+    hands.click(1, 2)
+    hands.until(lambda s: s["beacons"] == [[1, 2]])
+    hands.tool("v", "select")
+    hands.drag((1, 2), (0, 1), (-1, 0))
+    hands.until(lambda s: s["beacons"] == [[-1, 0]])
+
+
+@needs_screen
+def test_the_workspace_has_corners_to_drag_to_add_and_to_remove(open_editor):
+    hands = open_editor(team((0, 0)))
+    hands.tool("m", "workspace")
+    hands.drag((5, 5), (4, 4), (4, 3))
+    hands.until(lambda s: s["workspace"] == [[-5, -5], [-5, 5], [4, 3], [5, -5]])
+    hands.click(2, -5)
+    hands.until(lambda s: len(s["workspace"]) == 5 and s["corner"] == 4)
+    assert hands.state["workspace"][4] == [2, -5]
+    hands.drag((2, -5), (2, -4), (2, -3))
+    hands.until(lambda s: s["workspace"][4] == [2, -3])
+    hands.press("Delete")
+    hands.until(lambda s: s["workspace"] == [[-5, -5], [-5, 5], [4, 3], [5, -5]])
+    hands.press("Delete")
+    hands.until(lambda s: s["workspace"] is None)
+    hands.drag((-2, -3), (0, 0), (3, 2))
+    hands.until(lambda s: s["workspace"] == [[-2, -3], [3, -3], [3, 2], [-2, 2]])
+
+
+@needs_screen
+def test_the_buttons_of_the_tool_bar_choose_tools_and_say_what_they_are(open_editor):
+    hands = open_editor()
+    before = hands.still()
+    hands.do("mousemove", 26, 115)
+    assert hands.shows(lambda seen: differing(before, seen, np.s_[95:140, 60:200]) > 300)
+    hands.do("click", 1)
+    hands.until(lambda s: s["tool"] == "robot")
+
+
+# -- select, move, turn ---------------------------------------------------------------------------
+
+
+@needs_screen
+def test_click_shift_click_and_a_rectangle_select(open_editor):
+    hands = open_editor(team((-3, 0), (0, 0), (3, 0)))
+    hands.click(0, 0)
+    hands.until(lambda s: s["selection"] == [["robot", 1, 0]])
+    hands.do("keydown", "shift")
+    hands.click(3, 0)
+    hands.until(lambda s: s["selection"] == [["robot", 1, 0], ["robot", 2, 0]])
+    hands.click(0, 0)
+    hands.until(lambda s: s["selection"] == [["robot", 2, 0]])
+    hands.do("keyup", "shift")
+    hands.click(0, 3)
+    hands.until(lambda s: s["selection"] == [])
+    hands.drag((-4, 1), (-1, 0), (1, -1))
+    hands.until(lambda s: s["selection"] == [["robot", 0, 0], ["robot", 1, 0]])
+    hands.press("ctrl+a")
+    hands.until(lambda s: len(s["selection"]) == 3)
+    hands.press("Delete")
+    hands.until(lambda s: s["robots"] == [] and "no robot" in s["fault"])
+
+
+@needs_screen
+def test_a_drag_moves_what_is_selected_on_the_grid_and_g_frees_it(open_editor):
+    hands = open_editor(team((-3, 0), (0, 0)))
+    hands.click(-3, 0)
+    hands.do("keydown", "shift")
+    hands.click(0, 0)
+    hands.until(lambda s: len(s["selection"]) == 2)
+    hands.do("keyup", "shift")
+    hands.drag((0.03, 0), (0.5, 0.6), (1.02, 1.03))
+    hands.until(lambda s: near(s["robots"], [(-2, 1, 0), (1, 1, 0)], 1e-9))
+    hands.press("g")
+    hands.until(lambda s: not s["snaps"])
+    hands.drag((1, 1), (1.2, 1.2), (1.31, 1.27))
+    hands.until(lambda s: near(s["robots"][1][:2], (1.31, 1.27), 0.03))
+    x = hands.state["robots"][1][0]
+    assert abs(x / hands.state["step"] - round(x / hands.state["step"])) > 1e-6
+
+
+@needs_screen
+def test_the_ring_turns_and_shift_makes_steps_of_15_degrees(open_editor):
+    hands = open_editor(team((0, 0)))
+    hands.click(0, 0)
+    hands.until(lambda s: s["selection"])
+    reach = max(30 * 0.9 / hands.state["scale"], 0.3 + 16 * 0.9 / hands.state["scale"])
+    hands.drag((reach, 0), (2, 2), (0.5, 2.5))
+    hands.until(lambda s: s["robots"][0][2] > 1)
+    hands.settle()
+    heading = hands.state["robots"][0][2]
+    assert degrees(heading) == pytest.approx(degrees(np.arctan2(2.5, 0.5)), abs=1.2)
+    hands.press("ctrl+z")
+    hands.until(lambda s: s["robots"][0][2] == 0)
+    hands.do("keydown", "shift")
+    hands.drag((reach, 0), (2, 2), (1, 2.5))
+    hands.do("keyup", "shift")
+    hands.until(lambda s: s["robots"][0][2] > 1)
+    hands.settle()
+    assert degrees(hands.state["robots"][0][2]) == pytest.approx(75)  # of 68.2
+
+
+@needs_screen
+def test_corners_of_an_obstacle_are_moved_added_and_removed(open_editor):
+    square = [(0, 0), (2, 0), (2, 2), (0, 2)]
+    hands = open_editor(team((4, 4), addons=[Map([square])]))
+    hands.click(1, 0.5)
+    hands.until(lambda s: s["selection"] == [["outline", 0, 0]])
+    hands.drag((2, 2), (2.5, 2.5), (3, 2))
+    hands.until(lambda s: s["outlines"] == [[[0, 0], [2, 0], [3, 2], [0, 2]]])
+    hands.drag((1, 0), (1, -0.5), (1, -1))
+    hands.until(lambda s: s["outlines"] == [[[0, 0], [1, -1], [2, 0], [3, 2], [0, 2]]])
+    assert hands.state["corner"] == 1
+    hands.press("Delete")
+    hands.until(lambda s: s["outlines"] == [[[0, 0], [2, 0], [3, 2], [0, 2]]])
+    hands.press("BackSpace")
+    hands.until(lambda s: s["outlines"] == [])
+
+
+@needs_screen
+def test_a_box_is_resized_by_its_corners(open_editor):
+    box = Box(pose=(0, 0, pi / 2), length=2, width=0.8)
+    hands = open_editor(team((4, 4), props=[box]))
+    hands.click(0.3, 0.3)
+    hands.until(lambda s: s["selection"] == [["prop", 0, 0]])
+    hands.drag((0.4, 1), (1, 1.5), (1.4, 2))
+    hands.until(lambda s: near(s["props"][0][1:], (0.5, 0.5, pi / 2, 3, 1.8)))
+
+
+@needs_screen
+def test_escape_puts_back_what_is_being_dragged(open_editor):
+    hands = open_editor(team((0, 0)))
+    hands.drag((0, 0), (1, 0), (2, 0), drop=False)
+    hands.until(lambda s: s["robots"][0][0] == 2)
+    hands.press("Delete")  # nothing, while the button is down
+    hands.press("Escape")
+    hands.until(lambda s: s["robots"] == [[0, 0, 0]])
+    hands.do("mousemove", 300, 300, "mouseup", 1)
+    assert hands.settle()["robots"] == [[0, 0, 0]]
+    assert not hands.state["changed"]
+
+
+@needs_screen
+def test_a_typed_place_is_that_of_the_corner_touched_last(open_editor):
+    hands = open_editor(team((4, 4), addons=[Map([[(0, 0), (2, 0), (2, 2)]])]))
+    hands.click(1.5, 0.5)
+    hands.until(lambda s: s["selection"])
+    hands.click(2, 2)
+    hands.until(lambda s: s["corner"] == 2)
+    hands.press("equal")
+    hands.type("1.234 3")
+    hands.press("Return")
+    hands.until(lambda s: s["outlines"] == [[[0, 0], [2, 0], [1.234, 3]]])
+    hands.press("Right")
+    hands.until(lambda s: near(s["outlines"][0][2], (1.434, 3), 1e-9))
+
+
+@needs_screen
+def test_arrows_nudge_by_a_grid_step_and_with_shift_by_a_tenth(open_editor):
+    hands = open_editor(team((0, 0)))
+    hands.click(0, 0)
+    hands.until(lambda s: s["selection"])
+    step = hands.state["step"]
+    hands.press("Right", "Right", "Up")
+    hands.until(lambda s: near(s["robots"][0][:2], (2 * step, step), 1e-9))
+    hands.press("shift+Left", "shift+Down")
+    hands.until(lambda s: near(s["robots"][0][:2], (1.9 * step, 0.9 * step), 1e-9))
+    hands.press("ctrl+z")  # nudges one after the other are one change
+    hands.until(lambda s: s["robots"][0] == [0, 0, 0])
+
+
+@needs_screen
+def test_numbers_put_the_selection_exactly(open_editor):
+    hands = open_editor(team((0, 0)))
+    hands.press("equal")
+    hands.until(lambda s: "select something" in s["notice"])
+    hands.click(0, 0)
+    hands.until(lambda s: s["selection"])
+    hands.press("equal")
+    hands.until(lambda s: s["prompt"] is not None)
+    hands.type("1.5 2 90")
+    hands.press("Return")
+    hands.until(lambda s: s["prompt"] is None and near(s["robots"][0], (1.5, 2, pi / 2), 1e-9))
+    hands.press("equal")
+    hands.type("1.5 north")
+    hands.press("Return")
+    hands.until(lambda s: s["error"] and "expected x y" in s["error"])
+    hands.press("BackSpace")
+    hands.until(lambda s: s["typed"] == "1.5 nort" and not s["error"])
+    hands.press("Escape")
+    hands.until(lambda s: s["prompt"] is None)
+    hands.tool("w", "wall")
+    for numbers in ("-1.234 0", "2 0.5"):
+        hands.press("equal")
+        hands.type(numbers)
+        hands.press("Return")
+    hands.press("Return")
+    hands.until(lambda s: s["walls"] == [[[-1.234, 0], [2, 0.5]]])
+
+
+@needs_screen
+def test_duplicate_undo_and_redo(open_editor):
+    hands = open_editor(team((0, 0)))
+    hands.click(0, 0)
+    hands.until(lambda s: s["selection"])
+    hands.press("ctrl+d")
+    hands.until(lambda s: len(s["robots"]) == 2 and s["selection"] == [["robot", 1, 0]])
+    hands.press("ctrl+z")
+    hands.until(lambda s: len(s["robots"]) == 1 and not s["changed"])
+    hands.tool("p", "polygon")
+    hands.click(-3, -3)
+    hands.click(0, -3)
+    hands.press("ctrl+z")  # takes a corner back of what is being drawn
+    hands.until(lambda s: s["corners"] == 1)
+    hands.press("ctrl+z")
+    hands.until(lambda s: s["corners"] == 0)
+    hands.press("ctrl+z")
+    hands.until(lambda s: s["notice"] == "there is nothing to undo")
+    hands.press("ctrl+y")
+    hands.until(lambda s: len(s["robots"]) == 2)
+    hands.press("ctrl+z")
+    hands.until(lambda s: len(s["robots"]) == 1)
+    hands.press("ctrl+shift+z")
+    hands.until(lambda s: len(s["robots"]) == 2)
+
+
+# -- what is wrong --------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_what_is_wrong_is_said_in_words_and_marked_and_not_saved(open_editor, tmp_path):
+    hands = open_editor(team((-3, 0), (0, 0)))
+    hands.drag((-3, 0), (-1, 0), (-0.4, 0))
+    hands.until(lambda s: s["fault"] == "robot0 and robot1 overlap by 0.2 m")
+    assert hands.state["culprits"] == [["robot", 0, 0], ["robot", 1, 0]]
+    red = (0xA6, 0x1B, 0x1B)
+    assert hands.shows(lambda seen: (seen[60:540] == red).all(axis=2).sum() > 40)
+    before = (tmp_path / "given.toml").read_bytes()
+    hands.press("ctrl+s")
+    hands.until(lambda s: s["notice"] == "Not saved: robot0 and robot1 overlap by 0.2 m")
+    assert (tmp_path / "given.toml").read_bytes() == before
+    hands.press("ctrl+z")
+    hands.until(lambda s: s["fault"] == "" and not s["culprits"])
+
+
+@needs_screen
+def test_an_outline_that_crosses_itself_is_said_and_marked(open_editor):
+    hands = open_editor(team((4, 4)))
+    hands.tool("p", "polygon")
+    for corner in ((-2, -2), (2, 2), (2, -2), (-2, 2)):
+        hands.click(*corner)
+    hands.press("Return")
+    hands.until(lambda s: "crosses or touches itself at (0, 0)" in s["fault"])
+    assert hands.state["culprits"] == [["outline", 0, 0]]
+
+
+# -- keep -----------------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_saving_asks_for_a_name_once_and_before_it_overwrites(open_editor, tmp_path):
+    (tmp_path / "room.toml").write_text("mine")
+    hands = open_editor()
+    hands.tool("r", "robot")
+    hands.click(0, 0)
+    hands.press("ctrl+s")
+    hands.until(lambda s: s["prompt"] == "Save as" and s["typed"] == "scenario.toml")
+    hands.press(*["BackSpace"] * len("scenario.toml"))
+    hands.type("room")
+    hands.press("Return")
+    hands.until(lambda s: s["prompt"] == "room.toml is there already.")
+    hands.press("Escape")
+    hands.until(lambda s: s["prompt"] is None)
+    assert (tmp_path / "room.toml").read_text() == "mine"
+    hands.press("ctrl+s")
+    hands.press(*["BackSpace"] * len("scenario.toml"))
+    hands.type("room")
+    hands.press("Return", "Return")
+    hands.until(lambda s: s["notice"] == "Saved room.toml" and not s["changed"])
+    assert Scenario.from_file(tmp_path / "room.toml").title == "Room"
+    hands.click(2, 2)
+    hands.until(lambda s: len(s["robots"]) == 2 and s["changed"])
+    hands.press("ctrl+s")
+    hands.until(lambda s: s["notice"] == "Saved room.toml")
+    assert len(Scenario.from_file(tmp_path / "room.toml").robots) == 2
+
+
+@needs_screen
+def test_a_folder_that_is_not_there_is_said_in_the_field(open_editor):
+    hands = open_editor(team((0, 0)), path="other.py")
+    hands.press("ctrl+s")
+    hands.until(lambda s: s["typed"] == "other.toml")
+    hands.press(*["BackSpace"] * len("other.toml"))
+    hands.type("nowhere/a")
+    hands.press("Return")
+    hands.until(lambda s: "there is no folder" in (s["error"] or ""))
+
+
+@needs_screen
+def test_a_room_with_two_robots_is_drawn_saved_and_run(open_editor, tmp_path):
+    hands = open_editor()
+    hands.tool("w", "wall")
+    for corner in ((-4, -3), (4, -3), (4, 3), (-4, 3), (-4, -3)):
+        hands.click(*corner)
+    hands.press("Return")
+    hands.tool("p", "polygon")
+    for corner in ((0, -1), (2, -1), (1, 1)):
+        hands.click(*corner)
+    hands.press("Return")
+    hands.tool("r", "robot")
+    hands.click(-2, -1)
+    hands.drag((-2, 1), (-1, 1), (0, 1))
+    hands.until(lambda s: len(s["robots"]) == 2 and s["fault"] == "")
+    hands.press("ctrl+s", "Return")
+    hands.until(lambda s: s["notice"] == "Saved scenario.toml")
+    command = [sys.executable, "-m", "mars2d", "run", "scenario.toml", "--headless"]
+    done = subprocess.run(
+        [*command, "--stop-time", "5", "--json"],
+        cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["ticks"] == 50
+    scenario = open_experiment(tmp_path / "scenario.toml").scenario
+    assert len(scenario.obstacles) == 5
+    assert [robot.pose for robot in scenario.robots] == [(-2, -1, 0), (-2, 1, 0)]
+
+
+@needs_screen
+def test_leaving_asks_when_something_would_be_lost(open_editor, tmp_path):
+    hands = open_editor(team((0, 0)))
+    hands.drag((0, 0), (1, 0), (2, 0))
+    hands.until(lambda s: s["robots"][0][0] == 2)
+    hands.press("Escape")
+    hands.until(lambda s: s["selection"] == [])
+    hands.press("Escape")
+    hands.until(lambda s: s["prompt"] == "Not saved yet.")
+    hands.press("Escape")
+    hands.until(lambda s: s["prompt"] is None)
+    hands.press("Escape", "Return")
+    hands.until(lambda s: s.get("left"))
+    assert Scenario.from_file(tmp_path / "given.toml").robots[0].pose == (2, 0, 0)
+
+
+@needs_screen
+def test_backspace_discards_and_without_a_change_nobody_asks(open_editor, tmp_path):
+    hands = open_editor(team((0, 0)))
+    hands.tool("r", "robot")
+    hands.click(2, 2)
+    hands.until(lambda s: len(s["robots"]) == 2)
+    hands.press("Escape", "Escape", "BackSpace")
+    hands.until(lambda s: s.get("left"))
+    assert len(Scenario.from_file(tmp_path / "given.toml").robots) == 1
+    hands = open_editor(tmp_path / "given.toml")
+    hands.press("Escape")
+    hands.until(lambda s: s.get("left"))
+
+
+@needs_screen
+def test_f5_runs_the_file_and_comes_back(open_editor):
+    hands = open_editor(team((0, 0), stop_time=0.5))
+    hands.drag((0, 0), (1, 0), (2, 0))
+    hands.until(lambda s: s["robots"][0][0] == 2)
+    before = hands.still()
+    hands.press("F5")
+    assert hands.shows(lambda seen: differing(before, seen, np.s_[60:540, 0:40]) > 300)
+    time.sleep(1)
+    hands.press("Escape")
+    assert hands.shows(lambda seen: differing(before, seen, np.s_[60:540, 0:40]) < 50)
+    hands.press("Delete")
+    hands.until(lambda s: s["robots"] == [])
+
+
+# -- look -----------------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_the_wheel_zooms_the_middle_button_and_space_move_and_f_fits(open_editor):
+    hands = open_editor(team((0, 0)))
+    start = dict(hands.state)
+    hands.do("mousemove", 500, 250, "click", 4, "click", 4)
+    zoomed = hands.until(lambda s: s["scale"] > 1.3 * start["scale"])
+    assert zoomed["step"] < start["step"] or zoomed["scale"] < 2 * start["scale"]
+    hands.do("mousemove", 300, 300, "mousedown", 2, "mousemove", 340, 280, "mouseup", 2)
+    x, y = zoomed["origin"]
+    hands.until(lambda s: near(s["origin"], (x + 40, y - 20), 0.1))
+    hands.do("mousemove", 300, 300, "keydown", "space", "mousedown", 1, "mousemove", 310, 330)
+    hands.do("mouseup", 1, "keyup", "space")
+    hands.until(lambda s: near(s["origin"], (x + 50, y + 10), 0.1))
+    assert hands.state["selection"] == []
+    hands.press("f")
+    hands.until(lambda s: s["scale"] == start["scale"] and s["origin"] == start["origin"])
+
+
+@needs_screen
+def test_f1_lists_the_keys(open_editor):
+    hands = open_editor()
+    before = hands.still()
+    hands.press("F1")
+    hands.until(lambda s: s["help"])
+    assert hands.shows(lambda seen: differing(before, seen) > 20_000)
+    for _ in range(4):  # it may have several pages
+        hands.press("F1")
+        time.sleep(0.3)
+        if not hands.settle()["help"]:
+            break
+    assert not hands.state["help"]
+    hands.press("F1", "Escape")
+    hands.until(lambda s: not s["help"])
+    assert hands.process.poll() is None
+
+
+@needs_screen
+def test_names_dark_and_the_size_of_text_are_switched(open_editor):
+    hands = open_editor(team((0, 0)))
+    before = hands.still()
+    hands.press("i")
+    assert hands.shows(lambda seen: differing(before, seen, np.s_[60:300]) > 100)
+    hands.press("i")
+    assert hands.shows(lambda seen: differing(before, seen) == 0)
+    hands.press("d")
+    assert hands.shows(lambda seen: seen[20, 400].max() < 60)
+    hands.press("d", "z")
+    hands.until(lambda s: s["scale"] < 46)
+    hands.press("z", "z", "z")
+    assert hands.shows(lambda seen: differing(before, seen) == 0)
+
+
+# -- in a paused run ------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_enter_goes_on_from_now_with_what_was_moved(open_editor):
+    hands = open_editor(team((0, 0)), live=True)
+    hands.drag((0, 0), (1, 0), (2, 0))
+    hands.tool("w", "wall")
+    hands.click(-3, -3)
+    hands.click(3, -3)
+    hands.press("Return")
+    hands.until(lambda s: len(s["walls"]) == 1)
+    hands.press("Return")
+    left = hands.until(lambda s: s.get("left"))
+    assert (left["when"], left["poses"]) == ("now", [[2, 0, 0]])
+
+
+@needs_screen
+def test_a_new_robot_needs_a_new_start(open_editor):
+    hands = open_editor(team((0, 0)), live=True)
+    hands.tool("r", "robot")
+    hands.click(2, 2)
+    hands.until(lambda s: len(s["robots"]) == 2)
+    hands.press("Return")
+    hands.until(lambda s: "Shift+Enter" in s["notice"])
+    hands.press("shift+Return")
+    left = hands.until(lambda s: s.get("left"))
+    assert (left["when"], len(left["poses"])) == ("start", 2)
+
+
+@needs_screen
+def test_leaving_a_paused_run_asks_what_to_do_with_the_changes(open_editor):
+    hands = open_editor(team((0, 0)), live=True)
+    hands.drag((0, 0), (1, 0), (2, 0))
+    hands.until(lambda s: s["robots"][0][0] == 2)
+    hands.press("Escape", "Escape")
+    hands.until(lambda s: s["prompt"] == "Use what was drawn?")
+    hands.press("BackSpace")
+    assert hands.until(lambda s: s.get("left"))["when"] is None
+
+
+# -- the command ----------------------------------------------------------------------------------
+
+
+def edit(folder, *arguments, **environment):
+    command = [sys.executable, "-m", "mars2d", "edit", *map(str, arguments)]
+    return subprocess.Popen(
+        command, cwd=folder, env=bare_environment(**environment), text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+
+
+@needs_screen
+def test_the_command_draws_a_new_file(screen, tmp_path):
+    process = edit(tmp_path, "room.toml", DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0")
+    do = partial(subprocess.run, env=bare_environment(DISPLAY=screen), check=True)
+    shot = ["import", "-window", "root", "-crop", "50x40+5+5", "rgb:-"]
+    end = time.monotonic() + 20
+    try:
+        while not any(do(shot, capture_output=True).stdout) and time.monotonic() < end:
+            time.sleep(0.2)  # until there is more than a black screen
+        do(["xdotool", "key", "r", "mousemove", "600", "350", "click", "1", "sleep", "0.2"])
+        do(["xdotool", "key", "--delay", "150", "ctrl+s", "Return"])
+        end = time.monotonic() + 10
+        while not (tmp_path / "room.toml").exists() and time.monotonic() < end:
+            time.sleep(0.1)
+        do(["xdotool", "key", "--delay", "150", "Escape", "Escape", "Escape"])
+        assert process.wait(10) == 0, process.stderr.read()
+    finally:
+        process.kill()
+        process.communicate()
+    assert len(Scenario.from_file(tmp_path / "room.toml").robots) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["nowhere/room.toml"], "there is no folder nowhere"),
+        (["rndom_walk"], "did you mean 'random_walk'?"),
+        (["--set", "sampling_tme=1"], "sampling_time"),
+        (["random_walk"], "there is no display to draw on"),
+        ([], "there is no display to draw on"),
+    ],
+)
+def test_what_can_not_be_edited_is_said_in_one_line(tmp_path, arguments, words):
+    process = edit(tmp_path, *arguments)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert words in said
+    assert len(said.splitlines()) == 1
+
+
+# -- references -----------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_it_looks_as_it_did(open_editor):
+    pillar = [(0.8, -1.2), (2.6, -1.2), (2.6, 0.4)]
+    hands = open_editor(
+        team(
+            (-3, -2, 0.8), (-3, 1),
+            props=[Box(pose=(0, 2, 0.4), length=1.2, width=0.6)],
+            addons=[Map([pillar], walls=[[(-4, -4), (4, -4), (4, 4), (-4, 4)]])],
+        )
+    )  # fmt: skip
+    hands.click(1.9, -0.8)
+    hands.until(lambda s: s["selection"] == [["outline", 0, 0]])
+    compare("editor_selected", hands.still())
+    hands.tool("y", "waypoint")
+    hands.click(-1, -3)
+    hands.click(3, -3)
+    hands.tool("p", "polygon")
+    hands.click(2, 2)
+    hands.click(3.5, 2)
+    hands.point(3, 3.2)
+    compare("editor_drawing", hands.still())
+    hands.press("Escape", "Escape")
+    hands.drag((-3, 1), (-3, 0), (-3, -1.6))
+    hands.until(lambda s: s["fault"])
+    compare("editor_fault", hands.still())
+
+
+# -- keys -----------------------------------------------------------------------------------------
+
+
+def test_every_key_of_the_table_does_something_and_no_two_are_the_same():
+    every = [key for _, group in keys.GROUPS[:4] for key in group]
+    names = [name for key in every for name in key.names]
+    assert len(names) == len(set(names))
+    for key in every:
+        for name in key.names:
+            assert keys.action_of(name, "", live=False) is key
+    assert keys.action_of("return", "", live=True).action == "now"
+    assert keys.action_of("return", "", live=False) is None

@@ -1,0 +1,430 @@
+"""What is drawn in the editor, without a window."""
+
+import random
+from math import pi
+from pathlib import Path
+
+import pygame
+import pytest
+
+from mars2d.addons import Beacon, Map, Voronoi, Waypoints
+from mars2d.bodies.joints import Rope
+from mars2d.bodies.props import Ball, Box, Gate
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.painter import Painter
+from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.editor import Editor, keys
+from mars2d.window.editor.desk import Desk
+from mars2d.window.editor.document import Document
+from mars2d.window.editor.draft import Draft, Item, Motion
+from mars2d.window.editor.gestures import spanned
+from mars2d.window.editor.history import History
+from mars2d.window.editor.prompt import Prompt
+from mars2d.window.editor.sketch import Sketch
+from mars2d.window.editor.target import item_at, items_within
+from mars2d.window.editor.verdict import judge
+from mars2d.window.viewpoint import Viewpoint
+
+SQUARE = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))
+BOW = ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
+
+
+def furnished():
+    return Scenario(
+        robots=[Robot(pose=(-3, 0, 0)), Robot(pose=(-3, 2, 0), name="second")],
+        props=[Box(pose=(0, -2, 0)), Ball(pose=(0, -3, 0))],
+        joints=[Rope(a="second", b="box0", length=6)],
+        addons=[
+            Voronoi(),
+            Map([SQUARE], walls=[[(3, 3), (4, 3), (4, 4)]], name="furniture", friction=0.3),
+            Waypoints([[], [(-3, 3), (-2, 3)]], tolerance=0.2),
+            Beacon((4, -4)),
+        ],
+    )
+
+
+@pytest.mark.parametrize("name", sorted(examples()))
+def test_a_draft_of_an_example_is_that_scenario_again(name):
+    scenario = open_experiment(name).scenario
+    draft = Draft.of(scenario)
+    assert draft.scenario() == scenario
+    assert judge(draft).text == ""
+
+
+def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
+    scenario = furnished()
+    draft, _ = Draft.of(scenario).with_outline(((-1, -1), (0, -1), (0, 0)))
+    changed = draft.scenario()
+    assert [addon.key for addon in changed.addons] == [addon.key for addon in scenario.addons]
+    chart = changed.addons[1]
+    assert (chart.friction, len(chart.outlines), chart.walls) == (0.3, 2, scenario.addons[1].walls)
+    assert changed.addons[2].tolerance == 0.2
+
+
+def test_without_obstacles_and_waypoints_their_add_ons_go():
+    draft = Draft.of(furnished())
+    bare = draft.without([i for i in draft.items() if i.kind not in ("robot", "prop")])
+    assert [addon.key for addon in bare.scenario().addons] == ["voronoi"]
+
+
+def test_with_a_robot_go_its_route_and_its_joints():
+    draft = Draft.of(furnished()).without([Item("robot", 1)])
+    scenario = draft.scenario()
+    assert draft.routes == ((),)
+    assert scenario.joints == ()
+    assert not any(isinstance(addon, Waypoints) for addon in scenario.addons)
+    first = Draft.of(furnished()).without([Item("robot", 0)])
+    assert first.routes == (((-3, 3), (-2, 3)),)  # robot 1 is robot 0 now, and so is its route
+
+
+def test_new_things_get_names_that_are_free():
+    draft = Draft.of(furnished())
+    draft, robot = draft.with_robot(Robot())
+    draft, box = draft.with_new_prop(Box())
+    draft, beacon = draft.with_beacon(Beacon((0, 0)))
+    names = [draft.name(item) for item in (robot, box, beacon)]
+    assert names == ["robot1", "box1", "beacon1"]
+
+
+def test_things_turn_about_a_point_and_come_back():
+    draft = Draft.of(furnished())
+    items = draft.items()
+    quarter = Motion(pi / 2, (1.0, 2.0), (0.5, -0.5))
+    turned = draft.moved(items, quarter)
+    assert turned.robots[0].pose == pytest.approx((3.5, -2.5, pi / 2))
+    assert turned.outlines[0][0] == pytest.approx((2.5, 1.5))
+    back = turned.moved(items, Motion(by=(-0.5, 0.5))).moved(items, Motion(-pi / 2, (1.0, 2.0)))
+    assert back.scenario() == draft.scenario()
+
+
+def test_copies_are_like_their_models():
+    draft = Draft.of(furnished())
+    items = [item for item in draft.items() if item.kind != "waypoint"]
+    copied, copies = draft.copied(items, Motion(by=(0.1, 0.2)))
+    assert len(copies) == len(items)
+    for old, new in zip(sorted(items), copies, strict=True):
+        x, y = draft.place(old)
+        assert copied.place(new) == pytest.approx((x + 0.1, y + 0.2))
+
+
+# -- faults ---------------------------------------------------------------------------------------
+
+
+def fault(draft):
+    verdict = judge(draft)
+    assert verdict.scenario is None
+    return verdict.faults[0].text, verdict.culprits
+
+
+def test_nothing_is_no_scenario_yet():
+    assert fault(Draft.empty(Scenario()))[0].startswith("there is no robot yet")
+
+
+def test_two_robots_that_overlap():
+    draft = Draft.of(furnished()).moved([Item("robot", 1)], Motion(by=(0.0, -1.8)))
+    words, culprits = fault(draft)
+    assert words == "robot0 and second overlap by 0.1 m"
+    assert culprits == {Item("robot", 0), Item("robot", 1)}
+
+
+def test_a_box_in_a_box():
+    draft, other = Draft.of(furnished()).with_new_prop(Box(pose=(0.3, -2, 0.2)))
+    words, culprits = fault(draft)
+    assert words.startswith("box0 and box1 overlap by 0.1")
+    assert culprits == {Item("prop", 0), other}
+
+
+def test_a_robot_outside_the_workspace():
+    draft = Draft.of(furnished()).moved([Item("robot", 0)], Motion(by=(-5.0, 0.0)))
+    assert fault(draft) == ("robot0 starts outside the workspace", {Item("robot", 0)})
+
+
+def test_a_box_in_the_wall_round_the_workspace():
+    draft = Draft.of(furnished().replace(on_exit="wall"))
+    draft = draft.moved([Item("prop", 0)], Motion(by=(5.0, 0.0)))
+    assert fault(draft) == ("box0 starts in the wall round the workspace", {Item("prop", 0)})
+
+
+def test_a_robot_in_an_obstacle_and_one_at_a_wall():
+    draft = Draft.of(furnished()).moved([Item("robot", 0)], Motion(by=(4.5, 1.5)))
+    words, culprits = fault(draft)
+    assert words == "robot0 starts inside obstacle 0; if it is a room, draw it as walls"
+    assert culprits == {Item("robot", 0), Item("outline", 0)}
+    draft = Draft.of(furnished()).moved([Item("robot", 0)], Motion(by=(6.5, 2.9)))
+    assert fault(draft)[0] == "robot0 starts in contact with wall 0"
+
+
+@pytest.mark.parametrize(
+    ("outline", "words"),
+    [
+        (BOW, "obstacle 1: the polygon crosses or touches itself at (0.5, 0.5)"),
+        (((0, 0), (1, 0), (2, 0)), "obstacle 1 = ["),
+        (((0, 0), (0, 0), (1, 1)), "obstacle 1: vertices 0 and 1 are the same"),
+    ],
+)
+def test_outlines_that_are_none(outline, words):
+    draft, item = Draft.of(furnished()).with_outline(outline)
+    text, culprits = fault(draft)
+    assert text.startswith(words)
+    assert culprits == {item}
+
+
+def test_a_workspace_that_crosses_itself():
+    words, culprits = fault(Draft.of(furnished()).with_corners(Item("workspace"), BOW))
+    assert words.startswith("the workspace: the polygon crosses")
+    assert culprits == {Item("workspace")}
+
+
+def test_a_waypoint_outside_the_workspace():
+    draft, item = Draft.of(furnished()).with_waypoint(0, (7.0, 0.0))
+    assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", {item})
+
+
+def test_several_faults_are_counted():
+    draft = Draft.of(furnished())
+    for _ in range(3):
+        draft, _ = draft.with_outline(BOW)
+    assert judge(draft).text.endswith("(and 2 more)")
+
+
+def test_what_is_refused_for_another_reason_is_said_as_it_is():
+    draft, _ = Draft.of(furnished()).with_new_prop(Box(pose=(3, -3, 0), mass=1e4))
+    words, culprits = fault(draft)
+    assert "contacts hold a ratio of at most 10" in words
+    assert culprits == frozenset()
+
+
+def test_bodies_that_share_a_hinge_may_overlap():
+    scenario = Scenario(robots=[Robot(pose=(-3, 0, 0))], props=[Gate(pose=(0, 0, 0))])
+    draft = Draft.of(scenario).moved([Item("prop", 0)], Motion(by=(1.0, 0.0)))
+    assert judge(draft).text == ""
+
+
+# -- history, sketch, targets, prompts -------------------------------------------------------------
+
+
+def test_history_goes_back_and_forth_and_merges_nudges():
+    start = Draft.of(furnished())
+    history = History(start)
+    drafts = [start]
+    for _ in range(3):
+        drafts.append(drafts[-1].moved([Item("robot", 0)], Motion(by=(0.1, 0.0))))
+        history.put(drafts[-1])
+    assert [history.undo() for _ in range(4)] == [True, True, True, False]
+    assert not history.changed
+    assert [history.redo() for _ in range(4)] == [True, True, True, False]
+    assert history.draft is drafts[-1]
+    history.keep()
+    assert not history.changed
+    for _ in range(3):
+        moved = history.draft.moved([Item("robot", 0)], Motion(by=(0.0, 0.1)))
+        history.put(moved, tag="nudge")
+    assert history.undo()
+    assert history.draft is drafts[-1]
+    history.put(history.draft.moved([], Motion()))  # nothing has changed
+    assert history.can_redo
+
+
+def test_a_sketch_stays_the_same_object_until_what_stands_still_changes():
+    sketch, draft = Sketch(), Draft.of(furnished())
+    one = sketch.frame(draft, bare=False)
+    moved = draft.moved([Item("robot", 0)], Motion(by=(1.0, 0.0)))
+    other = sketch.frame(moved, bare=False)
+    assert other.scenario is one.scenario
+    assert other.scenario.robots == moved.robots
+    assert other.pose[0, 0] == -2
+    drawn, _ = moved.with_outline(BOW)  # not sound, so it is left out
+    third = sketch.frame(drawn, bare=False)
+    assert third.scenario is not one.scenario
+    assert len(third.scenario.obstacles) == len(furnished().obstacles)
+    bare = sketch.frame(drawn, bare=True).scenario
+    assert [addon.key for addon in bare.addons] == ["furniture", "waypoints", "beacon"]
+    assert draft.base == furnished()
+
+
+def seen_by(camera):
+    viewpoint = Viewpoint(furnished(), Layout.of((1280, 720)))
+    viewpoint.camera = camera
+    return Desk(Draft.of(furnished()), viewpoint)
+
+
+def test_what_lies_uppermost_is_hit():
+    desk = seen_by(Camera(50.0, 400.0, 300.0))
+    for point, item in {
+        (-3.0, 0.1): Item("robot", 0),
+        (0.1, -2.1): Item("prop", 0),
+        (1.5, 1.5): Item("outline", 0),
+        (3.5, 3.05): Item("wall", 0),
+        (-2.05, 3.05): Item("waypoint", 1, 1),
+        (4.1, -4.0): Item("beacon", 0),
+        (0.0, 4.0): None,
+    }.items():
+        assert item_at(desk, point) == item
+    found = items_within(desk, (-4.0, 4.0), (-2.5, -1.0))
+    assert found == [Item("robot", 0), Item("robot", 1), Item("waypoint", 1, 0)]
+
+
+def test_the_grid_follows_the_zoom_and_points_are_tidy():
+    desk = seen_by(Camera(50.0, 400.0, 300.0))
+    assert desk.step == 0.2
+    assert desk.snapped((0.31, -0.29)) == (0.4, -0.2)
+    assert desk.snapped((0.6000001, 1e-9)) == (0.6, 0.0)
+    desk.snaps = False
+    assert desk.snapped((0.3141592, -0.2718281)) == (0.31, -0.27)
+    desk.viewpoint.camera = Camera(5000.0, 0.0, 0.0)
+    desk.snaps = True
+    assert desk.step == 0.002
+
+
+@pytest.mark.parametrize("end", [(2, 1), (-2, 1), (-2, -1), (2, -1)])
+def test_a_box_spans_two_corners_whichever_way(end):
+    box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
+    assert (box.length, box.width) == (1, 2)
+    assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
+
+
+def test_a_prompt_shows_what_is_wrong_and_stays():
+    taken = []
+
+    def take(text):
+        taken.append(text)
+        Document(None).named(text)
+
+    prompt = Prompt("Save as", "", {"return": take}, text="a", field=True)
+    prompt.press("b", "b")
+    prompt.press("backspace", "\b")
+    prompt.press("backspace", "\b")
+    prompt.press("return", "\r")
+    assert prompt.open
+    assert prompt.error == "expected a name, as room.toml"
+    prompt.press("q", "q")
+    prompt.press("enter", "\r")
+    assert (prompt.open, taken) == (False, ["", "q"])
+
+
+def test_a_document_proposes_a_name_that_is_free_and_never_a_py(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "walk.toml").write_text("")
+    assert Document(tmp_path / "walk.py").path is None
+    assert Document(tmp_path / "walk.py").proposal.endswith("walk_2.toml")
+    assert Document(tmp_path / "walk.toml").path == tmp_path / "walk.toml"
+    assert Document(None).proposal == "scenario.toml"
+
+
+def test_a_document_that_was_named_is_kept_there_and_never_over_another_file(tmp_path):
+    document = Document(tmp_path / "room.toml")
+    assert (document.path, document.new) == (tmp_path / "room.toml", True)
+    (tmp_path / "room.toml").write_text("somebody else's, of a moment ago")
+    assert document.is_another(tmp_path / "room.toml")
+    document.save(Scenario(robots=1), tmp_path / "room.toml")
+    assert not document.new
+    assert not document.is_another(tmp_path / "room.toml")
+
+
+# -- the editor on a surface ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("size", [(320, 240), (640, 480), (1280, 720), (2560, 1440), (300, 900)])
+@pytest.mark.parametrize("text", [1.0, 2.2])
+def test_it_draws_at_every_size(size, text):
+    editor = Editor(furnished(), Painter())
+    editor.text = text
+    surface = pygame.Surface(size, 0, 32)
+    editor.draw(surface)
+    editor.desk.select(editor.desk.draft.items())
+    editor.help.turn()
+    editor.draw(surface)
+    assert len(set(pygame.surfarray.array3d(surface).reshape(-1, 3).sum(axis=1).tolist())) > 20
+
+
+@pytest.mark.parametrize("name", sorted(examples()))
+def test_every_example_can_be_opened_and_emptied(name):
+    editor = Editor(open_experiment(name).scenario, Painter(), live=True)
+    surface = pygame.Surface((640, 480), 0, 32)
+    editor.draw(surface)
+    assert editor.desk.notice == ""
+    editor.desk.put(editor.desk.draft.without(editor.desk.draft.items()))
+    editor.draw(surface)
+    assert "no robot" in editor.judge.verdict.text
+
+
+def test_an_add_on_that_can_not_be_drawn_is_left_out_and_said():
+    class Broken(Voronoi):
+        def draw(self, scene, frame):
+            raise ValueError("no such cell")
+
+    editor = Editor(furnished().replace(addons=[Broken(), Map([SQUARE])]), Painter())
+    surface = pygame.Surface((640, 480), 0, 32)
+    editor.draw(surface)
+    assert "no such cell" in editor.desk.notice
+    editor.draw(surface)
+
+
+def test_the_keys_in_the_document_are_those_of_the_editor():
+    text = (Path(__file__).parents[2] / "docs" / "editor.md").read_text(encoding="utf-8")
+    rows = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]
+    wanted = [[" ".join(key.labels), key.help] for _, group in keys.GROUPS for key in group]
+    assert rows == [["Key", "What it does"], *wanted]
+
+
+def test_the_page_of_help_lists_all_keys_that_work():
+    for live, action in ((True, "now"), (False, "run")):
+        listed = {key.action for _, group in keys.groups(live=live) for key in group}
+        assert action in listed
+        for _, group in keys.groups(live=live):
+            for key in group:
+                for name in key.names:
+                    assert keys.action_of(name, "", live=live) is key
+
+
+@pytest.fixture
+def keyboard(monkeypatch):
+    """Let pygame know the names of keys, without a display."""
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    pygame.display.init()
+    yield
+    pygame.display.quit()
+
+
+@pytest.mark.usefixtures("keyboard")
+@pytest.mark.parametrize("seed", range(4))
+def test_no_sequence_of_events_breaks_it(seed, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    chance = random.Random(seed)
+    editor = Editor(furnished(), Painter(), live=seed % 2 == 0, empty=seed % 3 == 0)
+    surface = pygame.Surface((640, 480), 0, 32)
+    codes = [ord(character) for character in "vrbowpkynm=gfidzsa1-."]
+    codes += [pygame.K_RETURN, pygame.K_ESCAPE, pygame.K_DELETE, pygame.K_BACKSPACE, pygame.K_LEFT]
+    codes += [pygame.K_UP, pygame.K_SPACE, pygame.K_F1, pygame.K_LSHIFT]
+    pixel, corners = (300, 200), [(x, y) for x in range(60, 640, 40) for y in range(50, 440, 40)]
+    for step in range(1000):
+        what = chance.randrange(5)
+        button = chance.choice([1, 1, 1, 2, 3])
+        if what == 0:
+            code, mod = (
+                chance.choice(codes),
+                chance.choice([0, 0, pygame.KMOD_SHIFT, pygame.KMOD_CTRL]),
+            )
+            text = chr(code) if 32 < code < 127 else ""
+            kinds = [{"type": pygame.KEYDOWN, "unicode": text}, {"type": pygame.KEYUP}]
+            for kind in kinds[: chance.choice([1, 2, 2])]:
+                editor.handle(pygame.event.Event(kind.pop("type"), key=code, mod=mod, **kind))
+        elif what == 1:
+            editor.handle(pygame.event.Event(pygame.MOUSEBUTTONDOWN, pos=pixel, button=button))
+        elif what == 2:
+            editor.handle(pygame.event.Event(pygame.MOUSEBUTTONUP, pos=pixel, button=button))
+        else:
+            pixel = chance.choice(corners)
+            rel, buttons = (chance.randint(-9, 9), 3), (1, 0, 0)
+            editor.handle(
+                pygame.event.Event(pygame.MOUSEMOTION, pos=pixel, rel=rel, buttons=buttons)
+            )
+        if step % 15 == 0:
+            editor.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=chance.choice([-1, 1])))
+            editor.draw(surface)
+        editor.done, editor.outcome = False, None
+    judged = editor.judge.of(editor.desk.draft)
+    assert (judged.scenario is None) == bool(judged.faults)

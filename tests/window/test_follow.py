@@ -1,0 +1,100 @@
+"""The camera that keeps a body in view, or the whole team."""
+
+from __future__ import annotations
+
+import numpy as np
+import pygame
+import pytest
+
+from mars2d import Robot, Scenario
+from mars2d.output.raster.camera import Camera
+from mars2d.record.frame import Frame
+from mars2d.window.follow import Follow
+
+PLOT = pygame.Rect(0, 52, 1280, 580)
+START = Camera(60.0, 100.0, 400.0)
+
+
+def frame_of(*places):
+    robots = [Robot(pose=(*place, 0)) for place in places]
+    pose = np.array([(*place, 0.0) for place in places]).T
+    return Frame(
+        Scenario(robots=robots, workspace=None), 0.0, 0, pose, np.empty((0, 3, len(robots)))
+    )
+
+
+def followed(follow, camera, path, dt):
+    """Return the pixels (k, 2) of the first robot while it goes along places, one each dt."""
+    pixels = []
+    for place in path:
+        frame = frame_of(place, (1.0, 1.0))
+        camera = follow.camera(camera, frame, PLOT, dt)
+        pixels.append(camera.to_pixels([place])[0])
+    return camera, np.array(pixels)
+
+
+def test_a_body_comes_to_the_middle_without_going_beyond_it():
+    camera, pixels = followed(Follow(0), START, [(0.0, 0.0)] * 180, 1 / 60)
+    off = pixels - PLOT.center
+    np.testing.assert_allclose(off[-1], 0, atol=0.1)
+    assert (np.diff(np.abs(off), axis=0) <= 1e-6).all(), "it never turns back"
+    assert camera.scale == START.scale
+
+
+def test_how_quickly_does_not_depend_on_how_often_pictures_are_drawn():
+    seen = {}
+    for rate in (60, 30, 15):
+        _, pixels = followed(Follow(0), START, [(0.0, 0.0)] * (rate // 5), 1 / rate)
+        seen[rate] = pixels[-1]
+    np.testing.assert_allclose(seen[30], seen[60], atol=1e-6)
+    np.testing.assert_allclose(seen[15], seen[60], atol=1e-6)
+
+
+def test_a_body_that_moves_is_followed_smoothly():
+    path = [(0.3 * k / 60, 0.0) for k in range(600)]
+    _, pixels = followed(Follow(0), START, path, 1 / 60)
+    late = pixels[300:]
+    assert np.abs(late - PLOT.center).max() < 10
+    assert np.abs(np.diff(late, axis=0)).max() < 0.01, "it stays where it is on the screen"
+
+
+def test_a_body_however_fast_stays_in_view():
+    path = [(30.0 * k / 60, 0.0) for k in range(200)]
+    _, pixels = followed(Follow(0), Camera(60, 640, 342), path, 1 / 60)
+    assert PLOT.inflate(-200, 0).collidepoint(pixels[-1])
+    assert (pixels[1:, 0] < PLOT.right).all()
+
+
+def test_who_zooms_meanwhile_keeps_what_was_chosen():
+    follow, camera = Follow(0), START
+    camera, _ = followed(follow, camera, [(0.0, 0.0)] * 200, 1 / 60)
+    camera, pixels = followed(follow, camera.zoomed((900, 300), 2.0), [(0.0, 0.0)] * 200, 1 / 60)
+    assert camera.scale == pytest.approx(120)
+    np.testing.assert_allclose(pixels[-1], PLOT.center, atol=0.1)
+
+
+def test_at_rest_the_camera_is_the_same_one():
+    follow = Follow(0)
+    camera, _ = followed(follow, START, [(0.0, 0.0)] * 300, 1 / 60)
+    assert follow.camera(camera, frame_of((0.0, 0.0), (1.0, 1.0)), PLOT, 1 / 60) is camera
+
+
+def test_a_team_is_seen_whole_wherever_it_goes_and_the_camera_rests_in_between():
+    follow, camera, moved = Follow(None), START, 0
+    for k in range(3600):
+        places = [(0.01 * k, 0.0), (1.0, 1.0 + 0.002 * k), (-0.5, -2.0)]
+        after = follow.camera(camera, frame_of(*places), PLOT, 1 / 60)
+        moved += after is not camera
+        camera = after
+        if k > 120:
+            pixels = camera.to_pixels(places)
+            assert all(PLOT.collidepoint(pixel) for pixel in pixels.tolist()), k
+    assert 60 < moved < 1800
+
+
+def test_a_team_that_gathers_is_looked_at_from_nearer_up_to_a_bound():
+    follow, camera = Follow(None), Camera(10, 640, 342)
+    for _ in range(300):
+        camera = follow.camera(camera, frame_of((0.0, 0.0), (0.5, 0.0)), PLOT, 1 / 60)
+    assert 100 < camera.scale < 200
+    np.testing.assert_allclose(camera.to_pixels([(0.25, 0.0)])[0], PLOT.center, atol=1)

@@ -1,0 +1,157 @@
+"""The other branches are seen where they were at the same time, and their rows are marked."""
+
+import time
+
+import numpy as np
+import pytest
+
+from mars2d import LawError, Robot, Scenario
+from mars2d.addons import Map
+from mars2d.core.scene import Circle, Line, Text
+from mars2d.scenario.experiment import Experiment
+from mars2d.window.ghosts import Marks, ghosts
+from mars2d.window.player import between
+from mars2d.world.timeline import Timeline
+
+
+def straight(robot):
+    return 0.2, 0.0
+
+
+def run_to(timeline, row):
+    while timeline.newest < row and not timeline.world.over:
+        timeline.advance()
+    timeline.go(row)
+
+
+def timeline_of(robots=2, law=straight, **changes):
+    team = [Robot(controller=law).at(0, 1.5 * i, 0) for i in range(robots)]
+    scenario = Scenario(robots=team, sampling_time=0.5, stop_time=500, workspace=None, **changes)
+    return Timeline(Experiment(scenario))
+
+
+def branched(row=20, newest=40):
+    """Return a timeline whose robot 0 was put 2 m lower at a row, in a branch."""
+    timeline = timeline_of()
+    run_to(timeline, newest)
+    timeline.go(row)
+    timeline.change(lambda w: w.hands.place(0, (w.pose[0, 0], -2.0, 0.0)))
+    run_to(timeline, newest)
+    return timeline
+
+
+def centers(scene):
+    return {shape.center for shape in scene.shapes if isinstance(shape, Circle)}
+
+
+def test_without_branches_there_are_none():
+    timeline = timeline_of()
+    run_to(timeline, 5)
+    assert ghosts(timeline, timeline.frame).shapes == []
+
+
+def test_a_body_is_seen_where_it_was_and_how_it_got_there():
+    timeline = branched()
+    scene = ghosts(timeline, timeline.frame)
+    ((x, y),) = centers(scene)
+    assert (x, y) == pytest.approx((4.0, 0.0))
+    pieces = [shape.points for shape in scene.shapes if isinstance(shape, Line)]
+    dashes = np.array([piece for piece in pieces if np.ptp(piece[:, 0]) < 0.2])
+    assert dashes[..., 0].min() == pytest.approx(2.0)  # where the branches part
+    assert (dashes[..., 1] == 0.0).all()
+    assert [shape.text for shape in scene.shapes if isinstance(shape, Text)] == ["branch from 10 s"]
+
+
+def test_the_robot_that_is_where_it_was_is_left_out():
+    timeline = branched()
+    assert len(centers(ghosts(timeline, timeline.frame))) == 1
+
+
+def test_before_the_branches_part_there_are_none():
+    timeline = branched()
+    timeline.go(19)
+    assert ghosts(timeline, timeline.frame).shapes == []
+    timeline.go(20)
+    assert len(centers(ghosts(timeline, timeline.frame))) == 1
+
+
+def test_from_the_other_branch_this_one_is_seen():
+    timeline = branched()
+    timeline.other_branch()
+    ((_, y),) = centers(ghosts(timeline, timeline.frame))
+    assert y == -2.0
+
+
+def test_between_two_steps_a_body_is_between_them():
+    timeline = branched()
+    timeline.go(30)
+    first = timeline.frame
+    timeline.go(31)
+    ((x, _),) = centers(ghosts(timeline, between(first, timeline.frame, 15.2)))
+    assert x == pytest.approx(0.2 * 15.2)
+
+
+def test_after_its_end_a_branch_stays_there_and_says_so():
+    timeline = branched(newest=25)
+    timeline.branches[0].stop("enough")
+    run_to(timeline, 60)
+    scene = ghosts(timeline, timeline.frame)
+    assert [x for x, _ in centers(scene)] == pytest.approx([2.5, 2.5])
+    (text,) = [shape.text for shape in scene.shapes if isinstance(shape, Text)]
+    assert text == "branch from 10 s, over at 12.5 s"
+
+
+def test_many_robots_and_branches_cost_little():
+    timeline = timeline_of(20)
+    run_to(timeline, 900)
+    for row in (100, 300, 500, 700, 800):
+        timeline.go(row)
+        timeline.change(lambda w: w.hands.place(0, (0.0, w.pose[1, 0] - 2.0, 0.0)))
+        run_to(timeline, 900)
+    frame = timeline.frame
+    costs = []
+    for _ in range(10):
+        start = time.thread_time()
+        scene = ghosts(timeline, frame)
+        costs.append(time.thread_time() - start)
+    assert min(costs) < 0.005
+    assert len(scene.shapes) < 400
+    assert sum(isinstance(shape, Text) for shape in scene.shapes) == 3
+
+
+def test_marks_of_hands_branches_and_collisions():
+    timeline = timeline_of(addons=[Map([[(1.0, -1.0), (1.0, 1.0)]])])
+    marks = Marks(timeline)
+    assert marks.rows() == {"collision": [], "hand": [], "branch": [], "error": []}
+    run_to(timeline, 40)
+    record = timeline.record
+    touched = record.contacts["time"][record.contacts["began"]]
+    assert len(touched) == 1
+    timeline.go(30)
+    timeline.change(lambda w: w.hands.place(1, (3.0, 3.0, 0.0)))
+    rows = Marks(timeline).rows()
+    assert rows["collision"] == [int(np.ceil(touched[0] / 0.5))]
+    assert rows["hand"] == [30]
+    assert rows["branch"] == [30]
+
+
+def test_collisions_are_looked_for_now_and_then(monkeypatch):
+    timeline = timeline_of(addons=[Map([[(1.0, -1.0), (1.0, 1.0)]])])
+    marks = Marks(timeline)
+    marks.rows()
+    run_to(timeline, 40)
+    assert marks.rows()["collision"] == []
+    later = time.monotonic() + 1.0
+    monkeypatch.setattr("mars2d.window.ghosts.time.monotonic", lambda: later)
+    assert len(marks.rows()["collision"]) == 1
+    assert len(marks.rows()["collision"]) == 1
+
+
+def test_the_row_at_which_a_law_failed_is_marked():
+    def law(robot):
+        return 0.2 / (robot.time < 5), 0.0
+
+    timeline = timeline_of(law=law)
+    with pytest.raises(LawError):
+        run_to(timeline, 40)
+    assert Marks(timeline).rows()["error"] == [10]

@@ -1,0 +1,349 @@
+"""The column of the selected body: what it says, where it lies, that the past is as it was."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pygame
+import pytest
+
+from mars2d import Robot, Scenario, World
+from mars2d.addons import Beacon as Lamp
+from mars2d.addons import Communication, Map
+from mars2d.bodies import Car, Differential, Holonomic, Unicycle
+from mars2d.bodies.props import Box
+from mars2d.output.raster.brushes import rgba
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import DARK, LIGHT, mixed
+from mars2d.record.frame import Frame
+from mars2d.scenario.neighbours import Within
+from mars2d.sensors import (
+    Beacon,
+    Bumper,
+    Ground,
+    Imu,
+    LineCamera,
+    Odometry,
+    Pose,
+    Proximity,
+    RangeBearing,
+    RangeFinder,
+    Sensor,
+    SonarRing,
+)
+from mars2d.window.forceplot import draw_force
+from mars2d.window.inspector import Inspector, contacts_of, inbox, rounded, sensor_plots, state_of
+from mars2d.window.meter import Meter
+from mars2d.window.sensorplot import history
+from tests.window.circling import Circling
+from tests.window.written import Written, painter
+
+PLOT = pygame.Rect(0, 52, 1280, 580)
+FORCE = (0xA3, 0x00, 0x3C)
+SENSORS = [
+    Pose(), Odometry(), Imu(), Proximity(range=1.0), Bumper(), Ground(), RangeFinder(beams=40),
+    SonarRing(), LineCamera(), RangeBearing(), Beacon(),
+]  # fmt: skip
+
+
+class Strange(Sensor):
+    """Reads an array of a shape that no plot is made for."""
+
+    def read(self, robot, world, rng):
+        return np.full((3, 4), np.nan if world.time > 0.5 else world.time)
+
+
+def team(steps=30, **changes):
+    """Return a world of two robots that talk and see, and a crate that one of them pushes."""
+
+    def law(robot):
+        for k in range(1000):
+            robot.send({"step": k})
+            yield 0.2, 0.1
+
+    robots = [
+        Robot(name="red", sensors=[*SENSORS, Strange()], controller=law),
+        Robot(pose=(0, 1, 2), name="blue", drive=Differential(), controller=law),
+        Robot(pose=(0, -1, 1), name="green", drive=Holonomic(), controller=lambda r: (0.1, -0.2)),
+        Robot(pose=(-1, -1, 1), name="car", drive=Car(), controller=lambda r: (0.3, 0.2)),
+    ]
+    addons = [Communication(delay=0.2), Map([[(2, 2), (3, 2), (3, 3)]]), Lamp(at=(3, 0))]
+    crate = Box(pose=(0.45, 0, 0), name="crate", ground_friction=0.3)
+    scenario = Scenario(
+        robots=robots, props=[crate], stop_time=100, neighbours=Within(1.5),
+        addons=addons, **changes,
+    )  # fmt: skip
+    world = World(scenario)
+    for _ in range(steps):
+        world.step()
+    world.observe()
+    return world
+
+
+@pytest.fixture(scope="module")
+def world():
+    return team()
+
+
+def seen_of(frame, body, theme=LIGHT, size=(344, 580)):
+    surface = pygame.Surface(size, 0, 32)
+    surface.fill("#ff00ff")
+    inspector = Inspector(Painter(theme=theme))
+    taken = inspector.draw(surface, surface.get_rect(), frame, body)
+    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int), taken
+
+
+# -- what it says ---------------------------------------------------------------------------------
+
+
+def words(frame, body):
+    return {what: [f"{name} {value}" for name, value in row] for what, row in state_of(frame, body)}
+
+
+def test_a_robots_numbers_are_those_of_its_drive(world):
+    frame = world.frame
+    red, blue, green, car = (words(frame, body) for body in range(4))
+    x, y, _ = frame.pose[:, 0]
+    assert red["pose"][:2] == [f"x {x:.2f} m", f"y {y:.2f} m".replace("-", "\N{MINUS SIGN}")]
+    assert red["command"] == ["v 0.20 m/s", "ω 0.10 rad/s"]
+    assert red["wheels"] == ["left 0.19", "right 0.21 m/s"]
+    assert blue["command"] == ["left 0.20", "right 0.10 rad/s"]
+    assert blue["wheels"] == ["left 0.01", "right 0.01 m/s"]  # the rims of wheels of 5 cm
+    assert green["command"] == ["vx 0.10", "vy \N{MINUS SIGN}0.20 m/s"]
+    assert "wheels" not in green
+    assert car["command"] == ["v 0.30 m/s", "δ 11°"]
+    assert list(words(frame, 4)) == ["pose", "moves"], "a prop has no command"
+
+
+def test_what_moves_is_measured_over_the_control_step(world):
+    np.testing.assert_allclose(world.frame.velocity[:2, 2], (0.1, -0.2), rtol=1e-6)
+    assert words(world.frame, 2)["moves"] == ["v 0.22 m/s", "ω 0.00 rad/s"]
+    start = Frame(world.scenario, 0.0, 0, world.pose, np.empty((0, 3, 4)))
+    assert not start.velocity.any()
+
+
+def test_contacts_are_named_with_their_force(world):
+    (line,) = contacts_of(world.frame, 0)
+    force = Meter().read(world.frame, 0).force[-1]
+    assert line == f"crate  {force:.1f} N"
+    assert contacts_of(world.frame, 4)[0].startswith("red")
+    assert contacts_of(world.frame, 1) == []
+
+
+def test_the_inbox_has_the_last_messages_that_have_arrived(world):
+    now, dt = world.time, world.scenario.sampling_time
+    heard = inbox(world.frame, 0)
+    assert [(name, text) for name, _, text in heard] == [
+        ("blue", f'{{"step":{world.iteration - 2 - k}}}') for k in range(3)
+    ]
+    assert heard[0][1] == pytest.approx(now - 0.2)
+    early = world.record.frame(3)
+    assert [text for _, _, text in inbox(early, 0)] == ['{"step":1}', '{"step":0}']
+    assert inbox(world.record.frame(1), 0) == []
+    assert dt == 0.1
+
+
+def test_an_inbox_of_long_ago_is_found(world, monkeypatch):
+    monkeypatch.setattr("mars2d.window.inspector.BLOCK", 7)
+    assert len(inbox(world.frame, 0, most=100)) == world.iteration - 1
+    assert [name for name, _, _ in inbox(world.frame, 2, most=2)] == ["blue", "red"]
+
+
+def test_a_sensors_history_is_what_the_record_has(world):
+    frame = world.frame
+    sensor = world.scenario.robots[0].sensors[0]
+    now = np.asarray(dict(frame.readings["pose"])[0])
+    past = history(frame, 0, sensor, now)
+    np.testing.assert_array_equal(past.values[:-1], world.record.sensors["pose"][:, 0])
+    np.testing.assert_array_equal(past.values[-1], now)
+    assert past.first == 0.0
+    assert past.last == pytest.approx(0.3), "30 of the 100 steps that are shown"
+
+
+def test_scrubbing_back_shows_what_was_seen_then(world):
+    record, played = world.record, team(steps=12)
+    for body in (0, 1, 4):
+        live, _ = seen_of(played.frame, body)
+        past, _ = seen_of(record.frame(12), body)
+        np.testing.assert_array_equal(live, past)
+
+
+def test_every_sensor_has_a_plot(world):
+    keys = [plot.sensor.key for plot in sensor_plots(world.frame, 0)]
+    assert keys == [sensor.key for sensor in world.scenario.robots[0].sensors]
+    surface = pygame.Surface((300, 200), 0, 32)
+    for row in (0, 3, 29):
+        for plot in sensor_plots(world.record.frame(row), 0):
+            surface.fill("#ff00ff")
+            before = pygame.surfarray.array3d(surface)
+            plot.draw(surface, pygame.Rect(0, 0, 300, round(plot.height)), Painter())
+            assert (pygame.surfarray.array3d(surface) != before).any(), plot.sensor.key
+
+
+@pytest.mark.parametrize("reading", [0.0, True, np.inf, np.nan, np.full(5, np.nan), np.ones(50)])
+def test_readings_of_ones_own_have_a_plot(reading):
+    class Own(Sensor):
+        def read(self, robot, world, rng):
+            return reading
+
+    world = World(Scenario(robots=[Robot(sensors=[Own()])]))
+    for _ in range(5):
+        world.step()
+    world.observe()
+    seen_of(world.frame, 0)
+    (plot,) = sensor_plots(world.frame, 0)
+    assert plot.height > 0
+
+
+def test_a_scan_is_seen_from_left_to_right():
+    wall = Map([[(0.5, 0.3), (1.0, 0.3), (1.0, 1.0)]])  # ahead and to the left
+    robot = Robot(sensors=[RangeFinder(beams=90, range=2.0)])
+    world = World(Scenario(robots=[robot], addons=[wall], workspace=None))
+    world.observe()
+    (plot,) = sensor_plots(world.frame, 0)
+    surface = pygame.Surface((300, round(plot.height)), 0, 32)
+    plot.draw(surface, surface.get_rect(), Painter())
+    fill = rgba(mixed(world.scenario.colors[0], LIGHT.plate, 0.2))[:3]
+    filled = (pygame.surfarray.array3d(surface)[50:] == fill).all(axis=2).sum(axis=1)
+    low = np.flatnonzero(filled < filled.max() - 4)
+    assert len(low) > 5
+    assert (low < 125).all(), "the wall is left of the middle"
+
+
+# -- the plot of forces ---------------------------------------------------------------------------
+
+
+def rows_of(seen, color):
+    return np.flatnonzero((np.abs(seen - color).max(axis=2) < 12).any(axis=1))
+
+
+def force_plot(frame, body=0):
+    surface = pygame.Surface((320, 160), 0, 32)
+    surface.fill("white")
+    draw_force(surface, surface.get_rect(), Painter(), frame, body, Meter().read(frame, body))
+    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
+
+
+def test_the_curve_lies_at_the_force_on_the_scale():
+    source = Circling(pressed=True)
+    source.row = 90
+    frame = source.frame
+    strong = source.scenario.robots[0].replace(drive=Unicycle(max_force=10))
+    scenario = source.scenario.replace(robots=[strong, source.scenario.robots[1]])
+    seen = force_plot(replace(frame, scenario=scenario))[26:, 50:]
+    line = [
+        row for row in rows_of(seen, FORCE)
+        if (np.abs(seen[row] - FORCE).max(axis=1) < 12).sum() > 150
+    ]  # fmt: skip
+    top, height = 24, 160 - 22 - 17 - 2
+    wanted = top + height * (1 - 5.0 / 14.5) - 26
+    assert np.mean(line) == pytest.approx(wanted, abs=1.5)
+
+
+def test_an_impact_does_not_flatten_the_curve():
+    source = Circling(pressed=True)
+    source.row = 99
+    frame = source.frame
+    rows = frame.contact_log().copy()
+    rows["normal_impulse"][20] *= 1000
+    seen = force_plot(replace(frame, contact_log=lambda: rows))
+    assert (seen != force_plot(frame)).any()
+    band = np.abs(seen[30:140, 60:310] - FORCE).max(axis=2) < 12
+    assert np.flatnonzero(band.sum(axis=1) > 60).min() < 90, "5 N is still a third of the height"
+
+
+# -- the column -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+@pytest.mark.parametrize("size", [(344, 580), (220, 130), (344, 250), (800, 1300)])
+def test_it_fits_into_what_there_is(world, size, theme):
+    for body in range(5):
+        seen, taken = seen_of(world.frame, body, theme, size)
+        assert pygame.Rect(0, 0, *size).contains(taken)
+        beneath = seen[taken.bottom :]
+        assert (beneath == (255, 0, 255)).all()
+
+
+def test_there_is_room_for_more_the_larger_it_is(world):
+    heights = [
+        seen_of(world.frame, 0, size=(344, room))[1].height for room in (200, 400, 700, 1400)
+    ]
+    assert heights == sorted(set(heights))
+
+
+def test_it_lies_at_the_right_unless_the_body_is_there():
+    inspector = Inspector(Painter())
+    right, left = (inspector.place(PLOT, place) for place in ((200, 300), (1100, 300)))
+    assert right.right > 1200
+    assert left.left < 100
+    assert PLOT.contains(right)
+    assert PLOT.contains(left)
+    assert inspector.place(PLOT, (640, 300)) == left, "it stays where it is while nothing is hidden"
+    assert inspector.place(pygame.Rect(0, 52, 300, 150), (0, 0)) is None
+
+
+def test_between_two_drawings_it_is_the_same_for_a_while():
+    world, now = team(steps=5), [0.0]
+    inspector = Inspector(Painter(), clock=lambda: now[0])
+    surface = pygame.Surface((344, 580), 0, 32)
+
+    def picture(frame, body=0):
+        surface.fill("white")
+        inspector.draw(surface, surface.get_rect(), frame, body)
+        return pygame.surfarray.array3d(surface)
+
+    first = picture(world.frame)
+    world.step()
+    now[0] = 0.02
+    assert np.array_equal(picture(world.frame), first)
+    assert not np.array_equal(picture(world.frame, 1), first), "another body is seen at once"
+    picture(world.frame)
+    world.step()
+    now[0] = 0.2
+    assert not np.array_equal(picture(world.frame), first)
+
+
+def test_it_takes_little_time(world):
+    inspector, surface = Inspector(Painter(), clock=lambda: 0.0), pygame.Surface((344, 580), 0, 32)
+    frame, rect = world.frame, surface.get_rect()
+    inspector.draw(surface, rect, frame, 0)
+    taken = []
+    for _ in range(50):
+        start = time.thread_time()
+        inspector.draw(surface, rect, frame, 0)
+        taken.append(time.thread_time() - start)
+    assert min(taken) < 0.002
+
+
+@pytest.mark.parametrize("width", [220, 300, 344])
+def test_the_numbers_of_a_row_stay_apart_however_narrow_it_is(width):
+    layout = Layout.of((1280, 720))
+    inspector = Inspector(painter(layout, LIGHT))
+    surface = Written((width, 40))
+    far, angle = "\N{MINUS SIGN}123.45 m", "\N{MINUS SIGN}179°"
+    numbers = [("x", far), ("y", far), ("θ", angle)]
+    inspector._draw_row(surface, pygame.Rect(0, 0, width, 20), "pose", numbers)
+    assert surface.crowded() == []
+
+
+def test_in_little_room_the_plot_of_forces_is_lower_rather_than_left_out():
+    frame = team().frame
+    reading = Meter().read(frame, 2)
+
+    def heights(room):
+        sections = Inspector(Painter())._chosen(frame, 2, room, reading)
+        return [section.height for section in sections if section.least is not None]
+
+    assert heights(600) == [118.0]
+    assert 76.0 <= heights(265)[0] < 118.0
+    assert heights(200) == []
+
+
+def test_numbers_in_messages_are_rounded_and_words_are_not():
+    assert rounded('["token",1]') == '["token",1]'
+    assert rounded("[0.1558127275076811,-0.0683]") == "[0.156,-0.0683]"
+    assert rounded('"version 1.2.345 of a.1234"') == '"version 1.2.345 of a.1234"'

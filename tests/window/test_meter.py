@@ -1,0 +1,169 @@
+"""The force on the selected body over time: its numbers; and how a body is selected."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mars2d import Robot, Scenario, Unicycle, World
+from mars2d.bodies.props import Ball, Box, Solid
+from mars2d.geometry.shapes import Polygon
+from mars2d.physics.floor import GRAVITY
+from mars2d.window.meter import Meter, bound_of
+from mars2d.window.player import between
+from mars2d.window.selection import body_at, body_name, next_body, selection_mark
+from tests.window.circling import Circling
+
+ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
+
+
+def push(time=4.0, **changes):
+    """Return a world in which a robot of 5 N stalls at a box that the floor holds with 5.9 N."""
+    box = Box(pose=(0.5, 0, 0), length=0.3, width=0.3, ground_friction=0.6, mass=1, name="box")
+    robot = Robot(drive=Unicycle(max_force=5), name="red")
+    scenario = Scenario(robots=[robot], props=[box], workspace=None, stop_time=1000)
+    world = World(scenario.replace(**changes), lambda world: [[0.2], [0.0]])
+    while world.time < time - 1e-9:
+        world.step()
+    return world
+
+
+def test_the_force_on_a_robot_that_stalls_is_what_its_drive_can_push_with():
+    world = push()
+    reading = Meter().read(world.frame, 0)
+    assert len(reading.force) == world.iteration
+    assert reading.start == 0.0
+    np.testing.assert_allclose(reading.force[-5:], 5.0, rtol=1e-3)
+    assert reading.force[5] == 0.0, "before they touch"
+    np.testing.assert_allclose(Meter().read(world.frame, 1).force, reading.force)
+
+
+def test_the_impulses_of_the_last_steps_are_those_of_the_record():
+    world = push(time=15.0)
+    reading = Meter().read(world.frame, 1)
+    dt = world.scenario.sampling_time
+    assert reading.start == pytest.approx(world.time - 0.1 - 10.0)
+    late = world.record.contacts["time"] > reading.start - 1e-6
+    total = world.record.contacts["impulse"][late].sum()
+    assert reading.force.sum() * dt == pytest.approx(total, rel=1e-6)
+
+
+def test_two_opposite_forces_are_no_net_force():
+    robots = [Robot(pose=(0, 0, 0)), Robot(pose=(1, 0, np.pi))]
+    box = Box(pose=(0.5, 0, 0), length=0.3, width=0.3, ground_friction=0.1)
+    world = World(Scenario(robots=robots, props=[box], workspace=None))
+    for _ in range(40):
+        world.step([[0.2, 0.2], [0.0, 0.0]])
+    force = Meter().read(world.frame, 2).force
+    assert force[-10:].max() < 0.05
+    assert Meter().read(world.frame, 0).force[-1] == pytest.approx(5.0, rel=0.01)
+
+
+def test_read_step_by_step_it_is_the_same_as_read_at_once():
+    world, meter = push(time=0.0), Meter()
+    while world.time < 13:
+        meter.read(world.frame, 0)
+        world.step()
+    step_by_step, at_once = meter.read(world.frame, 0), Meter().read(world.frame, 0)
+    np.testing.assert_array_equal(step_by_step.force, at_once.force)
+    assert step_by_step.start == at_once.start
+
+
+def test_step_by_step_the_list_of_all_contacts_is_asked_for_once():
+    world, meter, asked = push(time=0.0), Meter(), []
+    while world.time < 4:
+        log = world.frame.contact_log
+        frame = replace(world.frame, contact_log=lambda log=log: asked.append(1) or log())
+        for body in (0, 1, 0):
+            meter.read(frame, body)
+        world.step()
+    assert len(asked) == 1
+
+
+def test_playback_reads_as_live_and_going_back_reads_anew():
+    world = push()
+    live = Meter().read(world.frame, 0)
+    record = world.record  # ends a row before the last step, as it is not over
+    meter = Meter()
+    for row in (len(record) - 1, 20, len(record) - 1):
+        played = meter.read(record.frame(row), 0)
+        np.testing.assert_allclose(played.force, live.force[:row])
+
+
+def test_between_two_steps_the_one_under_way_is_read():
+    source = Circling(pressed=True)
+    source.row = 7
+    first = source.frame
+    source.row = 8
+    frame = between(first, source.frame, 0.73)
+    reading = Meter().read(frame, 0)
+    np.testing.assert_allclose(reading.force, np.full(8, 5.0))
+    assert len(reading.effort) == 8
+
+
+def test_the_effort_is_read_where_it_is_known():
+    source = Circling(pressed=True)
+    source.row = 30
+    np.testing.assert_array_equal(Meter().read(source.frame, 0).effort, np.ones(30))
+    assert Meter().read(replace(source.frame, effort_path=np.empty((0, 0))), 0).effort is None
+    assert Meter().read(push().frame, 1).effort is None, "a prop has no drive"
+
+
+def test_the_bound_is_that_of_the_drive_or_of_the_floor():
+    frame = push(time=0.0).frame
+    assert bound_of(frame, 0).force == 5.0
+    assert bound_of(frame, 1).force == pytest.approx(0.6 * GRAVITY)
+    ball = Scenario(robots=[Robot()], props=[Ball(pose=(1, 0, 0))])
+    assert bound_of(World(ball).frame, 1) is None, "nothing holds a ball that rolls"
+
+
+# -- selecting ------------------------------------------------------------------------------------
+
+
+def crowded():
+    solid = Solid(ELL, pose=(2, 0, np.pi / 2), name="ell")
+    return World(
+        Scenario(robots=[Robot(), Robot(pose=(0.4, 0, 0))], props=[solid, Box(pose=(0, 1, 0))])
+    ).frame
+
+
+@pytest.mark.parametrize(
+    ("point", "body"),
+    [((0, 0), 0), ((0.1, 0.1), 0), ((0.4, 0.14), 1), ((0, 1.19), 3), ((0.2, 0.5), None),
+     ((0.0, 0.16), 0), ((0.0, 0.18), None)],
+)  # fmt: skip
+def test_what_lies_under_the_pointer_is_hit_with_a_little_slack(point, body):
+    assert body_at(crowded(), point, 0.02) == body
+
+
+def test_a_concave_prop_is_not_hit_in_its_notch():
+    frame, (x, y) = crowded(), ELL.centroid
+    # Turned by 90 degrees about the centroid at (2, 0).
+    inside, notch = (0.1, 0.5), (0.5, 0.5)
+    for local, body in ((inside, 2), (notch, None)):
+        point = (2 - (local[1] - y), local[0] - x)
+        assert body_at(frame, point, 0.01) == body
+
+
+def test_robots_lie_above_props():
+    scenario = Scenario(robots=[Robot()], props=[Box(pose=(0.5, 0, 0))])
+    frame = World(scenario).frame
+    frame = replace(frame, prop_pose=np.zeros((3, 1)))
+    assert body_at(frame, (0.0, 0.0), 0.0) == 0
+
+
+def test_one_body_after_the_other_is_selected_and_then_none():
+    frame, order, body = crowded(), [], None
+    for _ in range(5):
+        body = next_body(frame, body)
+        order.append(body)
+    assert order == [0, 1, 2, 3, None]
+    assert body_name(frame, 2) == "ell"
+
+
+def test_the_mark_goes_round_the_body():
+    for ring in selection_mark(crowded(), 1).shapes:
+        assert ring.center == pytest.approx((0.4, 0.0))
+        assert ring.radius == pytest.approx(0.15)

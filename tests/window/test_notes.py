@@ -1,0 +1,147 @@
+"""Notes are read, fade and make room; errors stay until something replaces them."""
+
+import numpy as np
+import pygame
+import pytest
+
+from mars2d.output.raster.layout import TEXT_SIZES, Layout
+from mars2d.output.raster.theme import DARK, LIGHT
+from mars2d.window.notes import STAYS, Notes, Progress, draw_progress
+from tests.window.written import Written, painter, pixels
+
+THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+SIZES = pytest.mark.parametrize("size", [(640, 480), (1280, 720), (2560, 1440)])
+LONG = (
+    "The film can't be written to /home/somebody/films/of/robots.mp4: there is no space left. " * 4
+)
+
+
+class Board:
+    """Notes on an empty picture."""
+
+    def __init__(self, theme=LIGHT, size=(1280, 720), text=1.0):
+        self.layout = Layout.of(size, text=text, timebar=True)
+        self.painter = painter(self.layout, theme)
+        self.notes, self.theme = Notes(), theme
+        self.empty = self.draw(0.0)
+
+    def draw(self, now):
+        surface = pygame.Surface(self.layout.footer.bottomright, 0, 32)
+        surface.fill(self.theme.page)
+        self.notes.draw(surface, self.layout.plot, self.painter, now)
+        return pixels(surface)
+
+    def marks(self, now):
+        """Return how much of the picture the notes change: 0 for nothing."""
+        return float(np.abs(self.draw(now) - self.empty).sum())
+
+    def seen(self, now):
+        """Return the box of what the notes change: left, top, right, bottom."""
+        ys, xs = np.nonzero(np.abs(self.draw(now) - self.empty).sum(axis=2))
+        return xs.min(), ys.min(), xs.max() + 1, ys.max() + 1
+
+
+def test_a_note_is_seen_for_five_seconds_from_its_first_picture_on_and_fades():
+    board = Board()
+    board.notes.say("saved walk_1.png")
+    fresh = board.marks(100.0)
+    assert fresh > 0
+    assert board.marks(104.0) == fresh
+    assert 0 < board.marks(104.7) < fresh
+    assert board.marks(100.0 + STAYS) == 0
+    assert len(board.notes) == 0
+
+
+@pytest.mark.parametrize("kind", ["info", "warning", "error"])
+@THEMES
+def test_each_kind_has_its_colour(kind, theme):
+    board = Board(theme)
+    board.notes.say("something", kind)
+    tone = {"info": theme.running, "warning": theme.waiting, "error": theme.error}[kind]
+    same = (board.draw(0.0) == list(bytes.fromhex(tone.ink[1:]))).all(axis=2)
+    assert same.sum() > 40
+
+
+def test_an_error_stays_until_another_one_or_until_it_is_cleared():
+    board = Board()
+    board.notes.say("walk.py, line 3: no", "error")
+    first = board.draw(0.0)
+    assert np.array_equal(board.draw(1000.0), first)
+    board.notes.say("saved")
+    board.draw(1000.0)
+    assert len(board.notes) == 2
+    board.notes.say("walk.py, line 4: no", "error")
+    assert len(board.notes) == 2
+    board.draw(2000.0)
+    assert len(board.notes) == 1
+    board.notes.clear()
+    assert board.marks(2000.0) == 0
+
+
+def test_the_same_words_are_not_said_twice_but_anew():
+    board = Board()
+    for now in (0.0, 4.0):
+        board.notes.say("saved")
+        board.draw(now)
+    assert len(board.notes) == 1
+    assert board.marks(8.0) > 0
+
+
+def test_only_the_newest_few_are_shown():
+    board = Board()
+    for k in range(50):
+        board.notes.say(f"note {k}")
+    assert len(board.notes) == 4
+    board.draw(0.0)
+    assert board.seen(0.0)[1] > 0.6 * board.layout.plot.bottom
+
+
+@SIZES
+@pytest.mark.parametrize("text", TEXT_SIZES)
+def test_long_notes_are_wrapped_and_stay_within_the_picture(size, text):
+    board = Board(LIGHT, size, text)
+    for kind in ("info", "warning", "error"):
+        board.notes.say(f"{kind}: {LONG}", kind)
+    left, top, right, bottom = board.seen(0.0)
+    plot = board.layout.plot
+    assert plot.collidepoint((left, top))
+    assert right <= plot.right
+    assert bottom <= plot.bottom
+    assert right - left <= 0.63 * plot.width
+
+
+def test_a_word_longer_than_a_line_is_shortened():
+    board = Board()
+    board.notes.say("x" * 500)
+    left, _, right, _ = board.seen(0.0)
+    assert right - left <= 440
+
+
+# -- progress -------------------------------------------------------------------------------------
+
+
+@SIZES
+@pytest.mark.parametrize("text", TEXT_SIZES)
+def test_progress_says_what_and_how_far(size, text):
+    layout = Layout.of(size, text=text, timebar=True)
+    surface = Written(size)
+    draw_progress(surface, layout.plot, painter(layout, LIGHT), Progress("Going back to 12 s", 0.4))
+    assert surface.texts == ["Going back to 12 s", "40 %"]
+    assert not surface.crowded()
+    for _, place in surface.words:
+        assert layout.plot.contains(place)
+
+
+def test_its_bar_is_as_long_as_its_share():
+    layout = Layout.of((1280, 720))
+    lengths = []
+    for share in (-1.0, 0.0, 0.5, 1.0, 7.0):
+        surface = Written((1280, 720))
+        draw_progress(surface, layout.plot, painter(layout, LIGHT), Progress("Going", share))
+        lengths.append(
+            (pixels(surface) == list(bytes.fromhex(LIGHT.selected[1:]))).all(axis=2).sum()
+        )
+        assert surface.texts[1] == f"{100 * min(max(share, 0), 1):.0f} %"
+    assert lengths[0] == lengths[1] < 60  # but for the digits
+    assert lengths[2] == pytest.approx(lengths[3] / 2, rel=0.1)
+    assert lengths[3] == lengths[4]

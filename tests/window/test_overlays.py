@@ -1,0 +1,202 @@
+"""What may be switched on: names, velocities with their scale, links between neighbours."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pygame
+import pytest
+
+from mars2d import Robot, Scenario, World
+from mars2d.bodies.props import Box
+from mars2d.core.scene import Arrow, Line, Text
+from mars2d.output.layers.names import names
+from mars2d.output.layers.velocities import speed_scale, velocities
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.layers import Layers
+from mars2d.output.raster.legend import draw_legends
+from mars2d.output.raster.overlays import Labels, Links
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.stage import Stage
+from mars2d.output.raster.theme import DARK, LIGHT
+from mars2d.record.frame import Frame
+from mars2d.scenario.neighbours import Graph, Neighbourhood, Within
+
+SIZE = (640, 480)
+CAMERA = Camera(80.0, 320.0, 240.0)
+QUIET = Layers(grid=False, trails=False)
+
+
+def frame_of(poses, velocity=(0.0, 0.0, 0.0), **changes):
+    """Return a frame a control step after which robots at poses have moved like this."""
+    robots = [Robot(pose=pose) for pose in poses]
+    scenario = Scenario(robots=robots, workspace=None, **changes)
+    dt, before = scenario.sampling_time, np.array(poses, dtype=float).T
+    pose = before + dt * np.array(velocity)[:, None]
+    props = np.array([prop.pose for prop in scenario.props]).reshape(-1, 3).T
+    return Frame(scenario, dt, 1, pose, before[None], prop_pose=props, prop_path=props[None])
+
+
+def picture(frame, layers, theme=LIGHT):
+    surface = pygame.Surface(SIZE, 0, 32)
+    Stage(Painter(theme=theme)).draw(surface, frame, CAMERA, layers)
+    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
+
+
+# -- velocities -----------------------------------------------------------------------------------
+
+
+def test_an_arrow_is_as_long_as_the_body_is_fast():
+    scale = speed_scale(frame_of([(0, 0, 0)]).scenario)
+    for speed in (0.1, 0.4):
+        (arrow,) = velocities(frame_of([(0, 0, 0)], (speed, 0, 0))).shapes
+        assert isinstance(arrow, Arrow)
+        length = np.hypot(arrow.tip[0] - arrow.tail[0], arrow.tip[1] - arrow.tail[1])
+        assert length == pytest.approx(speed * scale.meter_a_second)
+        assert arrow.tail == pytest.approx((0.1 * speed, 0))
+
+
+def test_what_stands_or_creeps_has_no_arrow_and_what_flies_a_bounded_one():
+    assert velocities(frame_of([(0, 0, 0)])).shapes == []
+    assert velocities(frame_of([(0, 0, 0)], (0.004, 0, 0))).shapes == []
+    frame = frame_of([(0, 0, 0)], (1000.0, 0, 0))
+    (arrow,) = velocities(frame).shapes
+    assert arrow.tip[0] - arrow.tail[0] == pytest.approx(speed_scale(frame.scenario).longest)
+
+
+@pytest.mark.parametrize("omega", [1.0, -2.0, 100.0])
+def test_an_arc_goes_from_the_heading_to_that_of_a_second_later(omega):
+    (arc, head) = velocities(frame_of([(1, 2, 0.5)], (0, 0, omega))).shapes
+    assert isinstance(arc, Line)
+    assert isinstance(head, Arrow)
+    heading, turn = 0.5 + 0.1 * omega, np.clip(omega, -5, 5)
+    for place, angle in ((arc.points[0], heading), (head.tip, heading + turn)):
+        x, y = np.array(place) - (1, 2)
+        assert (np.arctan2(y, x) - angle + pi) % (2 * pi) - pi == pytest.approx(0, abs=1e-9)
+
+
+def test_in_a_crowd_those_that_turn_the_most_have_arcs():
+    frame = frame_of([(k % 10, k // 10, 0) for k in range(100)], (0.1, 0, 0.5))
+    shapes = velocities(frame).shapes
+    assert sum(isinstance(shape, Line) for shape in shapes) < 20
+    assert sum(isinstance(shape, Arrow) and shape.stroke is None for shape in shapes) > 100
+
+
+@pytest.mark.parametrize("scale", [20.0, 80.0, 150.0, 333.0])
+def test_the_legends_lie_side_by_side(scale):
+    scenario, plot = frame_of([(0, 0, 0)]).scenario, pygame.Rect(0, 0, 1280, 600)
+    camera, seen = Camera(scale, 320.0, 240.0), {}
+    for forces, velocities_too in ((True, False), (False, True), (True, True)):
+        surface = pygame.Surface(plot.size, 0, 32)
+        draw_legends(
+            surface, Painter(), scenario, camera, plot, forces=forces, velocities=velocities_too
+        )
+        seen[forces, velocities_too] = pygame.surfarray.array3d(surface).any(axis=(1, 2))
+    wide = [int(seen[key].sum()) for key in ((True, False), (False, True))]
+    both = seen[True, True]
+    assert int(both.sum()) == sum(wide)
+    assert len(np.flatnonzero(np.diff(both.astype(int)))) == 4  # with a gap between them
+
+
+# -- names ----------------------------------------------------------------------------------------
+
+
+def test_names_stand_above_robots_and_props():
+    frame = frame_of([(0, 0, 0), (1, 0, 0)], props=[Box(pose=(2, 1, 0.3), name="crate")])
+    shapes = names(frame).shapes
+    assert [shape.text for shape in shapes] == ["robot0", "robot1", "crate"]
+    for shape, body in zip(shapes, frame.scenario.bodies, strict=True):
+        radius = body.shape.bound[1]
+        assert isinstance(shape, Text)
+        assert shape.position[1] == pytest.approx(body.pose[1] + radius, abs=0.2)
+        assert shape.halo
+
+
+def test_a_name_hides_no_body_and_can_be_read():
+    frame = frame_of([(0, 0, 0)])
+    for theme in (LIGHT, DARK):
+        without, seen = (picture(frame, replace(QUIET, names=on), theme) for on in (False, True))
+        changed = (without != seen).any(axis=2)
+        rows = np.flatnonzero(changed.any(axis=1))
+        assert 10 < len(rows) < 30
+        assert rows.max() < 240 - 80 * 0.15, "above the robot's rim"
+        page = sum(int(theme.page[k : k + 2], 16) for k in (1, 3, 5))
+        assert np.abs(seen[changed].sum(axis=1) - page).max() > 300
+
+
+def test_in_a_crowd_robots_called_by_their_number_have_the_number():
+    frame = frame_of([(k, 0, 0) for k in range(25)])
+    assert [shape.text for shape in names(frame).shapes] == [str(k) for k in range(25)]
+
+
+def test_a_label_that_is_kept_looks_like_one_that_is_painted():
+    frame = frame_of([(0, 0, 0), (1, 0.5, 0)])
+    painter, seen = Painter(), []
+    for draw in (
+        lambda surface: Labels().draw(surface, painter, names(frame), CAMERA),
+        lambda surface: painter.paint(surface, names(frame).shapes, CAMERA),
+    ):
+        surface = pygame.Surface(SIZE, 0, 32)
+        surface.fill("#80a0c0")
+        draw(surface)
+        seen.append(pygame.surfarray.array3d(surface).astype(int))
+    assert np.abs(seen[0] - seen[1]).max() < 60
+    assert np.abs(seen[0] - seen[1]).mean() < 0.05
+
+
+# -- neighbours -----------------------------------------------------------------------------------
+
+
+def linked(frame, links=None):
+    """Return whether a line goes from robot to robot, for each pair of neighbours on a row."""
+    surface = pygame.Surface(SIZE, 0, 32)
+    (links or Links()).draw(surface, Painter(), frame, CAMERA)
+    middles = CAMERA.to_pixels((frame.pose[:2, 1:] + frame.pose[:2, :-1]).T / 2)
+    return [surface.get_at((round(x), round(y)))[:3] != (0, 0, 0) for x, y in middles.tolist()]
+
+
+def test_neighbours_are_linked():
+    places = [(-2, 0, 0), (-1, 0, 0), (0.5, 0, 0)]
+    assert linked(frame_of(places, neighbours=Within(1.2))) == [True, False]
+    last_two = Graph([[0, 0, 0], [0, 0, 1], [0, 0, 0]])
+    assert linked(frame_of(places, neighbours=last_two)) == [False, True]
+    assert linked(frame_of(places)) == [False, False], "all are neighbours: that says nothing"
+
+
+def test_who_is_a_neighbour_is_asked_once_a_control_step():
+    asked = []
+
+    class Chain(Neighbourhood):
+        def of(self, position):
+            asked.append(position)
+            n = position.shape[1]
+            return [[i + 1] if i + 1 < n else [] for i in range(n)]
+
+    frame, links = frame_of([(0, 0, 0), (1, 0, 0), (2, 0, 0)], neighbours=Chain()), Links()
+    for _ in range(3):
+        assert linked(frame, links) == [True, True]
+    assert len(asked) == 1
+    linked(replace(frame, path=np.repeat(frame.path, 2, axis=0)), links)
+    assert len(asked) == 2
+
+
+# -- layers ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("layer", ["names", "velocities", "neighbours"])
+def test_each_layer_is_seen_when_it_is_on(layer):
+    places = [(-1, 0, 0), (0, 0, 0)]
+    frame = frame_of(places, (0.2, 0.1, 0.5), neighbours=Within(2))
+    off, on = (picture(frame, replace(QUIET, **{layer: value})) for value in (False, True))
+    assert (off != on).any()
+    assert not getattr(Layers(), layer), "pictures are as they were"
+
+
+def test_add_ons_can_be_hidden():
+    world = World(Scenario(robots=[Robot()], workspace=None))
+    frame = replace(
+        world.frame, draw_addons=lambda scene: scene.circle((0, 1), 0.3, fill="#ff0000")
+    )
+    assert (picture(frame, QUIET) != picture(frame, replace(QUIET, addons=False))).any()

@@ -1,0 +1,354 @@
+"""The clock of the window: speeds, steps, pauses, and what is drawn in between."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mars2d import Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.core.errors import InputError, LawError
+from mars2d.output.layers.parts import sensors
+from mars2d.sensors import Proximity, RangeFinder
+from mars2d.window import keys
+from mars2d.window.player import SPEEDS, Player, between
+from mars2d.window.selection import sensed_by
+from tests.window.circling import Circling, circling_scenario
+
+
+class Clock:
+    """A wall clock that moves when told to, and by `tick` each time it is read."""
+
+    def __init__(self, tick=0.0):
+        self.now, self.tick = 0.0, tick
+
+    def __call__(self):
+        self.now += self.tick
+        return self.now
+
+
+def player(speed=1.0, clock=None, **source):
+    return Player(Circling(**source), speed, clock=clock or Clock())
+
+
+def play(player, seconds, pictures_a_second=60):
+    for _ in range(round(seconds * pictures_a_second)):
+        player.pass_time(1 / pictures_a_second)
+
+
+@pytest.mark.parametrize("speed", [0.5, 1, 3])
+def test_simulated_time_is_speed_times_wall_time(speed):
+    p = player(speed)
+    play(p, 2.0)
+    assert p.frame.time == pytest.approx(2.0 * speed)
+
+
+def test_long_sampling_times_are_drawn_in_between():
+    p = player(1.0, scenario=circling_scenario(sampling_time=1.0), rows=100)
+    play(p, 1.5)
+    frame = p.frame
+    assert frame.time == pytest.approx(1.5)
+    assert frame.iteration == 1
+    np.testing.assert_allclose(frame.pose, (p.source.path[1] + p.source.path[2]) / 2)
+    assert len(frame.path) == 2
+    assert p.source.row == 2  # never more than one sampling time ahead
+
+
+def test_a_pause_shows_the_present_frame_and_lasts():
+    p = player(1.0, scenario=circling_scenario(sampling_time=1.0))
+    play(p, 1.5)
+    p.pause_or_resume()
+    assert p.status() == ("paused", "waiting")
+    assert p.frame.time == 2.0
+    play(p, 1.0)
+    assert p.frame.time == 2.0
+    p.pause_or_resume()
+    play(p, 0.5)
+    assert p.frame.time == pytest.approx(2.5)
+
+
+def test_a_step_is_one_sampling_time_and_pauses():
+    p = player(1.0)
+    p.step()
+    p.step()
+    assert p.source.row == 2
+    assert p.status() == ("paused", "waiting")
+    play(p, 1.0)
+    assert p.source.row == 2
+
+
+def test_manual_mode_goes_by_steps_only():
+    p = player(0)
+    play(p, 1.0)
+    assert p.source.row == 0
+    assert p.status() == ("manual", "waiting")
+    p.step()
+    p.pause_or_resume()
+    assert p.source.row == 2
+    assert p.status() == ("manual", "waiting")
+    p.faster()
+    assert p.speed == SPEEDS[0]
+    assert p.playing
+
+
+def test_plus_and_minus_climb_the_ladder():
+    p = player(1.0)
+    seen = []
+    for _ in range(9):
+        p.faster()
+        seen.append(p.status()[0])
+    assert seen == ["2x", "5x", "10x", "20x", "50x", "100x", "max", "max", "max"]
+    for _ in range(20):
+        p.slower()
+    assert p.status()[0] == "0.1x"
+    odd = player(3.0)
+    odd.faster()
+    assert odd.speed == 5.0
+    odd = player(3.0)
+    odd.slower()
+    assert odd.speed == 2.0
+
+
+def test_at_max_as_many_steps_as_fit_are_done_between_two_pictures():
+    clock = Clock(tick=0.001)
+    p = Player(Circling(), "max", budget=0.014, clock=clock)
+    p.pass_time(1 / 60)
+    assert 12 <= p.source.row <= 15
+    assert p.frame.iteration == p.source.row
+
+
+def test_a_simulation_that_is_too_slow_does_not_pile_up_a_debt():
+    clock = Clock(tick=0.014)  # each reading of the clock costs a whole picture's time
+    p = Player(Circling(rows=1000), 100.0, budget=0.014, clock=clock)
+    for _ in range(60):
+        p.pass_time(1 / 60)
+        clock.now += 1 / 60
+    assert p.source.row == 60
+    assert p.frame.time == pytest.approx(6.0)
+    text, kind = p.status()
+    assert kind == "running"
+    assert text.startswith("100x  reaches ")
+    assert 1 < float(text.split()[-1].removesuffix("x")) < 20
+
+
+def test_a_long_stop_of_the_machine_is_not_caught_up_with():
+    p = player(1.0)
+    p.pass_time(30.0)
+    assert p.frame.time <= 0.1 + 1e-9
+
+
+def test_over_is_told_once_the_last_frame_is_shown():
+    p = player(1.0, rows=3)
+    play(p, 0.25)
+    assert p.source.over
+    assert not p.over
+    assert p.frame.over_message == ""
+    play(p, 0.1)
+    assert p.over
+    assert p.frame.over_message == "the circle is closed"
+    assert p.status() == ("over", "waiting")
+    p.step()
+    assert p.source.row == 3
+
+
+def test_restart_goes_back_and_plays_on():
+    p = player(1.0, rows=3)
+    play(p, 1.0)
+    p.restart()
+    assert p.frame.time == 0
+    play(p, 0.2)
+    assert p.frame.time == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("speed", [0, 1.0, "max"])
+def test_a_law_that_fails_stops_time_and_is_kept(speed):
+    p = player(speed, fails_at=2)
+    for _ in range(5):
+        p.step() if speed == 0 else play(p, 0.5)
+    assert isinstance(p.error, LawError)
+    assert p.over
+    assert p.status() == ("stopped", "error")
+    assert p.frame.iteration == 2
+    p.restart()
+    assert p.error is None
+    assert p.frame.iteration == 0
+
+
+@pytest.mark.parametrize("speed", [-1, "fast", float("nan"), True])
+def test_a_wrong_speed_is_an_error_that_names_it(speed):
+    with pytest.raises(InputError, match="speed"):
+        player(speed)
+
+
+def test_between_keeps_within_its_two_frames():
+    source = Circling()
+    first = source.frame
+    source.advance()
+    second = source.frame
+    assert between(first, second, -1.0).pose == pytest.approx(first.pose)
+    assert between(first, second, 9.0) is second
+
+
+def test_between_two_frames_props_move_and_contacts_are_those_under_way():
+    source = Circling(pressed=True)
+    source.row = 4
+    first = replace(source.frame, prop_pose=np.zeros((3, 1)))
+    source.row = 5
+    second = replace(source.frame, prop_pose=np.full((3, 1), 2.0))
+    seen = between(first, second, 0.45)
+    np.testing.assert_allclose(seen.prop_pose, np.full((3, 1), 1.0))
+    np.testing.assert_array_equal(seen.contacts, second.contacts)
+    assert len(seen.contact_log()) == len(seen.path) == len(seen.effort_path) == 5
+
+
+# -- keys -----------------------------------------------------------------------------------------
+
+
+def test_between_two_frames_what_a_laser_has_met_stays_where_it_is():
+    laser = RangeFinder(beams=4, range=3.0)
+    wall = Map([[(2, -5), (2, 5)]])
+    robot = Robot(sensors=[laser, Proximity(range=0.5)])
+    world = World(Scenario(robots=[robot], addons=[wall], sampling_time=1.0))
+    frames = []
+    for _ in range(2):
+        world.observe()
+        frames.append(world.frame)
+        world.step([[0.4], [0.5]])
+    between_them = between(frames[0], frames[1], 0.5)
+    fan, hits, sector = sensors(frames[0]).shapes
+    fan_later, hits_later, sector_later = sensors(between_them).shapes
+    assert np.array_equal(hits.points, hits_later.points)
+    assert np.array_equal(fan.points, fan_later.points)
+    assert sector_later.center == pytest.approx(between_them.pose[:2, 0])
+    assert sector_later.center != sector.center
+
+
+def test_with_a_robot_selected_only_its_sensors_are_seen():
+    scout = Robot(sensors=[Proximity(range=0.5)])
+    world = World(Scenario(robots=[scout.at(0, 0), scout.at(2, 0), Robot(pose=(4, 0, 0))]))
+    world.observe()
+    assert [i for i, _ in sensed_by(world.frame, None).readings["proximity"]] == [0, 1]
+    assert [i for i, _ in sensed_by(world.frame, 1).readings["proximity"]] == [1]
+    assert [i for i, _ in sensed_by(world.frame, 2).readings["proximity"]] == [0, 1]  # it has none
+
+
+def test_every_key_has_its_own_command():
+    names = [name for key in keys.KEYS for name in key.names]
+    assert len(names) == len(set(names))
+    assert len({key.action for key in keys.KEYS}) == len(keys.KEYS)
+    assert all(key.help and key.labels for key in (*keys.KEYS, *keys.MOUSE))
+
+
+@pytest.mark.parametrize(
+    ("name", "character", "action"),
+    [
+        ("space", " ", "pause"), ("right", "", "step"), ("=", "=", "faster"), ("=", "+", "faster"),
+        ("]", "+", "faster"), ("[+]", "+", "faster"), ("-", "-", "slower"), ("f1", "", "help"),
+        ("escape", "", "leave"), ("a", "a", None), ("left shift", "", None), ("return", "", None),
+    ],
+)  # fmt: skip
+def test_what_keys_do(name, character, action):
+    key = keys.action_of(name, character, manual=False)
+    assert (key and key.action) == action
+
+
+def test_so_many_steps_are_done_as_pictures_allow_and_then_it_is_paused():
+    p = player(1.0, clock=Clock(tick=0.004), rows=100)
+    p.step(40)
+    assert 0 < p.source.row < 40  # a picture waits for no more than its budget
+    assert p.status()[0].endswith("steps")
+    play(p, 1.0)
+    assert p.source.row == 40
+    assert p.status() == ("paused", "waiting")
+    assert p.frame.time == pytest.approx(4.0)
+
+
+def test_steps_end_where_the_experiment_does_and_a_pause_forgets_them():
+    p = player(1.0, rows=5)
+    p.step(40)
+    assert p.status() == ("over", "waiting")
+    p = player(1.0, clock=Clock(tick=0.02), rows=50)
+    p.step(40)
+    p.pause()
+    row = p.source.row
+    play(p, 1.0)
+    assert p.source.row == row
+
+
+def test_one_can_go_back_and_on_again_through_what_was_run():
+    p = player(1.0, rows=50)
+    p.step(20)
+    p.back()
+    assert (p.source.row, p.past, p.frame.iteration) == (19, True, 19)
+    assert p.status() == ("past  0.1 s ago", "past")
+    p.back(100)
+    assert p.source.row == 0
+    p.step(15)
+    assert (p.source.row, p.source.newest) == (15, 20)
+    p.pause_or_resume()
+    play(p, 1.0)
+    assert p.source.newest > 20  # it has gone on beyond what was run before
+    assert not p.past
+
+
+def test_the_past_of_a_law_that_failed_can_be_looked_at():
+    p = player(1.0, fails_at=5)
+    p.step(10)
+    assert p.failed
+    assert p.over
+    p.go(2)
+    assert not p.failed
+    assert not p.over
+    assert p.error is not None
+    p.step(10)
+    assert p.failed
+
+
+def test_at_speed_max_the_simulation_gets_nine_times_as_long_as_the_drawing():
+    p = player("max", clock=Clock(tick=0.001), rows=1000)
+    p.pass_time(0.016)
+    quick = p.source.row
+    p.drawing = 0.01
+    p.pass_time(0.016)
+    assert p.source.row - quick > 4 * quick
+
+
+def test_another_speed_can_be_set():
+    p = player(1.0)
+    p.set_speed(float("inf"))
+    assert p.status()[0] == "max"
+
+
+def test_a_pause_in_between_two_steps_shows_the_later_one():
+    p = player(1.0, scenario=circling_scenario(sampling_time=1.0))
+    play(p, 1.5)
+    p.pause()
+    assert p.frame.time == 2.0
+
+
+def test_where_a_restart_fails_it_is_told_at_the_newest_step():
+    def fail():
+        raise InputError("the file can't be read")
+
+    p = player(1.0, rows=50)
+    p.step(20)
+    p.back(15)
+    p.source.restart = fail
+    p.restart()
+    assert str(p.error) == "the file can't be read"
+    assert p.failed
+    assert p.source.row == 20
+
+
+@pytest.mark.parametrize(
+    ("name", "action"),
+    [
+        ("space", "step"), ("return", "step"), ("right", "step"), ("a", "step"), ("up", "step"),
+        ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),
+        ("tab", "select"), ("escape", "leave"),
+        ("left shift", None), ("left ctrl", None),
+    ],
+)  # fmt: skip
+def test_in_manual_mode_every_other_key_is_a_step(name, action):
+    key = keys.action_of(name, "", manual=True)
+    assert (key and key.action) == action

@@ -1,0 +1,231 @@
+"""Live editing: what is saved is in effect at once, and what is wrong with it is said in place."""
+
+import os
+
+import pytest
+
+from mars2d import LawError
+from mars2d.scenario.experiment import open_experiment
+from mars2d.window.reload import Reload
+from mars2d.world.timeline import Timeline
+
+WALK = """
+from mars2d import Robot, Scenario, load_law
+from speeds import SLOW
+def law(robot):
+    return SLOW, 0.0
+scenario = Scenario(
+    robots=[Robot(controller=law).at(0, 0), Robot(controller=load_law("other.py")).at(0, 2)],
+    sampling_time=0.1,
+)
+"""
+SPEEDS = "SLOW = 0.1\n"
+OTHER = "def control(robot):\n    return 0.2, 0.1\n"
+
+
+class Desk:
+    """A person who writes files, a timeline of them, and a clock."""
+
+    def __init__(self, folder):
+        self.folder, self.now, self.written = folder, 0.0, 0
+        for name, text in (("walk", WALK), ("speeds", SPEEDS), ("other", OTHER)):
+            self.write(name, text)
+        self.timeline = Timeline(open_experiment(folder / "walk.py"))
+        self.reload = Reload(self.timeline)
+
+    def write(self, name, text):
+        path = self.folder / f"{name}.py"
+        path.write_text(text)
+        self.written += 1
+        os.utime(path, (self.written, self.written))
+
+    def wait(self, seconds=1.0):
+        """Let time pass; return what was said."""
+        said = []
+        for _ in range(round(seconds / 0.05)):
+            self.now += 0.05
+            answer = self.reload.poll(self.now)
+            if answer is not None:
+                said.append(answer)
+        return said
+
+    def run(self, rows):
+        for _ in range(rows):
+            self.timeline.advance()
+
+    @property
+    def command(self):
+        self.run(1)
+        return self.timeline.world.history.command[-1].T.tolist()
+
+
+@pytest.fixture
+def desk(tmp_path):
+    return Desk(tmp_path)
+
+
+def test_without_a_change_nothing_is_said(desk):
+    desk.run(5)
+    assert desk.wait() == []
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "command"),
+    [
+        ("walk", WALK.replace("SLOW, 0.0", "SLOW, 0.3"), [[0.1, 0.3], [0.2, 0.1]]),
+        ("speeds", "SLOW = 0.15\n", [[0.15, 0.0], [0.2, 0.1]]),
+        ("other", OTHER.replace("0.2, 0.1", "0.2, -0.1"), [[0.1, 0.0], [0.2, -0.1]]),
+    ],
+)
+def test_each_file_that_was_read_is_watched(desk, name, text, command):
+    desk.run(5)
+    desk.write(name, text)
+    (said,) = desk.wait()
+    assert said.error is None
+    assert said.message == f"{name}.py: in effect from now on; R runs it from the start"
+    assert desk.timeline.newest == 5
+    assert desk.command == command
+
+
+def test_it_is_in_effect_within_a_second_but_not_before_it_rests(desk):
+    desk.run(5)
+    assert desk.wait(0.3) == []
+    for k in range(10):  # an editor that goes on writing
+        desk.write("walk", WALK[: 40 + 10 * k])
+        assert desk.wait(0.15) == []
+    desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW, 0.3"))
+    assert len(desk.wait(0.75)) == 1
+
+
+def test_a_file_that_is_gone_for_a_moment(desk):
+    desk.run(5)
+    path = desk.folder / "walk.py"
+    path.unlink()
+    assert desk.wait(3) == []
+    desk.write("walk", WALK)
+    assert desk.wait(3) == []  # the same again
+    path.unlink()
+    assert desk.wait() == []
+    desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW, 0.3"))
+    assert len(desk.wait()) == 1
+
+
+def test_a_file_saved_as_it_was_is_no_change(desk):
+    desk.run(5)
+    desk.write("walk", WALK)
+    assert desk.wait() == []
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "where"),
+    [
+        ("walk", WALK.replace("return SLOW", "return SLOW +"), "walk.py, line 5"),
+        ("speeds", "SLOW = 1 +\n", "speeds.py, line 1"),
+        ("speeds", "FAST = 1\n", "walk.py, line 3"),
+        ("other", "def contol(robot): pass\n", "walk.py, line 7: other.py: has no law 'control'"),
+        ("walk", WALK.replace("SLOW, 0.0", "SLOW / 0, 0.0"), "walk.py, line 5: law raised"),
+    ],
+)
+def test_an_error_is_told_of_and_the_law_of_before_goes_on(desk, name, text, where):
+    desk.run(5)
+    desk.write(name, text)
+    (said,) = desk.wait()
+    assert said.message.startswith(where)
+    assert said.message.endswith("\nthe old law goes on")
+    assert said.error is not None
+    assert desk.command == [[0.1, 0.0], [0.2, 0.1]]
+    assert desk.wait() == []  # once
+    desk.write(name, {"walk": WALK, "speeds": "SLOW = 0.15\n", "other": OTHER}[name])
+    (said,) = desk.wait()
+    assert said.error is None
+
+
+def test_what_needs_a_new_start_begins_anew_and_says_why(desk):
+    desk.run(5)
+    desk.write("walk", WALK.replace("sampling_time=0.1", "sampling_time=0.2"))
+    (said,) = desk.wait()
+    assert said.message == "walk.py: started anew: Scenario.sampling_time is another one"
+    assert desk.timeline.newest == 0
+    assert desk.timeline.scenario.sampling_time == 0.2
+
+
+def test_a_law_that_failed_is_mended(desk):
+    desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW / (robot.time < 0.95), 0.0"))
+    desk.wait()
+    desk.timeline.restart()
+    desk.wait()
+    with pytest.raises(LawError):
+        desk.run(50)
+    assert desk.timeline.newest == 10
+    assert desk.timeline.over
+    desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW / (robot.time < 0.85), 0.0"))
+    (said,) = desk.wait()
+    assert said.message.startswith("walk.py, line 5: law raised ZeroDivisionError")
+    assert not said.message.endswith("goes on")
+    desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW, 0.3"))
+    (said,) = desk.wait()
+    assert said.error is None
+    assert (desk.timeline.newest, desk.timeline.over) == (10, False)
+    assert desk.command[0] == [0.1, 0.3]
+
+
+def test_a_restart_takes_what_was_saved_and_it_is_not_taken_twice(desk):
+    desk.run(5)
+    desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW, 0.3"))
+    desk.timeline.restart()
+    assert desk.wait() == []
+    assert desk.command[0] == [0.1, 0.3]
+
+
+def test_a_file_that_is_imported_from_now_on_is_watched(desk):
+    desk.run(2)
+    desk.write("fast", "FAST = 0.17\n")
+    desk.write("walk", WALK.replace("from speeds import SLOW", "from fast import FAST as SLOW"))
+    assert len(desk.wait()) == 1
+    desk.write("fast", "FAST = 0.18\n")
+    assert len(desk.wait()) == 1
+    assert desk.command[0] == [0.18, 0.0]
+    desk.write("speeds", "SLOW = 7\n")
+    assert desk.wait() == []
+
+
+def test_a_scenario_that_is_not_from_a_file_is_not_watched(desk):
+    experiment = open_experiment(desk.timeline.scenario)
+    assert Reload(Timeline(experiment)).poll(5.0) is None
+
+
+def test_a_scenario_file_and_its_laws_are_watched(tmp_path):
+    scenario = tmp_path / "walk.toml"
+    (tmp_path / "law.py").write_text(OTHER)
+    text = 'format = 1\n[[robots]]\npose = [0, 0, 0]\ncontroller = "law.py:control"\n'
+    scenario.write_text(text)
+    timeline = Timeline(open_experiment(scenario))
+    assert timeline.experiment.files == {scenario, tmp_path / "law.py"}
+    reload = Reload(timeline)
+    (tmp_path / "law.py").write_text(OTHER.replace("0.2, 0.1", "0.15, 0.1"))
+    said = [reload.poll(1.0), reload.poll(2.0)]
+    assert said[1].message.startswith("law.py: in effect from now on")
+    scenario.write_text(text + "[[addons]]\ntype = 'Map'\nwalls = [[[3, 0], [3, 1]]]\n")
+    said = [reload.poll(3.0), reload.poll(4.0)]
+    assert said[1].message.startswith("walk.toml: in effect from now on")
+    assert timeline.scenario.obstacles == (((3.0, 0.0), (3.0, 1.0)),)
+
+
+def test_what_is_saved_within_a_second_is_not_mistaken_for_what_was_before(child, tmp_path):
+    """Python takes a module's compiled code for new if its file has the same second and size."""
+    (tmp_path / "speeds.py").write_text(SPEEDS)
+    (tmp_path / "other.py").write_text(OTHER)
+    (tmp_path / "walk.py").write_text(WALK)
+    code = f"""
+import os
+from pathlib import Path
+from mars2d.scenario.experiment import open_experiment
+folder = Path({str(tmp_path)!r})
+for text in ("SLOW = 0.1\\n", "SLOW = 0.2\\n"):
+    (folder / "speeds.py").write_text(text)
+    os.utime(folder / "speeds.py", (1e9, 1e9))
+    experiment = open_experiment(folder / "walk.py")
+    print(experiment.scenario.robots[0].controller(None))
+"""
+    result = child(code, PYTHONDONTWRITEBYTECODE="")
+    assert result.stdout.splitlines() == ["(0.1, 0.0)", "(0.2, 0.0)"], result.stderr

@@ -1,0 +1,200 @@
+"""What is kept from one picture to the next saves time, has a bound, and changes no pixel."""
+
+import numpy as np
+import pygame
+import pytest
+
+from mars2d import Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.picture import Artist
+from mars2d.output.raster.sprites import Sprites
+from mars2d.scenario.animation import Animation
+from mars2d.sensors import Proximity, RangeFinder
+from mars2d.window.source import Playback
+from mars2d.window.window import Window
+
+STEPS = 60
+
+
+def sprite(width, height):
+    return pygame.Surface((width, height), pygame.SRCALPHA, 32), 0, 0
+
+
+def test_the_one_not_asked_for_the_longest_goes_first():
+    sprites = Sprites(300)
+    for name in "abc":
+        sprites.keep(name, sprite(10, 10))
+    assert sprites.get("a") is not None
+    sprites.keep("d", sprite(10, 10))
+    assert [name for name in "abcd" if sprites.get(name)] == ["a", "c", "d"]
+    assert sprites.kept == 300
+
+
+def test_one_that_is_too_large_is_not_kept():
+    sprites = Sprites(300)
+    sprites.keep("small", sprite(10, 10))
+    sprites.keep("large", sprite(20, 20))
+    assert len(sprites) == sprites.kept == 0
+
+
+# -- pictures -------------------------------------------------------------------------------------
+
+
+def run(sensor=None, **animation):
+    """Return the record of a team that scans and wanders among obstacles."""
+    seeing = Robot(diameter=0.4, sensors=[sensor or RangeFinder(range=4.0)])
+    places = [(-3, -2, 0.3), (2.5, 1, 2.0), (0, 3, -1.0), (3, -3, 1.2)]
+    scenario = Scenario(
+        robots=[seeing.at(*pose) for pose in places],
+        on_exit="wall",
+        stop_time=0.1 * STEPS,
+        addons=[Map([[(0, 0), (1, 0), (1, 1)], [(-4, 2), (-2, 3)]])],
+        animation=Animation(**animation),
+    )
+    turns = np.array([0.4, -0.7, 1.0, 0.2])
+    world = World(scenario, lambda world: np.vstack([np.full(4, 0.8), turns]))
+    while not world.over:
+        world.step()
+    return world.record
+
+
+@pytest.fixture(scope="module")
+def record():
+    return run()
+
+
+class Viewer:
+    """A window of a record, and a surface to draw it on."""
+
+    def __init__(self, record, *, plain=False):
+        self.window = Window(Playback(record), 1.0, (1280, 720))
+        if plain:
+            self.window._painter = Painter(kept=0)
+            self.window._stage.painter = self.window._inspector.painter = self.window._painter
+        self.plain = plain
+        self.size = (1280, 720)
+
+    def draw(self):
+        self.window.viewpoint._hurry = 0.0  # as after a rest: in motion pictures may be rough
+        self.window._inspector._drawn_at = -1e9
+        if self.plain:
+            self.window._stage._sensed = None
+        surface = pygame.Surface(self.size, 0, 32)
+        self.window.draw(surface)
+        return surface
+
+    def play(self, pictures, draw):
+        for _ in range(pictures):
+            self.window.player.pass_time(0.04)  # between the control steps as well
+            if draw:
+                self.draw()
+
+
+def zoom(viewer):
+    viewer.window.viewpoint._look(viewer.window.camera.zoomed((500, 300), 3.0))
+
+
+def pan(viewer):
+    viewer.window.viewpoint._look(viewer.window.camera.panned(130.3, -61.7))
+
+
+def select(viewer):
+    viewer.window.selected = 2
+
+
+def restart(viewer):
+    viewer.window.player.restart()
+
+
+def resize(viewer):
+    viewer.size = (700, 640)
+
+
+def without_paths(viewer):
+    viewer.window._toggle("trails")
+
+
+def pause(viewer):
+    viewer.window.player.pause_or_resume()
+
+
+def nothing(viewer):
+    pass
+
+
+SITUATIONS = [nothing, zoom, pan, select, restart, resize, without_paths, pause]
+
+
+def pixels(surface):
+    return pygame.surfarray.array3d(surface).astype(int)
+
+
+@pytest.mark.parametrize("situation", SITUATIONS, ids=lambda situation: situation.__name__)
+def test_what_is_kept_changes_no_pixel(record, situation):
+    kept, plain = Viewer(record), Viewer(record, plain=True)
+    for viewer in (kept, plain):
+        viewer.play(20, draw=True)
+        situation(viewer)
+        viewer.play(5, draw=True)
+    assert len(kept.window._painter._sprites) > 0
+    assert len(plain.window._painter._sprites) == 0
+    assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
+
+
+@pytest.mark.parametrize(
+    "situation", [nothing, pan, restart, without_paths], ids=lambda situation: situation.__name__
+)
+def test_what_has_grown_looks_as_if_it_were_drawn_at_once(record, situation):
+    grown, fresh = Viewer(record), Viewer(record, plain=True)
+    for viewer in (grown, fresh):
+        viewer.play(40, draw=viewer is grown)
+        situation(viewer)
+        viewer.play(5, draw=viewer is grown)
+    seen, wanted = pixels(grown.draw()), pixels(fresh.draw())
+    # Paths that grow piece by piece differ by shades from paths drawn as one line.
+    assert np.abs(seen - wanted).mean() < 0.06
+    assert (np.abs(seen - wanted).max(axis=2) > 80).sum() < 10
+    assert len(np.unique(wanted.reshape(-1, 3), axis=0)) > 100
+
+
+def test_what_a_sensor_sees_moves_with_its_robot_between_two_readings():
+    record = run(Proximity(range=1.0))
+    kept, plain = Viewer(record), Viewer(record, plain=True)
+    for viewer in (kept, plain):
+        viewer.play(21, draw=True)
+        viewer.play(1, draw=False)  # between the same control steps
+    assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
+
+
+def test_other_colours_of_the_same_team_are_seen_at_once(record):
+    artist = Artist(sensors=True)
+    artist.paint(record.frame(-1))
+    for colors in (["#aa0000"], ["#aa0000", "#00aa00"]):
+        other = run(base_colors=colors)
+        again = artist.paint(other.frame(-1))
+        assert np.array_equal(pixels(again), pixels(Artist(sensors=True).paint(other.frame(-1))))
+
+
+def test_what_stays_between_two_pictures_is_not_drawn_again(record, monkeypatch):
+    viewer = Viewer(record)
+    viewer.play(10, draw=True)
+    viewer.window.player.pause_or_resume()
+    before = viewer.draw()
+
+    def refuse(*arguments, **options):
+        raise AssertionError("a shape was drawn anew")
+
+    monkeypatch.setattr("mars2d.output.raster.brushes.draw_on", refuse)
+    assert np.array_equal(pixels(viewer.draw()), pixels(before))
+
+
+def test_what_is_kept_has_a_bound(record):
+    viewer = Viewer(record)
+    painter = viewer.window._painter
+    painter._sprites = Sprites(20_000)
+    most = 0
+    for _ in range(30):
+        viewer.play(2, draw=True)
+        most = max(most, painter._sprites.kept)
+    assert 15_000 < most <= 20_000

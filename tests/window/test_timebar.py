@@ -1,0 +1,232 @@
+"""The time bar shows where an experiment is and finds the row under the pointer; so the slider."""
+
+from itertools import pairwise
+from math import inf
+
+import numpy as np
+import pytest
+
+from mars2d.output.raster.layout import TEXT_SIZES, Layout
+from mars2d.output.raster.theme import DARK, LIGHT
+from mars2d.window.slider import SpeedSlider, times
+from mars2d.window.timebar import TimeBar, TimeState
+from tests.window.written import Written, painter, pixels
+
+RUNGS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+SIZES = [(640, 480), (1280, 720), (2560, 1440)]
+THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+
+
+def state(row=300, rows=400, last=1000, dt=0.1, **marks):
+    return TimeState(row, rows, last, dt, marks)
+
+
+class Drawn:
+    """A time bar on a surface; `at` are the colours along its line."""
+
+    def __init__(self, shown, theme=LIGHT, size=(1280, 720), text=1.0, **options):
+        self.layout = Layout.of(size, text=text, timebar=True)
+        self.bar, self.surface = TimeBar(), Written(size)
+        self.theme = theme
+        self.bar.draw(
+            self.surface, self.layout.timebar, painter(self.layout, theme), shown, **options
+        )
+        self.pixels = pixels(self.surface)
+
+    def has(self, color, row, above=0):
+        """Return whether a colour is seen at a row, so many points above the line."""
+        y = self.bar._line.centery - round(above * self.layout.ui)
+        x = round(self.bar.x_of(row))
+        near = self.pixels[y - 1 : y + 2, x - 2 : x + 3].reshape(-1, 3)
+        return bool((np.abs(near - list(bytes.fromhex(color[1:]))).max(axis=1) < 3).any())
+
+
+@THEMES
+def test_played_recorded_and_future_stretches_differ(theme):
+    drawn = Drawn(state(), theme)
+    rows = [150, 360, 700]
+    colors = [tuple(drawn.pixels[drawn.bar._line.centery, round(drawn.bar.x_of(r))]) for r in rows]
+    assert len(set(colors)) == 3
+    assert drawn.has(theme.selected, 150)
+    assert drawn.has(theme.track, 700)
+
+
+@THEMES
+def test_the_handle_stands_at_the_row_and_tells_the_past_by_its_colour(theme):
+    assert Drawn(state(), theme).has(theme.past.ink, 300)
+    assert Drawn(state(row=400), theme).has(theme.selected, 400)
+    assert not Drawn(state(row=400), theme).has(theme.past.ink, 400)
+
+
+def test_the_ends_and_the_handle_have_their_times():
+    assert Drawn(state()).surface.texts == ["0 s", "100 s", "30.0 s"]
+    assert Drawn(state(row=400)).surface.texts == ["0 s", "100 s"]  # the header says the time
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("text", TEXT_SIZES)
+@pytest.mark.parametrize("row", [0, 7, 200, 399, 400])
+def test_its_words_do_not_touch_each_other(size, text, row):
+    drawn = Drawn(state(row=row), size=size, text=text, pointer=(100, size[1] - 70))
+    assert not drawn.surface.crowded()
+    assert not drawn.surface.cut()
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_row_under_the_pointer_is_found(size):
+    drawn = Drawn(state(), size=size)
+    for row in (0, 1, 137, 400):
+        found = drawn.bar.row_at(drawn.bar.x_of(row))
+        assert abs(found - row) <= max(1, 1000 / drawn.bar._line.width)
+    assert drawn.bar.row_at(-50) == 0
+    assert drawn.bar.row_at(size[0]) == 400  # no further than there is anything
+
+
+def test_before_it_is_drawn_and_without_room_there_is_no_row():
+    assert TimeBar().row_at(100) is None
+    assert not TimeBar().hit((100, 100))
+    narrow = Drawn(state(), size=(30, 300))
+    assert narrow.bar.row_at(5) is None
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_area_to_press_is_at_least_24_pixels_high(size):
+    drawn = Drawn(state(), size=size)
+    x = round(drawn.bar.x_of(500))
+    hit = [y for y in range(size[1]) if drawn.bar.hit((x, y))]
+    assert len(hit) >= 24
+    assert all(drawn.layout.timebar.top <= y < drawn.layout.timebar.bottom for y in hit)
+    assert not drawn.bar.hit((drawn.layout.slider.centerx, hit[0]))
+
+
+def test_over_it_the_pointers_time_is_shown():
+    plain = Drawn(state())
+    pointer = (round(plain.bar.x_of(250)), plain.layout.timebar.centery)
+    hovered = Drawn(state(), pointer=pointer)
+    assert "25.0 s" in hovered.surface.texts
+    assert hovered.surface.place("25.0 s").bottom <= hovered.layout.timebar.top
+    beside = Drawn(state(), pointer=(pointer[0], 100))
+    assert np.array_equal(beside.pixels, plain.pixels)
+
+
+def test_while_it_is_held_it_is_so_beside_it_as_well():
+    plain = Drawn(state())
+    held = Drawn(state(), pointer=(round(plain.bar.x_of(250)), 100), held=True)
+    assert "25.0 s" in held.surface.texts
+
+
+@THEMES
+def test_events_are_ticks_in_colours_of_their_own(theme):
+    drawn = Drawn(state(collision=[100], hand=[200], branch=[50], error=[350]), theme)
+    assert drawn.has(theme.shade("#a3003c"), 100, above=-8)
+    assert drawn.has(theme.hand.ink, 200, above=8)
+    assert drawn.has(theme.past.ink, 50, above=8)
+    assert drawn.has(theme.past.ink, 50, above=-8)
+    assert drawn.has(theme.error.ink, 350, above=8)
+    assert not drawn.has(theme.hand.ink, 200, above=-8)
+    assert np.array_equal(
+        Drawn(state(collision=np.array([100, 101]))).pixels,
+        Drawn(state(collision=[100, 101])).pixels,
+    )
+
+
+def test_an_experiment_of_no_length_has_a_bar():
+    assert Drawn(state(row=0, rows=0, last=0)).bar.row_at(600) == 0
+
+
+@pytest.mark.parametrize(
+    ("rows", "seconds"), [(0, 10), (90, 10), (99, 20), (1000, 200), (10_000, 2000)]
+)
+def test_an_endless_experiment_shows_a_round_time_that_grows(rows, seconds):
+    endless = state(row=rows, rows=rows, last=10**13)
+    assert endless.extent * endless.sampling_time == pytest.approx(seconds)
+    assert f"{seconds} s" in Drawn(endless).surface.texts
+    assert Drawn(endless).bar.row_at(1e6) == rows
+
+
+@pytest.mark.parametrize(
+    ("dt", "row", "text"),
+    [(0.05, 1, "0.05 s"), (1.0, 7, "7 s"), (0.025, 3, "0.075 s"), (0.5, 3, "1.5 s")],
+)
+def test_times_have_the_decimals_that_tell_rows_apart(dt, row, text):
+    assert text in Drawn(state(row=row, dt=dt)).surface.texts
+
+
+# -- the slider -----------------------------------------------------------------------------------
+
+
+class Slid:
+    """A slider on a surface."""
+
+    def __init__(self, speed, reached=None, theme=LIGHT, size=(1280, 720), text=1.0, **options):
+        self.layout = Layout.of(size, text=text, timebar=True)
+        self.slider, self.surface = SpeedSlider(RUNGS), Written(size)
+        self.slider.draw(
+            self.surface, self.layout.slider, painter(self.layout, theme), speed, reached, **options
+        )
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("text", TEXT_SIZES)
+def test_each_speed_is_found_where_it_is_shown(size, text):
+    slid = Slid(1.0, size=size, text=text)
+    for speed in (*RUNGS, inf):
+        assert slid.slider.speed_at(slid.slider.x_of(speed)) == speed
+    assert slid.slider.speed_at(0) == 0.1
+    assert slid.slider.speed_at(size[0]) == inf
+    assert SpeedSlider(RUNGS).speed_at(100) is None
+
+
+def test_the_slider_is_logarithmic():
+    slid = Slid(1.0)
+    xs = [slid.slider.x_of(speed) for speed in (0.1, 0.13, 0.2, 3.0, 5.0, 99.0, 100.0, 1e5, inf)]
+    assert xs == sorted(xs)
+    steps = np.diff([slid.slider.x_of(speed) for speed in (*RUNGS, inf)])
+    assert steps == pytest.approx(steps[0])
+    assert slid.slider.x_of(0.0) == slid.slider.x_of(0.1)
+
+
+@pytest.mark.parametrize(
+    ("speed", "reached", "texts"),
+    [
+        (1.0, None, ["1x"]),
+        (1.0, 0.99, ["1x"]),
+        (10.0, 3.21, ["10x", "reaches 3.2x"]),
+        (inf, 341.3, ["max", "reaches 340x"]),
+        (inf, None, ["max"]),
+        (0.0, None, ["manual"]),
+        (3.0, None, ["3x"]),
+    ],
+)
+def test_the_speed_stands_beside_it_and_what_is_reached(speed, reached, texts):
+    assert Slid(speed, reached).surface.texts == texts
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("text", TEXT_SIZES)
+@pytest.mark.parametrize(("speed", "reached"), [(100.0, 12.3), (0.0, None), (inf, 340.0)])
+def test_its_words_are_whole_at_any_size(size, text, speed, reached):
+    slid = Slid(speed, reached, size=size, text=text)
+    assert times(speed) in slid.surface.texts
+    assert reached is None or any(times(reached) in text for text in slid.surface.texts)
+    assert not slid.surface.crowded()
+    for _, place in slid.surface.words:
+        assert slid.layout.slider.contains(place)
+
+
+def test_over_it_the_pointers_speed_is_shown():
+    slider = Slid(1.0).slider
+    layout = Slid(1.0).layout
+    pointer = round(slider.x_of(20.0)), layout.slider.centery
+    assert slider.hit(pointer)
+    assert "20x" in Slid(1.0, pointer=pointer).surface.texts
+    assert "20x" in Slid(1.0, pointer=(pointer[0], 5), held=True).surface.texts
+    assert "20x" not in Slid(1.0, pointer=(pointer[0], 5)).surface.texts
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_slider_can_be_hit_and_is_not_the_time_bar(size):
+    slid = Slid(1.0, size=size)
+    x = round(slid.slider.x_of(1.0))
+    assert sum(slid.slider.hit((x, y)) for y in range(size[1])) >= 24
+    assert all(a < b for a, b in pairwise([slid.layout.timebar.right - 1, x]))

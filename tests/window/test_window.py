@@ -1,0 +1,424 @@
+"""The window, driven by real key presses and mouse moves on a screen of its own: what is seen.
+
+What keys and mouse do with time, with the run and with files is in test_window_*.py.
+"""
+
+import ast
+import signal
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mars2d.core.errors import InputError
+from mars2d.window import keys
+from mars2d.window.display import display_available
+from mars2d.window.window import Window
+from tests.window.circling import Circling
+from tests.window.person import (
+    HIDDEN,
+    differing,
+    has,
+    needs_screen,
+)
+
+FORCE = (0xA3, 0x00, 0x3C)
+SLIP = (0xFF, 0xC2, 0x0A)
+VIOLET = (0x7B, 0x32, 0x94)
+
+
+def banner(seen, color):
+    """Return whether there is a banner of a colour across the foot."""
+    return (seen[440:] == color).all(axis=2).sum() > 10_000
+
+
+# -- layers ---------------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_layers_are_switched_by_keys(open_window):
+    window = open_window(20, rows=60)
+    window.until(lambda s: s["over"])
+    layers = {
+        "g": "grid", "t": "trails", "s": "sensors", "i": "names", "u": "velocities", "y": "theory",
+    }  # fmt: skip
+    for key, layer in layers.items():
+        was, before = window.state["layers"][layer], window.still()
+        window.press(key)
+        window.until(lambda s, layer=layer, was=was: s["layers"][layer] is not was)
+        changed = lambda seen, before=before: differing(before, seen) > 100  # noqa: E731
+        assert window.shows(changed), layer
+        window.press(key)
+        window.until(lambda s, layer=layer, was=was: s["layers"][layer] is was)
+        # Paths drawn at once differ by a shade here and there from paths that have grown.
+        same = lambda seen, before=before: differing(before, seen, by=80) < 10  # noqa: E731
+        assert window.shows(same), layer
+
+
+@needs_screen
+def test_layers_begin_as_the_animation_says(open_window):
+    look = {"grid": False, "wake": False, "theory": True}
+    window = open_window(0, scenario={"animation": look})
+    layers = window.state["layers"]
+    assert (layers["grid"], layers["trails"], layers["theory"]) == (False, False, True)
+    assert layers["sensors"]
+    before = window.still()
+    assert has(before, VIOLET)
+    window.press("g")
+    window.until(lambda s: s["layers"]["grid"])
+    assert window.shows(lambda seen: differing(before, seen) > 1000)
+
+
+@needs_screen
+def test_x_shows_forces_and_who_slips(open_window):
+    window = open_window(0, pressed=True)
+    window.press("Right", "Right")
+    window.until(lambda s: s["row"] == 2)
+    before = window.still()
+    assert not has(before, FORCE)
+    window.press("x")
+    window.until(lambda s: s["layers"]["forces"])
+    assert window.shows(lambda seen: has(seen, FORCE) and has(seen, SLIP))
+    window.press("x")
+    window.until(lambda s: not s["layers"]["forces"])
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+
+
+@needs_screen
+def test_m_hides_messages_and_o_what_add_ons_draw(open_window):
+    window = open_window(0, talking=True, marked=True)
+    window.press("Right", "Right")
+    window.until(lambda s: s["row"] == 2)
+    before = window.still()
+    window.press("m")
+    window.until(lambda s: not s["layers"]["messages"])
+    assert window.shows(lambda seen: differing(before, seen) > 50)  # a broken line and a cross
+    window.press("m")
+    window.until(lambda s: s["layers"]["messages"])
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+    assert has(before, (0x12, 0x34, 0x56))
+    window.press("o")
+    window.until(lambda s: not s["layers"]["addons"])
+    assert window.shows(lambda seen: not has(seen, (0x12, 0x34, 0x56)))
+    window.press("o")
+    window.until(lambda s: s["layers"]["addons"])
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+
+
+@needs_screen
+def test_forces_are_shown_from_the_start_if_the_animation_says_so(open_window):
+    window = open_window(0, pressed=True, scenario={"animation": {"forces": True}})
+    assert window.state["layers"]["forces"]
+    window.press("Right")
+    assert window.shows(lambda seen: has(seen, FORCE))
+
+
+# -- light, text, help ----------------------------------------------------------------------------
+
+
+@needs_screen
+def test_d_and_z_change_the_light_and_the_size_of_text(open_window):
+    window = open_window(0)
+    before = window.still()
+    bright = before.mean()
+    window.press("d")
+    window.until(lambda s: s["dark"])
+    assert window.shows(lambda seen: seen.mean() < 0.4 * bright)
+    window.press("d")
+    window.until(lambda s: not s["dark"])
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+    for size in (1.3, 1.7, 2.2, 1.0):
+        window.press("z")
+        window.until(lambda s, size=size: s["text"] == size)
+    assert window.says("text 1 times")
+
+
+@needs_screen
+def test_f1_turns_the_pages_of_help_and_escape_closes_it(open_window):
+    window = open_window(0, text=1.7)
+    before = window.still()
+    pages = []
+    window.press("F1")
+    window.until(lambda s: s["help"] == 0)
+    assert window.shows(lambda seen: differing(before, seen) > 20_000)
+    while window.settle()["help"] is not None:
+        pages.append(window.look())
+        window.press("F1")
+    assert len(pages) > 1  # large text takes more than one
+    assert differing(*pages[:2]) > 1000
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+    window.press("F1")
+    window.until(lambda s: s["help"] == 0)
+    window.press("Escape")
+    window.until(lambda s: s["help"] is None)
+    assert window.process.poll() is None
+
+
+@needs_screen
+def test_the_mouse_does_nothing_to_what_the_help_lies_on(open_window):
+    window = open_window(0)
+    start = window.state
+    window.press("F1")
+    window.until(lambda s: s["help"] == 0)
+    window.click(4, 0)
+    window.slide((300, 300), (340, 280))
+    assert window.settle()["selected"] is None
+    assert window.state["origin"] == start["origin"]
+    window.press("Escape")
+    window.until(lambda s: s["help"] is None)
+
+
+@needs_screen
+def test_a_window_opens_dark_and_large_if_one_likes_it_so(open_window):
+    window = open_window(0, dark=True, text=1.7)
+    assert (window.state["dark"], window.state["text"]) == (True, 1.7)
+    assert window.look()[60:500].mean() < 100
+
+
+# -- selecting, camera ----------------------------------------------------------------------------
+
+
+@needs_screen
+def test_a_click_selects_a_robot_and_shows_the_force_on_it(open_window):
+    window = open_window(0, pressed=True)
+    window.press(*["Right"] * 5)
+    window.until(lambda s: s["row"] == 5)
+    window.do("mousemove", 20, 300)
+    before = window.still()
+    (first, second), away = window.state["robots"], (-4, -4)
+    window.click(*first[:2])
+    window.until(lambda s: s["selected"] == 0)
+    assert window.shows(lambda seen: differing(before, seen) > 10_000 and has(seen, FORCE))
+    window.click(*second[:2])
+    window.until(lambda s: s["selected"] == 1)
+    window.click(*away)
+    window.until(lambda s: s["selected"] is None)
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+
+
+@needs_screen
+def test_a_drag_of_the_picture_pans_and_selects_nothing(open_window):
+    window = open_window(0)
+    before = window.state
+    window.slide((300, 300), (340, 280))
+    panned = window.until(lambda s: s["origin"] != before["origin"])
+    panned = window.settle()
+    assert panned["origin"][0] - before["origin"][0] == pytest.approx(40, abs=0.2)
+    assert panned["origin"][1] - before["origin"][1] == pytest.approx(-20, abs=0.2)
+    assert panned["selected"] is None
+
+
+@needs_screen
+def test_tab_selects_one_after_the_other_and_escape_none(open_window):
+    window = open_window(0)
+    for wanted in (0, 1, None, 0):
+        window.press("Tab")
+        window.until(lambda s, wanted=wanted: s["selected"] == wanted)
+    window.press("F1", "Escape")
+    window.until(lambda s: s["help"] is None)
+    assert window.settle()["selected"] == 0
+    window.press("Escape")
+    window.until(lambda s: s["selected"] is None)
+    assert window.process.poll() is None
+    window.press("Escape")
+    window.until(lambda s: s.get("left"))
+    assert window.process.wait(5) == 0
+
+
+@needs_screen
+def test_the_wheel_zooms_about_the_pointer_and_f_fits(open_window):
+    window = open_window(0)
+    start = window.state
+    before = window.still()
+    window.do("mousemove", 500, 250, "click", 4, "click", 4)
+    zoomed = window.until(lambda s: s["scale"] > 1.3 * start["scale"])
+    for axis, pointer in ((0, 500), (1, 250)):
+        world = [(pointer - s["origin"][axis]) / s["scale"] for s in (start, zoomed)]
+        assert world[0] == pytest.approx(world[1], abs=0.02)
+    assert window.shows(lambda seen: differing(before, seen) > 1000)
+    window.do("click", 5)
+    window.until(lambda s: s["scale"] < zoomed["scale"])
+    window.press("f")
+    window.until(lambda s: (s["scale"], s["origin"]) == (start["scale"], start["origin"]))
+    assert window.shows(lambda seen: differing(before, seen) == 0)
+
+
+@needs_screen
+def test_l_follows_what_is_selected_until_the_picture_is_dragged(open_window):
+    window = open_window(2, rows=400)
+    window.press("Tab", "l")
+    window.until(lambda s: s["following"])
+
+    def off_center(state):
+        (left, top), scale = state["origin"], state["scale"]
+        x, y, _ = state["robots"][0]
+        return np.hypot(left + scale * x - 400, top - scale * y - 280)
+
+    window.until(lambda s: s["time"] > 2 and off_center(s) < 130)  # beside the inspector
+    later = window.until(lambda s: s["time"] > 4)
+    assert off_center(later) < 130
+    window.press("l")
+    window.until(lambda s: not s["following"])
+    window.press("l")
+    window.until(lambda s: s["following"])
+    window.slide((300, 450), (340, 440))
+    window.until(lambda s: not s["following"])
+    window.press("l", "f")
+    window.until(lambda s: not s["following"] and s["origin"][0] == pytest.approx(400, abs=1))
+
+
+# -- the ends -------------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_manual_mode_is_one_step_a_key(open_window):
+    window = open_window(0)
+    before = window.still()
+    for count, key in enumerate(["space", "Return", "Right", "a", "Down"], 1):
+        window.press(key)
+        window.until(lambda s, count=count: s["row"] == count)
+    window.press("shift", "g")
+    window.until(lambda s: not s["layers"]["grid"])
+    assert window.settle()["row"] == 5
+    assert window.state["status"] == "manual"
+    assert window.shows(lambda seen: differing(before, seen) > 100)
+    window.do("keydown", "space")
+    window.until(lambda s: s["row"] > 8)
+    window.do("keyup", "space")
+
+
+@needs_screen
+def test_the_end_is_told_in_a_banner_until_one_looks_back(open_window):
+    window = open_window("max", rows=30, message="robot0 has caught robot1")
+    window.until(lambda s: s["over"] and s["banner"] == "robot0 has caught robot1")
+    assert window.shows(lambda seen: banner(seen, (0x24, 0x3B, 0x53)))
+    window.press("Left")
+    window.until(lambda s: s["row"] == 29 and s["banner"] is None)
+    window.press("r")
+    window.until(lambda s: s["restarts"] == 1)
+    window.press("space")  # going back has paused it
+    window.until(lambda s: s["over"])
+
+
+@needs_screen
+def test_a_law_that_fails_leaves_the_window_open_and_is_raised_at_the_end(open_window):
+    window = open_window(5, fails_at=7)
+    window.until(lambda s: s["status"] == "stopped")
+    assert window.state["banner"] == "the law of robot0 returned nan"
+    assert window.shows(lambda seen: banner(seen, (0xA6, 0x1B, 0x1B)))
+    assert window.settle()["row"] == 7
+    window.press("Escape")
+    window.until(lambda s: "raised" in s)
+    assert window.state["raised"] == "the law of robot0 returned nan"
+
+
+@needs_screen
+def test_the_layout_follows_the_size_of_the_window(open_window):
+    window = open_window(0)
+    start, number = window.state, window.window()
+    for width, height in ((600, 500), (260, 200), (950, 680)):
+        window.do("windowsize", number, width, height)
+        resized = window.until(lambda s, size=[width, height]: s["size"] == size)
+        assert (resized["scale"] < start["scale"]) == (width < 800)
+
+
+@needs_screen
+def test_the_close_button_closes_it(open_window):
+    window = open_window(1)
+    window.ask_to_close()
+    window.until(lambda s: s.get("left"))
+    assert window.process.wait(5) == 0
+
+
+@needs_screen
+def test_two_windows_one_after_the_other(open_window):
+    window = open_window(0, windows=2)
+    window.press("space", "space")
+    window.until(lambda s: s["row"] == 2)
+    window.press("Escape")
+    window.until(lambda s: s.get("row") == 0)
+    time.sleep(0.2)
+    window.press("space")
+    window.until(lambda s: s["row"] == 1)
+    window.press("Escape")
+    window.until(lambda s: s.get("left"))
+    assert window.process.wait(5) == 0
+
+
+@needs_screen
+def test_ctrl_c_in_the_terminal_closes_the_window(open_window):
+    window = open_window(1)
+    window.process.send_signal(signal.SIGINT)
+    assert window.process.wait(5) != 0
+    assert "KeyboardInterrupt" in window.process.stderr.read()
+
+
+# -- without a display ----------------------------------------------------------------------------
+
+
+@pytest.fixture
+def no_display(monkeypatch):
+    for name in HIDDEN:
+        monkeypatch.delenv(name, raising=False)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="there is always one elsewhere")
+def test_without_a_display_the_error_says_what_to_do_instead(no_display):
+    assert not display_available()
+    with pytest.raises(InputError, match=r"--headless.*--figure.*--video"):
+        Window(Circling(), 1).run()
+
+
+@pytest.mark.parametrize("driver", ["dummy", "offscreen"])
+def test_a_driver_that_shows_nothing_is_no_display(monkeypatch, driver):
+    monkeypatch.setenv("SDL_VIDEODRIVER", driver)
+    assert not display_available()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X is of Linux")
+def test_a_display_that_is_gone_is_no_display(no_display, monkeypatch):
+    monkeypatch.setenv("DISPLAY", ":987")
+    assert not display_available()
+
+
+@needs_screen
+def test_a_display_is_found(no_display, monkeypatch, screen):
+    monkeypatch.setenv("DISPLAY", screen)
+    assert display_available()
+
+
+# -- all of them ----------------------------------------------------------------------------------
+
+ON_A_KEYBOARD = {
+    "page down": "Next", "page up": "Prior", "right": "Right", "left": "Left", "home": "Home",
+    "end": "End", "+": "plus", "-": "minus", "tab": "Tab", "f1": "F1", "escape": "Escape",
+}  # fmt: skip
+"""What xdotool calls keys that pygame calls otherwise."""
+
+GESTURES = {
+    "zoom": "test_the_wheel_zooms_about_the_pointer_and_f_fits",
+    "pan": "test_a_drag_of_the_picture_pans_and_selects_nothing",
+    "pick": "test_a_click_selects_a_robot_and_shows_the_force_on_it",
+    "carry": "test_escape_puts_back_what_is_carried_and_a_right_drag_turns",
+    "turn": "test_escape_puts_back_what_is_carried_and_a_right_drag_turns",
+}
+
+
+def test_every_key_and_gesture_of_the_help_has_a_test():
+    pressed, tests = set(), set()
+    for path in Path(__file__).parent.glob("test_window*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
+                tests.add(node.name)
+                texts = [each for each in ast.walk(node) if isinstance(each, ast.Constant)]
+                pressed |= {each.value for each in texts if isinstance(each.value, str)}
+    untested = [
+        key.action
+        for key in keys.KEYS
+        if not any(ON_A_KEYBOARD.get(name, name) in pressed for name in key.names)
+    ]
+    assert untested == []
+    assert {key.action for key in keys.MOUSE} == set(GESTURES)
+    assert set(GESTURES.values()) <= tests

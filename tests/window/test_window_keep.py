@@ -1,0 +1,174 @@
+"""What is kept of the window: pictures, films, Python; and the commands that open one."""
+
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from PIL import Image, ImageGrab
+
+from mars2d.record.record import load
+from mars2d.scenario.experiment import open_experiment
+from tests.window.person import ROOT, bare_environment, differing, needs_screen
+
+pytestmark = needs_screen
+
+
+@pytest.fixture
+def folder(tmp_path):
+    path = tmp_path / "kept"
+    path.mkdir()
+    return path
+
+
+def test_p_saves_what_is_seen_and_never_over_another_picture(open_window, folder):
+    window = open_window(0, folder=folder)
+    before = window.still()
+    window.press("p")
+    window.says(f"picture: {folder / 'circling_1.png'}")
+    saved = np.asarray(Image.open(folder / "circling_1.png").convert("RGB")).astype(int)
+    assert differing(before, saved, rows=np.s_[:]) == 0  # without the note that tells of it
+    window.press("Right", "p")
+    window.says("circling_2.png")
+    again = np.asarray(Image.open(folder / "circling_2.png").convert("RGB")).astype(int)
+    assert differing(saved, again) > 20
+    assert (folder / "circling_1.png").read_bytes() != (folder / "circling_2.png").read_bytes()
+    window.do("keydown", "p", "sleep", "1", "keyup", "p")  # held, it is one picture
+    window.says("circling_3.png")
+    window.settle()
+    assert len(list(folder.iterdir())) == 3
+
+
+def test_v_films_until_it_is_pressed_again(open_window, folder):
+    av = pytest.importorskip("av")
+    window = open_window(5, folder=folder, rows=1000)
+    window.press("v")
+    window.until(lambda s: s["filming"])
+    red = (0xD6, 0x27, 0x28)
+    assert window.shows(lambda seen: (seen[60:110, :60] == red).all(axis=2).sum() > 50)
+    start = window.state["time"]
+    window.until(lambda s: s["time"] > start + 5)
+    window.press("v")
+    window.until(lambda s: not s["filming"])
+    window.says(f"film: {folder / 'circling_1.mp4'}")
+    with av.open(folder / "circling_1.mp4") as film:
+        frames = [frame.to_ndarray(format="rgb24").astype(int) for frame in film.decode(video=0)]
+    assert 15 < len(frames) < 60  # a second at 25 frames, or more on a slow machine
+    assert frames[0].shape == (600, 800, 3)
+    assert differing(frames[0], frames[-1], by=60) > 200
+    assert not any((frame[60:110, :60] == red).all(axis=2).sum() > 20 for frame in frames)
+    window.press("v")
+    window.until(lambda s: s["filming"])
+    time.sleep(0.3)
+    window.press("Escape")  # closing the window ends the film
+    window.until(lambda s: s.get("left"))
+    with av.open(folder / "circling_2.mp4") as film:
+        assert sum(1 for _ in film.decode(video=0)) > 2
+
+
+def test_c_keeps_the_scenario_as_it_is_seen_as_python(open_window, room, folder):
+    window = open_window(0, folder=folder, experiment=str(room))
+    window.press("2", "0", "Right")
+    poses = window.until(lambda s: s["row"] == 20)["robots"]
+    window.press("c")
+    window.says(f"scenario: {folder / 'room_1.py'}")
+    kept = open_experiment(folder / "room_1.py").scenario
+    assert np.allclose([robot.pose for robot in kept.robots], poses, atol=1e-3)
+    assert (kept.title, len(kept.props)) == ("A room", 1)
+    window.press("c")
+    window.says("room_2.py")
+    assert (folder / "room_1.py").read_text() == (folder / "room_2.py").read_text()
+
+
+@pytest.mark.parametrize("place", ["locked", "gone"])
+def test_where_no_file_can_be_made_words_say_so(open_window, folder, place):
+    if place == "locked" and not sys.platform.startswith("linux"):
+        pytest.skip("there is no folder where nobody may write")
+    window = open_window(0, folder="/proc" if place == "locked" else folder)
+    if place == "gone":
+        folder.rmdir()
+    words = "no file can be made"
+    for key in ("p", "v", "c"):
+        window.press(key)
+        window.says(words)
+        assert not window.settle()["filming"]
+    window.press("Right")
+    window.until(lambda s: s["row"] == 1)
+
+
+# -- the commands ---------------------------------------------------------------------------------
+
+
+class Command:
+    """A command that opens a window, and the person before it."""
+
+    def __init__(self, screen, folder, *arguments):
+        self.environment = bare_environment(
+            DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=str(ROOT)
+        )
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "mars2d", *map(str, arguments)], env=self.environment,
+            cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        )  # fmt: skip
+        self.wait_for(lambda: self.look().any())
+        time.sleep(0.2)  # until the window has the keyboard
+
+    def wait_for(self, condition, seconds=20):
+        end = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < end, "it has not happened"
+            assert self.process.poll() is None, self.process.communicate()
+            time.sleep(0.05)
+
+    def look(self):
+        return np.asarray(ImageGrab.grab((0, 0, 900, 600), xdisplay=self.environment["DISPLAY"]))
+
+    def press(self, *words):
+        command = ["xdotool", "key", "--delay", "60", *words]
+        subprocess.run(command, env=self.environment, check=True)
+
+    def leave(self, *keys):
+        """Press keys that close the window; return what was printed."""
+        self.press(*keys)
+        out, errors = self.process.communicate(timeout=20)
+        assert self.process.returncode == 0, errors
+        return out + errors
+
+
+@pytest.fixture
+def command(screen):
+    opened = []
+
+    def start(*arguments):
+        opened.append(Command(screen, *arguments))
+        return opened[-1]
+
+    yield start
+    for each in opened:
+        each.process.kill()
+        each.process.communicate()
+
+
+def test_run_lets_a_person_drive_and_keeps_what_was_run(command, room, folder):
+    seen = command(
+        folder, "run", room, "--human", "blue", "--dark", "--text", "1.7", "--record", "out.npz"
+    )
+    assert seen.look()[100:500].mean() < 100  # dark
+    seen.press("p")
+    seen.wait_for((folder / "room_1.png").exists)
+    seen.press("space")
+    time.sleep(0.3)
+    subprocess.run(
+        ["xdotool", "keydown", "Up", "sleep", "1", "keyup", "Up"],
+        env=seen.environment, check=True,
+    )  # fmt: skip
+    told = seen.leave("Escape", "Escape", "Escape")
+    record = load(folder / "out.npz")
+    assert "A room" in told
+    assert record.pose[-1, 0, 1] > -1.9  # blue, which has no law
+    assert record.pose[-1, 0, 0] > -1.95  # red, by its law
+    replayed = command(folder, "replay", "out.npz", "--speed", "max")
+    replayed.press("End", "p", "Home")
+    replayed.wait_for((folder / "a_room_1.png").exists)
+    replayed.leave("Escape")

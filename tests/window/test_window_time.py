@@ -1,0 +1,294 @@
+"""Time in the window: paused, step by step, back and on, slower and faster, other branches."""
+
+import time
+
+import pytest
+
+from tests.window.person import HEADER, PLOT, differing, needs_screen
+
+pytestmark = needs_screen
+
+
+def test_space_pauses_and_resumes(open_window):
+    window = open_window(1)
+    window.until(lambda s: s["time"] > 0.2)
+    window.press("space")
+    paused = window.until(lambda s: s["status"] == "paused")
+    before = window.still()
+    time.sleep(0.2)
+    assert window.settle()["time"] == paused["time"]
+    assert differing(before, window.look()) == 0
+    window.press("space")
+    window.until(lambda s: s["status"] == "1x" and s["time"] > paused["time"] + 0.1)
+    assert window.shows(lambda seen: differing(before, seen) > 50)
+
+
+def test_arrows_step_on_and_back_and_repeat_when_held(open_window):
+    window = open_window(1)
+    window.press("Right")
+    first = window.until(lambda s: s["status"] == "paused")
+    before = window.still()
+    window.press("Right")
+    window.until(lambda s: s["row"] == first["row"] + 1)
+    assert window.settle()["row"] == first["row"] + 1
+    assert window.shows(lambda seen: differing(before, seen) > 20)
+    window.press("Left")
+    window.until(lambda s: s["row"] == first["row"] and s["past"])
+    # Paths that are drawn back differ by a shade here and there from paths that have grown.
+    assert window.shows(lambda seen: differing(before, seen, by=80) < 10)
+    window.do("keydown", "Right")
+    window.until(lambda s: s["row"] > first["row"] + 4)
+    window.do("keyup", "Right")
+    stopped = window.settle()["row"]
+    time.sleep(0.2)
+    assert window.settle()["row"] == stopped
+    window.do("keydown", "Left")
+    window.until(lambda s: s["row"] < stopped - 3)
+    window.do("keyup", "Left")
+
+
+def test_a_number_before_an_arrow_is_how_many_steps(open_window):
+    window = open_window(1, rows=1000)
+    window.press("space")
+    start = window.until(lambda s: s["status"] == "paused")["row"]
+    window.press("3", "7")
+    window.until(lambda s: s["chip"] == "37 ...")
+    window.press("Right")
+    window.until(lambda s: s["row"] == start + 37 and s["chip"] == "paused")
+    window.press("KP_2", "2", "Left")
+    window.until(lambda s: s["row"] == start + 15)
+    window.press("5", "g", "Right")  # another key forgets the number
+    window.until(lambda s: s["row"] == start + 16)
+    window.press("Next")
+    window.until(lambda s: s["row"] == start + 26)
+    window.press("Prior", "Prior")
+    window.until(lambda s: s["row"] == start + 6)
+    window.press("3", "Next")
+    window.until(lambda s: s["row"] == start + 9)
+    window.press("2", "Prior")
+    window.until(lambda s: s["row"] == start + 7)
+    window.press("7", "7", "Escape")  # it is forgotten; the window stays
+    assert window.settle()["chip"] != "77 ..."
+    window.press("Home")
+    window.until(lambda s: s["row"] == 0 and s["past"])
+    window.press("End")
+    window.until(lambda s: s["row"] == start + 37 and not s["past"])
+
+
+def test_plus_and_minus_and_the_slider_change_the_speed_that_is_shown(open_window):
+    window = open_window(1, rows=200_000)
+    before = window.look()
+    window.press("plus")
+    window.until(lambda s: s["speed"] == "2.0" and s["status"] == "2x")
+    assert window.shows(lambda seen: differing(before, seen, HEADER) > 20)
+    window.press("minus", "minus", "minus")
+    window.until(lambda s: s["speed"] == "0.2")
+    window.press(*["KP_Add"] * 9)
+    window.until(lambda s: s["speed"] == "inf" and s["status"].startswith("max"))
+    left, right, y = window.state["slider"]
+    window.slide((right, y), ((left + right) // 2, y), (left, y), drop=False)
+    window.until(lambda s: s["speed"] == "0.1")
+    window.slide((left, y), (left + (right - left) * 3 // 10, y - 100))  # it stays in the hand
+    window.until(lambda s: s["speed"] == "1.0")
+    assert window.settle()["origin"] == pytest.approx(window.state["origin"])
+    window.do("mousemove", right, y, "click", 1)
+    window.until(lambda s: s["speed"] == "inf")
+
+
+def test_the_time_bar_is_clicked_and_dragged_to_look_back(open_window):
+    window = open_window(50, rows=400)
+    window.until(lambda s: s["over"])
+    first, last, y = window.state["bar"]
+    x = round((first + last) / 2)
+    window.do("mousemove", x, y, "click", 1)
+    window.until(lambda s: abs(s["row"] - 200) <= 1 and s["past"])
+    assert window.state["selected"] is None
+    seen = set()
+    window.do("mousedown", 1)
+    for k in range(1, 6):
+        window.do("mousemove", round(x - k * (x - first) / 5), y - 40)  # beside it, still held
+        seen.add(window.settle()["row"])
+    window.do("mouseup", 1)
+    assert len(seen) == 5
+    assert window.settle()["row"] == 0
+    window.do("mousemove", 300, 300)
+    assert window.settle()["row"] == 0
+    window.press("space")
+    window.until(lambda s: s["row"] > 3 and s["playing"])
+
+
+def test_r_restarts_also_when_it_is_over(open_window):
+    window = open_window(10, rows=20)
+    window.until(lambda s: s["over"])
+    window.press("r")
+    window.until(lambda s: s["restarts"] == 1 and s["row"] < 20)
+    window.until(lambda s: s["over"])
+
+
+def test_a_slow_sampling_time_moves_smoothly(open_window):
+    window = open_window(1, scenario={"sampling_time": 1.0}, rows=20)
+    times = set()
+    end = time.monotonic() + 0.5
+    while time.monotonic() < end:
+        times.add(window.until(lambda s: s["time"] not in times)["time"])
+    assert len(times) > 8
+    assert max(times) < 1.5
+
+
+# -- a live experiment ----------------------------------------------------------------------------
+
+
+def test_a_change_in_the_past_makes_a_branch_and_b_goes_to_the_other_one(open_window, room):
+    window = open_window(20, experiment=str(room))
+    window.until(lambda s: s["newest"] >= 60)
+    window.press("space", "Home", "3", "0", "Right")
+    window.until(lambda s: s["row"] == 30 and s["past"] and s["branches"] == 0)
+    newest, before = window.state["newest"], window.state["robots"][0]
+    window.drag((-2, -1), (-1.5, -1.2), (-1, -1.5))
+    window.until(lambda s: s["branches"] == 1 and s["newest"] == 30)
+    there = window.state["robots"][1][:2]
+    assert there == pytest.approx((-1, -1.5), abs=0.05)
+    assert window.state["robots"][0] == before
+    window.press("2", "0", "Right")
+    window.until(lambda s: s["newest"] == 50)
+    assert window.state["marks"]["branch"] == [30]
+    assert window.state["marks"]["hand"] == [30]
+    seen = window.still()
+    window.press("b")
+    window.until(lambda s: s["newest"] == newest and s["row"] == 50)
+    assert window.state["robots"][1][:2] == [-2, -1]
+    assert window.shows(lambda now: differing(seen, now) > 100)
+    window.press("b")
+    window.until(lambda s: s["newest"] == 50 and s["robots"][1][:2] == there)
+    window.press("b", "space")  # time goes on in the one that is seen
+    window.until(lambda s: s["newest"] > newest)
+
+
+def test_without_another_branch_b_says_how_to_make_one(open_window, room):
+    window = open_window(0, experiment=str(room))
+    window.press("b")
+    window.says("there is no other branch")
+
+
+def test_the_past_is_exact(open_window, room):
+    window = open_window(0, experiment=str(room))
+    window.press("2", "5", "Right")
+    there = window.until(lambda s: s["row"] == 25)["robots"]
+    window.press("2", "5", "Right")
+    later = window.until(lambda s: s["row"] == 50)["robots"]
+    window.press("Next", "Prior", "2", "5", "Left")
+    assert window.until(lambda s: s["row"] == 25)["robots"] == there
+    window.press("2", "5", "Right")
+    assert window.until(lambda s: s["row"] == 50)["robots"] == later
+
+
+LAW = """
+def ahead(robot):
+    if robot.pose[0] > -1.5:
+        raise ValueError("I am lost")
+    return 0.2, 0.0
+"""
+
+
+def test_where_a_law_fails_its_line_is_shown_and_the_past_can_be_looked_at(open_window, room):
+    text = room.read_text()
+    start = text.index("\n\ndef ahead")
+    room.write_text(text[:start] + LAW + text[text.index("\n\ndef scenario") :])
+    line = room.read_text().splitlines().index('        raise ValueError("I am lost")') + 1
+    window = open_window("max", experiment=str(room))
+    window.until(lambda s: s["status"] == "stopped")
+    assert "I am lost" in window.state["banner"]
+    assert window.state["line"] == line
+    assert window.state["marks"]["error"] == [window.state["newest"]]
+    x0, x1, y = window.state["bar"]
+    window.do("mousemove", round((x0 + x1) / 2), y, "click", 1)
+    half = window.state["newest"] // 2
+    window.until(lambda s: abs(s["row"] - half) <= 1 and s["banner"] is None)
+    assert window.state["robots"][0][0] < -1.6
+    window.press("End")
+    window.until(lambda s: s["banner"] is not None)
+    window.press("r", "space")
+    window.until(lambda s: s["newest"] < 10)
+    window.until(lambda s: s["status"] == "stopped", 15)
+    window.press("Escape")
+    window.until(lambda s: "raised" in s)
+    assert "I am lost" in window.state["raised"]
+
+
+def test_a_law_that_is_saved_is_in_effect_from_now_on(open_window, room):
+    window = open_window(1, experiment=str(room))
+    window.until(lambda s: s["time"] > 0.5)
+    room.write_text(room.read_text().replace("return 0.2, 0.0", "return -0.2, 0.0"))
+    window.says("in effect from now on")
+    furthest = window.settle()["robots"][0][0]
+    window.until(lambda s: s["robots"][0][0] < furthest)
+    room.write_text(room.read_text().replace("return -0.2, 0.0", "return -0.2 0.0"))
+    window.says("the old law goes on")
+    row = window.state["row"]
+    window.until(lambda s: s["row"] > row + 3)
+    assert window.process.poll() is None
+
+
+def test_a_file_with_fewer_robots_starts_anew_whatever_was_selected(open_window, room):
+    window = open_window(1, experiment=str(room))
+    window.point(1, -1)
+    window.until(lambda s: s["over_body"] == 2)
+    window.press("Tab", "Tab", "h", "l")
+    window.until(lambda s: (s["driving"], s["selected"], s["following"]) == (1, 1, True))
+    window.press("Tab")
+    window.until(lambda s: s["selected"] == 2)
+    text = room.read_text().replace("[red, blue]", "[red]").replace("props=[crate],", "")
+    room.write_text(text)
+    window.until(lambda s: len(s["robots"]) == 1 and not s["props"])
+    row = window.settle()["row"]
+    window.until(lambda s: s["row"] > row)
+    assert (window.state["driving"], window.state["selected"]) == (None, None)
+
+
+# -- a recording ----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def recording(room, tmp_path):
+    from mars2d.scenario.experiment import open_experiment
+    from mars2d.world.loop import simulate
+
+    path = tmp_path / "room.npz"
+    simulate(open_experiment(room, {"stop_time": 6.0}), 1).record.save(path)
+    return path
+
+
+def test_a_recording_can_be_looked_at_and_says_what_can_not_be_done(open_window, recording):
+    window = open_window(2, record=str(recording))
+    window.until(lambda s: s["time"] > 0.5)
+    window.press("space", "End")
+    newest = window.until(lambda s: s["row"] == s["newest"])["newest"]
+    assert window.state["over"]
+    window.press("Left", "Prior")
+    window.until(lambda s: s["row"] == newest - 11)
+    x0, x1, y = window.state["bar"]
+    window.do("mousemove", round((x0 + x1) / 2), y, "click", 1)
+    window.until(lambda s: abs(s["row"] - newest / 2) <= 1)
+    robots = window.settle()["robots"]
+    for key in ("h", "e", "b"):
+        said = window.state["said"]
+        window.press(key)
+        window.until(lambda s, said=said: s["said"] == said + 1)
+        window.says("this is a recording")
+    window.drag((-2, -1), (-1, -1.5))
+    window.until(lambda s: s["said"] == said + 2)
+    assert window.settle()["robots"] == robots
+    assert (window.state["driving"], window.state["editor"]) == (None, None)
+    window.press("r")
+    window.until(lambda s: s["row"] == 0 or s["playing"])
+    assert window.look()[PLOT].mean() > 200
+
+
+def test_escape_forgets_a_number_and_closes_nothing(open_window):
+    window = open_window(0)
+    window.press("2", "5")
+    window.until(lambda s: s["chip"] == "25 ...")
+    window.press("Escape")
+    window.until(lambda s: s["chip"] == "manual")
+    window.press("Right")
+    window.until(lambda s: s["row"] == 1)

@@ -1,0 +1,126 @@
+"""The words of a window: the keys that serve now, what is said of a change, none over another."""
+
+import pygame
+import pytest
+
+from mars2d import Robot, Scenario
+from mars2d.output.raster.fonts import Fonts
+from mars2d.scenario.experiment import open_experiment
+from mars2d.window.window import Window
+from mars2d.world.timeline import Timeline
+from tests.window.written import Pens, Written
+
+SMALL, LARGE = (922, 691), (1280, 720)
+"""Pixels: with a projector, and as it opens."""
+
+
+def ahead(robot):
+    return 0.2, 0.0
+
+
+@pytest.fixture
+def window(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    robots = [Robot(name="red", controller=ahead), Robot(name="blue", pose=(0, 2, 0))]
+    source = Timeline(open_experiment(Scenario(robots=robots, stop_time=60)))
+    for _ in range(50):
+        source.advance()
+    window = Window(source)
+    window.player.settle()
+    window._painter.fonts = Pens()
+    pygame.display.init()
+    yield window
+    pygame.display.quit()
+
+
+def words(window, size=LARGE, text=1.0):
+    window.text = text
+    surface = Written(size)
+    window.draw(surface)
+    return surface.texts
+
+
+def do(window, *actions):
+    for action in actions:
+        window._actions[action]()
+
+
+def said(window):
+    return [note.text for note in window.notes._notes]
+
+
+def test_the_footer_has_the_keys_that_serve_now(window):
+    assert {"Space", "pause"} <= set(words(window))
+    do(window, "pause")
+    assert {"Space", "go on"} <= set(words(window))
+    do(window, "drive")
+    texts = set(words(window))
+    assert {"go on", "drive", "let go"} <= texts
+    assert "← →" not in texts  # they drive
+    do(window, "pause")
+    assert {"drive", "slowly"} <= set(words(window))
+
+
+def test_the_inspector_leaves_the_arena_to_one_who_drives(window):
+    do(window, "select")
+    words(window, SMALL, 1.7)
+    assert window._inspected.width > 0
+    do(window, "drive")
+    words(window, SMALL, 1.7)
+    assert window._inspected.width == 0
+    words(window, LARGE)  # there it is beside it
+    assert window._inspected.width > 0
+
+
+def test_the_first_branch_says_how_to_get_to_the_other(window):
+    window.player.go(20)
+    assert window.director.change(lambda world: world.hands.place("blue", (2, 2, 0)))
+    assert "a new branch begins here; B shows what was run before" in said(window)
+    do(window, "branch")
+    assert "another branch, run until 5 s; B goes back" in said(window)
+
+
+def test_following_is_said(window):
+    do(window, "follow", "follow", "select", "follow")
+    assert [text.partition(";")[0] for text in said(window)] == [
+        "the camera follows all robots", "the camera stays where it is", "the camera follows red",
+    ]  # fmt: skip
+
+
+def test_escape_clears_an_error_before_it_closes_the_window(window):
+    window._open = True
+    window.notes.say("walk.py, line 3: no", "error")
+    do(window, "leave")
+    assert (said(window), window._open) == ([], True)
+    do(window, "leave")
+    assert not window._open
+
+
+def test_a_name_stands_but_once_beside_what_the_pointer_is_over(window):
+    words(window)
+    pixel = tuple(window.camera.to_pixels([window.player.frame.pose[:2, 1]])[0].astype(int))
+    window.hand.move(window.player.frame, window.camera, pixel, running=True)
+    marks = window.hand.marks(window.player.frame, window.camera)
+    bare = window.hand.marks(window.player.frame, window.camera, named=True)
+    assert len(marks) == len(bare) + 1
+
+
+def test_a_long_path_is_broken_after_a_folder_and_keeps_its_name():
+    fonts, path = Fonts(), "/home/somebody/lectures/on/robots/of/this/year/walk_1.png"
+    lines = fonts.wrap(f"picture: {path}", 14, 260, 6)
+    assert "".join(lines).removeprefix("picture: ").replace("picture:", "") == path
+    assert all(fonts.width(line, 14) <= 260 for line in lines)
+    assert lines[0].endswith("/") or lines[0] == "picture:"
+
+
+def test_what_is_said_is_in_no_film(window):
+    def seen():
+        surface = Written(LARGE)
+        window.draw(surface)
+        return pygame.image.tobytes(surface, "RGB")
+
+    bare = seen()
+    window.notes.say("filming; V ends the film")
+    assert seen() != bare
+    window.keeper._film = object()
+    assert seen() == bare  # the window shows what is said once the film has its picture

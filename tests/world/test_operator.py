@@ -1,0 +1,536 @@
+"""Hands on a running world: what they pull, place and drive, and what comes of it."""
+
+import os
+import subprocess
+import sys
+import time
+from math import hypot
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Holonomic, InputError, LawError, Robot, Scenario, Unicycle, World
+from mars2d.addons import Game, Map
+from mars2d.bodies.joints import Hinge, Rope, Spring
+from mars2d.bodies.props import Box, Puck
+from mars2d.physics.kernel import reason_without
+from mars2d.world.verify import rerun
+
+WALL = Map([[(1.0, -3.0), (1.0, 3.0)]])
+ROBOT = Robot(pose=(0, 0, 0))
+CRATE = Box(length=0.5, width=0.5, mass=8.0)  # the floor holds it with 39.24 N
+
+
+def straight(robot):
+    return 0.3, 0.0
+
+
+def pulled(scenario, body, target, grip=(0.0, 0.0), steps=40, **options):
+    """The world, and the poses (steps, 3) of a body that is pulled to a target."""
+    world = World(scenario)
+    world.hands.pull(body, grip, target, **options)
+    index = scenario.body_index_of("test", body)
+    path = []
+    for _ in range(steps):
+        world.step()
+        path.append(np.hstack([world.pose, world.prop_pose])[:, index])
+    return world, np.array(path)
+
+
+# -- pulling what is free --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("drive", [Unicycle(), Holonomic()])
+def test_a_robot_whose_law_stands_still_follows_the_pointer_and_never_swings_back(drive):
+    _, path = pulled(Scenario(robots=[ROBOT.replace(drive=drive)]), 0, (2.0, 1.0))
+    ways = np.hypot(*(path[:, :2] - (2.0, 1.0)).T)
+    assert (np.diff(ways) <= 1e-12).all()
+    assert ways[-1] < 0.01
+    along = path[:, :2] @ (2.0, 1.0) / hypot(2, 1)
+    assert along.max() <= hypot(2, 1)
+
+
+def test_what_is_held_beside_its_middle_comes_with_the_point_that_is_held():
+    grip = (0.1, 0.1)
+    _, path = pulled(Scenario(robots=[ROBOT]), 0, (2.0, 1.0), grip)
+    x, y, theta = path[-1]
+    c, s = np.cos(theta), np.sin(theta)
+    held = x + c * grip[0] - s * grip[1], y + s * grip[0] + c * grip[1]
+    assert hypot(held[0] - 2, held[1] - 1) < 0.02
+
+
+def test_a_body_without_friction_is_brought_to_the_pointer_and_stops_there():
+    free = Puck(name="puck", mass=5.0, ground_friction=0.0)
+    scenario = Scenario(robots=[ROBOT.at(-4, -4)], props=[free])
+    _, path = pulled(scenario, "puck", (2.0, 0.0), steps=80, force=5.0)
+    assert path[:, 0].max() < 2.01  # a weak hand brakes in time
+    assert hypot(path[-1, 0] - 2.0, path[-1, 1]) < 0.01
+
+
+def test_a_pull_is_no_faster_than_it_is_allowed_to_be():
+    _, path = pulled(Scenario(robots=[ROBOT]), 0, (3.0, 0.0), speed=0.5)
+    assert np.diff(path[:, 0]).max() <= 0.5 * 0.1 + 1e-9
+
+
+def test_let_go_a_robot_stands_where_it_was_left():
+    world, _ = pulled(Scenario(robots=[ROBOT]), 0, (2.0, 1.0), steps=8)
+    world.hands.pull(0, (0, 0), None)
+    for _ in range(5):
+        world.step()
+    there = world.pose[:, 0].copy()
+    world.step()
+    assert np.array_equal(world.pose[:, 0], there)
+    assert world.hands.pulls == ()
+    assert world.hands.force(0) == 0.0
+
+
+def test_the_way_does_not_depend_on_the_sampling_time_by_more_than_a_slice():
+    ends = []
+    for dt in (0.01, 0.1, 0.5):
+        scenario = Scenario(robots=[ROBOT], sampling_time=dt)
+        _, path = pulled(scenario, 0, (4.0, 0.0), steps=round(1 / dt))
+        ends.append(path[-1, 0])
+    assert np.ptp(ends) < 0.01
+
+
+def test_a_long_control_step_takes_no_more_than_a_moment():
+    scenario = Scenario(robots=[ROBOT], sampling_time=10.0)
+    start = time.perf_counter()
+    _, path = pulled(scenario, 0, (2.0, 0.0), steps=3)
+    assert time.perf_counter() - start < 3.0
+    assert abs(path[-1, 0] - 2.0) < 0.01
+
+
+def test_the_strongest_and_quickest_pull_neither_hangs_nor_goes_through_walls():
+    scenario = Scenario(robots=[ROBOT.replace(mass=0.1)], addons=[WALL], on_exit="ignore")
+    start = time.perf_counter()
+    _, path = pulled(scenario, 0, (900.0, 0.0), steps=20, force=1e6, speed=100.0)
+    assert time.perf_counter() - start < 5.0
+    assert path[:, 0].max() <= 0.85 + scenario.max_overlap
+
+
+def test_a_body_far_away_can_be_put_there_and_pulled_there():
+    world = World(Scenario(robots=[ROBOT], workspace=None, on_exit="ignore"))
+    world.hands.place(0, (9e5, -9e5, 0.0))
+    world.hands.pull(0, (0.0, 0.0), (9e5 + 1, -9e5))
+    for _ in range(20):
+        world.step()
+    assert world.pose[0, 0] == pytest.approx(9e5 + 1, rel=1e-12, abs=0.02)
+
+
+# -- against drives and floors -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("drive", [Unicycle(), Holonomic()])
+@pytest.mark.parametrize("force", [0.5, 2.0, 4.9])
+def test_a_pull_weaker_than_the_drive_leaves_a_robot_on_its_course(drive, force):
+    robot = ROBOT.replace(drive=drive, controller=straight)
+    world, path = pulled(Scenario(robots=[robot]), 0, (0.0, 4.5), force=force, steps=100)
+    assert np.allclose(path[-1], (3.0, 0.0, 0.0), atol=1e-12)
+    assert world.effort[0] == pytest.approx(force / 5.0)  # its drive bears all of it
+
+
+def test_a_stronger_one_takes_it_off():
+    robot = ROBOT.replace(controller=straight)
+    _, path = pulled(Scenario(robots=[robot]), 0, (0.0, 4.5), force=8.0, steps=60)
+    assert hypot(path[-1, 0], path[-1, 1] - 4.5) < 0.2
+
+
+def test_a_hand_weaker_than_the_floors_friction_does_not_move_a_crate():
+    scenario = Scenario(robots=[ROBOT.at(-4, 0)], props=[CRATE])
+    _, path = pulled(scenario, "box0", (3.0, 0.0), force=39.0)
+    assert np.array_equal(path[-1], (0.0, 0.0, 0.0))
+
+
+def test_a_stronger_one_moves_it_as_newton_says():
+    scenario = Scenario(robots=[ROBOT.at(-4, 0)], props=[CRATE])
+    _, path = pulled(scenario, "box0", (4.0, 0.0), force=45.0, steps=20)
+    assert path[-1, 0] == pytest.approx((45 - 39.24) / 8 * 2.0**2 / 2, rel=0.05)
+
+
+def test_two_hands_that_pull_equally_at_two_robots_meet_nobody_half_way():
+    scenario = Scenario(robots=[ROBOT.at(-1, 0), ROBOT.at(1, 0)])
+    world = World(scenario)
+    world.hands.pull(0, (0, 0), (-1.0, 2.0))
+    world.hands.pull(1, (0, 0), (1.0, 2.0))
+    for _ in range(30):
+        world.step()
+    assert np.allclose(world.pose[:2], [(-1, 1), (2, 2)], atol=0.01)
+    assert np.allclose(world.pose[0, 0], -world.pose[0, 1], atol=1e-12)
+
+
+# -- walls, crowds, joints ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("mass", "force"), [(1.0, 17.5), (1.0, 60.0), (9.0, 400.0)])
+def test_a_robot_that_is_pulled_at_a_wall_stays_on_its_side(mass, force):
+    scenario = Scenario(robots=[ROBOT.replace(mass=mass)], addons=[WALL])
+    world, path = pulled(scenario, 0, (4.0, 0.5), force=force, speed=5.0)
+    assert path[:, 0].max() <= 1.0 - 0.15 + scenario.max_overlap
+    assert path[-1, 0] > 0.84  # and it is there
+    assert len(world.record.contacts)
+
+
+def test_a_box_that_is_pulled_at_a_wall_stays_on_its_side():
+    box = Box(pose=(0, 0, 0.3), length=0.3, width=0.3, mass=2.0)
+    scenario = Scenario(robots=[ROBOT.at(-4, 0)], props=[box], addons=[WALL])
+    _, path = pulled(scenario, "box0", (4.0, 0.5), force=60.0, speed=5.0, steps=25)
+    reach = path[:, 0] + 0.15 * (abs(np.cos(path[:, 2])) + abs(np.sin(path[:, 2])))
+    assert reach.max() <= 1.0 + scenario.max_overlap
+
+
+def crowd(seed):
+    """Twenty robots in a walled room, and where one of them is pulled to, (8, 2)."""
+    rng = np.random.default_rng(seed)
+    places = [(0.5 * (k % 5) - 1.0, 0.5 * (k // 5) - 0.75) for k in range(20)]
+    robots = [Robot(pose=(x, y, rng.uniform(-3, 3)), controller=straight) for x, y in places]
+    room = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)]
+    scenario = Scenario(robots=robots, workspace=room, on_exit="wall")
+    return scenario, rng.uniform(-3, 3, (8, 2))
+
+
+@pytest.mark.parametrize("seeds", [range(k, k + 25) for k in range(0, 100, 25)])
+def test_nobody_escapes_from_a_crowd_that_one_is_pulled_through(seeds):
+    for seed in seeds:
+        scenario, targets = crowd(seed)
+        world = World(scenario)
+        start = time.perf_counter()
+        for x, y in targets:
+            world.hands.pull(7, (0.05, 0.1), (x, y), force=40.0, speed=5.0)
+            world.step()
+            reach = np.abs(world.pose[:2]).max()
+            assert reach <= 1.5 - 0.15 + scenario.max_overlap, f"seed {seed}"
+            place = world.position[0] + 1j * world.position[1]
+            gaps = abs(place[:, None] - place) + 9 * np.eye(20)
+            assert gaps.min() >= 0.3 - scenario.max_overlap, f"seed {seed}"
+        assert time.perf_counter() - start < 8.0
+
+
+def test_what_is_tied_by_a_rope_is_pulled_no_farther_than_that():
+    rope = Rope(a="robot0", b="robot1", length=1.0)
+    strong = ROBOT.replace(drive=Unicycle(max_force=50.0))
+    scenario = Scenario(robots=[ROBOT.at(0.5, 0), strong.at(0, 0)], joints=[rope])
+    world, path = pulled(scenario, 0, (3.0, 0.0), steps=25)
+    assert path[-1, 0] - world.pose[0, 1] == pytest.approx(1.0, abs=1e-3)
+    assert np.array_equal(path[-1], path[-5])  # the other holds
+
+
+def test_a_spring_gives_way_as_far_as_the_hand_is_strong():
+    spring = Spring(a="robot0", b="robot1", stiffness=20.0, damping=20.0)
+    strong = ROBOT.replace(drive=Unicycle(max_force=50.0))
+    weak = ROBOT.replace(drive=Unicycle(max_force=0.01))
+    scenario = Scenario(robots=[weak.at(0.5, 0), strong.at(0, 0)], joints=[spring])
+    _, path = pulled(scenario, 0, (4.0, 0.0), steps=80, force=10.0)
+    assert path[-1, 0] == pytest.approx(0.5 + 10.0 / 20.0, abs=0.01)
+
+
+@pytest.mark.skipif(bool(reason_without()), reason="there is no kernel")
+def test_kernel_and_plain_engine_give_the_same_bits():
+    code = "from tests.world.test_operator import digest_of_a_crowd\nprint(digest_of_a_crowd())"
+    digests = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env=os.environ | {"MARS2D_PLAIN": plain},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.strip()
+        for plain in ("", "1")
+    }
+    assert len(digests) == 1
+
+
+def digest_of_a_crowd():
+    scenario, targets = crowd(3)
+    world = World(scenario)
+    for k, target in enumerate(targets):
+        world.hands.pull(7, (0.05, 0.1), target, force=40.0)
+        if k == 4:
+            world.hands.pull(3, (0.0, 0.0), (0.0, 0.0))
+        world.step()
+    world.break_off("enough")
+    return world.record.digest
+
+
+def test_in_a_large_team_which_is_stepped_in_groups_a_pull_is_the_same():
+    places = [(0.5 * (k % 13) - 3, 0.5 * (k // 13) - 2.5) for k in range(143)]
+    robots = [Robot(pose=(*place, 0)) for place in places]
+    world = World(Scenario(robots=robots, on_exit="ignore"))
+    world.hands.pull(70, (0.0, 0.0), (4.5, 4.0), force=60.0)
+    for _ in range(60):
+        world.step()
+    assert world.pose[:2, 70] == pytest.approx((4.5, 4.0), abs=0.02)
+    place = world.position[0] + 1j * world.position[1]
+    assert (abs(place[:, None] - place) + 9 * np.eye(143)).min() >= 0.3 - 1e-3
+    assert rerun_is_the_same(world)
+
+
+# -- placing -----------------------------------------------------------------------------------
+
+
+def test_a_body_that_is_put_elsewhere_stands_still_there_and_goes_on():
+    world = World(Scenario(robots=[ROBOT.replace(controller=straight), ROBOT.at(-2, -2)]))
+    world.step()
+    world.hands.place(0, (-1.0, 1.0, np.pi / 2))
+    assert world.pose[:, 0].tolist() == [-1.0, 1.0, np.pi / 2]
+    world.step()
+    assert np.allclose(world.pose[:, 0], (-1.0, 1.03, np.pi / 2))
+    assert world.record.pose[1, :, 0].tolist() == [-1.0, 1.0, np.pi / 2]
+
+
+def test_the_others_do_not_feel_it():
+    robots = [ROBOT.replace(controller=straight), ROBOT.at(-2, -2).replace(controller=straight)]
+    one, other = World(Scenario(robots=robots)), World(Scenario(robots=robots))
+    for k in range(20):
+        if k == 7:
+            one.hands.place(0, (2, 2, 1))
+        one.step()
+        other.step()
+    assert np.array_equal(one.pose[:, 1], other.pose[:, 1])
+
+
+ROOM = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
+
+
+@pytest.mark.parametrize(
+    ("pose", "words"),
+    [
+        ((1.0, 0.1, 0), "it would overlap blue"),
+        ((0.0, 2.2, 0), "it would overlap crate"),
+        ((-1.0, 0.0, 0), "it would be in obstacle 0"),
+        ((2.9, 0.0, 0), "it would be in the workspace's wall"),
+        ((9.0, 0.0, 0), "it would be outside of the workspace"),
+    ],
+)
+def test_where_a_body_can_not_be_put_is_said_in_words_and_nothing_happens(pose, words):
+    scenario = Scenario(
+        robots=[Robot(name="red"), Robot(name="blue").at(1, 0)],
+        props=[CRATE.replace(name="crate").at(0, 2)],
+        addons=[Map([[(-1.2, -0.2), (-0.8, -0.2), (-0.8, 0.2), (-1.2, 0.2)]])],
+        workspace=ROOM,
+        on_exit="wall",
+    )
+    world = World(scenario)
+    with pytest.raises(InputError, match=f"^red can't be put there: {words}$"):
+        world.hands.place("red", pose)
+    assert world.pose[:, 0].tolist() == [0, 0, 0]
+    assert world.hands.log == []
+
+
+def test_bodies_may_be_put_so_that_they_just_touch():
+    world = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)], props=[CRATE.at(0, 2)]))
+    world.hands.place(0, (0.7, 0, 0))
+    world.hands.place(0, (0, 1.6, 0))
+    world.step()
+    assert np.allclose(world.pose[:, 0], (0, 1.6, 0), atol=1e-3)
+
+
+def test_where_nothing_collides_a_robot_may_be_put_into_another():
+    world = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)], physics="ideal"))
+    world.hands.place(0, (1, 0, 0))
+    assert world.pose[0].tolist() == [1, 1]
+
+
+def test_the_parts_of_a_hinge_may_overlap_but_not_what_lies_beside_them():
+    hinge = Hinge(a="robot0", b="robot1", anchor_a=(0.1, 0), anchor_b=(-0.1, 0))
+    scenario = Scenario(robots=[ROBOT, ROBOT.at(0.2, 0), ROBOT.at(2, 0)], joints=[hinge])
+    world = World(scenario)
+    with pytest.raises(InputError, match="robot2 can't be put there: it would overlap robot"):
+        world.hands.place("robot2", (0.3, 0, 0))
+    world.hands.place("robot2", (1, 0, 0))
+    with pytest.raises(InputError, match="a joint holds it; it can be pulled"):
+        world.hands.place("robot1", (1, 1, 0))
+
+
+# -- driving -------------------------------------------------------------------------------------
+
+
+def test_a_robot_that_is_driven_has_the_hands_command_and_its_law_is_asked_all_the_same():
+    asked = []
+
+    def law(robot):
+        asked.append(robot.time)
+        return 0.1, 0.0
+
+    world = World(Scenario(robots=[ROBOT.replace(controller=law)]))
+    world.step()
+    world.hands.steer("robot0", (0.4, 0.2))
+    world.step()
+    world.step()
+    world.hands.steer(0, None)
+    world.step()
+    assert world.record.command[:, 0, 0].tolist() == [0.1, 0.4, 0.4, 0.1]
+    assert world.record.command[:, 1, 0].tolist() == [0.0, 0.2, 0.2, 0.0]
+    assert len(asked) == 4
+
+
+def test_a_hands_command_is_limited_by_the_drive_as_any_other():
+    world = World(Scenario(robots=[ROBOT]))
+    world.hands.steer(0, (50.0, 0.0))
+    world.step()
+    assert world.command[:, 0].tolist() == [0.5, 0.0]
+
+
+def test_who_is_out_of_the_game_does_not_move_by_hand_either():
+    robots = [Robot(name="red").at(0.5, 0), Robot(name="blue"), Robot(name="green").at(3, 3)]
+    game = Game({"pursuer": ["red"], "evader": ["blue", "green"]}, capture=0.5)
+    world = World(Scenario(robots=robots, addons=[game]))
+    world.hands.steer("blue", (0.5, 0.0))
+    for _ in range(5):
+        world.step()
+    assert world.pose[:2, 1].tolist() == [0.0, 0.0]
+
+
+def test_all_is_let_go_at_once():
+    world = World(Scenario(robots=[ROBOT, ROBOT.at(2, 2)]))
+    world.hands.steer(0, (0.4, 0.0))
+    world.hands.pull(1, (0, 0), (3, 3))
+    world.step()
+    world.hands.let_go()
+    world.step()
+    assert world.hands.driven == ()
+    assert world.hands.pulls == ()
+    assert world.command.tolist() == [[0, 0], [0, 0]]
+    assert rerun_is_the_same(world)
+
+
+# -- what can't be done ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("act", "words"),
+    [
+        (
+            lambda h: h.steer("rde", (0, 0)),
+            "Hands.steer: there is no robot 'rde'; did you mean 'red'",
+        ),
+        (lambda h: h.steer("red", 3), r"Hands.steer\(command\) = 3: expected two numbers, or None"),
+        (lambda h: h.steer("red", (1, 2, 3)), r"expected two numbers, or None"),
+        (lambda h: h.steer("red", (float("nan"), 0)), r"Hands.steer\(command\) = nan"),
+        (lambda h: h.steer("red", ("a", 0)), r"Hands.steer\(command\) = 'a': expected a number"),
+        (lambda h: h.place("gren", (0, 0, 0)), "Hands.place: there is no body 'gren'"),
+        (lambda h: h.place("red", (0, 0, 0, 0)), r"Hands.place\(pose\)"),
+        (lambda h: h.place("red", (0, float("inf"), 0)), r"Hands.place\(pose\)"),
+        (lambda h: h.place("red", "here"), r"Hands.place\(pose\) = 'here'"),
+        (lambda h: h.pull(7, (0, 0), (1, 1)), "Hands.pull: there is no body 7; they are 0 to 1"),
+        (lambda h: h.pull("red", (0,), (1, 1)), r"Hands.pull\(grip\)"),
+        (lambda h: h.pull("red", (0, 0), (1, float("nan"))), r"Hands.pull\(target\)"),
+        (lambda h: h.pull("red", (0, 0), (1, 1), force=0), "expected a number > 0 and <= 1e"),
+        (lambda h: h.pull("red", (0, 0), (1, 1), force=1e9), "expected a number > 0 and <= 1e"),
+        (lambda h: h.pull("red", (0, 0), (1, 1), speed=-1), "expected a number > 0 and <= 100"),
+        (lambda h: h.pull("red", (0.2, 0), (1, 1)), "a point of the body, within 0.15 m"),
+        (lambda h: h.pull("red", (1e300, 0), (1, 1)), r"Hands.pull\(grip\)"),
+        (lambda h: h.hold("blu"), "World.hold: there is no robot 'blu'"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_and_nothing_happens(act, words):
+    world = World(Scenario(robots=[Robot(name="red"), Robot(name="blue").at(1, 0)]))
+    with pytest.raises(InputError, match=words):
+        act(world.hands)
+    assert world.hands.log == []
+    assert world.hands.driven == ()
+    world.step()
+
+
+@pytest.mark.parametrize("physics", ["stop", "ideal"])
+def test_where_no_forces_act_nothing_can_be_pulled_but_put_elsewhere(physics):
+    world = World(Scenario(robots=[ROBOT], physics=physics))
+    with pytest.raises(InputError, match=f"can't be pulled: with physics = '{physics}' no forces"):
+        world.hands.pull(0, (0, 0), (1, 1))
+    world.hands.place(0, (1, 1, 1))
+    world.step()
+    assert world.pose[:, 0].tolist() == [1, 1, 1]
+
+
+def test_an_error_of_a_sensor_ends_the_run_as_ever_where_a_body_is_put_elsewhere():
+    class Broken(mars2d.Sensor):
+        def read(self, robot, world, rng):
+            raise ValueError("no light")
+
+    world = World(Scenario(robots=[ROBOT.replace(sensors=[Broken()])]))
+    with pytest.raises(LawError, match="no light"):
+        world.hands.place(0, (1, 1, 1))
+    assert world.over
+
+
+# -- the record ------------------------------------------------------------------------------------
+
+
+def rerun_is_the_same(world):
+    world.break_off("enough")
+    return rerun(world.record) is None
+
+
+def poked(seed=0):
+    """A world of robots and props with all that hands do, run for 40 steps."""
+    robots = [ROBOT.replace(controller=straight), ROBOT.at(2, 2), ROBOT.at(-2, 1)]
+    props = [
+        Box(name="box0", pose=(0.5, 0, 0.2), length=0.3, width=0.3, mass=1.0),
+        Puck(name="puck", pose=(-1, -1, 0), mass=0.5),
+    ]
+    world = World(Scenario(robots=robots, props=props, addons=[WALL]), seed=seed)
+    for k in range(40):
+        if k == 3:
+            world.hands.pull("puck", (0.02, 0.0), (0.5, -0.5))
+        if k >= 5:
+            world.hands.pull("puck", (0.02, 0.0), (0.5 + 0.01 * k, -0.4))
+        if k == 10:
+            world.hands.place("robot1", (2.0, -2.0, 1.0))
+            world.hands.place("box0", (-1.0, 2.0, 1.0))
+        if k == 12:
+            world.hands.steer("robot2", (0.3, 1.0))
+        if k == 20:
+            world.hands.steer("robot2", None)
+            world.hands.pull("puck", (0, 0), None)
+        if k == 25:
+            world.hands.place("robot0", (0.0, -2.0, 2.0))
+        world.step()
+    return world
+
+
+def test_a_run_that_hands_were_put_to_is_the_same_again_to_the_bit():
+    assert rerun_is_the_same(poked())
+
+
+def test_so_it_is_from_a_file(tmp_path, capsys):
+    world = poked()
+    world.break_off("enough")
+    world.record.save(tmp_path / "poked.npz")
+    from mars2d.cli.command_line import main
+
+    assert main(["check", str(tmp_path / "poked.npz")]) == 0
+    assert "bit-identical" in capsys.readouterr().out
+    assert rerun(mars2d.load(tmp_path / "poked.npz")) is None
+
+
+def test_worlds_that_are_stepped_in_turn_do_not_feel_each_other():
+    alone = poked().pose
+    first = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)]))
+    second = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)]))
+    for world in (first, second):
+        world.hands.pull(0, (0, 0), (2, 0))
+    for _ in range(10):
+        first.step()
+        second.step()
+    assert np.array_equal(first.pose, second.pose)
+    assert np.array_equal(poked().pose, alone)
+
+
+def test_only_the_last_word_of_a_control_step_is_kept():
+    world = World(Scenario(robots=[ROBOT]))
+    for x in (1.0, 2.0, 3.0):
+        world.hands.pull(0, (0, 0), (x, 0))
+    assert [pull.target for pull in world.hands.log] == [(3.0, 0.0)]
+    world.step()
+    world.hands.pull(0, (0, 0), (3, 0))  # nothing new
+    assert len(world.hands.log) == 1
+    world.step()
+    world.hands.pull(0, (0, 0), (4, 0))
+    world.hands.pull(0, (0, 0), None)
+    assert [(pull.row, pull.target) for pull in world.hands.log] == [(0, (3.0, 0.0)), (2, None)]
+    world.step()
+    world.hands.pull(0, (0, 0), (4, 0))
+    world.hands.pull(0, (0, 0), None)  # a touch that nothing came of
+    assert len(world.hands.log) == 2
+    assert rerun_is_the_same(world)

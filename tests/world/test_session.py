@@ -1,0 +1,348 @@
+"""mars2d.run: one call from an experiment to its record."""
+
+import signal
+import sys
+import time
+import types
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import InputError, LawError, Robot, Scenario
+from mars2d.output.formats.mcap import Log
+from mars2d.record.columns import DiskError
+from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.world.loop import Interrupted, simulate, watch_by
+
+SQUARE = Scenario(robots=[Robot()], sampling_time=0.1, stop_time=1.0)
+
+
+def forward(world):
+    return np.full((2, 1), 0.1)
+
+
+def test_a_scenario_runs_with_the_law_given():
+    record = mars2d.run(SQUARE, control=forward)
+    assert record.time.tolist() == pytest.approx(np.arange(11) * 0.1)
+    assert np.all(record.command == 0.1)
+
+
+def test_a_scenario_without_a_law_stands_still():
+    assert np.all(mars2d.run(SQUARE).pose == 0.0)
+
+
+def test_a_file_an_example_and_a_module_are_experiments(tmp_path):
+    text = (
+        "from mars2d import Scenario\n"
+        "scenario = Scenario(stop_time=1)\n"
+        "def control(world):\n    return 0.1, 0.1\n"
+    )
+    path = tmp_path / "mine.py"
+    path.write_text(text)
+    module = types.ModuleType("mine")
+    exec(text, module.__dict__)
+    by_path, by_text, by_module = (mars2d.run(x) for x in (path, str(path), module))
+    assert by_path.digest == by_text.digest == by_module.digest
+    assert by_path.filename == "mine.py"
+
+
+def test_a_file_leaves_no_module_behind(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text("from mars2d import Scenario\nscenario = Scenario(stop_time=1)\n")
+    before = set(sys.modules)
+    mars2d.run(path)
+    assert not [name for name in set(sys.modules) - before if "mine" in name]
+
+
+def test_what_no_world_can_be_made_of_is_said_with_its_file(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(
+        "from mars2d import Car, Robot, Scenario\n"
+        "scenario = Scenario(robots=[Robot(drive=Car(dead_time=2))], sampling_time=1e-6)\n"
+    )
+    with pytest.raises(InputError, match=r"Car\.dead_time") as caught:
+        mars2d.run(path)
+    assert caught.value.where == "mine.py"
+
+
+def test_two_files_of_one_name_do_not_meet(tmp_path):
+    for k in (1, 2):
+        (tmp_path / str(k)).mkdir()
+        (tmp_path / str(k) / "same.py").write_text(
+            f"from mars2d import Scenario\nscenario = Scenario(stop_time={k})\n"
+        )
+    ends = [mars2d.run(tmp_path / str(k) / "same.py").time[-1] for k in (1, 2)]
+    assert ends == [1.0, 2.0]
+
+
+def test_stop_time_and_options_override_the_scenario():
+    options = {"robots.*.diameter": 0.2, "animation.grid": False, "title": "Mine"}
+    record = mars2d.run("random_walk", 5, options=options)
+    assert record.time[-1] == 5.0
+    assert [robot.diameter for robot in record.scenario.robots] == [0.2, 0.2]
+    assert record.scenario.animation.grid is False
+    assert record.scenario.title == "Mine"
+
+
+def test_options_set_the_parameters_of_a_scenario_function():
+    record = mars2d.run("follow_the_leader", 1, options={"followers": 1, "robots.0.mass": 2})
+    assert len(record.scenario.robots) == 2
+    assert record.scenario.robots[0].mass == 2.0
+
+
+def test_a_speed_paces_the_run():
+    start = time.perf_counter()
+    mars2d.run(SQUARE, speed=4.0, show=False)
+    assert time.perf_counter() - start >= 0.24  # one simulated second at four times real time
+
+
+def test_watchers_see_every_step_after_sensing():
+    seen = []
+    simulate(Experiment(SQUARE), watchers=[lambda world: seen.append(world.time)])
+    assert seen == pytest.approx(np.arange(11) * 0.1)
+
+
+def test_a_world_that_nobody_watches_calls_nobody():
+    assert watch_by([]) is None
+
+
+def test_without_a_seed_a_run_is_that_of_seed_0():
+    assert simulate(open_experiment(SQUARE)).record.seed == 0
+
+
+def test_ctrl_c_within_a_step_keeps_what_was_recorded_until_then():
+    def press(world):
+        if world.iteration == 3:
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(Interrupted, match=r"^interrupted$") as caught:
+        mars2d.run(SQUARE, watchers=[press])
+    assert caught.value.record.over_message == "Interrupted by Ctrl-C"
+    assert len(caught.value.record) == 3
+
+
+class AfterThreeSteps(Log):
+    """A log that does something of its own once it has followed the third step."""
+
+    def __init__(self, path, then):
+        super().__init__(path)
+        self._then = then
+
+    def follow(self, world):
+        super().follow(world)
+        if world.iteration == 3:
+            self._then()
+
+
+def test_ctrl_c_between_two_steps_keeps_them(tmp_path):
+    def press():
+        signal.raise_signal(signal.SIGINT)
+
+    log = AfterThreeSteps(tmp_path / "run.mcap", press)
+    with pytest.raises(Interrupted) as caught:
+        simulate(open_experiment(SQUARE), log=log)
+    assert caught.value.record.over_message == "Interrupted by Ctrl-C"
+    assert len(caught.value.record) == len(mars2d.load(tmp_path / "run.mcap")) == 3
+
+
+def test_columns_of_a_run_that_is_logged_are_kept_beside_its_file(tmp_path):
+    log, made = Log(tmp_path / "run.mcap"), []
+    beside = log.storage
+    log.storage = lambda *shape: made.append(beside(*shape)) or made[-1]
+    simulate(open_experiment(SQUARE), log=log)
+    assert made
+
+
+def test_a_disk_that_fails_between_two_steps_is_said_and_they_are_kept(tmp_path):
+    def fail():
+        raise DiskError("run.mcap: gone")
+
+    log = AfterThreeSteps(tmp_path / "run.mcap", fail)
+    with pytest.raises(DiskError) as caught:
+        simulate(open_experiment(SQUARE), log=log)
+    assert caught.value.record.over_message == "Error: run.mcap: gone"
+    assert len(caught.value.record) == 3
+
+
+def test_seeds_make_runs_that_differ_and_repeat():
+    first, again, other = (mars2d.run("random_walk", 200, seed=seed) for seed in (1, 1, 2))
+    assert first.digest == again.digest
+    assert first.digest != other.digest
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"experiment": 3}, "expected a file"),
+        ({"experiment": SQUARE, "speed": "fast"}, "speed = 'fast'"),
+        ({"experiment": SQUARE, "seed": 1.5}, "seed = 1.5"),
+        ({"experiment": SQUARE, "control": 7}, "control = 7"),
+        ({"experiment": SQUARE, "options": {"titel": "x"}}, "did you mean 'title'?"),
+        ({"experiment": SQUARE, "stop_time": -1}, "Scenario.stop_time = -1"),
+    ],
+)
+def test_what_can_not_be_run_is_refused(arguments, words):
+    with pytest.raises(InputError, match=r".") as caught:
+        mars2d.run(**arguments)
+    assert words in str(caught.value)
+
+
+def test_an_error_carries_what_was_recorded():
+    def fails_later(world):
+        if world.iteration == 5:
+            raise RuntimeError("enough")
+        return 0.1, 0.0
+
+    with pytest.raises(mars2d.LawError, match="enough") as caught:
+        mars2d.run(SQUARE, control=fails_later)
+    assert len(caught.value.record) == 5
+    assert caught.value.where.startswith("test_session.py, line")
+
+
+# -- laws in files of their own ---------------------------------------------------------------
+
+DUEL = """\
+from mars2d import Robot, Scenario, load_law
+
+def scenario(red="players/forward.py", blue="players/forward.py"):
+    return Scenario(
+        stop_time=1,
+        robots=[
+            Robot(pose=(-1, 0, 0), controller=load_law(red), name="red"),
+            Robot(pose=(1, 0, 3.14), controller=load_law(blue), name="blue"),
+        ],
+    )
+"""
+
+COUNTING = """\
+calls = []
+
+def control(robot):
+    calls.append(robot.name)
+    return 0.01 * len(calls), 0.0
+"""
+
+
+@pytest.fixture
+def duel(tmp_path, monkeypatch):
+    """An experiment with a law in a folder beside it, while another folder is the current one."""
+    (tmp_path / "game" / "players").mkdir(parents=True)
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "game" / "duel.py").write_text(DUEL)
+    (tmp_path / "game" / "players" / "forward.py").write_text(COUNTING)
+    monkeypatch.chdir(tmp_path / "mine")
+    return tmp_path / "game" / "duel.py"
+
+
+def test_a_law_is_found_beside_the_experiment_and_each_robot_has_its_own(duel):
+    record = mars2d.run(duel)
+    assert np.array_equal(record.command[:, 0, 0], record.command[:, 0, 1])
+    assert record.command[:, 0, 0] == pytest.approx(0.01 * np.arange(1, 12))
+
+
+def test_a_law_is_found_in_the_current_folder_and_by_its_full_path(duel, tmp_path):
+    law = tmp_path / "mine" / "spin.py"
+    law.write_text("def control(robot):\n    while True:\n        yield 0.0, 1.0\n")
+    for path in ("spin.py", str(law), law):
+        record = mars2d.run(duel, options={"red": path})
+        assert np.all(record.command[:, 1] == [1.0, 0.0])
+
+
+def test_a_law_beside_the_experiment_comes_before_one_in_the_current_folder(duel, tmp_path):
+    (tmp_path / "mine" / "players").mkdir()
+    (tmp_path / "mine" / "players" / "forward.py").write_text("1 / 0\n")
+    assert mars2d.run(duel).finished
+
+
+def test_a_law_may_have_another_name_and_import_what_lies_beside_it(duel):
+    (duel.parent / "players" / "gains.py").write_text("GAIN = 0.25\n")
+    (duel.parent / "players" / "mine.py").write_text(
+        "from gains import GAIN\ndef pusher(robot):\n    return GAIN, 0\n"
+    )
+    duel.write_text(DUEL.replace("load_law(red)", "load_law('players/mine.py', 'pusher')"))
+    before = set(sys.modules)
+    assert np.all(mars2d.run(duel).command[:, 0, 0] == 0.25)
+    assert not {name for name in set(sys.modules) - before if "mine" in name or "gains" in name}
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "words"),
+    [
+        ("def contrl(robot):\n    pass\n", "red.py", "no law 'control'; did you mean 'contrl'?"),
+        ("def attack(robot):\n    pass\n", "red.py", "no law 'control'; known: attack"),
+        ("x = 1\n", "red.py", "has no law 'control'"),
+        ("control = 3\n", "red.py", "control = 3: expected a function of one argument, the robot"),
+        ("def control():\n    pass\n", "red.py", "exactly one argument, the robot"),
+        ("x = 1\nimport nmpy\n", "red.py, line 2", "ModuleNotFoundError"),
+        ("def control(robot:\n    pass\n", "red.py, line 1", "never closed"),
+        ("def control(robot):\n    return robot.posee\n", "red.py, line 2", "'posee'"),
+        ("def control(robot):\n    yield 1\n", "red.py, line 1", "control returned 1"),
+        ("def control(robot):\n    pass\n", "red.py, line 1", "control returned nothing"),
+    ],
+)
+def test_a_mistake_in_a_laws_file_points_into_it(duel, tmp_path, text, where, words):
+    (tmp_path / "mine" / "red.py").write_text(text)
+    with pytest.raises(InputError) as caught:
+        mars2d.run(duel, options={"red": "red.py"})
+    assert caught.value.where == where
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [
+        (
+            "rde.py",
+            "rde.py: there is no such file beside duel.py or in the current folder;",
+        ),
+        ("rde.py", "did you mean 'red.py'?"),
+        ("red", "did you mean 'red.py'?"),
+        ("players/foward.py", "did you mean 'players/forward.py'?"),
+        ("players", "players: a folder; expected a law"),
+        ("red.txt", "red.txt: expected a law, a file that ends in .py"),
+        ("/nowhere/at/all/red.py", "/nowhere/at/all/red.py: there is no such file"),
+        (3, "load_law(path) = 3: expected the name of a law's file"),
+    ],
+)
+def test_a_laws_file_that_is_not_there_is_named_with_the_nearest(duel, tmp_path, path, words):
+    (tmp_path / "mine" / "red.py").write_text("def control(robot):\n    return 0, 0\n")
+    (tmp_path / "mine" / "red.txt").write_text("")
+    with pytest.raises(InputError) as caught:
+        mars2d.run(duel, options={"red": path})
+    assert words in str(caught.value)
+    assert caught.value.where.startswith("duel.py, line")
+
+
+def test_a_law_that_fails_late_keeps_the_record_and_its_line(duel, tmp_path):
+    (tmp_path / "mine" / "late.py").write_text(
+        "def control(robot):\n    return 1 / (0.5 - robot.time), 0\n"
+    )
+    with pytest.raises(LawError, match="ZeroDivisionError") as caught:
+        mars2d.run(duel, options={"red": "late.py"})
+    assert caught.value.where == "late.py, line 2"
+    assert len(caught.value.record) == 5
+
+
+def test_a_law_can_be_loaded_without_an_experiment(tmp_path, monkeypatch):
+    (tmp_path / "law.py").write_text(COUNTING)
+    monkeypatch.chdir(tmp_path)
+    robot = Robot(controller=mars2d.load_law("law.py"))
+    assert mars2d.run(Scenario(robots=[robot], stop_time=1)).command[-1, 0, 0] > 0
+    with pytest.raises(InputError, match=r"load_law\(name\) = 3"):
+        mars2d.load_law("law.py", 3)
+
+
+def test_where_the_record_of_a_failed_law_can_not_be_saved_the_laws_error_counts(tmp_path):
+    target = tmp_path / "run.npz"
+
+    def law(world):
+        if world.iteration == 3:
+            target.mkdir()
+            raise ValueError("lost")
+        return 0.1, 0.1
+
+    with pytest.raises(LawError, match="lost") as caught:
+        mars2d.run(SQUARE, control=law, record=target)
+    assert len(caught.value.record) == 3
+    assert "run.npz: can't be written" in caught.value.__notes__[0]

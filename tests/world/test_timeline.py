@@ -1,0 +1,903 @@
+"""The timeline: going back and on is the same to the bit, whatever laws remember."""
+
+import argparse
+import io
+import time
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import LawError, Robot, Scenario
+from mars2d.addons import Map
+from mars2d.cli import outputs
+from mars2d.core.errors import InputError
+from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.world.loop import simulate
+from mars2d.world.timeline import PARKED, Timeline
+from mars2d.world.verify import rerun
+
+WALL = Map([[(1.0, 2.0), (2.0, 2.0)]], name="drawn")
+
+
+def finish(timeline):
+    while not timeline.over:
+        timeline.advance()
+
+
+def run_to(timeline, row):
+    while timeline.newest < row:
+        timeline.advance()
+
+
+def idle(timeline, times=400):
+    for _ in range(times):
+        timeline.idle(0.02)
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Write an experiment's file and return a timeline of it, with what it is run by."""
+
+    def write(text, name="walk.py", **others):
+        for other, content in others.items():
+            (tmp_path / f"{other}.py").write_text(content)
+        path = tmp_path / name
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def simulated(path, seed=3):
+    return simulate(open_experiment(path), seed).record
+
+
+# -- every example ---------------------------------------------------------------------------------
+
+
+LONG = {
+    "circular_motion", "coverage_square", "cyclic_pursuit", "dead_reckoning", "leader_following",
+    "many_push_one", "obstacle_avoidance", "path_planning", "pursuit_corners", "pursuit_voronoi",
+    "push_box", "wall_follower", "crowd", "tug_of_war", "herding", "head_on", "billiards",
+    "corner_game",
+}  # fmt: skip
+"""Examples that take seconds to go back in: `pytest -m soak`."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[pytest.mark.soak] if name in LONG else []) for name in examples()],
+)
+def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
+    options = {"stop_time": 4.0} if name in ("random_walk", "flocking") else {}
+    expected = simulate(open_experiment(name, options), 1).record
+    timeline = Timeline(open_experiment(name, options), 1)
+    timeline.go(0)
+    finish(timeline)
+    assert timeline.record.digest == expected.digest
+    last = timeline.newest
+    for row in (last // 2, last // 3, 2 * last // 3, 0, last - 1):
+        timeline.go(row)
+        timeline.idle(0.05)
+        world = timeline.branch()
+        assert timeline.remark == ""
+        assert world.iteration == row
+        assert np.array_equal(world.pose, expected.pose[row])
+        finish(timeline)
+        record = timeline.record
+        assert record.digest == expected.digest
+        assert len(record.branches) == len(timeline.branches)
+    assert all(branch.digest == expected.digest for branch in record.branches)
+
+
+# -- what laws remember ----------------------------------------------------------------------------
+
+HELPER = "class Count:\n    n = 0\n"
+
+MEMORY = '''
+"""Laws that remember in every way that there is."""
+from helper import Count
+from mars2d import Robot, Scenario, Unicycle, load_law
+from mars2d.addons import Communication
+from mars2d.sensors import RangeFinder
+
+calls = []
+
+def nearest(robot):
+    return min(3.0, *robot.sense.range_finder)
+
+def by_generator(robot):
+    turn = 0.0
+    while True:
+        turn += 0.1 * robot.rng.standard_normal()
+        yield 0.3, turn
+
+def by_memory(robot):
+    robot.memory.k = getattr(robot.memory, "k", 0) + 1
+    if robot.time % 1 < 0.05:
+        robot.send(robot.memory.k)
+    return 0.2, 0.1 * len(robot.inbox) + 0.01 * robot.memory.k + nearest(robot) / 9
+
+def by_module(robot):
+    calls.append(robot.time)
+    Count.n += 1
+    return 0.2, 0.01 * len(calls) - 0.02 * Count.n
+
+def by_object():
+    count = 0
+    def law(robot):
+        nonlocal count
+        count += 1
+        return 0.25, 1.0 if count % 7 < 3 else -1.0
+    return law
+
+drive = Unicycle(max_linear_speed=1.0, noise=0.1, dead_time=0.1, max_acceleration=0.5)
+sensors = [RangeFinder(beams=5, range=3.0, noise=0.05, latency=0.15, rate=10)]
+laws = [by_generator, by_memory, by_module, by_object(), load_law("law.py"), load_law("law.py")]
+scenario = Scenario(
+    robots=[
+        Robot(drive=drive, sensors=sensors, controller=law).at(0.9 * i - 2.5, 0.3 * i, i)
+        for i, law in enumerate(laws)
+    ],
+    addons=[Communication(loss=0.3, delay=0.2, range=3.0)],
+    sampling_time=0.05, stop_time=10, command_delay=0.02,
+)
+'''
+
+LAW = """
+from math import sin
+seen = []
+def control(robot):
+    seen.append(min(3.0, robot.sense.range_finder[0]))
+    return 0.2, sin(sum(seen[-5:])) + 0.01 * len(seen)
+"""
+
+
+@pytest.fixture
+def memory(written):
+    return written(MEMORY, helper=HELPER, law=LAW)
+
+
+def test_memory_of_every_kind_is_rebuilt(memory):
+    expected = simulated(memory)
+    timeline = Timeline(open_experiment(memory), 3)
+    finish(timeline)
+    for row in (100, 37, 150, 0, 199, 150):
+        timeline.go(row)
+        timeline.branch()
+        assert timeline.remark == ""
+        finish(timeline)
+        assert timeline.record.digest == expected.digest
+
+
+def test_worlds_that_wait_change_nothing(memory):
+    expected = simulated(memory)
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 120)
+    timeline.go(60)
+    idle(timeline)
+    timeline.go(120)
+    idle(timeline, 4000)
+    rows = sorted(world.iteration for world in timeline._waiting)
+    assert set(rows) >= {24, 48, 72, 96}
+    finish(timeline)
+    assert timeline.record.digest == expected.digest
+    timeline.go(80)
+    timeline.branch()
+    finish(timeline)
+    assert timeline.record.digest == expected.digest
+
+
+def test_no_more_worlds_wait_than_said(memory):
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 150)
+    for row in range(149, 0, -7):
+        timeline.go(row)
+        idle(timeline, 30)
+        assert len(timeline._waiting) <= PARKED + 1
+    timeline.branch()
+    assert timeline.world.iteration == timeline.row
+
+
+def test_nothing_waits_before_somebody_goes_back(memory):
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 100)
+    idle(timeline, 10)
+    assert not timeline._waiting
+
+
+# -- hands -----------------------------------------------------------------------------------------
+
+
+def poke(timeline, upto=150):
+    """Put, pull, drive, draw and let go, and run on."""
+    while timeline.newest < upto:
+        world, k = timeline.world, timeline.newest
+        if k == 20:
+            world.hands.place(1, (3.0, 3.0, 1.0))
+        if k == 30:
+            world.change(
+                world.scenario.replace(addons=[*world.scenario.addons, WALL]), world.control
+            )
+        if 40 <= k < 50:
+            world.hands.pull(0, (0.1, 0.0), (2.0 + 0.1 * k, 1.0), 30.0)
+        if k == 50:
+            world.hands.pull(0, (0.1, 0.0), None)
+        if k == 60:
+            world.hands.steer(2, (0.2, 1.0))
+        if k == 90:
+            world.hands.steer(2, None)
+        timeline.advance()
+
+
+@pytest.mark.parametrize("row", [10, 20, 25, 30, 35, 45, 50, 70, 120])
+def test_what_hands_did_is_done_again(memory, row):
+    timeline = Timeline(open_experiment(memory), 3)
+    poke(timeline)
+    before = timeline.world.record
+    timeline.go(row)
+    shown = timeline.frame.pose
+    timeline.branch()
+    assert timeline.remark == ""
+    assert np.array_equal(timeline.world.pose, shown)
+    assert np.array_equal(timeline.world.history.pose, before.pose[:row])
+    assert timeline.world.scenario.addons == before.scenario_at(row).addons
+    if row > 50 and row != 70:  # where hands are off, all goes on as it did
+        run_to(timeline, 150)
+        again = timeline.world.record
+        assert np.array_equal(again.pose, before.pose)
+        assert np.array_equal(again.command, before.command)
+        assert again.sensors.keys() == before.sensors.keys()
+        for name, values in before.sensors.items():
+            assert np.array_equal(again.sensors[name], values)
+        assert np.array_equal(again.messages["status"], before.messages["status"])
+
+
+def test_hands_let_go_where_a_branch_begins(memory):
+    timeline = Timeline(open_experiment(memory), 3)
+    poke(timeline)
+    timeline.go(45)
+    assert not timeline.branch().hands.pulls
+    timeline.go(45)
+
+
+def test_a_change_that_is_refused_leaves_no_branch(memory):
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 50)
+    world = timeline.world
+    timeline.go(30)
+    with pytest.raises(InputError, match="robot1"):
+        timeline.change(lambda w: w.hands.place(0, (*w.pose[:2, 1], 0.0)))
+    assert timeline.world is world
+    assert timeline.branches == []
+    assert timeline.row == 30
+    timeline.change(lambda w: w.hands.place(0, (-4.0, -4.0, 0.0)))
+    assert timeline.branches == [world]
+    assert timeline.frame.pose[:, 0].tolist() == [-4.0, -4.0, 0.0]
+    assert len(timeline.world.hands.log) == 1
+
+
+# -- branches --------------------------------------------------------------------------------------
+
+
+def test_a_branch_of_a_branch_and_back(memory):
+    expected = simulated(memory)
+    timeline = Timeline(open_experiment(memory), 3)
+    finish(timeline)
+    timeline.go(80)
+    timeline.change(lambda w: w.hands.place(0, (-4.0, -4.0, 0.0)))
+    run_to(timeline, 150)
+    timeline.go(120)
+    timeline.change(lambda w: w.hands.place(1, (4.0, -4.0, 0.0)))
+    run_to(timeline, 140)
+    second, first = timeline.world, timeline.branches[1]
+    assert timeline.parted(first) == 120
+    assert timeline.parted(timeline.branches[0]) == 80
+    timeline.other_branch()
+    assert timeline.record.digest == expected.digest
+    assert timeline.row == 140
+    timeline.other_branch()
+    assert timeline.world is first
+    timeline.go(100)
+    idle(timeline, 100)
+    timeline.other_branch()
+    assert timeline.world is second
+    assert timeline.row == 100
+    timeline.go(130)
+    timeline.branch()
+    assert np.array_equal(timeline.world.pose, second.history.pose[130])
+    assert timeline.remark == ""
+
+
+def test_branches_that_part_by_a_prop_alone_are_told_apart(written):
+    path = written("""
+from mars2d import Robot, Scenario
+from mars2d.bodies.props import Box
+scenario = Scenario(robots=[Robot(controller=lambda robot: (0, 0))], props=[Box(pose=(2, 2, 0))])
+""")
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 40)
+    timeline.go(10)
+    timeline.change(lambda w: w.hands.place(1, (3.0, 3.0, 0.0)))
+    run_to(timeline, 40)
+    timeline.go(30)
+    idle(timeline, 20)
+    timeline.other_branch()
+    assert timeline.row == 30
+    assert timeline.branch().prop_pose[:2, 0].tolist() == [2.0, 2.0]
+
+
+def test_a_world_at_its_start_and_one_that_is_over_can_be_changed(written):
+    path = written("""
+from mars2d import Robot, Scenario
+def law(robot):
+    if robot.position[0] > 1:
+        robot.world.stop("there")
+    return 1.0, 0.0
+scenario = Scenario(robots=[Robot(controller=law)], stop_time=50, sampling_time=0.1)
+""")
+    timeline = Timeline(open_experiment(path))
+    assert timeline.branch() is timeline.world  # at row 0, the newest
+    finish(timeline)
+    assert timeline.frame.over_message == "there"
+    last = timeline.newest
+    timeline.change(lambda w: w.hands.place(0, (-1.0, 0.0, 0.0)))
+    assert not timeline.over
+    assert [world.over_message for world in timeline.branches] == ["there"]
+    finish(timeline)
+    assert timeline.newest > last + 10
+    timeline.go(0)
+    timeline.change(lambda w: w.hands.place(0, (-2.0, 0.0, 0.0)))
+    finish(timeline)
+    assert timeline.frame.over_message == "there"
+    assert len(timeline.branches) == 2
+
+
+def test_where_an_addon_ends_the_run_nothing_can_be_changed(written):
+    path = written("""
+from mars2d import Addon, Robot, Scenario
+class Referee(Addon):
+    def on_step(self, world):
+        if world.time >= 1:
+            world.stop("enough")
+scenario = Scenario(robots=[Robot(controller=lambda robot: (0.1, 0))], addons=[Referee()])
+""")
+    timeline = Timeline(open_experiment(path))
+    finish(timeline)
+    world = timeline.world
+    with pytest.raises(InputError, match="nothing follows this step, whatever is changed: enough"):
+        timeline.branch()
+    assert timeline.world is world
+    assert timeline.branches == []
+    timeline.go(timeline.newest - 1)
+    timeline.branch()
+    finish(timeline)
+    assert timeline.frame.over_message == "enough"
+
+
+# -- errors ----------------------------------------------------------------------------------------
+
+FAILING = """
+from mars2d import Robot, Scenario
+def law(robot):
+    if robot.time > 1:
+        return 1 / 0, 0
+    return 0.2, 0.1
+scenario = Scenario(robots=[Robot(controller=law)], sampling_time=0.1)
+"""
+
+
+def test_the_past_of_a_failed_run_can_be_looked_at_and_mended(written):
+    path = written(FAILING)
+    timeline = Timeline(open_experiment(path))
+    with pytest.raises(LawError, match="division by zero"):
+        finish(timeline)
+    failed = timeline.newest
+    assert timeline.over
+    timeline.go(5)
+    assert timeline.frame.over_message == ""
+    timeline.go(failed)
+    path.write_text(FAILING.replace("1 / 0", "0.3"))
+    timeline.change(lambda w: w.hands.steer(0, None))
+    assert timeline.row == failed
+    assert timeline.branches == []  # the one that failed has no row that this one has not
+    run_to(timeline, 2 * failed)
+    assert timeline.world.history.command[-1].ravel().tolist() == [0.3, 0.0]
+
+
+def test_a_law_that_fails_again_does_so_at_the_same_step(written):
+    timeline = Timeline(open_experiment(written(FAILING)))
+    with pytest.raises(LawError):
+        finish(timeline)
+    failed = timeline.newest
+    timeline.branch()
+    with pytest.raises(LawError, match="division by zero"):
+        timeline.advance()
+    assert timeline.newest == failed
+    assert len(timeline.record) == failed
+
+
+def test_a_file_that_is_broken_in_between_is_told_of_and_nothing_is_lost(written):
+    path = written(FAILING)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 8)
+    path.write_text("scenario = Scen(")
+    world = timeline.world
+    timeline.go(4)
+    idle(timeline, 5)
+    with pytest.raises(InputError, match=r"walk\.py, line 1"):
+        timeline.branch()
+    with pytest.raises(InputError, match=r"walk\.py, line 1"):
+        timeline.restart()
+    assert (timeline.world, timeline.row, timeline.newest) == (world, 4, 8)
+    path.write_text(FAILING)
+    assert timeline.branch().iteration == 4
+
+
+def test_a_file_with_other_robots_is_refused(written):
+    path = written(FAILING)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 8)
+    path.write_text(FAILING.replace("[Robot(", "[Robot().at(3, 3), Robot("))
+    timeline.go(4)
+    idle(timeline, 5)
+    with pytest.raises(InputError, match="2 robots"):
+        timeline.branch()
+    timeline.restart()
+    assert len(timeline.scenario.robots) == 2
+
+
+@pytest.mark.parametrize(
+    "source",
+    ["random.uniform(-1, 1)", "np.random.normal()", "time.perf_counter() % 1", "next(count)"],
+)
+def test_laws_that_depend_on_something_outside_are_told_of(written, source):
+    path = written(f"""
+import itertools, random, time
+import numpy as np
+from mars2d import Robot, Scenario
+count = np.__dict__.setdefault("_counter_of_a_test", itertools.count())
+scenario = Scenario(robots=[Robot(name="red", controller=lambda robot: (0.1, {source}))])
+""")
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 30)
+    poses = timeline.world.history.pose.copy()
+    timeline.go(20)
+    timeline.branch()
+    assert "the law of red gave another command at step 0" in timeline.remark
+    assert np.array_equal(timeline.world.history.pose, poses[:20])
+    assert len(timeline.branches) == 1
+
+
+def test_a_law_that_ends_the_run_by_chance_is_told_of(written):
+    path = written("""
+import itertools
+import numpy as np
+from mars2d import Robot, Scenario
+count = np.__dict__.setdefault("_ending_of_a_test", itertools.count())
+def law(robot):
+    if next(count) == 45:
+        robot.world.stop("by chance")
+    return 0.1, 0.0
+scenario = Scenario(robots=[Robot(controller=law)])
+""")
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 30)
+    timeline.go(20)
+    with pytest.raises(InputError, match="run again, it ended before: by chance"):
+        timeline.branch()
+    assert (timeline.newest, timeline.branches) == (30, [])
+
+
+def test_an_experiment_that_is_not_from_a_file(capsys):
+    def law(robot):
+        print("asked")
+        robot.memory.k = getattr(robot.memory, "k", 0) + 1
+        return 0.2, 0.01 * robot.memory.k
+
+    experiment = Experiment(Scenario(robots=[Robot(controller=law)], stop_time=3))
+    expected = simulate(experiment, 3).record
+    timeline = Timeline(experiment, 3)
+    finish(timeline)
+    timeline.go(11)
+    idle(timeline, 20)
+    assert timeline._waiting == []  # it would share what the law remembers, if that lies elsewhere
+    timeline.branch()
+    assert timeline.remark == ""
+    finish(timeline)
+    assert timeline.record.digest == expected.digest
+    timeline.restart()
+    assert timeline.newest == 0
+
+
+def test_a_law_that_keeps_its_memory_in_a_closure_is_told_of():
+    calls = []
+
+    def law(robot):
+        calls.append(robot.time)
+        return 0.2, 0.01 * len(calls)
+
+    timeline = Timeline(Experiment(Scenario(robots=[Robot(controller=law)], stop_time=3)))
+    finish(timeline)
+    timeline.go(11)
+    timeline.branch()
+    assert "the law of robot0" in timeline.remark
+
+
+def test_own_random_places_stay_where_they_are(written):
+    path = written("""
+import random
+from mars2d import Robot, Scenario
+from mars2d.addons import Map
+x = random.uniform(1, 4)
+scenario = Scenario(
+    robots=[Robot(pose=(-x, x, 0), controller=lambda robot: (0.2, 0.5))],
+    addons=[Map([[(x, -1), (x, 1)]])],
+)
+""")
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 20)
+    timeline.go(10)
+    timeline.branch()
+    assert timeline.remark == ""
+    assert timeline.scenario.obstacles == timeline.branches[0].scenario.obstacles
+
+
+# -- what laws do outside --------------------------------------------------------------------------
+
+
+def test_prints_are_not_repeated(written, capsys):
+    path = written("""
+import sys
+from mars2d import Robot, Scenario
+print("read")
+def law(robot):
+    print("at", robot.time)
+    print("warned", file=sys.stderr)
+    return 0.1, 0.0
+scenario = Scenario(robots=[Robot(controller=law)], sampling_time=1)
+""")
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 5)
+    timeline.go(3)
+    timeline.branch()
+    out, err = capsys.readouterr()
+    assert out.splitlines() == ["read", *(f"at {k}.0" for k in range(5))]
+    assert err.split() == 5 * ["warned"]
+    timeline.advance()
+    assert capsys.readouterr().out == "at 3.0\n"
+
+
+def test_without_a_standard_output(memory, monkeypatch):
+    for name in ("stdin", "stdout", "stderr"):
+        monkeypatch.setattr(f"sys.{name}", None)
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 20)
+    timeline.go(10)
+    timeline.branch()
+
+
+def test_nobody_is_asked_for_input_again(written, monkeypatch):
+    path = written("""
+from mars2d import Robot, Scenario
+def law(robot):
+    return float(input("How fast? ")), 0
+scenario = Scenario(robots=[Robot(controller=law)])
+""")
+    monkeypatch.setattr("sys.stdin", io.StringIO("0.1\n" * 5))
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 5)
+    timeline.go(3)
+    with pytest.raises(InputError, match="EOF"):
+        timeline.branch()
+    assert timeline.newest == 5
+
+
+def test_a_way_back_can_be_broken_off(memory, monkeypatch):
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 190)
+    timeline.go(180)
+    told = []
+
+    def progress(share):
+        told.append(share)
+        return len(told) < 2
+
+    with monkeypatch.context() as patch, pytest.raises(InputError, match="nothing was changed"):
+        patch.setattr("mars2d.world.timeline.SLICE", 0.001)
+        timeline.branch(progress)
+    assert len(told) == 2
+    assert 0 <= told[0] <= told[1] < 1
+    assert (timeline.newest, timeline.branches) == (190, [])
+    timeline.branch()
+    assert timeline.newest == 180
+
+
+def test_ctrl_c_on_a_way_back_breaks_nothing(written):
+    path = written("""
+import numpy as np
+from mars2d import Robot, Scenario
+def law(robot):
+    if np.__dict__.get("_interrupts_a_test") and robot.time > 0.5:
+        raise KeyboardInterrupt
+    return 0.1, 0.0
+scenario = Scenario(robots=[Robot(controller=law)], sampling_time=0.1)
+""")
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 20)
+    timeline.go(10)
+    np._interrupts_a_test = True
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            timeline.branch()
+    finally:
+        del np._interrupts_a_test
+    assert not timeline.world.over
+    assert len(timeline.record) == 20
+    assert timeline.branch().iteration == 10
+
+
+# -- time ------------------------------------------------------------------------------------------
+
+
+def test_idle_is_late_by_no_more_than_a_control_step(written):
+    path = written("""
+import time
+from mars2d import Robot, Scenario
+def law(robot):
+    time.sleep(0.004)
+    return 0.1, 0.0
+scenario = Scenario(robots=[Robot(controller=law)])
+""")
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 100)
+    timeline.go(90)
+    timeline.idle(0.02)  # it opens the file, and gets to know how long a control step takes
+    late = []
+    for _ in range(10):
+        start = time.perf_counter()
+        timeline.idle(0.010)
+        late.append(time.perf_counter() - start - 0.010)
+    assert sorted(late)[5] < 0.006
+    reached = timeline._waiting[0].iteration
+    assert reached > 10
+    start = time.perf_counter()
+    for _ in range(20):
+        timeline.idle(0.001)  # less than a control step takes
+    assert time.perf_counter() - start < 0.02
+    assert timeline._waiting[0].iteration <= reached + 1
+
+
+# -- the experiment read again ---------------------------------------------------------------------
+
+STRAIGHT = """
+from mars2d import Robot, Scenario
+from mars2d.addons import Map
+from mars2d.sensors import Proximity
+def law(robot):
+    return 0.2, 0.0
+scenario = Scenario(
+    robots=[Robot(sensors=[Proximity(range=1)], controller=law).at(0, 0)],
+    addons=[Map([[(4, -1), (4, 1)]])],
+    sampling_time=0.1,
+)
+"""
+
+
+def test_laws_read_again_are_in_effect_from_the_present_row(written):
+    path = written(STRAIGHT)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 20)
+    path.write_text(STRAIGHT.replace("0.2, 0.0", "0.1, 0.5"))
+    assert timeline.take(open_experiment(path)).startswith("in effect from now on")
+    assert (timeline.row, timeline.newest, timeline.branches) == (20, 20, [])
+    run_to(timeline, 30)
+    command = timeline.world.history.command[:, :, 0]
+    assert (command[:20] == (0.2, 0.0)).all()
+    assert (command[20:] == (0.1, 0.5)).all()
+    timeline.go(25)
+    timeline.branch()
+    assert timeline.remark == ""
+    run_to(timeline, 30)
+    assert np.array_equal(timeline.world.history.command[:, :, 0], command)
+
+
+def test_in_the_past_they_make_a_branch(written):
+    path = written(STRAIGHT)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 20)
+    timeline.go(10)
+    path.write_text(STRAIGHT.replace("0.2, 0.0", "0.1, 0.5"))
+    timeline.take(open_experiment(path))
+    assert (timeline.newest, len(timeline.branches)) == (10, 1)
+    run_to(timeline, 15)
+    timeline.other_branch()
+    assert timeline.newest == 20
+    timeline.go(timeline.newest)
+    timeline.advance()
+    assert timeline.world.history.command[-1].ravel().tolist() == [0.2, 0.0]  # of its own law
+    timeline.go(5)
+    timeline.branch()
+    assert timeline.remark == ""  # no wonder that the new law asks for something else
+    timeline.advance()
+    assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
+
+
+def test_laws_read_again_have_watched_what_was_before(written):
+    counting = """
+from mars2d import Robot, Scenario
+def law(robot):
+    k = 0
+    while True:
+        k += 1
+        yield 0.1, {0} * k
+scenario = Scenario(robots=[Robot(controller=law)], sampling_time=0.1)
+"""
+    path = written(counting.format("0.01"))
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 20)
+    path.write_text(counting.format("0.02"))
+    timeline.take(open_experiment(path))
+    timeline.advance()
+    assert timeline.world.history.command[-1, 1, 0] == pytest.approx(0.02 * 21)
+
+
+def test_walls_that_were_read_again_stand_from_now_on_and_drawn_ones_stay(written):
+    path = written(STRAIGHT)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 5)
+    world = timeline.world
+    world.change(world.scenario.replace(addons=[*world.scenario.addons, WALL]), world.control)
+    run_to(timeline, 10)
+    path.write_text(STRAIGHT.replace("0.2, 0.0", "0.1, 0.5"))
+    timeline.take(open_experiment(path))
+    assert [addon.key for addon in timeline.scenario.addons] == ["map", "drawn"]
+    path.write_text(STRAIGHT.replace("(4, -1)", "(4, -2)"))
+    timeline.take(open_experiment(path))
+    assert timeline.scenario.obstacles == (((4.0, -2.0), (4.0, 1.0)),)
+    run_to(timeline, 15)
+    timeline.go(7)
+    assert timeline.scenario.obstacles[0][0] == (4.0, -1.0)
+    timeline.branch()
+    assert timeline.world.scenario.obstacles[0][0] == (4.0, -1.0)
+    assert len(timeline.world.scenario.obstacles) == 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("Proximity(range=1)", "Proximity(range=2)", "sensors of robot0"),
+        ("sampling_time=0.1", "sampling_time=0.2", "sampling_time"),
+        ("[Robot(", "[Robot().at(3, 3), Robot(", "2 robots"),
+        ("Robot(sensors", "Robot(diameter=0.7, sensors", "robot0"),
+    ],
+)
+def test_what_needs_a_new_start_is_said_and_nothing_happens(written, old, new, words):
+    path = written(STRAIGHT)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 10)
+    world = timeline.world
+    path.write_text(STRAIGHT.replace(old, new))
+    with pytest.raises(InputError, match=words):
+        timeline.take(open_experiment(path))
+    assert timeline.world is world
+    timeline.restart(open_experiment(path))
+    assert (timeline.row, timeline.newest) == (0, 0)
+
+
+def test_a_law_read_again_that_fails_is_not_taken(written):
+    path = written(STRAIGHT)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 10)
+    world = timeline.world
+    path.write_text(STRAIGHT.replace("return 0.2, 0.0", "return 0.2 / (robot.time - 0.5), 0.0"))
+    with pytest.raises(LawError, match=r"walk\.py, line 6: law raised ZeroDivisionError"):
+        timeline.take(open_experiment(path))
+    assert timeline.world is world
+    timeline.advance()
+    assert timeline.newest == 11
+
+
+def test_a_run_that_has_ended_is_not_gone_on_with(written):
+    path = written(STRAIGHT.replace("sampling_time=0.1", "sampling_time=0.1, stop_time=1"))
+    timeline = Timeline(open_experiment(path))
+    finish(timeline)
+    digest = timeline.record.digest
+    changed = path.read_text().replace("0.2, 0.0", "0.1, 0.5")
+    path.write_text(changed)
+    assert "where you go back" in timeline.take(open_experiment(path))
+    assert timeline.record.digest == digest
+    timeline.go(5)
+    timeline.branch()
+    assert timeline.remark == ""
+    timeline.advance()
+    assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
+
+
+OWN = """
+import numpy as np
+from mars2d import Addon, Robot, Scenario, Sensor
+from mars2d.sensors import Quantity
+class Nose(Sensor):
+    quantities = (Quantity("smell", "1"),)
+    def read(self, robot, world, rng):
+        return robot.pose[0] + rng.normal()
+class Count(Addon):
+    def on_step(self, world):
+        self.steps = getattr(self, "steps", 0) + 1
+def law(robot):
+    return 0.2, 0.1 * robot.sense.nose + 0.01 * robot.world.addons.count.steps
+scenario = Scenario(robots=[Robot(sensors=[Nose()], controller=law)], addons=[Count()])
+"""
+
+
+def test_sensors_and_addons_of_ones_own_do_not_need_a_new_start(written):
+    path = written(OWN)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 10)
+    path.write_text(OWN.replace("0.2, 0.1", "0.1, 0.2"))
+    timeline.take(open_experiment(path))
+    assert timeline.world.addons.count.steps == 11
+    run_to(timeline, 20)
+    assert timeline.world.history.command[-1, 0, 0] == 0.1
+    timeline.go(15)
+    timeline.branch()
+    assert timeline.remark == ""
+    path.write_text(OWN.replace("Sensor):", "Sensor):\n    gain: float = 1.0"))
+    timeline.take(open_experiment(path))
+    assert timeline.newest == 15
+
+
+def test_the_record_of_a_window_run_is_run_again_to_the_bit(memory, tmp_path):
+    timeline = Timeline(open_experiment(memory), 3)
+    poke(timeline)
+    timeline.go(100)
+    timeline.change(lambda w: w.hands.place(0, (-4.0, -4.0, 0.0)))
+    run_to(timeline, 180)
+    record = timeline.record
+    assert rerun(record) is None
+    assert [rerun(branch) for branch in record.branches] == [None]
+    assert record.over_message == record.branches[0].over_message == "The window was closed"
+    loaded = mars2d.load(record.save(tmp_path / "run.npz"))
+    assert rerun(loaded) is None
+    assert loaded.branches == ()
+
+
+def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path, capsys):
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 30)
+    for row, y in ((20, -4.0), (10, -3.0)):
+        timeline.go(row)
+        timeline.change(lambda w, y=y: w.hands.place(0, (-4.0, y, 0.0)))
+        run_to(timeline, 25)
+    record = timeline.record
+    given = argparse.Namespace(record=tmp_path / "out.npz", figure=None, html=None)
+    (tmp_path / "out_branch2.npz").write_text("mine")
+    outputs.save_record(given, record)
+    names = ["out.npz", "out_branch1.npz", "out_branch3.npz"]
+    saved = [mars2d.load(tmp_path / name).digest for name in names]
+    assert saved == [record.digest, *(branch.digest for branch in record.branches)]
+    assert len(set(saved)) == 3
+    assert (tmp_path / "out_branch2.npz").read_text() == "mine"
+    assert "another branch, left at 1.45 s, is in" in capsys.readouterr().err
+
+
+def test_boxes_are_where_they_were(written):
+    path = written("""
+from mars2d import Robot, Scenario
+from mars2d.bodies.props import Box
+scenario = Scenario(
+    robots=[Robot(mass=5, controller=lambda robot: (0.5, 0.2)).at(-1, 0, 0)],
+    props=[Box(pose=(0, 0, 0)), Box(pose=(1.1, 0.3, 1))], stop_time=8,
+)
+""")
+    expected = simulated(path)
+    assert expected.collisions
+    timeline = Timeline(open_experiment(path), 3)
+    finish(timeline)
+    for row in (30, 50, 10):
+        timeline.go(row)
+        timeline.branch()
+        finish(timeline)
+        assert timeline.record.digest == expected.digest

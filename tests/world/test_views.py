@@ -1,0 +1,531 @@
+"""A law sees what its setting allows, and nothing else: each name, in each setting."""
+
+import copy
+import inspect
+import re
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Addon, Holonomic, LawError, Robot, Scenario, Sensor, Within, World
+from mars2d.addons import Communication
+from mars2d.cli.command_line import BAD_INPUT, main
+from mars2d.core.errors import UnknownNameError
+from mars2d.world.views import (
+    VIEWS,
+    Neighbour,
+    PropView,
+    RobotPositionView,
+    RobotView,
+    TeamPositionsView,
+)
+
+OF_ITSELF = {
+    "command", "drive", "effort", "inbox", "index", "memory", "name", "radius", "rng",
+    "sampling_time", "send", "sense", "time",
+}  # fmt: skip
+ITS_STATE = {"contacts", "pose", "position", "velocity"}
+OTHERS = {"neighbours"}
+ALL = {"world"}
+
+ALLOWED = {
+    "full": OF_ITSELF | ITS_STATE | OTHERS | ALL,
+    "partial": OF_ITSELF | ITS_STATE | OTHERS,
+    "positions": OF_ITSELF | ITS_STATE | OTHERS,
+    "sensors": OF_ITSELF,
+    "team": OF_ITSELF | OTHERS | {"position"},
+}
+"""What of `robot` a law may touch; "team": of world.robots, where the team's law sees positions."""
+
+REFUSALS = {
+    "partial": "this law sees itself and its neighbours only",
+    "positions": "this law sees itself and its neighbours' positions only",
+    "sensors": "this law sees sensors only",
+    "team": "this law sees positions only",
+}
+
+OF_POSITIONS = {
+    "addons", "bounds", "command", "effort", "iteration", "obstacles", "position", "rng", "robots",
+    "sampling_time", "stop", "time", "workspace",
+}  # fmt: skip
+"""What of `world` a law may touch that sees positions only."""
+
+MORE = {
+    "break_off", "change", "channel", "contacts", "control", "driven", "filename", "finished",
+    "follow", "frame", "geometric_center", "hands", "history", "hold", "motion",
+    "neighbour_indices", "observe", "over", "over_message", "pose", "prop_pose", "prop_velocity",
+    "props", "rebuild", "record", "recorder", "scenario", "seed", "step", "stream", "surroundings",
+    "velocity", "watch",
+}  # fmt: skip
+"""What else there is, which tells more than positions."""
+
+
+def names(thing):
+    return {name for name in dir(thing) if not name.startswith("_")}
+
+
+def views():
+    """A view of each setting."""
+    robots = [Robot(sees=sees).at(k, 0) for k, sees in enumerate(VIEWS)]
+    world = World(Scenario(robots=robots))
+    own = {sees: VIEWS[sees](world, i, world._minds[i]) for i, sees in enumerate(VIEWS)}
+    return own | {"team": TeamPositionsView(world, world._minds).robots[0]}
+
+
+def asked(question, sees, **fields):
+    """What a law of the setting is answered, in a run; it asks `question(robot)`."""
+    answers = []
+
+    def law(robot):
+        answers.append(question(robot))
+        return 0, 0
+
+    def control(world):
+        answers.append(question(world.robots[0]))
+        return np.zeros((2, 2))
+
+    own = {} if sees == "team" else {"controller": law, "sees": sees}
+    scenario = Scenario(
+        robots=[Robot(pose=(1, 2, 3), **own), Robot(pose=(2, 2, 1))],
+        sees="positions" if sees == "team" else "full",
+        addons=[Communication()],
+        stop_time=0.0,
+        **fields,
+    )
+    mars2d.run(scenario, control=control if sees == "team" else None)
+    return answers[0]
+
+
+def asked_world(question, robots=2, **fields):
+    """What a law of the team is answered that sees positions only; it asks `question(world)`."""
+    answers = []
+
+    def control(world):
+        answers.append(question(world))
+        return np.zeros((2, robots))
+
+    team = [Robot(pose=(k, 2, 1 + k)) for k in range(robots)]
+    scenario = Scenario(robots=team, sees="positions", stop_time=0.0, **fields)
+    mars2d.run(scenario, control=control)
+    return answers[0]
+
+
+# -- each name, in each setting ---------------------------------------------------------------
+
+
+def test_each_name_of_a_robot_is_known_to_this_test():
+    assert names(views()["full"]) == ALLOWED["full"]
+
+
+def test_each_name_of_a_world_is_known_to_this_test():
+    assert names(World(Scenario())) == OF_POSITIONS | MORE
+
+
+def test_each_setting_is_known_to_this_test():
+    (sees,) = (f for f in Robot.__dataclass_fields__.values() if f.name == "sees")
+    for setting in VIEWS:
+        assert sees.metadata["check"]("sees", setting) == setting
+    assert set(VIEWS) | {"team"} == set(ALLOWED)
+
+
+@pytest.mark.parametrize("sees", ALLOWED)
+def test_no_view_has_names_that_others_have_not(sees):
+    assert names(views()[sees]) == ALLOWED["full"]
+
+
+@pytest.mark.parametrize(
+    ("sees", "name"), [(sees, name) for sees in ALLOWED for name in sorted(ALLOWED[sees])]
+)
+def test_a_law_may_use_what_its_setting_allows(sees, name):
+    assert asked(lambda robot: getattr(robot, name), sees) is not None
+
+
+@pytest.mark.parametrize(
+    ("sees", "name"),
+    [(sees, name) for sees in REFUSALS for name in sorted(ALLOWED["full"] - ALLOWED[sees])],
+)
+def test_a_law_is_refused_what_its_setting_forbids(sees, name):
+    with pytest.raises(LawError) as raised:
+        asked(lambda robot: getattr(robot, name), sees)
+    line = inspect.currentframe().f_lineno - 1
+    message = f"{REFUSALS[sees]}: robot.{name} is not available"
+    assert re.fullmatch(
+        f"test_views.py, line {line}: {message}(; there is robot\\.(neighbours|position))?",
+        str(raised.value),
+    )
+
+
+def test_the_message_names_the_setting_and_what_is_not_available():
+    with pytest.raises(LawError) as raised:
+        asked(lambda robot: robot.pose, "sensors")
+    message = str(raised.value).partition(": ")[2]
+    assert message == "this law sees sensors only: robot.pose is not available"
+
+
+@pytest.mark.parametrize("name", sorted(OF_POSITIONS))
+def test_a_teams_law_that_sees_positions_may_use(name):
+    assert asked_world(lambda world: getattr(world, name)) is not None
+
+
+@pytest.mark.parametrize("name", sorted(MORE))
+def test_a_teams_law_that_sees_positions_is_refused(name):
+    with pytest.raises(LawError) as raised:
+        asked_world(lambda world: getattr(world, name))
+    line = inspect.currentframe().f_lineno - 1
+    assert str(raised.value) == (
+        f"test_views.py, line {line}: this law sees positions only: world.{name} is not available; "
+        "there is world.position"
+    )
+
+
+def test_a_name_that_is_nowhere_is_unknown_and_not_forbidden():
+    with pytest.raises(UnknownNameError, match="a world has no 'positions'; did you mean 'posit"):
+        asked_world(lambda world: world.positions)
+    with pytest.raises(UnknownNameError, match="a robot has no 'speed'"):
+        asked(lambda robot: robot.speed, "sensors")
+    with pytest.raises(UnknownNameError, match=r"a robot has no 'messages'; known: .*inbox.* send"):
+        asked(lambda robot: robot.messages, "full")
+
+
+@pytest.mark.parametrize(
+    ("sees", "question", "unseen"),
+    [
+        ("positions", lambda robot: robot.neighbours[0].xyzzy, "pose"),
+        ("sensors", lambda robot: robot.xyzzy, "pose"),
+        ("partial", lambda robot: robot.xyzzy, "world"),
+    ],
+)
+def test_what_a_law_may_not_see_is_not_listed_as_what_there_is(sees, question, unseen):
+    with pytest.raises(UnknownNameError, match="known: ") as raised:
+        asked(question, sees)
+    known = str(raised.value).partition("known: ")[2].split(", ")
+    assert "index" in known
+    assert unseen not in known
+
+
+# -- what is allowed is right -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("sees", ["full", "partial", "positions"])
+def test_a_law_sees_its_own_state_and_where_its_neighbours_are(sees):
+    assert asked(lambda robot: robot.pose.tolist(), sees) == [1, 2, 3]
+    assert asked(lambda robot: robot.position.tolist(), sees) == [1, 2]
+    assert asked(lambda robot: [n.position.tolist() for n in robot.neighbours], sees) == [[2, 2]]
+
+
+@pytest.mark.parametrize("sees", ["full", "partial"])
+def test_with_partial_information_neighbours_have_poses(sees):
+    assert asked(lambda robot: robot.neighbours[0].pose.tolist(), sees) == [2, 2, 1]
+
+
+@pytest.mark.parametrize("sees", ["positions", "team"])
+def test_where_only_positions_are_seen_neighbours_have_no_poses(sees):
+    with pytest.raises(LawError) as raised:
+        asked(lambda robot: robot.neighbours[0].pose, sees)
+    assert str(raised.value).partition(": ")[2] == (
+        "this law sees positions only: a neighbour's pose is not available; "
+        "there is neighbour.position"
+    )
+
+
+def test_a_team_that_sees_positions_gets_them_as_its_robots_move():
+    seen = []
+
+    def control(world):
+        seen.append(world.position.tolist())
+        assert [robot.position.tolist() for robot in world.robots] == np.transpose(
+            seen[-1]
+        ).tolist()
+        return np.ones((2, len(world.robots)))
+
+    robots = [Robot(drive=Holonomic(max_linear_speed=2)).at(k, 0) for k in range(3)]
+    record = mars2d.run(Scenario(robots=robots, sees="positions", stop_time=1), control=control)
+    assert np.array_equal(seen, record.pose[:, :2])
+    assert np.ptp(record.pose[:, 0], axis=0) == pytest.approx(1, abs=1e-9)
+
+
+def test_a_team_that_sees_positions_has_readings_messages_memory_and_may_stop():
+    class Compass(Sensor):
+        def read(self, robot, world, rng):
+            return robot.pose[2]
+
+    def control(world):
+        first, second = world.robots
+        first.memory.count = getattr(first.memory, "count", 0) + 1
+        first.send("hello", second.index)
+        if second.inbox:
+            assert second.inbox[0].content == "hello"
+            assert second.sense.compass == 2.0
+            world.stop(f"after {first.memory.count} steps")
+        return np.zeros((2, 2))
+
+    robots = [Robot(), Robot(pose=(1, 0, 2), sensors=[Compass()])]
+    scenario = Scenario(robots=robots, sees="positions", addons=[Communication()])
+    assert mars2d.run(scenario, control=control).over_message == "after 2 steps"
+
+
+def test_a_robots_own_law_keeps_its_setting_in_a_team_that_sees_less():
+    def own(robot):
+        return robot.pose[2] / 10, 0
+
+    scenario = Scenario(
+        robots=[Robot(pose=(0, 0, 2), controller=own), Robot(pose=(2, 0, 0))],
+        sees="positions", stop_time=0,
+    )  # fmt: skip
+    record = mars2d.run(scenario, control=lambda world: np.zeros((2, 2)))
+    assert record.command[0, 0].tolist() == [0.2, 0]
+
+
+# -- no way round -----------------------------------------------------------------------------
+
+
+ARRAYS = ("command", "contacts", "pose", "position", "velocity")
+
+
+@pytest.mark.parametrize(
+    ("sees", "name"), [(s, name) for s in ALLOWED for name in ARRAYS if name in ALLOWED[s]]
+)
+def test_what_a_law_gets_is_no_view_of_something_larger(sees, name):
+    value = asked(lambda robot: getattr(robot, name), sees)
+    assert value.base is None
+
+
+def test_what_a_team_gets_that_sees_positions_is_no_view_of_the_poses():
+    for name in ("position", "command", "effort"):
+        value = asked_world(lambda world, name=name: getattr(world, name))
+        assert value.base is None
+        assert not value.flags.writeable
+    assert isinstance(asked_world(lambda world: world.stop).__self__, TeamPositionsView)
+
+
+def test_no_route_of_public_names_leads_from_positions_to_a_heading():
+    """Follow all public names from world, two steps deep: no 3 x n array, no heading turns up."""
+    secret = 1.2345678901
+
+    def numbers_in(value, depth):
+        if isinstance(value, np.ndarray):
+            yield from value.ravel().tolist() if value.dtype.kind == "f" else ()
+            if value.base is not None:
+                yield from numbers_in(value.base, depth)
+        elif isinstance(value, (tuple, list)):
+            for item in value:
+                yield from numbers_in(item, depth)
+        elif isinstance(value, float):
+            yield value
+        elif depth and type(value).__module__.startswith("mars2d."):
+            for name in names(value):
+                try:
+                    item = getattr(value, name)
+                except LawError:
+                    continue
+                yield from numbers_in(getattr(item, "__self__", item), depth - 1)
+
+    found = []
+
+    def control(world):
+        found.extend(numbers_in(world, 4))
+        return np.zeros((2, 2))
+
+    robots = [Robot(pose=(0.25, 0, secret)), Robot(pose=(1, 0, secret))]
+    mars2d.run(Scenario(robots=robots, sees="positions", stop_time=0.2), control=control)
+    assert 0.25 in found
+    assert secret not in found
+
+
+@pytest.mark.parametrize("sees", ALLOWED)
+def test_a_law_can_not_turn_into_another_robot(sees):
+    def question(robot):
+        robot.index = 1
+
+    with pytest.raises(LawError, match=r"property 'index' of '\w+' object has no setter"):
+        asked(question, sees)
+
+
+@pytest.mark.parametrize("kind", [RobotView, Neighbour, PropView])
+@pytest.mark.parametrize("name", ["index", "name", "pose"])
+def test_what_is_seen_can_not_be_set(kind, name):
+    assert getattr(kind, name).fset is None
+
+
+def test_a_neighbour_that_is_kept_moves_on():
+    seen = []
+
+    def law(robot):
+        friend = robot.neighbours[0]
+        while True:
+            seen.append(float(friend.position[0]))
+            yield 0, 0
+
+    away = Robot(pose=(1, 0, 0), controller=lambda robot: (0.5, 0))
+    robots = [Robot(controller=law), away]
+    mars2d.run(Scenario(robots=robots, stop_time=1, sampling_time=0.5))
+    assert seen == pytest.approx([1, 1.25, 1.5])
+
+
+def test_a_neighbour_that_has_gone_is_seen_no_more():
+    def law(robot):
+        friend = robot.neighbours[0]
+        while True:
+            yield 0.0 * friend.position[0], 0
+
+    away = Robot(pose=(1, 0, 0), controller=lambda robot: (0.5, 0))
+    robots = [Robot(controller=law, sees="positions"), away]
+    scenario = Scenario(robots=robots, stop_time=9, sampling_time=0.5, neighbours=Within(1.6))
+    with pytest.raises(LawError) as raised:
+        mars2d.run(scenario)
+    line = law.__code__.co_firstlineno + 3
+    assert str(raised.value) == (
+        f"test_views.py, line {line}: robot1 is no neighbour any more: ask robot.neighbours again"
+    )
+    assert raised.value.record.pose[-1, 0, 1] == pytest.approx(1.5)  # seen there, at 1.75 m not
+
+
+def test_a_law_can_not_hide_from_the_refusal_by_asking_whether_there_is_a_pose():
+    with pytest.raises(LawError, match=r"robot\.pose is not available"):
+        asked(lambda robot: hasattr(robot, "pose"), "sensors")
+    with pytest.raises(LawError, match=r"robot\.pose is not available"):
+        asked(lambda robot: getattr(robot, "pose", None), "sensors")
+
+
+@pytest.mark.parametrize("sees", VIEWS)
+def test_a_view_can_be_copied(sees):
+    assert asked(lambda robot: copy.copy(robot).name, sees) == "robot0"
+    assert asked_world(lambda world: copy.copy(world).time) == 0.0
+
+
+# -- laws of every kind, from everywhere ------------------------------------------------------
+
+
+def function(robot):
+    return 0.0, robot.pose[2]
+
+
+def generator(robot):
+    yield 0.0, 0.0
+    yield 0.0, robot.pose[2]
+
+
+class Caller:
+    def __call__(self, robot):
+        return 0.0, robot.pose[2]
+
+
+@pytest.mark.parametrize(
+    ("law", "line"),
+    [
+        (function, function.__code__.co_firstlineno + 1),
+        (generator, generator.__code__.co_firstlineno + 2),
+        (Caller(), Caller.__call__.__code__.co_firstlineno + 1),
+    ],
+    ids=["function", "generator", "object"],
+)
+def test_each_kind_of_law_is_held_to_its_setting(law, line):
+    with pytest.raises(LawError) as raised:
+        mars2d.run(Scenario(robots=[Robot(controller=law, sees="sensors")]))
+    assert str(raised.value) == (
+        f"test_views.py, line {line}: this law sees sensors only: robot.pose is not available"
+    )
+
+
+def team_function(world):
+    return 0 * world.pose[:2]
+
+
+def team_generator(world):
+    yield 0 * world.position
+    yield 0 * world.pose[:2]
+
+
+class TeamCaller:
+    def __call__(self, world):
+        return 0 * world.pose[:2]
+
+
+@pytest.mark.parametrize(
+    ("law", "line"),
+    [
+        (team_function, team_function.__code__.co_firstlineno + 1),
+        (team_generator, team_generator.__code__.co_firstlineno + 2),
+        (TeamCaller(), TeamCaller.__call__.__code__.co_firstlineno + 1),
+    ],
+    ids=["function", "generator", "object"],
+)
+def test_each_kind_of_a_teams_law_is_held_to_its_setting(law, line):
+    with pytest.raises(LawError) as raised:
+        mars2d.run(Scenario(robots=2, sees="positions"), control=law)
+    assert str(raised.value) == (
+        f"test_views.py, line {line}: this law sees positions only: world.pose is not available; "
+        "there is world.position"
+    )
+
+
+@pytest.mark.parametrize(
+    ("robot", "scenario", "expression", "message"),
+    [
+        ('sees="sensors"', "", "robot.pose", "this law sees sensors only: robot.pose is not avail"),
+        ('sees="partial"', "", "robot.world", "this law sees itself and its neighbours only: robo"),
+        ('sees="positions"', "", "robot.neighbours[0].pose", "a neighbour's pose is not available"),
+        ("", 'sees="positions"', "world.history", "sees positions only: world.history is not avai"),
+    ],
+)
+def test_on_the_command_line_it_is_one_line_and_exit_code_2(
+    tmp_path, capsys, robot, scenario, expression, message
+):
+    subject = expression.partition(".")[0]
+    name = "control" if subject == "world" else "law"
+    law = "" if subject == "world" else "controller=law, "
+    path = tmp_path / "peek.py"
+    path.write_text(
+        "from mars2d import Robot, Scenario\n\n\n"
+        f"def {name}({subject}):\n"
+        f"    return {expression}\n\n\n"
+        f"scenario = Scenario(robots=[Robot({law}{robot}), Robot(pose=(1, 0, 0))], {scenario})\n"
+    )
+    assert main(["run", str(path), "--headless"]) == BAD_INPUT == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("mars2d: peek.py, line 5: this law sees")
+    assert message in line
+
+
+# -- what does not depend on what laws see ----------------------------------------------------
+
+
+def test_sensors_and_addons_know_all_whatever_the_laws_see():
+    class Compass(Sensor):
+        def read(self, robot, world, rng):
+            assert len(robot.world.pose) == 3
+            return robot.pose[2]
+
+    class Judge(Addon):
+        def on_step(self, world):
+            self.heading = float(world.pose[2, 0])
+            assert world.history.pose.shape[1:] == (3, 1)
+
+    found = []
+
+    def law(robot):
+        found.append(robot.sense.compass)
+        return 0, 0
+
+    def control(world):
+        found.append(world.addons.judge.heading)
+        return np.zeros((2, 1))
+
+    robot = Robot(pose=(0, 0, 2), sensors=[Compass()], controller=law, sees="sensors")
+    scenario = Scenario(robots=[robot], sees="positions", addons=[Judge()], stop_time=0)
+    mars2d.run(scenario, control=control)
+    assert found == [2.0, 2.0]
+
+
+def test_a_setting_that_there_is_not_is_refused_with_the_nearest():
+    with pytest.raises(mars2d.InputError, match="did you mean 'positions'"):
+        Robot(sees="position")
+    with pytest.raises(mars2d.InputError, match=r"Scenario\.sees = 'sensors': expected one of"):
+        Scenario(sees="sensors")
+
+
+def test_the_same_names_are_refused_for_robots_of_a_team_as_for_no_other_reason():
+    """The view of a robot that a team's law has refuses, and never lacks, what others have."""
+    assert issubclass(RobotPositionView, RobotView)
+    assert names(RobotPositionView) == names(RobotView)

@@ -1,0 +1,534 @@
+"""A world is stepped: in the order of Algorithm 1, and never more than it says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mars2d
+from mars2d import Holonomic, InputError, LawError, Robot, Scenario, Unicycle, World
+from mars2d.addons import Addon, Map
+from mars2d.bodies.props import Ball, Box, Puck
+from mars2d.sensors import Sensor
+
+
+def test_a_control_step_goes_in_the_order_of_algorithm_1():
+    log = []
+
+    class Diary(Addon):
+        def on_start(self, world):
+            log.append("start")
+
+        def on_step(self, world):
+            log.append(f"add-on {world.iteration}")
+
+        def on_stop(self, world):
+            log.append("stop")
+
+    class Nose(Sensor):
+        def read(self, robot, world, rng):
+            log.append(f"sense {robot.index}")
+            return 0.0
+
+    def control(world):
+        log.append("control")
+        return np.zeros((2, 2))
+
+    def own(robot):
+        log.append(f"own {robot.index}")
+        return 0, 0
+
+    robots = [Robot(sensors=[Nose()]), Robot(pose=(1, 0, 0), sensors=[Nose()], controller=own)]
+    scenario = Scenario(robots=robots, addons=[Diary()], stop_time=0.1)
+    world = World(scenario, control, watch=lambda _world: log.append("watch"))
+    while not world.over:
+        world.step()
+    once = ["sense 0", "sense 1", "watch", "control", "own 1"]
+    assert log == ["start", "add-on 0", *once, "add-on 1", *once, "stop"]
+
+
+def test_all_robots_are_sensed_before_any_is_commanded():
+    class Eye(Sensor):
+        def read(self, robot, world, rng):
+            return float(world.pose[0].sum())
+
+    seen = []
+
+    def law(robot):
+        seen.append(robot.sense.eye)
+        return 0.2, 0
+
+    walker = Robot(sensors=[Eye()], controller=law, drive=Holonomic())
+    mars2d.run(Scenario(robots=[walker, walker.at(0, 1)], stop_time=0.3))
+    assert seen == pytest.approx([0, 0, 0.04, 0.04, 0.08, 0.08, 0.12, 0.12])
+
+
+def test_time_is_the_iteration_times_the_sampling_time():
+    world = World(Scenario(sampling_time=0.3))
+    for k in range(50):
+        assert world.iteration == k
+        assert world.time == k * 0.3
+        world.step()
+
+
+def test_the_last_row_is_at_the_stop_time_and_nothing_moves_after_it():
+    world = World(Scenario(stop_time=0.5))
+    steps = 0
+    while not world.over:
+        world.step([[0.1], [0]])
+        steps += 1
+    assert steps == 6
+    assert world.time == pytest.approx(0.5)
+    assert world.pose[0, 0] == pytest.approx(0.05)
+    assert world.over_message == "Time is over: 0.5 s"
+    with pytest.raises(InputError, match="over: Time is over"):
+        world.step()
+
+
+def test_a_stop_time_of_zero_senses_and_commands_once():
+    record = mars2d.run(Scenario(stop_time=0), control=lambda _world: [[0.2], [0]])
+    assert record.time.tolist() == [0]
+    assert record.command[0, 0, 0] == 0.2
+
+
+def test_stop_ends_the_experiment_with_this_step_and_the_first_reason_counts():
+    def control(world):
+        if world.iteration == 3:
+            world.stop("caught")
+            world.stop("again")
+        return [[0.1], [0]]
+
+    record = mars2d.run(Scenario(), control=control)
+    assert record.over_message == "caught"
+    assert len(record) == 4
+
+
+def test_leaving_the_workspace_names_the_robot_and_the_place():
+    robots = [Robot(name="stays"), Robot(pose=(4.92, 1, 0), name="leaves")]
+    record = mars2d.run(Scenario(robots=robots), control=lambda _world: [[0, 0.5], [0, 0]])
+    assert record.over_message == "Out of bounds: leaves left the workspace at (5.02, 1)"
+    assert len(record) == 3
+
+
+def test_a_command_can_be_given_in_place_of_the_laws():
+    world = World(Scenario(), control=lambda _world: pytest.fail("asked"))
+    world.step([[0.3], [0.1]])
+    assert world.command.ravel().tolist() == [0.3, 0.1]
+
+
+@pytest.mark.parametrize("command", [[[0, 0], [0, 0]], [1, 2, 3], "x", [[np.nan], [0]], 5])
+def test_a_given_command_that_cannot_be_used_is_an_input_error(command):
+    world = World(Scenario())
+    with pytest.raises(InputError, match=r"World.step\(command\)"):
+        world.step(command)
+    world.step([[0.1], [0]])  # and the world goes on
+    assert world.iteration == 1
+
+
+def test_a_given_command_is_copied():
+    command = np.array([[9.0], [0.0]])
+    world = World(Scenario())
+    world.step(command)
+    assert command[0, 0] == 9.0
+    command[:] = 7
+    assert world.command[0, 0] == 0.5
+    assert world.record.command[0, 0, 0] == 0.5
+
+
+# -- saturation -----------------------------------------------------------------------------
+
+
+def clipped(v: float, omega: float, limit: float, semiaxis: float) -> tuple[float, float]:
+    """MARS: each wheel's speed is bounded by itself."""
+    left = max(-limit, min(limit, v - semiaxis * omega))
+    right = max(-limit, min(limit, v + semiaxis * omega))
+    return (left + right) / 2, (right - left) / (2 * semiaxis)
+
+
+@given(
+    v=st.floats(-3, 3), omega=st.floats(-30, 30), limit=st.floats(0.05, 2), axis=st.floats(0.02, 1)
+)
+def test_a_unicycles_wheels_are_saturated_one_by_one(v, omega, limit, axis):
+    drive = Unicycle(max_linear_speed=limit, wheel_semiaxis=axis)
+    command = drive.saturate(np.array([[v], [omega]]))
+    assert command.ravel() == pytest.approx(clipped(v, omega, limit, axis), abs=1e-12)
+    wheels = [abs(command[0, 0] + sign * axis * command[1, 0]) for sign in (-1, 1)]
+    assert max(wheels) <= limit * (1 + 1e-9)
+
+
+@given(vx=st.floats(-3, 3), vy=st.floats(-3, 3), limit=st.floats(0.05, 2))
+def test_a_holonomic_robots_speed_is_shortened_in_its_direction(vx, vy, limit):
+    command = Holonomic(max_linear_speed=limit).saturate(np.array([[vx], [vy]])).ravel()
+    speed = np.hypot(vx, vy)
+    assert np.hypot(*command) <= limit * (1 + 1e-9)
+    if speed <= limit:
+        assert command.tolist() == [vx, vy]
+    else:
+        assert np.hypot(*command) == pytest.approx(limit)
+        assert command * speed == pytest.approx(np.array([vx, vy]) * limit)
+
+
+@given(st.floats(-5, 5), st.floats(-50, 50))
+def test_saturating_twice_changes_nothing(first, second):
+    for drive in (Unicycle(), Holonomic()):
+        once = drive.saturate(np.array([[first], [second]]))
+        assert drive.saturate(once.copy()).tolist() == once.tolist()
+
+
+def test_algorithm_2_is_not_clipped_by_the_defaults():
+    commands = np.array([[0.2, -0.2, 0.0], [0.0, 0.0, 3 * np.pi / 2]])
+    assert Unicycle().saturate(commands.copy()).tolist() == commands.tolist()
+
+
+def test_robots_are_saturated_each_by_its_own_drive():
+    robots = [
+        Robot(drive=Unicycle(max_linear_speed=0.1)),
+        Robot(pose=(1, 0, 0), drive=Holonomic(max_linear_speed=0.2)),
+        Robot(pose=(2, 0, 0), drive=Unicycle(max_linear_speed=0.3)),
+        Robot(pose=(3, 0, 0), drive=Unicycle(max_linear_speed=0.1)),
+    ]
+    world = World(Scenario(robots=robots))
+    world.step([[1, 1, 1, -1], [0, 0, 0, 0]])
+    assert world.command[0] == pytest.approx([0.1, 0.2, 0.3, -0.1])
+    assert world.record.command[0, 0] == pytest.approx([0.1, 0.2, 0.3, -0.1])
+
+
+# -- what is read only ----------------------------------------------------------------------
+
+
+def test_pose_command_history_and_contacts_cannot_be_written():
+    robots = [Robot(), Robot(pose=(0.3, 0, 0))]
+    world = World(Scenario(robots=robots, props=[Box(pose=(3, 0))]))
+    for _ in range(3):
+        world.step([[0.2, 0], [0, 0]])
+    assert len(world.contacts) == 1
+    for array in (
+        world.pose, world.command, world.history.pose, world.history.time, world.history.command,
+        world.history.command_time, world.robots[0].pose, world.robots[0].command,
+        world.robots[0].neighbours[0].pose, world.contacts["impulse"], world.prop_pose,
+        world.props[0].pose, world.effort, world.history.prop_pose, world.history.effort,
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+def test_poses_kept_from_before_do_not_change():
+    world = World(Scenario())
+    before = world.pose
+    history = world.history.pose
+    world.step([[0.3], [0]])
+    assert before[0, 0] == 0
+    assert len(history) == 0
+    assert len(world.history) == 1
+
+
+def test_a_law_cannot_change_a_reading_that_is_recorded():
+    class Beams(Sensor):
+        def read(self, robot, world, rng):
+            return np.ones(3)
+
+    def law(robot):
+        robot.sense.beams[:] = 0
+        return 0, 0
+
+    with pytest.raises(LawError, match="read-only"):
+        mars2d.run(Scenario(robots=[Robot(sensors=[Beams()], controller=law)]))
+
+
+# -- stepping from within -------------------------------------------------------------------
+
+
+class Inner(Addon):
+    hook: str = "on_step"
+
+    def on_start(self, world):
+        if self.hook == "on_start":
+            world.step()
+
+    def on_step(self, world):
+        if self.hook == "on_step":
+            world.step()
+
+    def on_stop(self, world):
+        if self.hook == "on_stop":
+            world.step()
+
+
+@pytest.mark.parametrize("hook", ["on_step", "on_stop"])
+def test_a_hook_that_steps_the_world_is_an_error(hook):
+    world = World(Scenario(addons=[Inner(hook=hook)], stop_time=0.2))
+    with pytest.raises(LawError, match=r"add-on 'inner' raised"):
+        while not world.over:
+            world.step()
+
+
+def test_a_law_that_steps_the_world_is_an_error_and_nothing_is_recorded_twice():
+    def control(world):
+        if world.iteration == 2:
+            world.step([[0], [0]])
+        return [[0], [0]]
+
+    world = World(Scenario(), control)
+    world.step()
+    world.step()
+    with pytest.raises(LawError, match="from within a step"):
+        world.step()
+    assert len(world.record) == 2
+    assert world.iteration == 2
+
+
+def test_a_world_whose_law_failed_is_over():
+    def control(world):
+        raise KeyError("oops")
+
+    world = World(Scenario(), control)
+    with pytest.raises(LawError, match="control raised KeyError: 'oops'"):
+        world.step()
+    assert "KeyError" in world.over_message
+    with pytest.raises(InputError, match="the experiment is over: Error"):
+        world.step([[0.1], [0]])
+
+
+# -- errors keep the record -----------------------------------------------------------------
+
+
+def late(what):
+    """A law that fails in its fourth step."""
+
+    def law(robot):
+        if robot.time > 0.25:
+            return what()
+        return 0.1, 0
+
+    return law
+
+
+@pytest.mark.parametrize("what", [lambda: 1 / 0, lambda: None, lambda: (np.nan, 0)])
+def test_what_was_recorded_until_an_error_is_kept(what):
+    scenario = Scenario(robots=[Robot(controller=late(what))])
+    with pytest.raises(LawError) as raised:
+        mars2d.run(scenario)
+    record = raised.value.record
+    assert len(record) == 3
+    assert record.pose[-1, 0, 0] == pytest.approx(0.02)
+    assert "test_world.py, line" in str(raised.value)
+
+
+def test_an_error_in_a_sensor_or_addon_keeps_the_record_too():
+    class Frail(Sensor):
+        def read(self, robot, world, rng):
+            return 1 / (world.time < 0.25)
+
+    class Weak(Addon):
+        def on_step(self, world):
+            _ = 1 / (world.time < 0.25)
+
+    for scenario in (Scenario(robots=[Robot(sensors=[Frail()])]), Scenario(addons=[Weak()])):
+        with pytest.raises(LawError, match="ZeroDivisionError") as raised:
+            mars2d.run(scenario)
+        assert len(raised.value.record) == 3
+
+
+def test_ctrl_c_keeps_the_record_as_well():
+    def law(robot):
+        if robot.time > 0.25:
+            raise KeyboardInterrupt
+        return 0, 0
+
+    with pytest.raises(KeyboardInterrupt) as raised:
+        mars2d.run(Scenario(robots=[Robot(controller=law)]))
+    assert len(raised.value.record) == 3
+    assert "Interrupted" in raised.value.record.over_message
+
+
+# -- what a world tells ---------------------------------------------------------------------
+
+
+def test_a_world_tells_what_mars_tells():
+    robot = Robot(pose=(1, 0, np.pi / 2), center_offset=0.1)
+    world = World(Scenario(robots=[robot]), seed=3)
+    assert world.bounds == (-5, 5, -5, 5)
+    assert world.workspace == world.scenario.workspace
+    assert world.geometric_center.ravel() == pytest.approx([1, -0.1])
+    assert (world.seed, world.time, world.iteration, world.over) == (3, 0, 0, False)
+    assert world.pose.shape == (3, 1)
+    assert world.command.tolist() == [[0], [0]]
+    assert [view.name for view in world.robots] == ["robot0"]
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@pytest.mark.parametrize("delay", [0.0, 0.25])
+def test_velocity_is_that_of_the_instant_not_of_the_last_chord(physics, delay):
+    far = Robot(pose=(0, 4, 0), drive=Holonomic())
+    scenario = Scenario(
+        robots=[Robot(), far], physics=physics, command_delay=delay, sampling_time=0.5
+    )
+    world = World(scenario)
+    assert not world.velocity.any()
+    for _ in range(5):
+        world.step([[0.3, 0.1], [1.2, -0.2]])
+    theta = world.pose[2, 0]
+    expected = [[0.3 * np.cos(theta), 0.1], [0.3 * np.sin(theta), -0.2], [1.2, 0]]
+    assert world.velocity == pytest.approx(np.array(expected), abs=1e-12)
+    assert world.robots[0].velocity == pytest.approx(world.velocity[:, 0])
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop"])
+def test_a_robot_that_a_wall_holds_has_no_velocity(physics):
+    wall = Map([[(0.4, -1), (0.4, 1)]])
+    world = World(Scenario(robots=[Robot()], addons=[wall], physics=physics, sampling_time=0.1))
+    for _ in range(20):
+        world.step([[0.3], [0.0]])
+    assert world.velocity == pytest.approx(np.zeros((3, 1)), abs=1e-6)
+
+
+def test_the_frame_shows_the_readings_of_this_instant_once_it_is_observed():
+    class Clock(Sensor):
+        def read(self, robot, world, rng):
+            return world.time
+
+    world = World(Scenario(robots=[Robot(sensors=[Clock()])]))
+    assert world.frame.readings == {}
+    world.observe()
+    assert world.frame.readings == {"clock": [(0, 0.0)]}
+    world.step()
+    world.observe()
+    frame = world.frame
+    assert frame.readings == {"clock": [(0, 0.1)]}
+    assert frame.iteration == 1
+    assert frame.path.shape == (1, 3, 1)
+    world.step()  # having looked does not sense twice
+    assert world.record.sensors["clock"].ravel().tolist() == [0.0, 0.1]
+
+
+def test_worlds_of_one_scenario_share_nothing():
+    scenario = Scenario(robots=[Robot(), Robot(pose=(0.4, 0, 0))])
+    first, second = World(scenario), World(scenario)
+    for _ in range(5):
+        first.step([[0.4, 0], [0, 0]])
+    assert second.pose.tolist() == scenario.initial_pose.tolist()
+    assert second.iteration == 0
+    assert len(second.record) == 0
+
+
+def test_the_record_so_far_does_not_grow():
+    world = World(Scenario())
+    world.step()
+    early = world.record
+    world.step()
+    assert len(early) == 1
+    assert len(world.record) == 2
+    assert world.record.over_message == "not over"
+
+
+# -- props and effort -----------------------------------------------------------------------------
+
+
+def test_a_law_sees_the_props_where_they_are():
+    seen = []
+
+    def control(world):
+        seen.append([(prop.index, prop.name, *prop.pose.tolist()) for prop in world.props])
+        return [[0.3], [0]]
+
+    props = [Ball(pose=(0, 2), velocity=(1, 0, 0.5)), Box(pose=(1, 0, 0.2), name="load")]
+    world = World(Scenario(props=props), control)
+    for _ in range(3):
+        world.step()
+    assert seen[0] == [(0, "ball0", 0, 2, 0), (1, "load", 1, 0, 0.2)]
+    assert seen[2][0] == pytest.approx((0, "ball0", 0.2, 2, 0.1))
+    assert world.prop_pose[:, 0] == pytest.approx([0.3, 2, 0.15])
+    assert world.prop_velocity[:, 0] == pytest.approx([1, 0, 0.5])
+    assert world.props[0].velocity == pytest.approx([1, 0, 0.5])
+    assert world.pose.shape == (3, 1)
+    assert world.velocity.shape == (3, 1)
+
+
+def test_a_prop_may_leave_the_workspace_and_the_run_goes_on():
+    world = World(Scenario(props=[Ball(pose=(4.5, 0), velocity=(9, 0))]))
+    for _ in range(3):
+        world.step()
+    assert world.prop_pose[0, 0] == pytest.approx(7.2)
+    assert not world.over
+
+
+def test_effort_is_none_in_free_motion_and_all_of_it_against_a_wall():
+    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    scenario = Scenario(robots=[Robot()], workspace=square, on_exit="wall")
+    world = World(scenario)
+    for _ in range(10):
+        world.step([[0.5], [0.3]])
+        assert world.effort.tolist() == [0]
+    for _ in range(30):
+        world.step([[0.5], [0]])
+    assert world.effort == pytest.approx([1])
+    effort = world.record.effort
+    assert effort[:10].max() == 0
+    assert effort[-1] == pytest.approx([1])
+
+
+def test_effort_is_the_share_of_the_force_that_a_load_takes():
+    # The floor holds the box with 0.25 x 1 kg x 9.81 m/s^2 = 2.45 N; the drive has 5 N.
+    box = Box(pose=(0.4, 0), mass=1.0, ground_friction=0.25)
+    world = World(Scenario(robots=[Robot()], props=[box]))
+    for _ in range(40):
+        world.step([[0.2], [0]])
+    assert world.effort == pytest.approx([0.25 * 9.81 / 5], rel=0.02)
+
+
+def test_a_frame_shows_props_contacts_and_efforts_of_this_instant():
+    world = World(Scenario(robots=[Robot()], props=[Puck(pose=(0.3, 0), ground_friction=0.4)]))
+    assert world.frame.prop_pose.tolist() == [[0.3], [0], [0]]
+    assert len(world.frame.contacts) == len(world.frame.contact_log()) == 0
+    for _ in range(9):
+        world.step([[0.2], [0]])
+    frame = world.frame
+    assert np.array_equal(frame.prop_pose, world.prop_pose)
+    assert frame.contacts.tobytes() == world.contacts.tobytes()
+    assert frame.effort.tolist() == world.effort.tolist()
+    assert len(frame.contact_log()) == len(world.record.contacts) > len(frame.contacts) == 1
+
+
+# -- a step that is broken off --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("hook", ["on_step", "law"])
+def test_a_world_that_was_interrupted_within_a_step_is_over(hook):
+    class Stop(Addon):
+        def on_step(self, world):
+            if hook == "on_step" and world.iteration == 2:
+                raise KeyboardInterrupt
+
+    def law(robot):
+        if hook == "law" and robot.time > 0.15:
+            raise KeyboardInterrupt
+        return 0.1, 0.0
+
+    world = World(Scenario(robots=[Robot(controller=law)], addons=[Stop()]))
+    world.step()
+    world.step()
+    with pytest.raises(KeyboardInterrupt):
+        world.step()
+    assert world.over
+    assert world.over_message == "Interrupted by Ctrl-C"
+    assert len(world.record) == 2
+    with pytest.raises(InputError, match="the experiment is over"):
+        world.step()
+
+
+def test_a_command_that_is_refused_does_not_end_the_experiment():
+    world = World(Scenario())
+    with pytest.raises(InputError, match="was given"):
+        world.step("fast")
+    world.step([[0.1], [0]])
+    assert len(world.record) == 1
+
+
+def test_to_observe_a_world_that_was_broken_off_does_nothing():
+    world = World(Scenario())
+    world.step([[0], [0]])
+    world.break_off("enough")
+    world.observe()
+    assert len(world.record) == 1
