@@ -482,23 +482,16 @@ def test_files_named_in_the_text_exist():
         assert (ROOT / name).exists(), f"CONTRIBUTING.md: {name}"
 
 
-def test_every_module_stands_in_the_picture_of_the_design():
-    picture = next(b.text for b in blocks(ROOT / "docs" / "design.md") if "__main__.py" in b.text)
-    package = ROOT / "mars2d"
-    parts = {path.name for path in package.glob("*.py")}
-    parts |= {f"{path.parent.name}/" for path in package.glob("*/__init__.py")}
-    parts.discard("examples/")
-    folders = "bodies|sensors|addons|props|joints|commands|view|output|testing|bench|kernel"
-    folders += "|maps|paper|formats|study"
-    named = set(re.findall(rf"\w+\.py|\b(?:{folders})/", picture))
-    assert named - {"base.py"} == parts
-
-
-def test_the_layers_in_the_design_are_those_of_the_code():
-    text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
-    section = text.partition("## Layers")[2].partition("\n## ")[0]
-    layers = [set(line.split(", ")) for line in re.findall(r"^\d+\. (.+)$", section, flags=re.M)]
-    assert layers == module(ROOT / "tests" / "test_imports.py").LAYERS
+def test_the_rooms_in_the_design_are_those_of_the_code():
+    page = ROOT / "docs" / "design.md"
+    layers = module(ROOT / "tests" / "house" / "test_imports.py").LAYERS
+    drawn = next(b.text for b in blocks(page) if b.text.lstrip().startswith("10 "))
+    floors = [line.split() for line in drawn.strip().splitlines()]
+    assert [set(rooms) for _, *rooms in reversed(floors)] == layers
+    listed = re.findall(r"^\| \[?`(\w+)", page.read_text(encoding="utf-8"), flags=re.M)
+    assert sorted(listed) == sorted(set().union(*layers))
+    for room in set(listed) - {"session"}:
+        assert len((ROOT / "mars2d" / room / "README.md").read_text("utf-8").splitlines()) <= 60
 
 
 # -- names ------------------------------------------------------------------------------------

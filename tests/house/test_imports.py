@@ -23,8 +23,8 @@ LAYERS = [
     {"record"},
     {"physics", "output"},
     {"world"},
-    {"window", "study", "testing", "session"},
-    {"reports"},
+    {"window", "study", "testing"},
+    {"reports", "session"},
     {"cli"},
 ]
 """The rooms of the house, low to high: each imports from below only, for types as well."""
@@ -32,7 +32,6 @@ LAYERS = [
 LAZY_UPWARDS = {
     ("record", "output"): "figures, films, pages, files: Record.plot, Record.save, ...",
     ("scenario", "output"): "the picture of a scenario in a notebook",
-    ("session", "window"): "run(..., show=True)",
 }
 """The conveniences that import from above, when they are called."""
 
