@@ -12,7 +12,7 @@ import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mars2d.core import startup as beginning  # noqa: F401 - first, for Ctrl-C while the others are imported
+from mars2d.core import startup  # noqa: F401 - first, for Ctrl-C during the other imports
 
 # isort: split
 from mars2d.addons import Addon

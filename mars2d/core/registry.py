@@ -149,11 +149,12 @@ def _own(family: str) -> dict[str, type[Description]]:
 
 def _walk(family: str) -> Iterator[type[Description]]:
     package = importlib.import_module(FAMILIES[family])
+    base = getattr(package, BASES[family])
     for info in sorted(pkgutil.iter_modules(package.__path__), key=lambda m: m.name):
         module = importlib.import_module(f"{FAMILIES[family]}.{info.name}")
         for name in getattr(module, "__all__", ()):
             kind = getattr(module, name)
-            is_part = isinstance(kind, type) and issubclass(kind, Description)
+            is_part = isinstance(kind, type) and issubclass(kind, base)
             if is_part and info.name != "base" and not _leaves_methods(kind):
                 yield kind
 

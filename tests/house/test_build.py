@@ -85,11 +85,11 @@ def test_a_wheel_of_the_source_distribution_brings_the_kernel_compiled(project, 
     wheel, _ = built(project, "wheel")
     assert not wheel.name.endswith("none-any.whl")  # it is for one kind of machine
     site = unpacked(wheel)
-    assert len(list((site / "mars2d" / "kernel").glob("_kernel.*"))) == 1
+    assert len(list((site / "mars2d" / "physics" / "kernel").glob("_kernel.*"))) == 1
     assert not list((project / "mars2d").rglob("_kernel.*"))  # the sources are left as they are
     assert kernel_of(site).startswith("ok  kernel      compiled")
 
-    source = site / "mars2d" / "kernel" / "gaps.c"
+    source = site / "mars2d" / "physics" / "kernel" / "gaps.c"
     source.write_text(source.read_text() + "/* changed */\n")
     assert "its sources have changed" in kernel_of(site)
 
@@ -111,5 +111,5 @@ def test_nothing_is_compiled_where_the_environment_says_so(project):
 def test_an_editable_install_has_the_kernel_beside_its_sources(project):
     pytest.importorskip("editables")
     built(project, "wheel:editable")
-    assert len(list((project / "mars2d" / "kernel").glob("_kernel.*"))) == 1
+    assert len(list((project / "mars2d" / "physics" / "kernel").glob("_kernel.*"))) == 1
     assert kernel_of(project).startswith("ok  kernel      compiled")

@@ -15,7 +15,7 @@ from mars2d.addons import Map
 from mars2d.scenario.experiment import examples, open_experiment, open_module
 
 FLOOR = examples()["path_planning"].with_name("maps") / "department.dxf"
-SOLUTIONS = FLOOR.parents[2] / "solutions"
+SOLUTIONS = FLOOR.parents[1] / "solutions"
 
 
 def play(name, **options):

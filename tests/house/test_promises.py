@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import pytest
 
-from mars2d.cli import VERBS
 from mars2d.cli.command_line import main
+from mars2d.cli.verbs import VERBS
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "promises.md"

@@ -23,7 +23,7 @@ from tests.browser import Tab
 from tests.output.formats.records import FORMATS, everything, refused
 from tests.output.formats.test_bombs import HEAD, _element, _matrix, _npz
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 CODE = [*(ROOT / "mars2d").rglob("*.py"), ROOT / "hatch_build.py", *ROOT.glob("docs/make_*.py")]
 
 # -- what the code calls ---------------------------------------------------------------------------
@@ -45,10 +45,10 @@ NETWORK = {
 }  # fmt: skip
 
 ALLOWED = {
-    ("files.py", "exec_module"): "an experiment or a law is a program, which its user runs",
+    ("scenario/experiment.py", "exec_module"): "an experiment is a program, which its user runs",
     ("hatch_build.py", "exec_module"): "the kernel's own build.py, beside it",
-    ("channel.py", "marshal.loads"): "a copy of what marshal.dumps has just made of JSON",
-    ("maps/svg.py", "xml"): "after a DOCTYPE, without which are no entities",
+    ("world/channel.py", "marshal.loads"): "a copy of what marshal.dumps has just made of JSON",
+    ("addons/maps/svg.py", "xml"): "after a DOCTYPE, without which are no entities",
     ("study/attempt.py", "pickle.loads"): "from and to our own worker processes",
     ("study/isolation/host.py", "pickle.loads"): "in a law's process, of what the match tells it",
     ("study/isolation/mirror.py", "pickle.loads"): "in a law's process, of what the match tells it",

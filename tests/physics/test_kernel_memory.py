@@ -94,7 +94,7 @@ def test_without_memory_there_is_an_error_and_nothing_leaks(tmp_path, child):
     header = tmp_path / "scarce.h"
     header.write_text(SCARCE)
     made = compile_into(tmp_path / "made", ["-include", str(header)])
-    shutil.copy(made, package / "kernel" / made.name)
+    shutil.copy(made, package / "physics" / "kernel" / made.name)
     done = child(TRIED, PYTHONPATH=str(tmp_path))
     assert done.returncode == 0, done.stderr
     making, moving, complete = map(int, done.stdout.split())

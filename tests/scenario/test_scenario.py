@@ -466,7 +466,7 @@ def test_physics_is_an_option(physics):
         ("pursuit_corners", {"mu": (0, 9)}, "scenario(mu) = (0, 9): expected a number"),
         ("herding", {"flock": None}, "scenario(flock) = None: expected a number"),
         ("coverage_square", {"holonomic": "false"}, "scenario(holonomic) = 'false': expected True"),
-        ("cyclic_pursuit", {"n": 2.5}, "cyclic_pursuit.py, line 35, with n = 2.5: TypeError"),
+        ("cyclic_pursuit", {"n": 2.5}, "cyclic_pursuit.py, line 34, with n = 2.5: TypeError"),
         ("pursuit_voronoi", {"ratio": -1}, "with ratio = -1: Holonomic.max_linear_speed = -0.2"),
     ],
 )

@@ -137,7 +137,7 @@ def test_what_is_no_command_says_what_was_returned_and_by_which_law(value, messa
 
     with pytest.raises(LawError, match=message) as raised:
         mars2d.run(team(wander))
-    assert str(raised.value).startswith("test_control.py, line ")
+    assert str(raised.value).startswith("test_laws.py, line ")
     assert "wander returned" in str(raised.value)
 
 
@@ -158,7 +158,7 @@ def test_what_is_no_command_says_what_was_returned_and_by_which_law(value, messa
 def test_what_is_no_command_of_the_team_says_so_as_well(value, message):
     with pytest.raises(LawError, match=message) as raised:
         mars2d.run(Scenario(robots=3), control=lambda _world: value)
-    assert str(raised.value).startswith("test_control.py, line ")
+    assert str(raised.value).startswith("test_laws.py, line ")
 
 
 def test_a_law_that_raises_is_shown_with_its_innermost_own_line():
@@ -171,7 +171,7 @@ def test_a_law_that_raises_is_shown_with_its_innermost_own_line():
     with pytest.raises(LawError, match="law raised LinAlgError: Singular matrix") as raised:
         mars2d.run(team(law))
     line = helper.__code__.co_firstlineno + 1
-    assert raised.value.where == f"test_control.py, line {line}"
+    assert raised.value.where == f"test_laws.py, line {line}"
     assert isinstance(raised.value.__cause__, np.linalg.LinAlgError)
 
 
@@ -182,7 +182,7 @@ def test_a_law_of_which_parameters_were_set_is_called_by_its_own_name():
     scenario = Scenario(robots=[Robot(controller=partial(partial(hurry), speed=2.0))])
     with pytest.raises(LawError, match="hurry returned nothing") as caught:
         World(scenario).step()
-    assert str(caught.value.where).startswith("test_control.py, line ")
+    assert str(caught.value.where).startswith("test_laws.py, line ")
 
 
 def test_a_generator_that_raises_is_shown_as_well():
@@ -233,7 +233,7 @@ def test_a_law_that_sees_sensors_only_may_see_neither_pose_nor_neighbours(what):
     message = f"this law sees sensors only: robot.{what} is not available"
     with pytest.raises(LawError, match=message) as raised:
         ask(lambda robot: getattr(robot, what), sees="sensors")
-    assert "test_control.py, line" in str(raised.value)
+    assert "test_laws.py, line" in str(raised.value)
 
 
 def test_a_law_that_sees_sensors_only_may_use_the_rest():
