@@ -34,8 +34,8 @@ from mars2d.bodies import Ball, Bar, Box, Gate, Hinge, Joint, Prop, Puck, Rod, R
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError
 from mars2d.core.materials import MATERIALS
-from mars2d.core.registry import summary
 from mars2d.geometry import Compound, Disc, Polygon
+from mars2d.scenario.registry import summary
 from mars2d.sensors import (
     Bumper,
     Ground,

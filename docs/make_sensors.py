@@ -21,7 +21,7 @@ from PIL import Image
 from mars2d import Robot, Scenario, Unicycle, World, addons, sensors
 from mars2d.addons import Addon, Floor, Map
 from mars2d.bodies import Ball, Box
-from mars2d.core.registry import snake_case
+from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
 from mars2d.geometry import Outline
 from mars2d.output.raster.picture import paint_frame, save_png

@@ -12,7 +12,7 @@ import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from mars2d.core import startup  # noqa: F401 - first, for Ctrl-C during the other imports
+from mars2d.core import interrupt  # noqa: F401 - first: Ctrl-C while the others are imported
 
 # isort: split
 from mars2d.addons import Addon

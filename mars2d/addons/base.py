@@ -8,12 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from mars2d.core import checks
-from mars2d.core.description import entry, text
+from mars2d.core.description import Stateful, entry, snake_case, text
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.materials import surface_friction, surface_restitution
-from mars2d.core.part import Live
 from mars2d.core.plane import Outline, Point
-from mars2d.core.registry import snake_case
 from mars2d.core.scene import Scene
 
 if TYPE_CHECKING:
@@ -29,7 +27,7 @@ HOOKS = ("on_start", "on_step", "on_sensed", "on_draw", "on_stop")
 """All hooks of an add-on: MARS's Addons_suffix Initialize, Loop and Plot; sensing, and the end."""
 
 
-class Addon(Live):
+class Addon(Stateful):
     """The base of all add-ons: derive, declare fields, and write the hooks you need.
 
     >>> class Counter(Addon):

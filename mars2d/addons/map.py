@@ -11,8 +11,8 @@ from mars2d.addons.base import Addon
 from mars2d.core.checks import outlines, polylines
 from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError
+from mars2d.core.files import file_beside
 from mars2d.core.plane import Outline
-from mars2d.core.usercode import file_beside
 
 __all__ = ["Map"]
 

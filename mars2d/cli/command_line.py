@@ -14,8 +14,7 @@ from mars2d import __version__
 from mars2d.cli.terminal import hang_up_as_interrupt
 from mars2d.cli.verbs import VERBS
 from mars2d.core.errors import InputError, Mars2dError, likely, one_line
-from mars2d.core.interrupt import raised_once, unwrapped, was_interrupted
-from mars2d.core.startup import INTERRUPTED, ending
+from mars2d.core.interrupt import INTERRUPTED, ending, raised_once, unwrapped, was_interrupted
 
 __all__ = ["main", "parser"]
 

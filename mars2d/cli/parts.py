@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from mars2d.cli.base import print_examples, print_table
-from mars2d.core.registry import members, misspelt_groups, plugins, summary
+from mars2d.scenario.registry import members, misspelt_groups, plugins, summary
 
 NAME = "list"
 

@@ -1,18 +1,20 @@
 """Descriptions: frozen, keyword-only, validated objects, the gate in front of the engine.
 
 A class that derives from `Description` becomes a frozen dataclass. Its fields are declared with
-`number`, `choice`, `flag`, `text` or `entry`, which carry the bounds, the unit and the meaning;
-a plain annotation (``noise: float = 0.1``) works too. Whatever reaches an object has passed its
-checks: no NaN, no infinity, no wrong type, no unknown name.
+`number`, `choice`, `flag`, `text` or `entry`, which state bounds, unit and meaning; a plain
+annotation (``noise: float = 0.1``) works too. All values of an object have passed these checks: no
+NaN, no infinity, no wrong type, no unknown name.
 """
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import functools
 import inspect
 import math
 import numbers
+import re
 from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, Self, dataclass_transform
 
@@ -20,19 +22,30 @@ import numpy as np
 
 from mars2d.core.errors import CONTROLS, InputError, likely, nearest, shown
 
-__all__ = ["Description", "choice", "entry", "flag", "integer", "number", "text"]
+__all__ = [
+    "Description",
+    "Stateful",
+    "choice",
+    "entry",
+    "flag",
+    "integer",
+    "number",
+    "snake_case",
+    "text",
+]
 
 Check = Callable[[str, Any], Any]
-"""Takes the field's full name and the value given, returns the value kept, raises InputError."""
+"""Called with a field's full name and the value given; returns the value to keep, or raises
+InputError."""
 
 
 def wrong(name: str, value: object, expected: str) -> InputError:
-    """Return the error that says: field `name` was given `value`, `expected` was wanted."""
+    """Return the error for a field `name` that was given `value` instead of what was expected."""
     return InputError(f"{name} = {shown(value)}: expected {expected}")
 
 
 def real(name: str, value: object, expected: str = "a number") -> float:
-    """Return `value` as a finite float; a bool, NaN, an infinity or text is an InputError."""
+    """Return `value` as a finite float. Raises InputError for a bool, NaN, an infinity or text."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise wrong(name, value, expected)
     try:
@@ -105,7 +118,7 @@ def integer(
 
 
 def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = "") -> Any:
-    """Declare a field that is one of a few words."""
+    """Declare a field that is one of several words."""
 
     def check(name: str, value: object) -> str:
         if not isinstance(value, str) or value not in of:
@@ -122,7 +135,7 @@ def flag(*, default: Any = dataclasses.MISSING, doc: str = "") -> Any:
 
 
 def text(*, default: Any = dataclasses.MISSING, optional: bool = False, doc: str = "") -> Any:
-    """Declare a field that is text in one line, as names and titles are."""
+    """Declare a field that is one line of text, such as a name or a title."""
 
     def check(name: str, value: object) -> str | None:
         if optional and value is None:
@@ -144,7 +157,7 @@ def entry(
     factory: Any = dataclasses.MISSING,
     kw_only: bool = True,
 ) -> Any:
-    """Declare a field with a check of its own, which returns the value to keep."""
+    """Declare a field with its own check, which returns the value to keep."""
     return dataclasses.field(
         default=default,
         default_factory=factory,
@@ -154,9 +167,9 @@ def entry(
 
 
 def whole(text: str) -> str:
-    """Return a text with a question mark for each half a character, which no file can hold.
+    """Return a text with a question mark for each lone surrogate, which UTF-8 can't encode.
 
-    Python has them in names of files that are not in UTF-8.
+    Python uses these for file names that are not valid UTF-8.
     """
     return text.encode(errors="replace").decode()
 
@@ -218,20 +231,20 @@ class Description:
         self._validate()
 
     def _validate(self) -> None:
-        """Check what concerns several fields together."""
+        """Check conditions that concern several fields together."""
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with some fields changed, validated anew."""
+        """Return a copy with some fields changed, validated again."""
         current = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         return type(self)(**(current | changes))
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what is copied and sent to other processes: all but what is worked out again."""
-        kind, worked_out = type(self), functools.cached_property
+        """Return the state that is copied and pickled: everything but cached properties."""
+        kind, cached = type(self), functools.cached_property
         return {
             name: value
             for name, value in self.__dict__.items()
-            if not isinstance(getattr(kind, name, None), worked_out)
+            if not isinstance(getattr(kind, name, None), cached)
         }
 
     def __repr__(self) -> str:
@@ -252,7 +265,7 @@ def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
 
 
 def _keep_checks(cls: type[Description]) -> None:
-    """Let a subclass give an inherited field a new default without losing the field's check."""
+    """Keep an inherited field's check when a subclass gives the field a new default."""
     inherited = getattr(super(cls, cls), "__dataclass_fields__", {})
     annotations = inspect.get_annotations(cls)
     for name, field in inherited.items():
@@ -265,7 +278,7 @@ def _keep_checks(cls: type[Description]) -> None:
 
 
 def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
-    """Wrap a dataclass's __init__ so that wrong names and missing ones are InputErrors."""
+    """Wrap a dataclass's __init__ so that unknown and missing names raise InputError."""
     known = {f.name: f for f in dataclasses.fields(cls) if f.init}
     positional = [name for name, f in known.items() if not f.kw_only]
     required = [
@@ -290,3 +303,40 @@ def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
         init(self, *args, **kwargs)
 
     return checked
+
+
+class Stateful(Description):
+    """The base of parts that keep state during a run: their methods may set attributes of self.
+
+    The description itself is frozen like any other. Each run works on a copy that is not, made by
+    `live`.
+    """
+
+    _live: ClassVar[bool] = False
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        frozen = cls.__setattr__
+
+        def set_attribute(self: Stateful, attribute: str, value: Any) -> None:
+            if self.__dict__.get("_live"):
+                object.__setattr__(self, attribute, value)
+            else:
+                frozen(self, attribute, value)
+
+        cls.__setattr__ = set_attribute  # type: ignore[method-assign, assignment]
+
+    def live(self, **attributes: Any) -> Self:
+        """Return a copy whose attributes may be set, some of them set already."""
+        twin = copy.deepcopy(self)
+        twin.__dict__.update(_live=True, **attributes)
+        return twin
+
+
+def snake_case(name: str) -> str:
+    """Return a class name in lower case, its words joined by underscores.
+
+    >>> snake_case("RangeFinder")
+    'range_finder'
+    """
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()

@@ -41,7 +41,7 @@ NOW = {
     "prediction": "scenario.prediction",
     "props": "bodies",
     "reckoning": "geometry.dead_reckoning",
-    "registry": "core.registry",
+    "registry": "scenario.registry",
     "rerun": "world.verify",
     "robot": "scenario.robot",
     "scene": "core.scene",

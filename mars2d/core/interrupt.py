@@ -1,4 +1,10 @@
-"""Ctrl-C that is not lost, that tidies up once, and that waits for what is being saved."""
+"""Ctrl-C: not lost, handled once, and late while something is being saved.
+
+A process has one SIGINT, so all that concerns it is in this module. It is imported first: in a
+process that is the command line, and in no other, importing it installs the handler `leave`.
+Until all libraries are imported there is nothing to save, and libraries in C may turn
+KeyboardInterrupt into other errors.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +15,16 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 from math import inf
 from types import FrameType, TracebackType
 
-from mars2d.core.startup import leave
-
 __all__ = [
+    "INTERRUPTED",
+    "ending",
     "held_back",
     "interrupts_blocked",
+    "leave",
     "noted_interrupts",
     "raised_once",
     "unbroken",
@@ -24,21 +32,60 @@ __all__ = [
     "was_interrupted",
 ]
 
-GRACE = 2.0
-"""For so long after a Ctrl-C another one is the same wish: meanwhile all is tidied up, seconds."""
+INTERRUPTED = 130
+"""The command line's exit code after Ctrl-C, by the convention of shells."""
 
-AGAIN = 0.01
-"""How soon a Ctrl-C comes again that Python has dropped, seconds."""
+GRACE = 2.0
+"""Further Ctrl-C within this time count as the same one, while the run is tidied up, seconds."""
+
+RETRY_DELAY = 0.01
+"""The delay after which a Ctrl-C that Python has dropped is sent again, seconds."""
 
 _raised = -inf
-"""When KeyboardInterrupt was raised last."""
+"""The time at which KeyboardInterrupt was last raised."""
+
+
+def leave(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
+    """End the process at once: the signal handler while there is nothing to lose."""
+    os.write(2, b"mars2d: interrupted\n")
+    os._exit(INTERRUPTED)
+
+
+def ending() -> None:
+    """Ignore Ctrl-C from now on in the command line: its work is done, its exit code is known."""
+    if signal.getsignal(signal.SIGINT) is leave:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _is_command_line() -> bool:
+    """Return whether this process was started as ``mars2d`` or ``python -m mars2d``.
+
+    A worker process was not, although it has the arguments of the process that started it.
+    """
+    told, first = sys.orig_argv, sys.argv[0] if sys.argv else ""
+    if first == "-m":  # while the package is imported
+        return any(
+            word == "mars2d" and before.startswith("-") and before.endswith("m")
+            for before, word in pairwise(told)
+        )
+    name = first.replace("\\", "/").rpartition("/")[2]
+    return name.partition(".")[0] == "mars2d" and first in told
+
+
+if (
+    _is_command_line()
+    and threading.current_thread() is threading.main_thread()
+    and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+):
+    signal.signal(signal.SIGINT, leave)
 
 
 class _Handling:
-    """A block in which Ctrl-C does something of its own; the innermost of such blocks counts.
+    """A block with its own reaction to Ctrl-C; of nested blocks, the innermost one counts.
 
-    Does nothing outside of the main thread, or where somebody else handles the signal. A generator
-    would not do: interrupted as its block ends, it would go back to what was before much later.
+    It has no effect outside the main thread, or if other code handles the signal. It is not a
+    generator, since a generator interrupted at the end of its block would restore the previous
+    handler much later.
     """
 
     def __init__(self) -> None:
@@ -51,7 +98,7 @@ class _Handling:
         self._outermost = not isinstance(self._before, _Handling)
 
     def __call__(self, number: int, frame: FrameType | None) -> None:  # noqa: ARG002
-        """Do what Ctrl-C does here: the handler of the signal."""
+        """React to Ctrl-C: this object is the signal's handler."""
         self._act()
 
     def _act(self) -> None:
@@ -71,11 +118,11 @@ class _Handling:
 
 
 class noted_interrupts(_Handling):  # noqa: N801 - it is used as a function
-    """Note each Ctrl-C; yield what raises KeyboardInterrupt if there has been one.
+    """Note each Ctrl-C; yield a function that raises KeyboardInterrupt if there has been one.
 
-    Python raises it wherever it is just then, and drops it where nobody is called who could pass it
-    on: in what C code calls back, or in what is done while memory is tidied up. So whoever goes
-    on for long asks again. Several within `GRACE` are one.
+    Python raises KeyboardInterrupt wherever it happens to be, and drops it where no caller can
+    receive it: in callbacks from C code and in destructors. So a long-running loop calls the
+    function as well. Several Ctrl-C within `GRACE` count as one.
     """
 
     def __init__(self) -> None:
@@ -99,10 +146,10 @@ class noted_interrupts(_Handling):  # noqa: N801 - it is used as a function
 
 
 class held_back(_Handling):  # noqa: N801 - it is used as a function
-    """Let Ctrl-C wait for the end of the block, and raise KeyboardInterrupt then.
+    """Hold Ctrl-C back until the end of the block, and raise KeyboardInterrupt then.
 
-    what: for what it waits, which is said on stderr. Within, `noted_interrupts` lets it through.
-    Where the block ends with an error, that is the one that counts.
+    what: the reason for waiting, which is printed on stderr. A `noted_interrupts` within the block
+    lets Ctrl-C through. If the block ends with an error, that error is raised instead.
     """
 
     def __init__(self, what: str = "") -> None:
@@ -131,10 +178,10 @@ class held_back(_Handling):  # noqa: N801 - it is used as a function
 
 
 class raised_once(_Handling):  # noqa: N801 - it is used as a function
-    """Raise KeyboardInterrupt at Ctrl-C, but not again while all is tidied up after it.
+    """Raise KeyboardInterrupt at Ctrl-C, but not again while the program tidies up after it.
 
-    One that Python would drop, with a traceback on stderr, as in what is done while memory is
-    tidied up or a module is imported, comes again.
+    A KeyboardInterrupt that Python drops with a traceback on stderr, for example in a destructor,
+    is sent again.
     """
 
     def _act(self) -> None:
@@ -156,16 +203,16 @@ class raised_once(_Handling):  # noqa: N801 - it is used as a function
             return
         global _raised  # noqa: PLW0603
         _raised = -inf
-        again = threading.Timer(AGAIN, _press)
+        again = threading.Timer(RETRY_DELAY, _press)
         again.daemon = True
         again.start()
 
 
 class _Unbroken:
-    """A short block that Ctrl-C does not break off: KeyboardInterrupt is raised at its end.
+    """A short block that Ctrl-C does not interrupt: KeyboardInterrupt is raised at its end.
 
-    It costs less than a microsecond, and needs one of the other blocks around it, which handles the
-    signal. Only in the main thread, where Python raises it.
+    It costs less than a microsecond. It must be within one of the other blocks, which handles the
+    signal, and has an effect in the main thread only, where Python raises KeyboardInterrupt.
     """
 
     def __init__(self) -> None:
@@ -190,7 +237,7 @@ unbroken = _Unbroken()
 
 
 def _press() -> None:
-    """Send Ctrl-C to the main thread, also while it waits for the system."""
+    """Send Ctrl-C to the main thread, even if it is waiting in a system call."""
     main = threading.main_thread().ident
     if sys.platform == "win32" or main is None:
         signal.raise_signal(signal.SIGINT)
@@ -212,9 +259,10 @@ def _raise() -> None:
 
 
 def was_interrupted(error: BaseException | None) -> bool:
-    """Return whether an error is what others have made of a KeyboardInterrupt.
+    """Return whether an error was caused by a KeyboardInterrupt.
 
-    Libraries in C do, as "ImportError: initialization failed" where they are imported just then.
+    Libraries in C convert it: "ImportError: initialization failed" if it comes as they are
+    imported.
     """
     seen: set[int] = set()
     while error is not None and id(error) not in seen:
@@ -227,7 +275,7 @@ def was_interrupted(error: BaseException | None) -> bool:
 
 @contextmanager
 def unwrapped() -> Iterator[None]:
-    """Raise KeyboardInterrupt in place of an error that others have made of it."""
+    """Raise KeyboardInterrupt in place of an error that was caused by it."""
     try:
         yield
     except Exception as error:
@@ -238,17 +286,17 @@ def unwrapped() -> Iterator[None]:
 
 @contextmanager
 def interrupts_blocked() -> Iterator[None]:
-    """Start processes that Ctrl-C does not reach, from their first moment.
+    """Block SIGINT within the block, so that processes started in it never receive Ctrl-C.
 
-    They start with those signals blocked that are blocked here. Ours come as soon as they no longer
-    are. Windows has no such thing.
+    A process inherits the blocked signals of the one that starts it. A Ctrl-C for this process is
+    delivered at the end of the block. Has no effect on Windows.
     """
     if sys.platform == "win32":
         yield
         return
     from multiprocessing.resource_tracker import ensure_running
 
-    ensure_running()  # which would let them through
+    ensure_running()  # else it would be started here, and unblock the signal
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

@@ -1,7 +1,7 @@
-"""What to draw, never how: shapes in world coordinates, in the order they lie on each other.
+"""What to draw, not how: shapes in world coordinates, from the lowest to the topmost.
 
-The window, the films and the figures all paint the same `Scene`. Positions and sizes are metres,
-line widths and text heights are points of the screen or page. Colours are ``#rrggbb`` or, with
+The window, films, figures and pages all paint the same `Scene`. Positions and sizes are in metres,
+line widths and text heights in points of the screen or page. Colours are ``#rrggbb`` or, with
 opacity, ``#rrggbbaa``.
 """
 
@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.errors import InputError, nearest, shown
-from mars2d.core.pixels import LARGEST_IMAGE
 from mars2d.core.plane import Outline
 
 __all__ = [
@@ -40,11 +39,14 @@ __all__ = [
 
 Anchor = Literal["center", "left", "right", "above", "below"]
 
+LARGEST_IMAGE = 4096
+"""The largest number of rows and of columns of an image."""
+
 # Okabe & Ito's colours, distinguishable with every common colour vision deficiency (2008).
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#5f4b8b", "#444444")
 
 THEORY = "#7b3294"
-"""The colour of what theory predicts."""
+"""The colour of theoretical predictions."""
 
 _NAMED = {
     "black": "#000000", "white": "#ffffff", "gray": "#808080", "grey": "#808080",
@@ -77,7 +79,7 @@ def color(name: str, value: object) -> str:
 
 
 def optional_color(name: str, value: object) -> str | None:
-    """Check a colour that may be None."""
+    """Check a colour, or None."""
     return None if value is None else color(name, value)
 
 
@@ -92,7 +94,7 @@ def _styled(value: str) -> str:
 
 
 def _paint(value: str | None, field: str = "fill") -> str | None:
-    """Check a colour that may be None, which paints nothing."""
+    """Check a colour, or None, which paints nothing."""
     return None if value is None else _checked(field, value)
 
 
@@ -113,7 +115,7 @@ def rgb(color: str) -> tuple[float, float, float]:
 
 
 def color_of(values: Iterable[float]) -> str:
-    """Return the colour ``#rrggbb`` of red, green and blue; beyond 0 to 1 they are clipped.
+    """Return the colour ``#rrggbb`` of red, green and blue, clipped to 0 to 1.
 
     >>> color_of((1.0, -0.5, 0.2))
     '#ff0033'
@@ -122,7 +124,7 @@ def color_of(values: Iterable[float]) -> str:
 
 
 def wake_style(name: str, value: object) -> str:
-    """Check a wake style: a line style of Matlab's plot, a marker, or both, as ``-`` or ``o--``."""
+    """Check a wake style: a line style of Matlab's plot, a marker, or both, such as ``o--``."""
     if isinstance(value, str):
         rest = value
         for mark in WAKE_MARKERS:
@@ -146,7 +148,7 @@ def split_wake_style(style: str) -> tuple[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """A disc or ring: centre (x, y) and radius in metres; `pixels` adds to the radius on screen."""
+    """A disc or ring: centre (x, y) and radius in metres; `pixels` is added to the radius."""
 
     center: tuple[float, float]
     radius: float
@@ -168,7 +170,7 @@ class Polygon:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A polyline through points (k, 2) in metres. `style` is that of MARS's wake, as ``o--``."""
+    """A polyline through points (k, 2) in metres. `style`: a wake style, such as ``o--``."""
 
     points: NDArray[np.float64]
     stroke: str
@@ -180,7 +182,7 @@ class Line:
 class Text:
     """A label at a point (x, y) in metres; `size` is its height in points.
 
-    halo: the colour of a rim round the letters, which sets them off from what they lie on.
+    halo: the colour of a rim round the letters, which sets them off from the background.
     """
 
     position: tuple[float, float]
@@ -195,8 +197,8 @@ class Text:
 class Arrow:
     """An arrow from `tail` to `tip`, (x, y) in metres; `width` is that of its shaft, in points.
 
-    A short one is drawn smaller as a whole, so that it stays an arrow. stroke: a thin edge round
-    it, which sets it off from what it lies on.
+    A short arrow is drawn smaller as a whole. stroke: the colour of a thin edge round it, which
+    sets it off from the background.
     """
 
     tail: tuple[float, float]
@@ -210,7 +212,7 @@ class Arrow:
 class Image:
     """Pixels (rows, columns, 3), red, green and blue to 255, over (xmin, xmax, ymin, ymax) [m].
 
-    The first row is the upper one. With a fourth number, the opacity to 255, it is seen through.
+    The first row is the top one. A fourth number per pixel is its opacity, up to 255.
     """
 
     pixels: NDArray[np.uint8]
@@ -222,7 +224,7 @@ Shape = Circle | Polygon | Line | Text | Arrow | Image
 
 @dataclass(slots=True)
 class Scene:
-    """A list of shapes, the first lying lowest. Each method adds one."""
+    """A list of shapes, the lowest first. Each method adds one."""
 
     shapes: list[Shape] = field(default_factory=list)
 
@@ -290,16 +292,16 @@ class Scene:
         self.shapes.append(Arrow((ax, ay), (bx, by), fill, stroke, width))
 
     def cross(self, center: ArrayLike, arm: float, *, stroke: str, width: float = 1.0) -> None:
-        """Add a lying cross, as wide and as high as twice its `arm` [m]."""
+        """Add a diagonal cross, twice its `arm` [m] wide and high."""
         x, y = np.asarray(center, dtype=float)[:2].tolist()
         for up in (arm, -arm):
             self.line([(x - arm, y - up), (x + arm, y + up)], stroke=stroke, width=width)
 
     def image(self, pixels: ArrayLike, bounds: Sequence[float]) -> None:
-        """Add an image: pixels (rows, columns, 3) from 0 to 255, the upper row first.
+        """Add an image: pixels (rows, columns, 3) from 0 to 255, the top row first.
 
-        bounds: (xmin, xmax, ymin, ymax) in metres. It has 4096 rows and columns at most. Pixels of
-        four numbers, (rows, columns, 4), have an opacity as well.
+        bounds: (xmin, xmax, ymin, ymax) in metres. An image has at most 4096 rows and columns.
+        Pixels (rows, columns, 4) have an opacity as well.
         """
         given = np.asarray(pixels)
         fits = given.ndim == 3 and given.shape[2] in (3, 4) and min(given.shape) > 0
@@ -323,7 +325,7 @@ class Scene:
         stroke: str | None = None,
         width: float = 1.0,
     ) -> None:
-        """Add a field of view: a sector of `angle` radians about the heading of a pose (3,)."""
+        """Add a sector of `angle` radians about the heading of a pose (3,): a field of view."""
         if angle >= 2 * np.pi:
             self.circle(pose, radius, fill=fill, stroke=stroke, width=width)
             return
@@ -338,10 +340,10 @@ class Scene:
 
 
 HEAD_LENGTH, HEAD_WIDTH = 4.0, 3.4
-"""Of an arrow's head, in widths of its shaft."""
+"""Length and width of an arrow's head, in widths of its shaft."""
 
-SHORTEST = 1.6
-"""Shorter arrows, in lengths of their head, are drawn smaller as a whole."""
+MIN_ARROW_LENGTH = 1.6
+"""Shorter arrows are drawn smaller as a whole, in lengths of their head."""
 
 
 def arrow_outline(
@@ -352,13 +354,13 @@ def arrow_outline(
     length = float(np.hypot(dx, dy))
     if length == 0.0:
         return np.tile(np.array([tail], dtype=float), (7, 1))
-    width = min(width, length / (SHORTEST * HEAD_LENGTH))
+    width = min(width, length / (MIN_ARROW_LENGTH * HEAD_LENGTH))
     axes = np.array([[dx, dy], [-dy, dx]]) / length
     neck = length - HEAD_LENGTH * width
     half, head = width / 2, HEAD_WIDTH * width / 2
-    places = [(0, half), (neck, half), (neck, head), (length, 0)]
-    places += [(at, -off) for at, off in places[2::-1]]
-    return np.array(places) @ axes + tail
+    corners = [(0, half), (neck, half), (neck, head), (length, 0)]
+    corners += [(along, -across) for along, across in corners[2::-1]]
+    return np.array(corners) @ axes + tail
 
 
 def _points(points: ArrayLike | Outline) -> NDArray[np.float64]:

@@ -1,43 +1,36 @@
-"""Calls of the user's code: what it raises becomes an error that points at its line."""
+"""The user's code: errors that it raises name its line, and show the lines around it."""
 
 from __future__ import annotations
 
 import functools
 import inspect
+import linecache
+import re
 import sysconfig
 import traceback
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mars2d.core.errors import InputError, LawError, described, nearest
+from mars2d.core.errors import InputError, LawError, described
 
-__all__ = [
-    "called",
-    "definition",
-    "file_beside",
-    "files_read",
-    "name_of",
-    "note_file",
-    "users_line",
-]
+__all__ = ["Excerpt", "called", "definition", "excerpt_of", "name_of", "users_line"]
 
 _PACKAGE = Path(__file__).parents[1]
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
 
 
 class called:  # noqa: N801 - used like a function, as contextlib's are
-    """Run the user's code so that what it raises becomes a LawError with its file and line.
+    """Run the user's code, and turn an exception that it raises into a LawError with file and line.
 
-    At the start, before anything is done, an InputError of one of MARS2D's own parts stays what it
-    is: no code of the user's is at fault.
+    An InputError that one of MARS2D's own parts raises as a run starts is passed on unchanged: the
+    user's code is not at fault.
     """
 
     def __init__(self, name: str, function: Callable[..., Any]) -> None:
-        """Take what is called, and by which name messages call it."""
+        """Take the name for messages and the function that is called."""
         self._name, self._function = name, function
 
     def __enter__(self) -> None:
@@ -50,7 +43,7 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
         tb: TracebackType | None,
     ) -> None:
         if error is None or not isinstance(error, (Exception, SystemExit)):
-            return  # nothing, or Ctrl-C
+            return  # no error, or Ctrl-C
         where = users_line(traceback.extract_tb(tb)) or definition(self._function)
         if isinstance(error, LawError):
             error.where = error.where or where
@@ -64,13 +57,13 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
 
 
 def users_line(stack: traceback.StackSummary) -> str | None:
-    """Return the innermost place of a traceback or stack that lies in the user's own code."""
+    """Return file and line of the innermost step of a stack in the user's own code, if any."""
     steps = [step for step in stack if _is_users(Path(step.filename))]
     return _place(steps[-1].filename, steps[-1].lineno or 0) if steps else None
 
 
 def _is_users(path: Path) -> bool:
-    compiled = path.suffix == ".pyx"  # numpy's random generators, say
+    compiled = path.suffix == ".pyx"  # for example numpy's random generators
     others = compiled or _is_ours(path) or path.is_relative_to(_STANDARD_LIBRARY)
     return not (others or "site-packages" in path.parts or str(path).startswith("<"))
 
@@ -80,20 +73,20 @@ def _is_ours(path: Path) -> bool:
 
 
 def name_of(function: Callable[..., Any]) -> str:
-    """Return the name of a function, also of one in a functools.partial; else that of its class."""
+    """Return the name of a function, also within a functools.partial, or of an object's class."""
     function = _whole(function)
     return str(getattr(function, "__name__", type(function).__name__))
 
 
 def _whole(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function that a functools.partial calls; any other as it is."""
+    """Return the function that a functools.partial calls; return any other unchanged."""
     while isinstance(function, functools.partial):
         function = function.func
     return function
 
 
 def definition(function: Callable[..., Any]) -> str | None:
-    """Return where a function is defined, if it is Python's and not our own."""
+    """Return file and line of a function's definition; None if it is compiled or MARS2D's own."""
     code = getattr(inspect.unwrap(_whole(function)), "__code__", None)
     if code is None or _is_ours(Path(code.co_filename)):
         return None
@@ -104,49 +97,78 @@ def _place(filename: str, line: int) -> str:
     return f"{Path(filename).name}, line {line}"
 
 
-_files: ContextVar[tuple[set[Path], ...]] = ContextVar("files", default=())
+# -- excerpts
+
+CONTEXT_LINES = 2
+"""Lines shown before and after the line that an error points at."""
+
+MAX_LINE_LENGTH = 400
+"""Longer lines are cut, characters."""
 
 
-@contextmanager
-def files_read() -> Iterator[set[Path]]:
-    """Collect the user's files, experiments, laws, maps and modules, that are read meanwhile."""
-    files: set[Path] = set()
-    token = _files.set((*_files.get(), files))
-    try:
-        yield files
-    finally:
-        _files.reset(token)
+@dataclass(frozen=True, slots=True)
+class Excerpt:
+    """Some lines of a file, the first with the number `first`; an error points at line `line`."""
+
+    file: Path
+    line: int
+    first: int
+    lines: tuple[str, ...]
+
+    def nearest(self, count: int) -> Excerpt:
+        """Return at most `count` of the lines, around the one that the error points at."""
+        before = self.line - self.first
+        start = max(0, min(before - count // 2, len(self.lines) - count))
+        return Excerpt(
+            self.file, self.line, self.first + start, self.lines[start : start + max(count, 1)]
+        )
 
 
-def note_file(path: Path) -> None:
-    """Note that a file of the user's is read, for whoever collects these."""
-    for files in _files.get():
-        files.add(path.absolute())
+def excerpt_of(error: BaseException, beside: Path | None = None) -> Excerpt | None:
+    """Return the lines around the one that an error points at; None if that line is not known.
 
-
-def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[str]) -> Path:
-    """Return the file that lies beside the caller's file, or else in the current folder.
-
-    caller: a file of the user's code, or None. what: what the file is, with its article. suffixes:
-    how such files end. Raises InputError, with the nearest name.
+    beside: the experiment's file. It and its folder are searched if the error does not tell its
+    file's folder, for example because a law returned something unusable.
     """
-    beside = [caller.parent] if caller is not None and caller.is_file() else []  # or a notebook
-    folders = [*beside, Path()]
-    for folder in folders:
-        if (folder / path).is_file():
-            note_file(folder / path)
-            return folder / path
-        if (folder / path).is_dir():
-            ends = " or ".join(suffixes)
-            raise InputError(f"{path}: a folder; expected {what}, a file that ends in {ends}")
-    known = {
-        str(path.parent / file.name)
-        for folder in folders
-        if (folder / path).parent.is_dir()
-        for file in (folder / path).parent.iterdir()
-        if file.suffix.lower() in suffixes
-    }
-    where = ""
-    if beside and caller is not None and not path.is_absolute():
-        where = f" beside {caller.name} or in the current folder"
-    raise InputError(f"{path}: there is no such file{where}{nearest(path, known)}")
+    stacks = _stacks(error)
+    where = getattr(error, "where", None) or next(filter(None, map(users_line, stacks)), None)
+    found = re.fullmatch(r"(.+), line (\d+)", where or "")
+    if found is None:
+        return None
+    name, line = found[1], int(found[2])
+    paths = [Path(step.filename) for stack in stacks for step in stack if step.lineno == line]
+    if beside is not None:
+        paths += [beside, beside.parent / name]
+    excerpts = (_read(path, line) for path in paths if path.name == name)
+    return next(filter(None, excerpts), None)
+
+
+def _stacks(error: BaseException | None) -> list[traceback.StackSummary]:
+    """Return the stacks of an error and of its causes, the first cause first."""
+    chain: list[BaseException] = []
+    while error is not None and error not in chain:
+        chain.insert(0, error)
+        error = error.__cause__ or error.__context__
+    return [_stack(step) for step in chain]
+
+
+def _stack(error: BaseException) -> traceback.StackSummary:
+    stack = traceback.extract_tb(error.__traceback__)
+    if isinstance(error, SyntaxError) and error.filename:
+        stack.append(traceback.FrameSummary(error.filename, error.lineno, "", lookup_line=False))
+    return stack
+
+
+def _read(path: Path, line: int) -> Excerpt | None:
+    linecache.checkcache(str(path))
+    lines = linecache.getlines(str(path))
+    if not 1 <= line <= len(lines):
+        return None
+    first = max(1, line - CONTEXT_LINES)
+    shown = [
+        text.rstrip().expandtabs(4)[:MAX_LINE_LENGTH]
+        for text in lines[first - 1 : line + CONTEXT_LINES]
+    ]
+    while len(shown) > line - first + 1 and not shown[-1]:
+        del shown[-1]
+    return Excerpt(path, line, first, tuple(shown))

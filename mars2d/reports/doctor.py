@@ -103,7 +103,7 @@ def _kernel() -> Finding:
 
 def _plugins() -> Iterator[Finding]:
     """Say what other packages ship; that one of theirs is broken is not a fault of MARS2D's."""
-    from mars2d.core.registry import BASES, misspelt_groups, plugins
+    from mars2d.scenario.registry import BASES, misspelt_groups, plugins
 
     for part in (part for family in BASES for part in plugins(family)):
         text = f"{part.name}, {part.family}, of {part.package} {part.version}"

@@ -20,7 +20,8 @@ from typing import TYPE_CHECKING, Any, cast
 from mars2d.core import checks
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, LawError, Mars2dError, described, nearest, shown
-from mars2d.core.usercode import called, file_beside, files_read, note_file
+from mars2d.core.files import file_beside, files_read, note_file
+from mars2d.core.usercode import called
 from mars2d.scenario.map_option import MapOption, reading_options
 from mars2d.scenario.options import override
 from mars2d.scenario.prediction import Prediction

@@ -12,8 +12,8 @@ from mars2d.addons.map import Map
 from mars2d.core import checks
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.files import file_beside
 from mars2d.core.plane import Outline, bounds_of, rectangle
-from mars2d.core.usercode import file_beside
 from mars2d.scenario.options import override
 from mars2d.scenario.scenario import Scenario
 

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.description import Description
-from mars2d.core.registry import BASES
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
 from mars2d.scenario.law_reference import Reference, seen_from
 from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
+from mars2d.scenario.registry import BASES
 from mars2d.scenario.scenario import Scenario
 
 __all__ = ["as_python"]

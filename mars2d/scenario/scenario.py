@@ -21,11 +21,11 @@ from mars2d.bodies.joints.hinge import Hinge
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
-from mars2d.core.description import Description, choice, entry, number, text, wrong
+from mars2d.core.description import Description, choice, entry, number, snake_case, text, wrong
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.files import file_beside
 from mars2d.core.plane import Outline, bounds_of
-from mars2d.core.registry import snake_case
-from mars2d.core.usercode import called, file_beside
+from mars2d.core.usercode import called
 from mars2d.geometry.shapes import known_shape
 from mars2d.scenario import limits, starts
 from mars2d.scenario.animation import Animation

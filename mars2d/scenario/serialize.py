@@ -15,12 +15,12 @@ from mars2d.bodies.drives.unicycle import Unicycle
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.solid import Solid
-from mars2d.core.description import Description
+from mars2d.core.description import Description, snake_case
 from mars2d.core.errors import InputError
-from mars2d.core.registry import family_of, members, package_of, plugin, snake_case
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.scenario.registry import family_of, members, package_of, plugin
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor

@@ -13,11 +13,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from mars2d.core.atomic import replacing
 from mars2d.core.description import Check, Description, wrong
 from mars2d.core.errors import InputError, described, nearest, shown
+from mars2d.core.files import atomic_write, file_beside
 from mars2d.core.picture import image_file
-from mars2d.core.usercode import file_beside, name_of
+from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
 from mars2d.scenario.experiment import law_in
 from mars2d.scenario.law_reference import Reference, seen_from
@@ -70,7 +70,7 @@ def save(scenario: Scenario, path: str | Path, control: Law | str | None = None)
     except UnicodeEncodeError as error:
         line = shown(error.object[: error.end].rpartition("\n")[2])
         raise InputError(f"{path}: half a character can't be written, in {line}") from None
-    with replacing(path) as file:
+    with atomic_write(path) as file:
         file.write(text)
     return tuple(dict.fromkeys(writer.missing))
 

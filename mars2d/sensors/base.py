@@ -12,12 +12,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core import checks
 from mars2d.core.delay import steps_until
-from mars2d.core.description import Check, entry, flag, number, real, text, wrong
+from mars2d.core.description import (
+    Check,
+    Stateful,
+    entry,
+    flag,
+    number,
+    real,
+    snake_case,
+    text,
+    wrong,
+)
 from mars2d.core.errors import InputError
-from mars2d.core.part import Live
 from mars2d.core.plane import Point
 from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
-from mars2d.core.registry import snake_case
 from mars2d.core.scene import Scene
 from mars2d.sensors.error_model import Imperfection
 
@@ -191,7 +199,7 @@ def _spread(what: str) -> Check:
     return check
 
 
-class Sensor(Live):
+class Sensor(Stateful):
     """The base of all sensors: derive, declare fields, and write `read`.
 
     >>> class Compass(Sensor):

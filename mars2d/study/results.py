@@ -17,8 +17,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError, shown
+from mars2d.core.files import atomic_write
 from mars2d.study.plan import cell, value_in, word_cell, word_in
 from mars2d.study.table import Result, Table
 
@@ -132,7 +132,7 @@ def save_table(table: Table, path: str | Path) -> Path:
     if target.suffix.lower() != ".csv":
         raise InputError(f"{target}: expected a name that ends in .csv")
     lines = [_line(_header(table)), *(_line(_cells(table, result)) for result in table.results)]
-    with replacing(target) as file:
+    with atomic_write(target) as file:
         file.write(_bytes("".join(lines)))
     return target
 

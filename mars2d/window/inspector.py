@@ -13,8 +13,8 @@ import pygame
 
 from mars2d.addons.communication import Communication
 from mars2d.bodies.drives.base import Drive, Wheeled
+from mars2d.core.description import snake_case
 from mars2d.core.quantity import UNKNOWN
-from mars2d.core.registry import snake_case
 from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.layers.forces import SLIP, SLIPPING, in_newtons, mean_forces
 from mars2d.output.raster.painter import Painter

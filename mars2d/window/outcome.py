@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mars2d.core.errors import Mars2dError
-from mars2d.core.excerpt import Excerpt, excerpt_of
+from mars2d.core.usercode import Excerpt, excerpt_of
 from mars2d.output.raster.bars import Banner
 from mars2d.window.player import Player
 from mars2d.world.timeline import Timeline

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.usercode import files_read
+from mars2d.core.files import files_read
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.timeline import Progress, Timeline
 

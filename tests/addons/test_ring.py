@@ -6,8 +6,8 @@ import pytest
 import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Ring
-from mars2d.core.registry import members
 from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.scenario.registry import members
 from mars2d.world.teleop import robot_of
 from mars2d.world.verify import rerun
 

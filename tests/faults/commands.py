@@ -21,7 +21,7 @@ MARK = "MARS2D_TEST_MARK"
 
 FORKING = """
 import json, os, signal, sys, time
-import mars2d.cli.command_line, mars2d.core.startup
+import mars2d.cli.command_line, mars2d.core.interrupt
 import matplotlib.backends.backend_agg, pygame, scipy.io, mars2d.output.formats.mcap
 import mars2d.output.formats.table, mars2d.output.formats.netcdf
 import mars2d.output.formats.mat, mars2d.output.pages.replay
@@ -45,7 +45,7 @@ for line in sys.stdin:
         os.chdir(told["folder"])
         for number, name in ((1, "out"), (2, "err")):
             os.dup2(os.open(told[name], os.O_WRONLY | os.O_CREAT | os.O_TRUNC), number)
-        signal.signal(signal.SIGINT, mars2d.core.startup.leave)  # as in a process of its own
+        signal.signal(signal.SIGINT, mars2d.core.interrupt.leave)  # as in a process of its own
         sys.argv = ["-c"]
         sys.exit(mars2d.cli.command_line.main(told["argv"]))
     print(pid, flush=True)

@@ -232,7 +232,7 @@ def test_ctrl_c_at_many_moments_of_each_command(bench, name) -> None:
 
 IN_THE_MIDST = """
 import os, signal, sys
-import mars2d.cli.command_line, mars2d.core.atomic
+import mars2d.cli.command_line, mars2d.core.files
 from mars2d.output.formats import npz
 
 def slowly(record, path):

@@ -35,10 +35,11 @@ import mars2d
 from mars2d import addons, bodies, sensors
 from mars2d.bodies import joints, props
 from mars2d.cli import command_line as cli
-from mars2d.core.registry import FAMILIES, members, snake_case
+from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
 from mars2d.geometry import shapes
 from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.registry import FAMILIES, members
 from mars2d.study import work
 from mars2d.window import keys
 from mars2d.world.views import PropView, RobotView

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 import mars2d
-from mars2d.core.registry import FAMILIES, members, snake_case
+from mars2d.core.description import snake_case
+from mars2d.scenario.registry import FAMILIES, members
 
 PACKAGE = Path(mars2d.__file__).parent
 

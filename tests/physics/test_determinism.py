@@ -10,9 +10,9 @@ import pytest
 import mars2d
 from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, World, sensors
 from mars2d.bodies.props import Ball, Bar, Box, Puck
-from mars2d.core.registry import members
 from mars2d.geometry.shapes import Polygon
 from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.registry import members
 from mars2d.sensors import Proximity, RangeBearing, RangeFinder, Sensor
 
 BUSTLE = Path(__file__).parent / "bustle" / "bustle.py"

@@ -18,8 +18,8 @@ from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, Worl
 from mars2d.addons import Beacon, Floor, Map
 from mars2d.bodies.joints import Hinge, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Prop, Puck, Solid
-from mars2d.core.registry import members
 from mars2d.geometry.shapes import Polygon
+from mars2d.scenario.registry import members
 
 Point = tuple[float, float]
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
-from mars2d.core.pixels import opened_image
+from mars2d.core.picture import opened_image
 
 if TYPE_CHECKING:
     import shapely

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError, shown
+from mars2d.core.files import atomic_write
 from mars2d.core.plane import grid_step
 from mars2d.core.scene import Line, Polygon, Scene, Shape, Text, faded
 from mars2d.output.figures.artists import paint, points_per_metre
@@ -229,7 +229,7 @@ def save_drawing(
             made, format=suffix[1:], dpi=dpi, bbox_inches="tight" if trim else None,
             pad_inches=0.1, metadata=dates.get(suffix),
         )  # fmt: skip
-    with replacing(path) as file:
+    with atomic_write(path) as file:
         file.write(made.getbuffer())
     return path
 

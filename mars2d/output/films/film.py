@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.core.atomic import replacing
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError
+from mars2d.core.files import atomic_write
 from mars2d.output.films.cut import Cut
 from mars2d.output.films.gif import write_gif
 from mars2d.output.films.mp4 import require_av, write_mp4
@@ -181,7 +181,7 @@ def save_pictures(
     _check_fps(fps, suffix)
     if suffix == ".mp4":
         require_av(target)
-    with replacing(target) as file:
+    with atomic_write(target) as file:
         count = (write_gif if suffix == ".gif" else write_mp4)(file, pictures, fps)
         if count == 0:
             raise InputError(f"{target}: a film needs at least one frame")

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import MissingExtraError
+from mars2d.core.files import atomic_write
 
 if TYPE_CHECKING:
     import pygame
@@ -100,7 +100,7 @@ def rewrapped(path: Path) -> None:
     # Where it fails, as on a full disk, what is there can be seen as well.
     with (
         suppress(OSError, ValueError),
-        replacing(path) as file,
+        atomic_write(path) as file,
         _Quiet(file).checked() as target,
         av.open(str(path)) as pieces,
         av.open(target, "w", format="mp4", options={"movflags": "faststart"}) as whole,

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies import Holonomic
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError
+from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mat5 import read_struct
 from mars2d.output.formats.naming import plain_names
@@ -56,7 +56,7 @@ def write(record: Record, path: Path) -> None:
     for name, (struct, field) in _places(header).items():
         out.setdefault(struct, {})[field] = _for_matlab(name, columns[name])
     out |= {"Digest": record.digest, "Header": headers.as_text(header)}
-    with replacing(path) as file:
+    with atomic_write(path) as file:
         into: Any = file
         # Names longer than 31 characters, to which the default holds, are Matlab's since 2000.
         savemat(into, {NAME: out}, do_compression=True, long_field_names=True, oned_as="column")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.dataset import HEADER, named_dataset, variable_of
 from mars2d.output.formats.naming import plain_names
@@ -49,7 +49,7 @@ def write(record: Record, path: Path) -> None:
     dataset.attrs[HEADER] = headers.as_text(headers.with_shapes(record))
     plain = {name: {"_FillValue": None} for name in dataset.variables}
     content = dataset.to_netcdf(engine="scipy", format="NETCDF3_64BIT", encoding=plain)
-    with replacing(path) as file:
+    with atomic_write(path) as file:
         file.write(content)
 
 

@@ -10,7 +10,7 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.atomic import replacing
+from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.size import check_size
 from mars2d.record.record import Record
@@ -28,7 +28,7 @@ def write(record: Record, path: Path) -> None:
     """Write a record to a file. Raises InputError where it can't be written."""
     text = headers.as_text(headers.of_record(record)).encode()
     columns: dict[str, Any] = {HEADER: np.frombuffer(text, dtype=np.uint8), **record.columns()}
-    with replacing(path) as file:
+    with atomic_write(path) as file:
         np.savez_compressed(file, allow_pickle=False, **columns)
 
 

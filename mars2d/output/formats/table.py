@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.atomic import replacing
+from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.bodies import FIRST, LAST, Part, parts_of
 from mars2d.output.formats.size import check_size
@@ -54,7 +54,7 @@ def write(record: Record, path: Path) -> None:
     text = headers.as_text(header)
     pieces = (text[i : i + PIECE] for i in range(0, len(text), PIECE))
     names = [str(body.name) for body in record.scenario.bodies]
-    with replacing(path) as binary, io.TextIOWrapper(binary, "utf-8", newline="") as file:
+    with atomic_write(path) as binary, io.TextIOWrapper(binary, "utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow([*FIRST, *parts, LAST])
         for rows in _blocks(len(record), len(names) * len(parts)):

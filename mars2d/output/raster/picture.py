@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pygame
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError
+from mars2d.core.files import atomic_write
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layers import Layers
@@ -114,5 +114,5 @@ def save_png(surface: pygame.Surface, path: str | os.PathLike[str]) -> None:
     target = Path(path)
     if target.suffix.lower() != ".png":
         raise InputError(f"{target}: expected a name that ends in .png")
-    with replacing(target) as file:
+    with atomic_write(target) as file:
         pygame.image.save(surface, file, "x.png")

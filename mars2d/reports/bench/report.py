@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError
+from mars2d.core.files import atomic_write
 from mars2d.physics.kernel import reason_without
 from mars2d.physics.versions import versions
 
@@ -142,7 +142,7 @@ class Report:
 
     def save(self, path: Path) -> None:
         """Write it to a JSON file; InputError if it can't be."""
-        with replacing(path) as file:
+        with atomic_write(path) as file:
             file.write((json.dumps(self.as_data(), indent=1) + "\n").encode())
 
 

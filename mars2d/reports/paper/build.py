@@ -11,8 +11,8 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import Mars2dError
+from mars2d.core.files import atomic_write
 from mars2d.core.interrupt import interrupts_blocked
 from mars2d.reports.paper.figure import Figure
 from mars2d.reports.paper.folder import NUMBERS, PAGE
@@ -107,6 +107,6 @@ def write_page(folder: Path, figures: Sequence[Figure], done: dict[int, Result],
         PAGE: page(figures, done, seed),
     }
     for name, text in texts.items():
-        with replacing(folder / name) as file:
+        with atomic_write(folder / name) as file:
             file.write(text.encode())
     return folder / PAGE

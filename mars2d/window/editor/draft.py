@@ -20,9 +20,9 @@ from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
+from mars2d.core.description import snake_case
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, bounds_of
-from mars2d.core.registry import snake_case
 from mars2d.record.frame import Frame
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario

@@ -10,8 +10,8 @@ from typing import IO, Any
 
 import numpy as np
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError
+from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mcap.cutting import cut
 from mars2d.output.formats.mcap.scanning import CHANNEL, MESSAGE, METADATA, SCHEMA, scan
@@ -44,7 +44,7 @@ def write(record: Record, path: Path) -> None:
     header = headers.of_record(record)
     if len(record):
         header["interventions"] = []  # they come with their rows
-    with replacing(path) as file:
+    with atomic_write(path) as file:
         writer = _writer(file)
         tape = Tape(writer)
         tape.begin(header, record.scenario, record.sensor_robots)
@@ -81,7 +81,7 @@ def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int]) -> None:
     ends = [*accumulate([NEVER, *begun[:0:-1]], min)][::-1]
     world = -1
     try:
-        with path.open("rb") as source, replacing(path) as file:
+        with path.open("rb") as source, atomic_write(path) as file:
             writer = _writer(file)
             writer.start(profile="", library="mars2d")
             for kind, data in scan(path, source, MOST):

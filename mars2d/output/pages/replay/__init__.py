@@ -11,8 +11,8 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError
+from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay.content import content_of
 from mars2d.output.pages.replay.template import colors, filled, policy
 from mars2d.output.raster.theme import DARK
@@ -35,7 +35,7 @@ def save_html(record: Record, path: str | Path) -> Path:
     if target.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"{target}: expected a name that ends in .html")
     text = page(record)
-    with replacing(target) as file:
+    with atomic_write(target) as file:
         file.write(text.encode())
     return target
 

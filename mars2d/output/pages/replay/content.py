@@ -10,9 +10,9 @@ import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.bodies.drives.base import Drive
+from mars2d.core.description import snake_case
 from mars2d.core.errors import ordinal
 from mars2d.core.quantity import UNKNOWN
-from mars2d.core.registry import snake_case
 from mars2d.core.scene import Scene, faded
 from mars2d.output.figures.extent import View
 from mars2d.output.figures.rows import check_rows

@@ -9,7 +9,7 @@ from textwrap import dedent
 
 import pytest
 
-from mars2d.core.registry import BASES
+from mars2d.scenario.registry import BASES
 
 LIDAR = '''
 from mars2d import Addon, Drive, Sensor
@@ -111,7 +111,7 @@ def command(child, folder: Path, *words: str):
 def test_a_part_of_another_package_is_a_member_of_its_family(child, acme):
     code = """
     import acme
-    from mars2d.core.registry import members
+    from mars2d.scenario.registry import members
     assert members("sensors")["Lidar"] is acme.Lidar
     assert members("addons")["Fence"] is acme.Fence
     assert members("bodies")["Crab"] is acme.Crab
@@ -234,7 +234,7 @@ def test_a_name_of_mars2ds_own_wins_and_that_is_said(child, site, tmp_path):
     site("acme-near", "2.0", "[mars2d.sensors]\nnear = acme_near:Proximity", acme_near=code)
     check = """
     import mars2d
-    from mars2d.core.registry import members
+    from mars2d.scenario.registry import members
     print(members("sensors")["Proximity"].__module__)
     """
     assert ran(child, tmp_path, check) == "mars2d.sensors.proximity\n"

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -29,7 +28,6 @@ __all__ = [
     "package_of",
     "plugin",
     "plugins",
-    "snake_case",
     "summary",
 ]
 
@@ -66,15 +64,6 @@ class Plugin:
     version: str
     kind: type[Description] | None = None
     problem: str = ""
-
-
-def snake_case(name: str) -> str:
-    """Return a class name as the name of a thing: ``RangeFinder`` -> ``range_finder``.
-
-    >>> snake_case("RangeFinder")
-    'range_finder'
-    """
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
 def members(family: str) -> dict[str, type[Description]]:
