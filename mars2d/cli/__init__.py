@@ -1,4 +1,4 @@
-"""The command line: one module a verb."""
+"""The command line: one module per verb, in `mars2d.cli.verbs`."""
 
 from mars2d.cli.command_line import main, parser
 

@@ -1,17 +1,23 @@
-"""The command line: which verb is meant, and what its outcome is to the shell."""
+"""The command line: parses the verb and its arguments, runs it, and returns the exit code."""
 
 from __future__ import annotations
 
 import argparse
 import errno
+import os
 import re
+import signal
 import sys
+import threading
 import traceback
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from types import FrameType
 from typing import NoReturn
 
 from mars2d import __version__
-from mars2d.cli.terminal import hang_up_as_interrupt
 from mars2d.cli.verbs import VERBS
 from mars2d.core.errors import InputError, Mars2dError, likely, one_line
 from mars2d.core.interrupt import INTERRUPTED, ending, raised_once, unwrapped, was_interrupted
@@ -21,14 +27,14 @@ __all__ = ["main", "parser"]
 OK, FAULT, BAD_INPUT = 0, 1, 2
 
 UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
-"""What a path may be that was typed; not even whether it is there can be asked."""
+"""Errors of paths typed by the user for which even asking whether they exist fails."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit code.
 
-    0 when all was done, 2 for bad input, 1 for a fault of MARS2D's, 130 after Ctrl-C, or
-    the end of the terminal.
+    0: everything was done. 1: a fault of MARS2D. 2: bad input. 130: Ctrl-C, or the terminal was
+    closed.
     """
     try:
         with raised_once(), unwrapped(), hang_up_as_interrupt():
@@ -41,13 +47,13 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _outcome(argv: Sequence[str] | None) -> int:
-    """Do what is asked for; say what went wrong, and return the exit code."""
+    """Execute the verb, print an error that it raises, and return the exit code."""
     try:
         arguments, unknown = parser().parse_known_args(argv)
         if unknown:
             arguments.refuse(f"unrecognized arguments: {' '.join(unknown)}")
         arguments.execute(arguments)
-        if sys.stdout is not None:  # it is None where it was closed
+        if sys.stdout is not None:  # it is None if it was closed
             sys.stdout.flush()
     except InputError as error:
         print(f"mars2d: {one_line(error)}", file=sys.stderr)
@@ -56,7 +62,7 @@ def _outcome(argv: Sequence[str] | None) -> int:
         print(f"mars2d: {one_line(error)}", file=sys.stderr)
         return FAULT
     except BrokenPipeError:
-        sys.stderr.close()  # whoever read our output has seen enough
+        sys.stderr.close()  # the reader of our output, such as `head`, has ended
     except Exception as error:
         if was_interrupted(error):
             raise
@@ -76,9 +82,10 @@ def parser() -> argparse.ArgumentParser:
     )
     root.add_argument("--version", action="version", version=f"mars2d {__version__}")
     verbs = root.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
-    for verb in VERBS:
+    for name in VERBS:
+        verb = import_module(f"mars2d.cli.verbs.{name}")
         doc = (verb.execute.__doc__ or "").strip()
-        sub = verbs.add_parser(verb.NAME, help=doc, description=doc, allow_abbrev=False)
+        sub = verbs.add_parser(name, help=doc, description=doc, allow_abbrev=False)
         sub.set_defaults(execute=verb.execute, refuse=sub.error)
         verb.add_arguments(sub)
     for sub in verbs.choices.values():
@@ -87,10 +94,10 @@ def parser() -> argparse.ArgumentParser:
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser whose errors are one line that names the nearest right word."""
+    """A parser whose errors are one line that suggests the nearest known word."""
 
     elsewhere: Collection[str] = ()
-    """Options of other verbs: they are not misspelt."""
+    """The options of other verbs, which are not spelling mistakes."""
 
     @property
     def options(self) -> list[str]:
@@ -98,7 +105,7 @@ class _Parser(argparse.ArgumentParser):
         return [option for action in self._actions for option in action.option_strings]
 
     def error(self, message: str) -> NoReturn:
-        """Raise an InputError in place of printing the usage and leaving."""
+        """Raise InputError instead of printing the usage and exiting."""
         known = self.options
         for action in self._actions:
             if isinstance(action, argparse._SubParsersAction):
@@ -107,7 +114,33 @@ class _Parser(argparse.ArgumentParser):
         right = {*known, *self.elsewhere}
         words = [word for word in re.split(r"[\s'=:]+", message) if word not in right]
         if message.startswith("the following arguments are required"):
-            words = []  # none of these was typed
+            words = []  # the user typed none of these
         hint = next(filter(None, (likely(word, known) for word in words)), "")
         message = message.partition(" (choose from")[0]
         raise InputError(f"{message}{hint} (see {self.prog} --help)")
+
+
+@contextmanager
+def hang_up_as_interrupt() -> Iterator[None]:
+    """Treat the end of the terminal (SIGHUP) as Ctrl-C, so that recorded data are saved.
+
+    Output to the terminal is discarded from then on, since writing it would fail. Has no effect
+    outside the main thread, under nohup, and on Windows, which has no SIGHUP.
+    """
+    ours = threading.current_thread() is threading.main_thread() and sys.platform != "win32"
+    if not ours or signal.getsignal(signal.SIGHUP) is not signal.SIG_DFL:
+        yield
+        return
+    shown = [number for number in (1, 2) if os.isatty(number)]
+
+    def hang_up(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
+        with Path(os.devnull).open("wb") as nowhere:
+            for each in shown:
+                os.dup2(nowhere.fileno(), each)
+        signal.raise_signal(signal.SIGINT)
+
+    signal.signal(signal.SIGHUP, hang_up)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)

@@ -1,4 +1,4 @@
-"""What several sub-commands share that make films: arguments, speed, a progress bar."""
+"""Films, as several verbs make them: their arguments, speed and progress bar."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from mars2d.output.films.footage import Footage
 
 __all__ = [
+    "DURATION",
     "FPS",
-    "SHORT",
     "SIZE",
     "Film",
     "add_film",
@@ -31,23 +31,25 @@ __all__ = [
 ]
 
 Film = Callable[[], object]
-"""What makes a film, or another file, when it is called."""
+"""A function that makes a film, or another file."""
 
 FPS = 25
+"""Frames per second."""
 
 SIZE = (1280, 720)
+"""The default size of a film, pixels."""
 
-SHORT = 12.0
-"""How long a film is whose speed nobody gave, seconds."""
+DURATION = 12.0
+"""The duration of a film for which no speed was given, seconds."""
 
 
 def add_film(parser: argparse.ArgumentParser) -> None:
-    """Add a film, and what it is like."""
+    """Add the film with its size, start and end."""
     add = parser.add_argument
     add("--video", type=Path, metavar="OUT", help="make a film: .gif, .mp4")
-    add("--size", type=_size, metavar="WxH", help="of the film, pixels: 1280x720 by default")
-    add("--from", type=float, dest="start", metavar="S", help="where in the run the film starts")
-    add("--to", type=float, dest="end", metavar="S", help="where in the run the film ends")
+    add("--size", type=_size, metavar="WxH", help="of the film, pixels (default: 1280x720)")
+    add("--from", type=float, dest="start", metavar="S", help="start the film at this time")
+    add("--to", type=float, dest="end", metavar="S", help="end the film at this time")
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -59,7 +61,7 @@ def _size(text: str) -> tuple[int, int]:
 
 
 def check_film(arguments: argparse.Namespace, scenario: Scenario, last: float) -> None:
-    """Refuse options of a film where there is none, or that do not fit a run of `last` seconds."""
+    """Check the options of a film of a run that lasts `last` seconds. Raises InputError."""
     options = {"--size": arguments.size, "--from": arguments.start, "--to": arguments.end}
     if arguments.video is None:
         for name, value in options.items():
@@ -72,17 +74,17 @@ def check_film(arguments: argparse.Namespace, scenario: Scenario, last: float) -
 
 
 def film_speed(scenario: Scenario, speed: float | str | None) -> float:
-    """Return a film's speed: the one given, else the animation's, else that of a short film."""
+    """Return a film's speed: as given, else the animation's, else that of a film of `DURATION`."""
     for choice in (speed, scenario.animation.playback_speed):
         if isinstance(choice, float) and choice > 0:
             return choice
-    return max(scenario.stop_time / SHORT, 1e-9)
+    return max(scenario.stop_time / DURATION, 1e-9)
 
 
 def save_footage(
     footage: Footage, last: Frame, path: Path, size: tuple[int, int] | None = None
 ) -> None:
-    """Make a film of a run that was watched, with a progress bar."""
+    """Make a film from the footage of a run, with a progress bar."""
 
     def make(update: Callable[[int], None]) -> None:
         film.save_film(
@@ -98,7 +100,7 @@ def save_footage(
 
 
 def save_film_of(record: Record, arguments: argparse.Namespace) -> Path:
-    """Make the film of a record that was asked for, with a progress bar, and return its path."""
+    """Make the requested film of a record, with a progress bar, and return its path."""
     path: Path = arguments.video
     speed = film_speed(record.scenario, arguments.speed)
     start, end = arguments.start, arguments.end

@@ -1,4 +1,4 @@
-"""What a run leaves behind: the files that are asked for by --record, --figure, --video, --html."""
+"""The output files of a run: those of --record, --figure, --video and --html."""
 
 from __future__ import annotations
 
@@ -40,20 +40,20 @@ OUTPUTS = {
     "video": film.SUFFIXES,
     "html": (".html", ".htm"),
 }
-"""The arguments that name files, and the suffixes that these may have."""
+"""The arguments that name output files, with their possible suffixes."""
 
 
 def add_html(parser: argparse.ArgumentParser) -> None:
-    """Add the replay as a page."""
+    """Add the replay as an HTML page."""
     parser.add_argument(
         "--html", type=Path, metavar="OUT.html", help="a replay for any browser, in one file"
     )
 
 
 def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str, ...]]) -> None:
-    """Refuse a file that can't be written before the run, not after it.
+    """Raise InputError before the run for an output file that can't be written after it.
 
-    outputs: arguments that name files, and the suffixes that they may have.
+    outputs: the names of arguments that name files, with their possible suffixes.
     """
     for name, suffixes in outputs.items():
         path: Path | None = getattr(arguments, name)
@@ -68,6 +68,8 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
             raise InputError(f"--{name} {path}: this is a folder")
         if not os.access(path.parent, os.W_OK):
             raise InputError(f"--{name} {path}: nothing can be written in {path.parent.absolute()}")
+        if path.exists() and not os.access(path, os.W_OK):
+            raise InputError(f"--{name} {path}: can't be written: it may only be read")
         if name == "video":
             require_pygame("a film")
             if path.suffix.lower() == ".mp4":
@@ -79,11 +81,11 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
 def run_and_save(
     arguments: argparse.Namespace, run: Callable[[], tuple[Record, Film | None]]
 ) -> tuple[Record, list[Mars2dError]]:
-    """Run, and save what is asked for, whatever ends the run; return what could not be saved.
+    """Run, and save all requested outputs however the run ends; return what could not be saved.
 
-    run: returns the record, and what makes the film of it, if it is not to be made of the record.
-    Ctrl-C ends the run, but not that its data are saved; then it ends the rest. Raises what has
-    ended the run, once what was recorded until then is saved, and said where it is.
+    run: returns the record, and a function that makes the film unless it is made from the record.
+    Ctrl-C ends the run and, once its data are saved, the other outputs. If an error ended the run,
+    the data up to then are saved, their place is printed, and the error is raised.
     """
     ended: Mars2dError | Interrupted | None = None
     film: Film | None = None
@@ -115,7 +117,7 @@ def run_and_save(
 def _tried(
     arguments: argparse.Namespace, makers: Mapping[str, Film]
 ) -> tuple[list[Path], list[Mars2dError]]:
-    """Make what is asked for, each thing whatever becomes of the others: what was, what not."""
+    """Make the requested outputs independently of each other; return files made, and errors."""
     made, troubles = [], []
     for name, make in makers.items():
         path: Path | None = getattr(arguments, name)
@@ -131,15 +133,15 @@ def _tried(
 
 
 def say(troubles: Iterable[Mars2dError]) -> None:
-    """Say what could not be saved, where that is not what the command ends with."""
+    """Print errors of saving, unless the command ends with them."""
     for trouble in troubles:
         print(f"mars2d: {trouble}", file=sys.stderr)
 
 
 def save_record(arguments: argparse.Namespace, record: Record) -> None:
-    """Save the record, and those of branches beside it; a log is there, unless it was taken away.
+    """Save the record, and those of its branches beside it; a log has been written already.
 
-    Raises InputError, which says where the record is, where it could not be saved there.
+    If the record can't be saved in its place, it is kept elsewhere, and InputError says where.
     """
     target: Path = arguments.record
     if target.suffix.lower() != formats.STREAMED:
@@ -162,7 +164,7 @@ def _save_figure(arguments: argparse.Namespace, record: Record) -> None:
 
 @contextmanager
 def naming_lost_letters() -> Iterator[None]:
-    """Say in one line which characters no font has, where matplotlib warns of each at length."""
+    """Replace matplotlib's long warnings of missing glyphs by one line that lists them."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.filterwarnings("always", message="Glyph ")
         yield
@@ -178,13 +180,13 @@ def naming_lost_letters() -> Iterator[None]:
 
 
 def _free_beside(path: Path) -> Path:
-    """Return where a branch of a run is kept: no file is overwritten."""
+    """Return a free name for a branch's record: no file is overwritten."""
     names = (path.with_stem(f"{path.stem}_branch{k}") for k in count(1))
     return next(beside for beside in names if not beside.exists())
 
 
 def _times_within(times: list[float] | None, record: Record) -> list[float] | None:
-    """Return those times that a run lasted for; it may have ended early."""
+    """Return the times up to the end of a run, which may have ended early."""
     if times is None:
         return None
     end = float(record.time[-1])

@@ -1,4 +1,4 @@
-"""One row of a study, run again."""
+"""One row of a study run again: ``mars2d sweep --row N``."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.base import has_display, preferences_of, run_headless, show
+from mars2d.cli.arguments import preferences_of
 from mars2d.cli.outputs import run_and_save, say
+from mars2d.cli.runs import has_display, run_headless, show
 from mars2d.core.errors import InputError, shown
 from mars2d.output.formats import log_to
 from mars2d.record.record import Record
@@ -22,9 +23,9 @@ __all__ = ["show_row"]
 
 
 def show_row(arguments: argparse.Namespace, path: Path) -> None:
-    """Run a row of a study's file again, and say what it came to then and now.
+    """Run a row of a study's file again, and print its measures then and now.
 
-    What a law does wrong is raised, as by ``mars2d run``.
+    An error of a law is raised, as by ``mars2d run``.
     """
     table = load_table(path)
     then = _row(table, arguments.row, path)
@@ -50,7 +51,7 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
 
 
 def _report(record: Record, table: Table, then: Result, experiment: Experiment) -> None:
-    """Print how a run compares with a row."""
+    """Print a comparison of the run with the row."""
     if not record.finished or record.interventions:
         what = "changed by hand" if record.interventions else "cut short"
         print(f"the run was {what}, so there is nothing to compare")
@@ -69,7 +70,7 @@ def _row(table: Table, number: int, path: Path) -> Result:
 
 
 def _source(table: Table, path: Path) -> str:
-    """Return where the experiment is: as it was named, from here or from the table's folder."""
+    """Return the experiment's name, as seen from the current folder or from the table's folder."""
     beside = path.parent / table.experiment
     for place in (Path(table.experiment), beside):
         if place.is_file():
@@ -98,7 +99,7 @@ def _measure(name: str, functions: Any, record: Record) -> float | str | None:
 
 
 def _compared(then: Result, now: dict[str, float | str | None], record: Record) -> str:
-    """Return the measures then and now as a table, and whether the run was the same."""
+    """Return a table of the measures then and now, and a line that compares the digests."""
     rows = [("", "then", "now")]
     rows += [(name, _text(then.measures.get(name)), _text(value)) for name, value in now.items()]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]

@@ -9,7 +9,7 @@ import pytest
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.cli.command_line import main
-from mars2d.cli.plot import KINDS
+from mars2d.cli.verbs.plot import KINDS
 
 
 @pytest.fixture(scope="module")

@@ -276,7 +276,7 @@ def test_in_python_too_a_run_is_saved_before_ctrl_c_comes_through(tmp_path, chil
 
 def test_a_ctrl_c_that_python_drops_comes_again(child) -> None:
     code = (
-        "import os, signal, sys, time, mars2d.cli.command_line, mars2d.cli.doctor as doctor\n"
+        "import os, signal, sys, time, mars2d.cli.command_line, mars2d.cli.verbs.doctor as doctor\n"
         "class Tidied:\n"
         "    def __del__(self): os.kill(os.getpid(), signal.SIGINT); time.sleep(0)\n"
         "def execute(arguments):\n"
@@ -316,7 +316,7 @@ def test_ctrl_c_while_a_row_is_logged_comes_when_it_is_written(tmp_path, child) 
 
 def test_a_ctrl_c_of_which_a_library_makes_another_error_is_one_line(child) -> None:
     code = (
-        "import os, signal, sys, mars2d.cli.command_line, mars2d.cli.doctor as doctor\n"
+        "import os, signal, sys, mars2d.cli.command_line, mars2d.cli.verbs.doctor as doctor\n"
         "def execute(arguments):\n"
         "    try:\n"
         "        os.kill(os.getpid(), signal.SIGINT)\n"

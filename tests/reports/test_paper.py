@@ -21,7 +21,7 @@ from PIL import Image
 
 import mars2d
 from mars2d.cli import command_line as cli
-from mars2d.cli import paper as verb
+from mars2d.cli.verbs import paper as verb
 from mars2d.reports.paper.build import make_all
 from mars2d.reports.paper.figure import Figure, Run, Study
 from mars2d.reports.paper.figures import FIGURES

@@ -14,7 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import mars2d
-from mars2d.cli.working import add_workers, workers_of
+from mars2d.cli.arguments import add_workers, workers_of
 from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.scenario.experiment import examples
 from mars2d.study import cluster as clusters

@@ -1239,7 +1239,7 @@ def test_a_check_ends_whatever_the_file_does(child, tmp_path, loop, place):
     body = f"def control(robot):\n    {loop}\n" if place == "law" else f"{loop}\n"
     (tmp_path / "own.py").write_text(HEAD + body, encoding="utf-8")
     code = (
-        "import sys; from mars2d.core import deadline; from mars2d.cli import check;"
+        "import sys; from mars2d.core import deadline; from mars2d.cli.verbs import check;"
         "deadline.GRACE = 0.5; check.LOADING = 0.5; check.PATIENCE = 0.5;"
         f"from mars2d.cli.command_line import main; sys.exit(main(['check', {str(tmp_path / 'own.py')!r}]))"
     )

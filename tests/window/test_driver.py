@@ -6,8 +6,9 @@ import pytest
 import mars2d
 from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scenario, Unicycle
 from mars2d.addons import Game
-from mars2d.cli import base, demo, run
+from mars2d.cli import arguments as shared
 from mars2d.cli.command_line import BAD_INPUT, main
+from mars2d.cli.verbs import demo, run
 from mars2d.window import driver as driver_module
 from mars2d.window import show
 from mars2d.window.driver import Driver
@@ -291,7 +292,7 @@ def shown(monkeypatch):
         raise InputError("that is all")
 
     monkeypatch.setattr(show, "show_experiment", show_experiment)
-    for module in (base, run):
+    for module in (shared, run):
         monkeypatch.setattr(module, "has_display", lambda: True)
     return found
 
@@ -329,7 +330,7 @@ def test_a_demo_can_be_driven_too(shown, monkeypatch):
     ],
 )
 def test_where_nobody_can_drive_this_is_said_at_once(monkeypatch, capsys, verb, arguments, words):
-    monkeypatch.setattr(base, "has_display", lambda: False)
+    monkeypatch.setattr(shared, "has_display", lambda: False)
     assert main([verb, "pursuit_corners", *arguments]) == BAD_INPUT
     assert words in capsys.readouterr().err
 

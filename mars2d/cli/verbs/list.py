@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from mars2d.cli.base import print_examples, print_table
+from mars2d.cli.runs import print_examples, print_table
 from mars2d.scenario.registry import members, misspelt_groups, plugins, summary
-
-NAME = "list"
 
 FAMILIES = {
     "Drives": "bodies",
@@ -35,7 +33,7 @@ def execute(_: argparse.Namespace) -> None:
 
 
 def _line(family: str, name: str) -> str:
-    """Return the first line of a part's docstring, and of which package it is."""
+    """Return the first line of a part's docstring, with the package that ships it."""
     part = next((p for p in plugins(family) if p.kind is not None and p.name == name), None)
     if part is None or part.kind is None:
         return summary(members(family)[name])

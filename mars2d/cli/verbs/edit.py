@@ -6,14 +6,13 @@ import argparse
 import sys
 from pathlib import Path
 
-from mars2d.cli.base import add_preferences, has_display, preferences_of
+from mars2d.cli.arguments import add_preferences, preferences_of
+from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
 from mars2d.scenario.options import parse_setting
 from mars2d.scenario.scenario import Scenario
-
-NAME = "edit"
 
 NO_DISPLAY = (
     "there is no display to draw on; a scenario file is text, and any text editor will do: "
@@ -54,7 +53,7 @@ def execute(arguments: argparse.Namespace) -> None:
     )
     try:
         EditorWindow(editor, preferences=preferences_of(arguments)).run()
-    except BaseException:  # Ctrl-C, a display that goes away, a fault: nobody can be asked
+    except BaseException:  # Ctrl-C, a lost display, a fault: too late to ask for a name
         kept = editor.rescue()
         if kept is not None:
             print(f"mars2d: what was drawn and not saved is in {kept}", file=sys.stderr)
@@ -62,9 +61,9 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _kept_in(source: str, experiment: Experiment) -> Path:
-    """Return where a drawing is kept: a scenario file itself, else beside an experiment.
+    """Return the file of a drawing: the scenario file itself, or one beside the experiment.
 
-    What a shipped example becomes is kept in the current folder.
+    The drawing of a shipped example goes to the current folder.
     """
     if not Path(source).is_file() and source in examples():
         return Path(f"{source}.toml")

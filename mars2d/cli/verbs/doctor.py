@@ -7,8 +7,6 @@ import argparse
 from mars2d.core.errors import Mars2dError
 from mars2d.reports.doctor import examine
 
-NAME = "doctor"
-
 MARKS = {True: "ok", None: "--", False: "NO"}
 
 

@@ -6,23 +6,22 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from mars2d.cli.base import add_preferences, add_speed, add_theory, has_display, preferences_of
+from mars2d.cli.arguments import add_preferences, add_speed, add_theory, preferences_of
 from mars2d.cli.films import add_film, check_film, save_film_of
 from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs
+from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
 from mars2d.output.formats import SUFFIXES
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record, load
-
-NAME = "replay"
 
 NO_DISPLAY = (
     "there is no display for a window; make a film with --video OUT.gif, a page for any browser "
     "with --html OUT.html, or a figure with mars2d plot"
 )
 
-MADE = ("video", "html")
-"""What is made in place of a window."""
+OUTPUTS_WITHOUT_WINDOW = ("video", "html")
+"""The outputs that replace the window."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace) -> None:
     """Play a recorded run in the window, or make a film or a page of it."""
-    check_outputs(arguments, {name: OUTPUTS[name] for name in MADE})
+    check_outputs(arguments, {name: OUTPUTS[name] for name in OUTPUTS_WITHOUT_WINDOW})
     record = load(arguments.record)
     if arguments.theory:
         animation = record.scenario.animation.replace(theory=True)

@@ -6,9 +6,9 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from mars2d.cli.base import add_preferences, has_display, preferences_of
+from mars2d.cli.arguments import add_preferences, add_workers, preferences_of, workers_of
 from mars2d.cli.outputs import check_outputs
-from mars2d.cli.working import add_workers, workers_of
+from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError, counted
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
@@ -23,8 +23,6 @@ from mars2d.study.tournament.schedule import Schedule, schedule
 from mars2d.study.tournament.tournament import LIMITS, PAGE, Tournament
 from mars2d.study.work import worker_count
 
-NAME = "tournament"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
@@ -36,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         default=[],
         metavar="ROLE=FILES",
-        help="the laws of a role: files, a folder, or a pattern as pursuers/*.py",
+        help="the laws of a role: files, a folder, or a pattern such as pursuers/*.py",
     )
     add(
         "--players",
@@ -46,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILES",
         help="laws of all roles",
     )
-    add("--seeds", type=int, default=10, metavar="N", help="matches of each pairing")
+    add("--seeds", type=int, default=10, metavar="N", help="matches of each pairing (default: 10)")
     add("--first-seed", type=int, default=0, metavar="K", help="the seeds are K to K + N - 1")
     add("--stop-time", type=float, metavar="S", help="seconds to simulate")
     add(
@@ -57,11 +55,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="an option; several values make rounds: mu=0.8,0.9 or mu=0.8:1.0:5",
     )
     add("--tick-limit", type=float, metavar="S", help="seconds that a law may take for a step")
-    add("--match-limit", type=float, metavar="S", help="seconds that it may take for a match")
-    add("--memory", type=float, metavar="MB", help="that a law may use")
-    add("--out", type=Path, metavar="FOLDER", help="for tables and page; else tournament_SCENARIO")
-    add("--no-replays", action="store_true", help="a small page, of very many matches")
-    add("--match", type=int, metavar="N", help="play this match alone, once more")
+    add("--match-limit", type=float, metavar="S", help="seconds that a law may take for a match")
+    add("--memory", type=float, metavar="MB", help="memory that a law may use")
+    add(
+        "--out",
+        type=Path,
+        metavar="FOLDER",
+        help="folder of the tables and the page (default: tournament_SCENARIO)",
+    )
+    add("--no-replays", action="store_true", help="a small page, for very many matches")
+    add("--match", type=int, metavar="N", help="play only this match, again")
     add("--view", action="store_true", help="with --match: show it in a window")
     add("--record", type=Path, metavar="OUT", help="with --match: save all its data")
     add_workers(parser)
@@ -89,7 +92,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _check(arguments: argparse.Namespace) -> None:
-    """Refuse what can't be done before anything is."""
+    """Raise InputError at the start for requests that can't be met."""
     for name in ("view", "record"):
         if getattr(arguments, name) and arguments.match is None:
             raise InputError(f"--{name} needs --match N")
@@ -110,7 +113,7 @@ def _limits(arguments: argparse.Namespace) -> Limits:
 
 
 def _roles(arguments: argparse.Namespace) -> dict[str, list[str]]:
-    """Return the files of each role: a shell has made several words of a pattern, or has not."""
+    """Return the files of each role; the shell may have expanded a pattern into several words."""
     roles: dict[str, list[str]] = {}
     for words in arguments.role:
         role = ""
@@ -130,7 +133,7 @@ def _roles(arguments: argparse.Namespace) -> dict[str, list[str]]:
 
 
 def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
-    """Play what was not played before; print the league, also after Ctrl-C."""
+    """Play the matches not played yet, and print the league, also after Ctrl-C."""
     print(_announced(planned, len(played_before(path, planned, limits))), flush=True)
     with workers_of(arguments) as (executor, workers):
         try:
@@ -149,7 +152,7 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
 
 
 def _announced(planned: Schedule, before: int) -> str:
-    """Return what is played, of which so many matches were played before."""
+    """Return a line on the matches, `before` of which were played before."""
     laws = {role: {match.laws[role] for match in planned.matches} for role in planned.roles}
     who = ", ".join(f"{len(names)} as {role}" for role, names in laws.items())
     known = f", {before} of them played before" if before else ""
@@ -157,7 +160,7 @@ def _announced(planned: Schedule, before: int) -> str:
 
 
 def _report(result: Tournament, path: Path) -> None:
-    """Print how the laws stand, and where the files are."""
+    """Print the league, and the path of the page."""
     if result.matches:
         print(f"\n{league_text(result)}\n")
         print(f"page: {path / PAGE}", flush=True)
@@ -167,7 +170,7 @@ def _report(result: Tournament, path: Path) -> None:
 
 
 def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
-    """Play one match again; say how it went, and whether it went as before."""
+    """Play one match again; print its outcome, and whether it is the same as before."""
     count = len(planned.matches)
     if not 1 <= arguments.match <= count:
         raise InputError(f"--match {arguments.match}: expected a number from 1 to {count}")
@@ -192,7 +195,7 @@ def _described(match: Match) -> str:
 
 
 def _compared(played: Played, planned: Schedule, path: Path, limits: Limits) -> str:
-    """Say whether a match went as it did when the tournament was played."""
+    """Return a line that compares a match with the same one in the tournament's folder."""
     found = played_before(path, planned, limits)
     before = next((each for each in found if each.match == played.match), None)
     if before is None:

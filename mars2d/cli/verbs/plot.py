@@ -8,7 +8,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.base import times
+from mars2d.cli.arguments import times
 from mars2d.cli.outputs import check_outputs, naming_lost_letters
 from mars2d.core.errors import InputError, nearest
 from mars2d.output.figures import figure
@@ -17,11 +17,9 @@ from mars2d.output.formats import SUFFIXES
 from mars2d.record.record import Record, load
 from mars2d.scenario.experiment import examples
 
-NAME = "plot"
-
 KINDS = ("paths", "snapshots", "signals", "contacts", "distances")
 
-ONLY = {"at": "snapshots"} | dict.fromkeys(("columns", "robots", "from", "to"), "signals")
+KIND_OF_OPTION = {"at": "snapshots"} | dict.fromkeys(("columns", "robots", "from", "to"), "signals")
 """Options that belong to one kind of figure."""
 
 
@@ -30,11 +28,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("record", type=Path, metavar="RECORD", help=f"a saved run: {', '.join(SUFFIXES)}")
     add("kind", metavar="KIND", nargs="?", default="paths", help=f"{', '.join(KINDS)}")
-    add("--figure", type=Path, metavar="OUT", help="where to: .png, .pdf, .svg")
-    add("--columns", type=_words, metavar="A,B,...", help="signals: which, as x,speed,effort")
-    add("--robots", type=_words, metavar="A,B,...", help="signals: of whom, by name or index")
-    add("--from", type=float, metavar="S", help="signals: where in the run they start")
-    add("--to", type=float, metavar="S", help="signals: where in the run they end")
+    add("--figure", type=Path, metavar="OUT", help="the figure's file: .png, .pdf, .svg")
+    add("--columns", type=_words, metavar="A,B,...", help="signals: such as x,speed,effort")
+    add("--robots", type=_words, metavar="A,B,...", help="signals: of robots, by name or index")
+    add("--from", type=float, metavar="S", help="signals: start at this time")
+    add("--to", type=float, metavar="S", help="signals: end at this time")
     add("--at", type=times, metavar="T1,T2,...", help="snapshots: at these times")
     add("--style", default="screen", metavar="STYLE", help=f"{', '.join(STYLES)}")
 
@@ -51,7 +49,7 @@ def execute(arguments: argparse.Namespace) -> None:
     kind, path = arguments.kind, arguments.record
     if kind not in KINDS:
         raise InputError(f"there is no figure of {kind!r}{nearest(kind, KINDS)}")
-    for option, only in ONLY.items():
+    for option, only in KIND_OF_OPTION.items():
         if getattr(arguments, option) is not None and kind != only:
             raise InputError(f"--{option} is for {only}: mars2d plot {path} {only}")
     if kind == "snapshots" and arguments.at is None:
@@ -67,7 +65,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _refuse_experiments(path: Path) -> None:
-    """Say what to do with an experiment, which has to be run first."""
+    """Raise InputError for an experiment, which has to be run first."""
     if path.suffix in (".py", ".toml") or (str(path) in examples() and not path.exists()):
         raise InputError(
             f"{path}: an experiment; run it first: mars2d run {path} --record {path.stem}.npz"
@@ -96,7 +94,7 @@ def _drawing(arguments: argparse.Namespace, record: Record) -> Callable[[], Any]
 
 
 def _robots(words: list[str] | None, record: Record) -> list[str | int] | None:
-    """Return robots by name, or by index where none has such a name."""
+    """Return robots by name, or by index if no robot has that name."""
     if words is None:
         return None
     names = {robot.name for robot in record.scenario.robots}
@@ -104,6 +102,6 @@ def _robots(words: list[str] | None, record: Record) -> list[str | int] | None:
 
 
 def _free(stem: str) -> Path:
-    """Return a name in the current folder that no file has."""
+    """Return the name of a new file in the current folder."""
     names = (Path(f"{stem}_{k}.png" if k > 1 else f"{stem}.png") for k in count(1))
     return next(path for path in names if not path.exists())

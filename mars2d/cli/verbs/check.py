@@ -12,8 +12,8 @@ from typing import Any
 
 from mars2d.addons import maps
 from mars2d.bodies.joints import Joint
-from mars2d.cli.base import run_headless
 from mars2d.cli.outputs import check_outputs
+from mars2d.cli.runs import run_headless
 from mars2d.core.deadline import PATIENCE, Deadline, Late
 from mars2d.core.errors import InputError, Mars2dError, counted, nearest
 from mars2d.core.progress import Progress
@@ -30,17 +30,15 @@ from mars2d.testing.file import trials
 from mars2d.testing.finding import Finding
 from mars2d.world.verify import other_versions, rerun
 
-NAME = "check"
+TRIAL_STEPS = 10
+"""Control steps of a trial run: some mistakes only show when laws and sensors are called."""
 
-TRIAL = 10
-"""Control steps that a check does: some mistakes only show when laws and sensors are called."""
-
-SHOWN = 8
+MAX_ROBOTS_LISTED = 8
 
 BAD_INPUT = 2
 
 LOADING = 60.0
-"""Seconds that a file may take to be loaded."""
+"""The time that loading a file may take, seconds."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -94,7 +92,7 @@ def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> No
 
 
 def _check_code(source: str) -> None:
-    """Check what a file holds: parts, laws, an experiment, or several of these."""
+    """Check a file of parts, laws, an experiment, or several of these."""
     module, experiment = _opened(source)
     limit = Deadline(PATIENCE, _give_up(source))
     if experiment is not None:
@@ -112,7 +110,7 @@ def _check_code(source: str) -> None:
 
 
 def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
-    """Return a file as a module, and the experiment in it, None if it has parts or laws alone."""
+    """Return a file as a module, and its experiment; None if it has only parts or laws."""
     limit = Deadline(LOADING, _give_up(source))
     try:
         with limit:
@@ -127,7 +125,7 @@ def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
 
 
 def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline) -> list[Finding]:
-    """Try all parts and laws, say what was found, and return what is wrong."""
+    """Try all parts and laws, print the findings, and return those that are wrong."""
     wrong: list[Finding] = []
     said: set[Finding] = set()
     for trial in trials(module, experiment, limit):
@@ -148,9 +146,9 @@ def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline)
 
 
 def _run(experiment: Experiment, source: str, limit: Deadline) -> int:
-    """Do some control steps and return how many."""
+    """Do some control steps and return the number of rows recorded."""
     scenario = experiment.scenario
-    stop_time = min(TRIAL * scenario.sampling_time, scenario.stop_time)
+    stop_time = min(TRIAL_STEPS * scenario.sampling_time, scenario.stop_time)
     trial = Experiment(scenario.replace(stop_time=stop_time), experiment.control)
     try:
         with limit:
@@ -165,7 +163,7 @@ def _late(source: str, limit: Deadline) -> InputError:
 
 
 def _give_up(source: str) -> Callable[[str], None]:
-    """Return what to do when code can't even be broken off: to say so, and to leave."""
+    """Return a function that ends the process, for code that can't even be interrupted."""
 
     def leave(where: str) -> None:
         place = f" at {where}" if where else ""
@@ -177,13 +175,13 @@ def _give_up(source: str) -> Callable[[str], None]:
 
 
 def _description(experiment: Experiment) -> list[tuple[str, str]]:
-    """Return what was read of an experiment, as names and texts."""
+    """Return a description of an experiment as names and texts."""
     scenario = experiment.scenario
     xmin, xmax, ymin, ymax = scenario.bounds
     rows = [("title", scenario.title)]
-    rows += [(str(robot.name), _robot(robot)) for robot in scenario.robots[:SHOWN]]
-    if len(scenario.robots) > SHOWN:
-        rows.append(("", f"and {counted(len(scenario.robots) - SHOWN, 'robot')} more"))
+    rows += [(str(robot.name), _robot(robot)) for robot in scenario.robots[:MAX_ROBOTS_LISTED]]
+    if len(scenario.robots) > MAX_ROBOTS_LISTED:
+        rows.append(("", f"and {counted(len(scenario.robots) - MAX_ROBOTS_LISTED, 'robot')} more"))
     corners = "no limits"
     if scenario.workspace is not None:
         corners = f"{len(scenario.workspace)} corners, on_exit {scenario.on_exit!r}"
@@ -205,7 +203,7 @@ def _description(experiment: Experiment) -> list[tuple[str, str]]:
 
 
 def _things(scenario: Scenario) -> list[tuple[str, str]]:
-    """Return what is to be said of props and joints, and of physics without forces."""
+    """Return the rows on props, joints and physics without forces, if there are any."""
     rows = [
         ("props", ", ".join(str(prop.name) for prop in scenario.props)),
         ("joints", ", ".join(_joint(tie.joint) for tie in scenario.ties)),
@@ -253,6 +251,6 @@ def _check_record(path: Path) -> None:
 
 
 def _likely_reason(record: Record) -> str:
-    """Return what is not as it was when a record was made, which may change its last bits."""
+    """Return the versions that differ from those of the record, and may change its last bits."""
     others = [f"{k} {then}, here {now}" for k, (then, now) in other_versions(record).items()]
     return f"; it was made with {', '.join(others)}" if others else ""

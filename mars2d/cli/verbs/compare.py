@@ -11,9 +11,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.cli.base import add_options, make_folder, options_of, run_headless
-from mars2d.cli.films import FPS, SHORT, film_speed
+from mars2d.cli.arguments import add_options, options_of
+from mars2d.cli.films import DURATION, FPS, film_speed
 from mars2d.cli.outputs import check_outputs
+from mars2d.cli.runs import make_folder, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
 from mars2d.core.streams import check_seed
@@ -28,8 +29,6 @@ from mars2d.scenario.experiment import Experiment, open_experiment
 if TYPE_CHECKING:
     from mars2d.output.films.footage import Footage
     from mars2d.output.films.triptych import Reel
-
-NAME = "compare"
 
 FOLDER = Path("mars2d_compare")
 
@@ -63,7 +62,7 @@ def execute(arguments: argparse.Namespace) -> None:
     start = time.perf_counter()
     check_outputs(arguments, OUTPUTS)
     options, seed = _options(arguments), check_seed(arguments.seed)
-    # Opened anew for each run: laws keep state in generators and in their module's globals.
+    # Opened again for each run: laws keep state in generators and in their module's globals.
     experiments = {m: open_experiment(arguments.experiment, options, seed=seed) for m in MODES}
     paths = _paths(arguments)
     records: dict[str, Record] = {}
@@ -93,7 +92,7 @@ def _options(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 def _paths(arguments: argparse.Namespace) -> dict[str, Path]:
-    """Return where the figure and the film go: into a folder, if neither they nor JSON is asked."""
+    """Return the paths of figure and film; without any output option, both go into a folder."""
     wanted = {name: path for name in OUTPUTS if (path := getattr(arguments, name)) is not None}
     if wanted or arguments.json:
         return wanted
@@ -105,7 +104,7 @@ def _paths(arguments: argparse.Namespace) -> dict[str, Path]:
 
 @contextmanager
 def _saying(mode: str) -> Iterator[None]:
-    """Say in an error with which physics it came."""
+    """Add the kind of physics to the place of an error."""
     try:
         yield
     except Mars2dError as error:
@@ -118,14 +117,14 @@ def _footage(arguments: argparse.Namespace, experiment: Experiment) -> Footage:
 
     speed = arguments.speed
     if speed is None and arguments.video is None:
-        speed = experiment.scenario.stop_time / SHORT
+        speed = experiment.scenario.stop_time / DURATION
     return Footage(experiment.scenario, film_speed(experiment.scenario, speed), FPS)
 
 
 def _save(
     comparison: Comparison, reels: dict[str, Reel], paths: dict[str, Path], *, say: bool
 ) -> None:
-    """Save the figure and the film, where they are wanted, and say where they are."""
+    """Save the requested figure and film, and print their paths."""
     if "figure" in paths:
         comparison.save_figure(paths["figure"])
         if say:
@@ -143,7 +142,7 @@ def _save(
 
 
 def _rows(comparison: Comparison) -> list[dict[str, Any]]:
-    """Return what there is to say of each run; the drift is that at the last time of both."""
+    """Return the outcome of each run; the drift is that at the last time of both runs."""
     rows = []
     for mode, record in comparison.records.items():
         drift = comparison.drifts.get(mode)
@@ -180,7 +179,7 @@ def _as_table(comparison: Comparison) -> str:
 
 
 def _metres(distance: float) -> str:
-    """Return a distance as it is read; below a micrometre it is rounding."""
+    """Return a distance as text; less than a micrometre is rounding and shown as 0."""
     return f"{round(distance, 6):.3g} m"
 
 

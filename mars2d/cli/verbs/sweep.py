@@ -7,10 +7,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.base import add_preferences
+from mars2d.cli.arguments import add_preferences, add_workers, workers_of
 from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, naming_lost_letters
 from mars2d.cli.row import show_row
-from mars2d.cli.working import add_workers, workers_of
 from mars2d.core.errors import InputError, nearest
 from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
 from mars2d.study.prepare import prepared
@@ -18,19 +17,17 @@ from mars2d.study.results import is_table, load_table
 from mars2d.study.run import run_study
 from mars2d.study.table import Table
 
-NAME = "sweep"
-
 TABLE = Path("sweep.csv")
-"""Where the rows go, if nothing is said."""
+"""The default file of the rows."""
 
-OF_RUNS = ("set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry")
-"""What says which runs are made: nothing to be said of a table that is there."""
+RUN_ARGUMENTS = ("set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry")
+"""The arguments that choose the runs; they don't apply to an existing table."""
 
-OF_WORKERS = ("workers", "cluster")
+WORKER_ARGUMENTS = ("workers", "cluster")
 
-OF_A_TABLE = ("compare",)
+TABLE_ARGUMENTS = ("compare",)
 
-OF_A_ROW = ("view", "record", "html")
+ROW_ARGUMENTS = ("view", "record", "html")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -41,20 +38,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--set", action="append", default=[], metavar="KEY=VALUES",
         help="a setting's values: 4,8,16; or 0.1:1.0:10, ten from 0.1 to 1.0; or one")  # fmt: skip
     add("--stop-time", type=float, metavar="S", help="seconds to simulate")
-    add("--seeds", type=int, metavar="N", help="how many, the same for each point; 1 if not said")
-    add("--first-seed", type=int, metavar="K", help="the first of them; 0 if not said")
+    add(
+        "--seeds",
+        type=int,
+        metavar="N",
+        help="number of seeds, the same at each point (default 1)",
+    )
+    add("--first-seed", type=int, metavar="K", help="the first seed (default: 0)")
     add("--measure", action="append", default=[], metavar="NAME",
-        help="a function of the record in the experiment's file, or one built in")  # fmt: skip
-    add("--out", type=Path, metavar="OUT.csv", help=f"where the rows go: {TABLE} if not said")
+        help="a function of the record in the experiment's file, or a built-in one")  # fmt: skip
+    add("--out", type=Path, metavar="OUT.csv", help=f"file of the rows (default: {TABLE})")
     add("--figure", type=Path, metavar="OUT", help="draw the measures: .png, .pdf, .svg")
-    add("--compare", metavar="KEY", help="how a setting's values differ, seed by seed")
-    add("--confidence", type=_confidence, default=0.95, metavar="P", help="of intervals: 0.95")
+    add("--compare", metavar="KEY", help="compare a setting's values, seed by seed")
+    add("--confidence", type=_confidence, default=0.95, metavar="P",
+        help="of intervals (default: 0.95)")  # fmt: skip
     add("--time-limit", type=float, metavar="S", help="seconds that a run may take")
-    add("--retry", action="store_true", help="run rows again that have an error")
+    add("--retry", action="store_true", help="run rows with an error again")
     add_workers(parser)
     add("--row", type=int, metavar="N", help="run one row of a study again")
-    add("--view", action="store_true", help="in the window, with --row")
-    add("--record", type=Path, metavar="OUT", help="save all data of a run, with --row")
+    add("--view", action="store_true", help="with --row: show it in a window")
+    add("--record", type=Path, metavar="OUT", help="with --row: save all data of the run")
     add_html(parser)
     add_preferences(parser)
 
@@ -73,14 +76,16 @@ def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment over settings and seeds into a table, or one of its rows again."""
     check_outputs(arguments, {name: OUTPUTS[name] for name in ("record", "figure", "html")})
     if arguments.row is not None:
-        _refuse(arguments, (*OF_RUNS, *OF_WORKERS, *OF_A_TABLE), "--row N runs one row as it was")
+        others = (*RUN_ARGUMENTS, *WORKER_ARGUMENTS, *TABLE_ARGUMENTS)
+        _refuse(arguments, others, "--row N runs one row as it was")
         show_row(arguments, _table_here(arguments))
         return
-    _refuse(arguments, OF_A_ROW, "it is of one run: give --row N")
+    _refuse(arguments, ROW_ARGUMENTS, "it is of one run: give --row N")
     if arguments.experiment is None:
         raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
     if arguments.experiment.lower().endswith(".csv"):
-        _refuse(arguments, (*OF_RUNS, *OF_WORKERS), f"{arguments.experiment} is there already")
+        why = f"{arguments.experiment} is there already"
+        _refuse(arguments, (*RUN_ARGUMENTS, *WORKER_ARGUMENTS), why)
         _report(arguments, load_table(arguments.experiment), Path(arguments.experiment))
         return
     _run(arguments)
@@ -93,7 +98,7 @@ def _refuse(arguments: argparse.Namespace, names: tuple[str, ...], why: str) -> 
 
 
 def _table_here(arguments: argparse.Namespace) -> Path:
-    """Return the file that holds the row: that given, or else the last of this folder's studies."""
+    """Return the file with the row: as given, or the newest study in this folder."""
     if arguments.experiment is not None:
         if not arguments.experiment.lower().endswith(".csv"):
             raise InputError(
@@ -149,7 +154,7 @@ def _check_compared(name: str, counts: dict[str, int]) -> None:
 
 
 def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
-    """Print what a study came to, and where its files are."""
+    """Print the summary of a study, and the paths of its files."""
     if arguments.compare is not None:
         points = table.points()
         counts = {n: len({p[k] for p in points}) for k, n in enumerate(table.settings)}

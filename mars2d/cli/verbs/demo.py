@@ -5,23 +5,25 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mars2d.cli.base import (
+from mars2d.cli.arguments import (
     add_human,
     add_preferences,
     add_run_arguments,
     add_theory,
-    has_display,
     human_of,
-    make_folder,
     preferences_of,
+    theory_of,
+)
+from mars2d.cli.films import DURATION, FPS, save_footage
+from mars2d.cli.runs import (
+    has_display,
+    make_folder,
     print_examples,
     print_predictions,
     run_headless,
     show,
-    theory_of,
     warn_unchecked,
 )
-from mars2d.cli.films import FPS, SHORT, save_footage
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.streams import check_seed
 from mars2d.output.raster import require_pygame
@@ -29,15 +31,13 @@ from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
 from mars2d.world.loop import Interrupted
 
-NAME = "demo"
-
 FOLDER = Path("mars2d_demo")
 FILM_SIZE = (640, 480)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
-    parser.add_argument("name", nargs="?", metavar="NAME", help="an example; else all are listed")
+    parser.add_argument("name", nargs="?", metavar="NAME", help="an example (default: list all)")
     add_run_arguments(parser)
     add_theory(parser)
     add_human(parser)
@@ -68,13 +68,13 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
-    """Run, make a picture and a short film, and say where they are."""
+    """Run, make a picture and a short film, and print their paths."""
     require_pygame("a film")
     from mars2d.output.figures.figure import save_figure
     from mars2d.output.films.footage import Footage
 
     make_folder(FOLDER)
-    footage = Footage(experiment.scenario, experiment.scenario.stop_time / SHORT, FPS)
+    footage = Footage(experiment.scenario, experiment.scenario.stop_time / DURATION, FPS)
     world = run_headless(experiment, seed, [footage])
     record = world.record
     print(f"{record.scenario.title}: {record.over_message}")

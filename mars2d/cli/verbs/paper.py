@@ -16,14 +16,12 @@ from mars2d.reports.paper.folder import prepare, remove
 from mars2d.reports.paper.page import verdict
 from mars2d.reports.paper.result import Result
 
-NAME = "paper"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     add = parser.add_argument
-    add("folder", metavar="OUT", type=Path, help="a folder: a new one, an empty one, or its own")
-    add("--only", type=_numbers, metavar="N1,N2,...", help="these figures of 2 to 9")
+    add("folder", metavar="OUT", type=Path, help="a folder: new, empty, or of an earlier run")
+    add("--only", type=_numbers, metavar="N1,N2,...", help="only these figures of 2 to 9")
     add("--seed", type=int, default=0, metavar="N", help="of all random streams")
 
 
@@ -52,7 +50,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
     try:
         make_all(figures, folder, seed, done, watch)
-    finally:  # also after Ctrl-C: what is there is there
+    finally:  # also after Ctrl-C: the page then shows the figures made so far
         progress.close()
         remove([name for f in figures if f.number not in done for name in f.files], folder)
         path = write_page(folder, figures, done, seed)
@@ -63,7 +61,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _report(figures: Sequence[Figure], done: dict[int, Result], path: Path) -> None:
-    """Print how each figure came out, what does not hold, and where the page is."""
+    """Print the verdict on each figure, failed predictions, and the page's path."""
     width = max(len(figure.title) for figure in figures)
     for figure in figures:
         result = done.get(figure.number)

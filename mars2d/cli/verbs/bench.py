@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from mars2d.cli.outputs import check_outputs
 from mars2d.core.errors import InputError, nearest
 from mars2d.reports.bench import suite
 from mars2d.reports.bench.report import Change, Report, Row, load_report
-
-NAME = "bench"
 
 HEAD = f"""\
 {"":<34}{"overlap":>8}{"steps":>10}{"times":>11}{"deepest":>9}{"bytes per":>11}
@@ -24,17 +22,17 @@ HEAD = f"""\
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     add = parser.add_argument
-    add("scene", nargs="*", metavar="SCENE", help=f"of {', '.join(suite.NAMES)}; else all")
+    add("scene", nargs="*", metavar="SCENE", help=f"of {', '.join(suite.NAMES)} (default: all)")
     add("--save", type=Path, metavar="FILE", help="write the figures: .json")
-    add("--compare", type=Path, metavar="FILE", help="with those of an earlier run")
+    add("--compare", type=Path, metavar="FILE", help="compare with the figures of an earlier run")
     add("--json", action="store_true", help="print the figures as one line of JSON")
-    add("--quick", action="store_true", help="some seconds only, and less sure")
+    add("--quick", action="store_true", help="take a few seconds only; less certain")
 
 
 def execute(arguments: argparse.Namespace) -> None:
     """Measure how fast the simulation is on this machine."""
     names = _parts(arguments.scene)
-    _check_output(arguments.save)
+    check_outputs(arguments, {"save": (".json",)})
     old = None if arguments.compare is None else load_report(arguments.compare)
     effort = suite.QUICK if arguments.quick else suite.FULL
     report = _measured(names, effort, old, say=not arguments.json)
@@ -47,7 +45,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _parts(given: list[str]) -> list[str]:
-    """Return which parts of the suite are meant, in its order."""
+    """Return the names of the requested parts of the suite, in its order."""
     for name in given:
         if name not in suite.NAMES:
             hint = nearest(name, suite.NAMES)
@@ -55,22 +53,8 @@ def _parts(given: list[str]) -> list[str]:
     return [name for name in suite.NAMES if name in given or not given]
 
 
-def _check_output(path: Path | None) -> None:
-    """Refuse a file that can't be written before the suite is run, not after it."""
-    if path is None:
-        return
-    if path.suffix.lower() != ".json":
-        raise InputError(f"--save {path}: expected a name that ends in .json")
-    if not path.parent.is_dir():
-        raise InputError(f"--save {path}: there is no folder {path.parent}")
-    if path.is_dir():
-        raise InputError(f"--save {path}: this is a folder")
-    if not os.access(path if path.exists() else path.parent, os.W_OK):
-        raise InputError(f"--save {path}: can't be written: permission denied")
-
-
 def _measured(names: list[str], effort: suite.Effort, old: Report | None, *, say: bool) -> Report:
-    """Run the suite; print each row when it is there, and on a terminal what is being done."""
+    """Run the suite; print each row as it is done, and on a terminal the job at hand."""
     jobs = suite.jobs(names)
     rows: list[Row] = []
     if say and names != [suite.START]:
@@ -86,7 +70,7 @@ def _measured(names: list[str], effort: suite.Effort, old: Report | None, *, say
 
 @contextmanager
 def _announced(text: str) -> Iterator[None]:
-    """Show what is being done while it is, to a person who waits."""
+    """Show a text on the terminal during the block."""
     if not sys.stderr.isatty():
         yield
         return
@@ -98,7 +82,7 @@ def _announced(text: str) -> Iterator[None]:
 
 
 def _line(row: Row, change: Change | None) -> str:
-    """Return a row as a line of the table."""
+    """Return a line of the table for a row."""
     figures = row.figures
     if figures is None:
         text = f"{row.name:<42}{row.seconds:>10.3f} s {row.title}"
@@ -119,7 +103,7 @@ def _times(number: float) -> str:
 
 
 def _foot(report: Report, old: Report | None, path: Path | None) -> str:
-    """Return what stands below the table: by what it was measured, and with what compared."""
+    """Return the lines below the table: about the yardstick, and about the earlier run."""
     rate = f"{report.yardstick:,.0f} steps a second"
     lines = [f"yardstick: a bare pymunk loop with the robots of S2, {rate}"]
     if old is not None:

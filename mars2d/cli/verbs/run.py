@@ -9,27 +9,29 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from mars2d.cli.base import (
+from mars2d.cli.arguments import (
     add_human,
     add_options,
     add_preferences,
     add_run_arguments,
     add_speed,
     add_theory,
-    has_display,
     human_of,
     options_of,
-    predictions_of,
     preferences_of,
-    print_predictions,
-    run_headless,
-    show,
     theory_of,
     times,
-    warn_unchecked,
 )
 from mars2d.cli.films import FPS, Film, add_film, check_film, film_speed, save_footage
 from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, run_and_save, say
+from mars2d.cli.runs import (
+    has_display,
+    predictions_of,
+    print_predictions,
+    run_headless,
+    show,
+    warn_unchecked,
+)
 from mars2d.core.errors import InputError, counted
 from mars2d.core.streams import check_seed
 from mars2d.output import formats
@@ -38,8 +40,6 @@ from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.prediction import Prediction
 from mars2d.world.loop import Interrupted
-
-NAME = "run"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -53,10 +53,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--record",
         type=Path,
         metavar="OUT",
-        help="save all data: .npz, .mat, .csv, .nc; .mcap: as they come",
+        help="save all data: .npz, .mat, .csv, .nc, or .mcap, which is written during the run",
     )
     add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
-    add("--at", type=times, metavar="T1,T2,...", help="snapshots at these times in the figure")
+    add("--at", type=times, metavar="T1,T2,...", help="draw snapshots at these times instead")
     add_film(parser)
     add_html(parser)
     add_theory(parser)
@@ -129,7 +129,7 @@ def _run_in_window(
 def _run_headless(
     arguments: argparse.Namespace, experiment: Experiment
 ) -> tuple[Record, Film | None]:
-    """Run as quick as can be: without a window, a speed is that of the film."""
+    """Run as fast as possible; without a window, --speed is the film's."""
     log = formats.log_to(arguments.record)
     if arguments.video is None:
         return run_headless(experiment, arguments.seed, log=log).record, None
@@ -164,5 +164,5 @@ def _as_json(record: Record, predictions: Sequence[Prediction], wall: float) -> 
 
 
 def _ticks(record: Record) -> int:
-    """Return how many sampling times passed: one less than there are rows."""
+    """Return the number of control steps: one less than the number of rows."""
     return max(len(record) - 1, 0)

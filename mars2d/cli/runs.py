@@ -1,0 +1,127 @@
+"""Runs in a window or without one, and what is printed about them."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mars2d.core.errors import InputError
+from mars2d.core.progress import Progress
+from mars2d.record.record import Record
+from mars2d.scenario.experiment import Experiment, examples
+from mars2d.scenario.prediction import Prediction, table
+from mars2d.window.preferences import Preferences
+from mars2d.world.loop import simulate
+from mars2d.world.world import Watcher, World
+
+if TYPE_CHECKING:
+    from mars2d.output.formats.mcap import Log
+
+__all__ = [
+    "has_display",
+    "make_folder",
+    "predictions_of",
+    "print_examples",
+    "print_predictions",
+    "print_table",
+    "run_headless",
+    "show",
+    "warn_unchecked",
+]
+
+MAX_SPEED_BY_HAND = 4.0
+"""The highest speed of an experiment in which a person drives, unless a speed is given."""
+
+
+def has_display() -> bool:
+    """Return whether a window could be opened."""
+    from mars2d.window.display import display_available
+
+    return display_available()
+
+
+def show(
+    experiment: Experiment,
+    speed: float | str | None,
+    seed: int,
+    preferences: Preferences,
+    human: int | None = None,
+    log: Log | None = None,
+) -> Record:
+    """Run in a window, at the experiment's own speed unless one is given.
+
+    human: a robot that is driven by hand; then the experiment's own speed is limited. log: writes
+    each row while the run goes on.
+    """
+    from mars2d.window.show import show_experiment
+
+    own = experiment.scenario.animation.playback_speed
+    if human is not None and not (isinstance(own, float) and 0 < own < MAX_SPEED_BY_HAND):
+        own = MAX_SPEED_BY_HAND
+    pace = own if speed is None else speed
+    return show_experiment(experiment, pace, seed, preferences=preferences, human=human, log=log)
+
+
+def run_headless(
+    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = (), log: Log | None = None
+) -> World:
+    """Run to the end without a window, with a progress bar, and return the world."""
+    progress = Progress(experiment.scenario.last_iteration)
+    try:
+        return simulate(experiment, seed, watchers=[*watchers, progress], log=log)
+    finally:
+        progress.close()
+
+
+def predictions_of(experiment: Experiment, record: Record) -> tuple[Prediction, ...]:
+    """Return the predictions of an experiment's checks; print why if they can't be made."""
+    if not record.finished:
+        warn_unchecked(experiment, "cut short")
+    elif record.interventions:
+        warn_unchecked(experiment, "changed by hand")
+    return experiment.predictions(record)
+
+
+def print_predictions(experiment: Experiment, record: Record) -> None:
+    """Print the predictions of an experiment's checks as a table, if it has any."""
+    predictions = predictions_of(experiment, record)
+    if predictions:
+        title = [experiment.summary] if experiment.summary else []
+        print("", *title, table(predictions), sep="\n")
+
+
+def warn_unchecked(experiment: Experiment, happened: str) -> None:
+    """Print why an experiment's checks were not made, if it has any."""
+    if experiment.checks is not None:
+        print(f"mars2d: the run was {happened}, so its checks were not made", file=sys.stderr)
+
+
+def print_table(title: str, lines: Mapping[str, str]) -> None:
+    """Print names and their descriptions in two columns."""
+    print(f"{title}:")
+    width = max((len(name) for name in lines), default=0)
+    for name, line in lines.items():
+        print(f"  {name:<{width}}  {line}")
+
+
+def print_examples() -> None:
+    """Print the examples and their first lines: first those of the paper, by its figures."""
+    from mars2d.reports.paper.figures import FIGURES
+
+    lines = {}
+    for name, path in examples().items():
+        first = path.read_text(encoding="utf-8").partition("\n")[0]
+        lines[name] = first.strip('" ')
+    paper = dict.fromkeys(run.experiment for figure in FIGURES for run in figure.runs)
+    print_table("Experiments of the MARS paper", {k: lines.pop(k) for k in paper if k in lines})
+    print_table("Other examples", lines)
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder, unless it exists. Raises InputError if it can't be made."""
+    try:
+        path.mkdir(exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{path.absolute()}: can't be made: {error.strerror}") from error

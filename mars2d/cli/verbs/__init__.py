@@ -1,0 +1,24 @@
+"""The verbs of ``mars2d``, one module each.
+
+The module `run` is the verb ``mars2d run``. A verb's module has a function `add_arguments(parser)`
+and a function `execute(arguments)`, whose docstring is the verb's help.
+"""
+
+__all__ = ["VERBS"]
+
+VERBS = (
+    "demo",
+    "run",
+    "edit",
+    "compare",
+    "replay",
+    "plot",
+    "sweep",
+    "tournament",
+    "list",
+    "check",
+    "paper",
+    "bench",
+    "doctor",
+)
+"""The names of the verbs, in the order in which the help lists them."""
