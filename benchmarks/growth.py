@@ -24,9 +24,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mars2d.output.figures.figure import GRID, INK, MUTED
-from mars2d.reports.bench.overlap import deepest
 from mars2d.reports.bench.scenes import team
-from mars2d.reports.bench.worlds import SETTINGS, world_of
+from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -1,4 +1,4 @@
-"""What this machine offers to MARS2D, and whether the installation works."""
+"""An examination of this machine: versions, extras, display, kernel, plug-ins, physics."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LIBRARIES = (
 
 
 class Extra(NamedTuple):
-    """An extra of the installation: what it is for, what there is without it, what it adds."""
+    """An extra of the installation: its purpose, what works without it, and what it adds."""
 
     extra: str
     name: str
@@ -40,7 +40,7 @@ EXTRAS = (
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that was looked at; `ok` is None where it is a matter of taste."""
+    """One thing that was examined; `ok` is None if it is optional."""
 
     name: str
     text: str
@@ -48,7 +48,7 @@ class Finding:
 
 
 def examine() -> Iterator[Finding]:
-    """Yield what was found, one thing after the other."""
+    """Yield the findings one after the other."""
     from mars2d import __version__
 
     yield Finding("mars2d", __version__)
@@ -79,7 +79,7 @@ def _display() -> Finding:
 
 
 def _extra(extra: Extra) -> Finding:
-    """Say what an extra's packages offer, or the line that installs them."""
+    """Return what an extra's packages offer, or the command that installs them."""
     found = []
     for package in extra.packages:
         try:
@@ -102,7 +102,7 @@ def _kernel() -> Finding:
 
 
 def _plugins() -> Iterator[Finding]:
-    """Say what other packages ship; that one of theirs is broken is not a fault of MARS2D's."""
+    """Yield the plug-ins of other packages; a broken one is not a fault of MARS2D."""
     from mars2d.scenario.registry import BASES, misspelt_groups, plugins
 
     for part in (part for family in BASES for part in plugins(family)):
@@ -114,7 +114,7 @@ def _plugins() -> Iterator[Finding]:
 
 
 def _physics() -> Finding:
-    """Drive one robot along an arc, and compare with the closed form."""
+    """Drive one robot along an arc, and compare its pose with the closed form."""
     from mars2d.scenario.robot import Robot
     from mars2d.scenario.scenario import Scenario
     from mars2d.world.world import World

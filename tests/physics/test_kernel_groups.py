@@ -11,9 +11,8 @@ from mars2d import Holonomic, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.physics.engine import GROUP
 from mars2d.physics.kernel import reason_without
-from mars2d.reports.bench.overlap import deepest
 from mars2d.reports.bench.scenes import team
-from mars2d.reports.bench.worlds import world_of
+from mars2d.reports.bench.worlds import deepest, world_of
 from mars2d.sensors import Proximity, RangeFinder
 
 pytestmark = pytest.mark.skipif(bool(reason_without()), reason=f"no kernel: {reason_without()}")

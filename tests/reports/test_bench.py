@@ -12,10 +12,9 @@ from PIL import Image
 from mars2d import InputError, Robot, Scenario, World
 from mars2d.cli import command_line as cli
 from mars2d.reports.bench import suite
-from mars2d.reports.bench.overlap import deepest
 from mars2d.reports.bench.report import ALIKE, FORMAT, Change, Figures, Report, Row, load_report
 from mars2d.reports.bench.scenes import SCENES, Scene, Turns, team
-from mars2d.reports.bench.worlds import SETTINGS, world_of
+from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"

@@ -22,14 +22,13 @@ from PIL import Image
 import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli.verbs import paper as verb
-from mars2d.reports.paper.build import make_all
-from mars2d.reports.paper.figure import Figure, Run, Study
+from mars2d.reports.paper.figure import Figure, Run
 from mars2d.reports.paper.figures import FIGURES
-from mars2d.reports.paper.folder import MARK, prepare
-from mars2d.reports.paper.make import _setting, make
-from mars2d.reports.paper.page import page
+from mars2d.reports.paper.folder import prepare
+from mars2d.reports.paper.make import _setting, make, make_all
+from mars2d.reports.paper.page import MARK, page, typeset
 from mars2d.reports.paper.result import Picture, Result
-from mars2d.reports.paper.typeset import typeset
+from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
 
@@ -382,7 +381,7 @@ def test_a_figure_that_can_not_be_made_is_named_and_the_others_are_made(
     walk = Run("random_walk", "Walk", "Short.", options={"stop_time": 5})
     every = (figure(broken, studies=study), figure(walk, number=3))
     monkeypatch.setattr(verb, "FIGURES", every)
-    monkeypatch.setattr("mars2d.reports.paper.build.processors", lambda: 1)
+    monkeypatch.setattr("mars2d.reports.paper.make.worker_count", lambda _: 1)
     code, out, err = paper("out")
     assert code == 1
     assert "not all was made: see figure 2 above" in err
@@ -416,7 +415,7 @@ def test_studies_get_the_records_in_order_and_the_seed_with_them(tmp_path):
 
     def study(records):
         seen.extend(records)
-        from mars2d.reports.paper.chart import charts
+        from mars2d.reports.paper.studies.base import charts
 
         return Study("A study", "Shows.", "Two axes.", lambda: charts(2)[0], columns={"a": [1.0]})
 

@@ -1,1 +1,1 @@
-"""How fast is it? The suite of ``mars2d bench``: the same four scenes that peers are given."""
+"""The speed bench of ``mars2d bench``: four scenes, which other simulators are given as well."""

@@ -1,4 +1,4 @@
-"""What the suite has measured: as data, in a file, and against an earlier run."""
+"""The suite's measurements: as data, in a file, and compared with an earlier run."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ from mars2d.physics.versions import versions
 __all__ = ["ALIKE", "FORMAT", "Change", "Figures", "Report", "Row", "load_report"]
 
 FORMAT = 1
-"""The version of the file format; files of another one are refused."""
+"""The version of the file format; files of another version are refused."""
 
 KIND = "mars2d bench"
-"""What a saved report says it is."""
+"""The kind that a saved report states."""
 
 ALIKE = 0.05
-"""By what part runs of the same program differ on a machine that does nothing else."""
+"""The relative difference between runs of the same program on an idle machine."""
 
 USED = "used"
-"""What stands for the kernel among the versions, where no reason stands why it was not used."""
+"""The entry of the kernel among the versions; otherwise the reason why it was not used."""
 
 
 @dataclass(frozen=True)
 class Figures:
-    """What else is known of a scene.
+    """Further figures of a scene.
 
-    sampling_time: seconds. max_overlap: what was allowed, and deepest, what was seen between
-    control steps, metres. bytes: what the record takes for each robot and control step.
+    sampling_time: seconds. max_overlap: the overlap allowed, metres. deepest: the deepest overlap
+    between control steps, metres. bytes: the size of the record per robot and control step.
     """
 
     sampling_time: float
@@ -52,9 +52,9 @@ class Figures:
 class Row:
     """One thing that was timed, in turns with the yardstick.
 
-    name: as "S2 default" or "import mars2d". title: what it is. rounds: of each, how long a control
-    step of the bare loop took, and how long a control step or start of this, seconds. figures: of
-    a scene.
+    name: for example "S2 default" or "import mars2d". title: a description. rounds: for each
+    round, the times of a control step of the bare loop and of a control step or start of this row,
+    seconds. figures: those of a scene.
     """
 
     name: str
@@ -64,30 +64,30 @@ class Row:
 
     @property
     def seconds(self) -> float:
-        """How long one takes: the mean, as rounds of a scene differ by how much touches."""
+        """The mean time of a step or start; rounds of a scene differ by their contacts."""
         return fmean(mine for _, mine in self.rounds)
 
     @property
     def yardsticks(self) -> list[float]:
-        """How long a control step of the bare loop took in each round, seconds."""
+        """The time of a control step of the bare loop in each round, seconds."""
         return [bare for bare, _ in self.rounds]
 
     @property
     def unrest(self) -> float:
-        """By what part the bare loop varied meanwhile, without the extreme fifth of the rounds."""
+        """The relative variation of the bare loop, without the extreme fifth of the rounds."""
         quick, slow = np.percentile(self.yardsticks, [10, 90]).tolist()
         return float(slow / quick - 1)
 
     @property
     def shares(self) -> list[float]:
-        """How many control steps of the bare loop one of these took, in each round."""
+        """The time of a step or start in each round, in control steps of the bare loop."""
         return [mine / bare for bare, mine in self.rounds]
 
 
 class Change(NamedTuple):
-    """How a row compares with that of an earlier run, both in units of their yardsticks.
+    """The comparison of a row with that of an earlier run, both in units of their yardsticks.
 
-    times_as_fast: above 1 it is quicker now. noise: whether the difference may be chance.
+    times_as_fast: above 1, the new run is faster. noise: whether the difference may be chance.
     """
 
     times_as_fast: float
@@ -95,11 +95,12 @@ class Change(NamedTuple):
 
     @classmethod
     def between(cls, old: Row, new: Row) -> Change:
-        """Compare two rows round by round: the same ones do the same control steps.
+        """Compare two rows round by round: equal rounds do the same control steps.
 
-        The difference may be chance where it is no more than `ALIKE`, or than the yardstick itself
-        varied in either run, or a third as much as between them (what is quicker for one loop is
-        not as much so for another), or where the middle half of the rounds holds 1.
+        The difference counts as chance if it is at most `ALIKE`, or at most the variation of the
+        yardstick in either run, or at most a third of the yardstick's change between the runs (a
+        machine's speed-up is not the same for all loops), or if the middle half of the rounds
+        contains 1.
         """
         ratios = [a / b for a, b in zip(old.shares, new.shares, strict=False)]
         low, ratio, high = np.percentile(ratios, [25, 50, 75]).tolist()
@@ -114,7 +115,7 @@ def _machine() -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Report:
-    """The rows of one run of the suite. date: in UTC. versions: of what the figures depend on."""
+    """The rows of one run of the suite. date: in UTC. versions: of everything that matters."""
 
     rows: tuple[Row, ...]
     date: str = field(default_factory=lambda: f"{datetime.now(UTC):%Y-%m-%d %H:%M}")
@@ -122,12 +123,12 @@ class Report:
 
     @property
     def yardstick(self) -> float:
-        """How many control steps a second the bare loop made."""
+        """The number of control steps per second of the bare loop."""
         return 1 / median(bare for row in self.rows for bare in row.yardsticks)
 
     @property
     def without_kernel(self) -> str:
-        """Why it was measured without the kernel in C, or nothing if it was used."""
+        """The reason why the kernel in C was not used, or an empty text if it was."""
         return self.versions.get("kernel", "").removeprefix(USED)
 
     def change(self, new: Row) -> Change | None:
@@ -136,18 +137,18 @@ class Report:
         return None if old is None else Change.between(old, new)
 
     def as_data(self) -> dict[str, Any]:
-        """Return it as plain data, which JSON can hold."""
+        """Return the report as plain data for JSON."""
         head = {"kind": KIND, "format": FORMAT, "date": self.date, "versions": dict(self.versions)}
         return head | {"rows": [asdict(row) | {"seconds": row.seconds} for row in self.rows]}
 
     def save(self, path: Path) -> None:
-        """Write it to a JSON file; InputError if it can't be."""
+        """Write the report to a JSON file. Raises InputError if that fails."""
         with atomic_write(path) as file:
             file.write((json.dumps(self.as_data(), indent=1) + "\n").encode())
 
 
 def load_report(path: Path) -> Report:
-    """Read what `Report.save` wrote. Raises InputError for anything else."""
+    """Read a report that `Report.save` wrote. Raises InputError for any other file."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
         newer = data["kind"] == KIND and data["format"] > FORMAT
@@ -155,7 +156,7 @@ def load_report(path: Path) -> Report:
         report = None if newer else _assemble(data)
     except OSError as error:
         raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
-    except Exception as error:  # JSON that is something else fails in many ways
+    except Exception as error:  # other JSON fails in many ways
         raise InputError(f"{path}: not saved by mars2d bench, or damaged") from error
     if report is None:
         raise InputError(f"{path}: written by a newer version of MARS2D, {made}")
@@ -163,7 +164,7 @@ def load_report(path: Path) -> Report:
 
 
 def _assemble(data: Any) -> Report:
-    """Put a report together from plain data; raises what it may if that is not one."""
+    """Return a report made of plain data; raises any kind of error if the data are not a report."""
     if (data["kind"], data["format"]) != (KIND, FORMAT):
         raise ValueError(data["kind"])
     rows = []

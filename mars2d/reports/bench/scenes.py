@@ -1,6 +1,6 @@
-"""What the suite simulates: four scenes as plain numbers, so that any simulator can be given them.
+"""The suite's four scenes as plain numbers, which any simulator can be given.
 
-This file needs numpy alone: the scripts of other simulators load it where MARS2D is not installed.
+This file imports numpy alone: the scripts of other simulators load it without MARS2D.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ RADIUS = 0.15
 """The radius of a robot, metres, unless a scene says otherwise."""
 
 SPEED = 0.3
-"""How fast robots go, m/s."""
+"""The speed of the robots, m/s."""
 
 BOX = 0.4
 """The side of each obstacle, a turned square, metres."""
 
-GAP = 0.02
-"""How far apart things are at least at the start, metres."""
+MIN_GAP = 0.02
+"""The smallest distance between things at the start, metres."""
 
-ATTEMPTS = 100_000
-"""How often a place is drawn before it is said that there is none."""
+MAX_ATTEMPTS = 100_000
+"""The number of places drawn for a disc before giving up."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Scene:
 class Turns:
     """The law of a scene without proximity sensors: `SPEED` ahead, a new random omega each second.
 
-    It is asked at each control step for the commands (2, n) of all robots.
+    It is called at each control step for the commands (2, n) of all robots.
     """
 
     def __init__(self, robots: int, sampling_time: float) -> None:
@@ -97,7 +97,7 @@ def arena(
     outlines = [
         _box(places.take(BOX / 2**0.5 + radius), rng.uniform(0, np.pi / 2)) for _ in range(boxes)
     ]
-    poses = [(*places.take(radius + GAP), rng.uniform(-np.pi, np.pi)) for _ in range(robots)]
+    poses = [(*places.take(radius + MIN_GAP), rng.uniform(-np.pi, np.pi)) for _ in range(robots)]
     return Scene(
         name, title, sampling_time, side, np.array(poses), outlines, radius, beams, reach, proximity
     )
@@ -117,7 +117,7 @@ class _Places:
             self._taken = np.concatenate([self._taken, np.empty_like(self._taken)])
         x, y, r = self._taken[: self._count].T
         far = self._half - radius
-        for _ in range(ATTEMPTS):
+        for _ in range(MAX_ATTEMPTS):
             here = self._rng.uniform(-far, far, 2)
             if ((x - here[0]) ** 2 + (y - here[1]) ** 2 >= (r + radius) ** 2).all():
                 self._taken[self._count] = *here, radius

@@ -1,4 +1,4 @@
-"""How long a start takes, from shell to shell, in new processes."""
+"""The time that a start takes, from shell to shell, in new processes."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ COMMANDS: dict[str, Sequence[str]] = {
     "import mars2d": ("-c", "import mars2d"),
     "mars2d run random_walk --headless": ("-m", "mars2d", "run", "random_walk", "--headless"),
 }
-"""What is timed, as arguments of Python's."""
+"""The commands that are timed, as arguments of Python."""
 
 
 @contextmanager
 def with_bytecode() -> Iterator[dict[str, str]]:
-    """Give an environment in which modules are compiled once, as `pip install` compiles them.
+    """Yield an environment in which modules are compiled once, as `pip install` compiles them.
 
-    Elsewhere: nothing is written into the folders of packages.
+    The compiled modules are kept in a temporary folder, not in the folders of packages.
     """
     with TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
@@ -31,7 +31,7 @@ def with_bytecode() -> Iterator[dict[str, str]]:
 
 
 def seconds(arguments: Sequence[str], environment: dict[str, str]) -> float:
-    """Return how long Python takes with these arguments, from its start to its end.
+    """Return the time that Python takes with these arguments, from its start to its end [s].
 
     Raises CalledProcessError if it fails.
     """

@@ -9,10 +9,9 @@ from typing import NamedTuple
 
 from mars2d.record.record import Record
 from mars2d.reports.bench import start
-from mars2d.reports.bench.overlap import deepest
 from mars2d.reports.bench.report import Figures, Row
 from mars2d.reports.bench.scenes import SCENES, Scene
-from mars2d.reports.bench.worlds import SETTINGS, world_of
+from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
 from mars2d.world.world import World
 
@@ -25,23 +24,23 @@ NAMES = (*SCENES, START)
 """The parts of the suite."""
 
 YARDSTICK = "S2"
-"""The scene of the bare loop by which all is measured."""
+"""The scene of the bare loop that all rows are compared with."""
 
 STEPS = {"S1": 600, "S2": 150, "S3": 40, "S4": 15}
 """Control steps in a round of each scene."""
 
 WARM_UP = 5.0
-"""For how long robots move and meet before the first round, simulated seconds."""
+"""The simulated time before the first round, in which robots move and meet, seconds."""
 
-LEAST = 2
-"""Rounds, on however slow a machine."""
+MIN_ROUNDS = 2
+"""The number of rounds on a very slow machine."""
 
 
 class Effort(NamedTuple):
-    """How much is done for a row.
+    """The amount of work for a row.
 
-    rounds: where they take no longer than `time` [s], else fewer. yardstick: control steps of the
-    bare loop in each.
+    rounds: their number, or fewer if they take longer than `time` [s]. yardstick: the number of
+    control steps of the bare loop in each.
     """
 
     rounds: int
@@ -56,7 +55,7 @@ QUICK = Effort(rounds=5, time=0.5, yardstick=200)
 
 
 def jobs(names: Iterable[str]) -> dict[str, Job]:
-    """Return what measures each row of these parts of the suite, by the rows' names."""
+    """Return the jobs that measure these parts of the suite, by the names of their rows."""
     found: dict[str, Job] = {}
     for name in names:
         if name == START:
@@ -69,13 +68,13 @@ def jobs(names: Iterable[str]) -> dict[str, Job]:
 
 
 def _scene(scene: Scene, setting: str, effort: Effort) -> Row:
-    """Time a scene at one setting, and look how deep its robots got into each other."""
+    """Time a scene at one setting, and measure the overlaps of its robots."""
     max_overlap, steps = SETTINGS[setting], STEPS[scene.name]
     world = warmed_up(scene, max_overlap)
 
     def timed() -> float:
         nonlocal world
-        if scene.proximity:  # Algorithm 2 may back into a corner, and then stays there
+        if scene.proximity:  # Algorithm 2 may back into a corner and stay there
             world = warmed_up(scene, max_overlap)
         return _time(world.step, steps) / steps
 
@@ -97,22 +96,22 @@ def _start(name: str, effort: Effort) -> Row:
     """Time a command in new processes."""
     arguments = start.COMMANDS[name]
     with start.with_bytecode() as environment:
-        start.seconds(arguments, environment)  # which compiles, and fills the disk's cache
+        start.seconds(arguments, environment)  # compiles the modules, and fills the disk's cache
         rounds = _rounds(lambda: start.seconds(arguments, environment), effort)
     return Row(name, "from shell to shell", rounds)
 
 
 def _rounds(timed: Callable[[], float], effort: Effort) -> tuple[tuple[float, float], ...]:
-    """Time something in turns with the bare loop: (seconds of its control step, seconds) a round.
+    """Return times in turns with the bare loop: for each round (its control step, `timed`) [s].
 
-    The bare loop is timed before and after, since how busy a machine is changes.
+    The bare loop is timed before and after each round, since the load of a machine changes.
     """
     bare = Bare(SCENES[YARDSTICK]())
     steps = effort.yardstick
     _time(bare, steps)
     rounds: list[tuple[float, float]] = []
     before, end = _time(bare, steps), time.perf_counter() + effort.time
-    while len(rounds) < LEAST or (len(rounds) < effort.rounds and time.perf_counter() < end):
+    while len(rounds) < MIN_ROUNDS or (len(rounds) < effort.rounds and time.perf_counter() < end):
         taken = timed()
         after = _time(bare, steps)
         rounds.append(((before + after) / 2 / steps, taken))
@@ -121,7 +120,7 @@ def _rounds(timed: Callable[[], float], effort: Effort) -> tuple[tuple[float, fl
 
 
 def _time(step: Callable[[], None], steps: int) -> float:
-    """Return how long so many calls take, seconds."""
+    """Return the time that a number of calls takes, seconds."""
     began = time.perf_counter()
     for _ in range(steps):
         step()
@@ -129,7 +128,7 @@ def _time(step: Callable[[], None], steps: int) -> float:
 
 
 def _size(record: Record) -> int:
-    """Return how many bytes a record's numbers take."""
+    """Return the size of a record's numbers, bytes."""
     columns = (record.time, record.command_time, record.pose, record.command, record.effort)
     others = (record.prop_pose, record.contacts, *record.sensors.values())
     return sum(values.nbytes for values in columns + others)

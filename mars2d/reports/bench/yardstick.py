@@ -1,4 +1,4 @@
-"""A bare pymunk loop: what the engine alone costs, and by what two machines are compared."""
+"""A bare pymunk loop: the cost of the engine alone, by which two machines are compared."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ Float = NDArray[np.float64]
 
 
 class Bare:
-    """A scene's robots on pymunk alone; to call it is one control step.
+    """A scene's robots in pymunk alone; each call does one control step.
 
-    They are driven by primed joints with batch access, in a fixed number of equal substeps, by the
-    law `Turns`: without sensors, checks or recording.
+    The law `Turns` drives them through joints with batch access, in a fixed number of equal
+    substeps, without sensors, checks or recording.
     """
 
     def __init__(self, scene: Scene, substeps: int = 1) -> None:
@@ -95,7 +95,7 @@ class Bare:
         batch.get_space_arbiters(self._space, ids, self._arbiters)
         for address in np.frombuffer(self._arbiters.int_buf(), dtype=np.int64).tolist():
             i = self._index.get(address)
-            if i is not None:  # what touches keeps the velocity that the solver found
+            if i is not None:  # a robot in contact keeps the velocity that the solver found
                 velocity[i] = state[i, 3:]
                 spin[i] = state[i, 5]
         then = theta + spin * h + omega * (h / 2)

@@ -1,1 +1,1 @@
-"""The figures of the MARS paper, regenerated, each beside what paper and theory say."""
+"""The figures of the MARS paper, regenerated, each beside the paper's report and theory."""

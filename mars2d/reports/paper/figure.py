@@ -1,4 +1,4 @@
-"""What a figure of the paper is made of: runs of experiments, and charts of their numbers."""
+"""Descriptions of the paper's figures: runs of experiments, and studies of their numbers."""
 
 from __future__ import annotations
 
@@ -8,24 +8,22 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.scenario.prediction import Prediction
+from mars2d.reports.paper.studies.base import Study
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Drawing
-
     from mars2d.record.record import Record
 
-__all__ = ["Figure", "Run", "Study"]
+__all__ = ["Figure", "Run"]
 
 
 @dataclass(frozen=True)
 class Run:
-    """A run of an experiment, and when its picture shows it.
+    """A run of an experiment, and the times that its picture shows.
 
-    experiment: an example's name, or a file. title: of the picture, a few words. shows: what is to
-    be seen in it. times: seconds, a panel each; those after the run's end show the end; without
-    any, the picture shows the whole run. options: as of `mars2d.run`. name: tells runs of the same
-    experiment apart.
+    experiment: an example's name, or a file. title: the picture's title. shows: the picture's
+    caption. times: seconds, with one panel each; times after the run's end show the end, and
+    without any times the picture shows the whole run. options: as for `mars2d.run`. name: tells
+    runs of the same experiment apart.
     """
 
     experiment: str
@@ -36,7 +34,7 @@ class Run:
     name: str = ""
 
     def stem(self, number: int) -> str:
-        """Return the name of its files as a part of a figure."""
+        """Return the name of the picture's files, without suffix; number: the figure's."""
         return "_".join(filter(None, [f"fig{number}", Path(self.experiment).stem, self.name]))
 
     def times_until(self, end: float) -> list[float]:
@@ -44,7 +42,7 @@ class Run:
         return sorted({min(moment, end) for moment in self.times})
 
     def command(self, stem: str, seed: int, end: float) -> str:
-        """Return the command that makes the picture alone."""
+        """Return the command that makes only this picture."""
         words = ["mars2d", "run", self.experiment, "--headless"]
         for name, value in self.options.items():
             words += ["--set", f"{name}={value if isinstance(value, str) else repr(value)}"]
@@ -56,29 +54,13 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Study:
-    """A chart of numbers: what goes beyond one picture of one run.
-
-    title, shows, alt: as a picture's. draw: returns a new drawing each time. predictions: what
-    formulas say of the numbers. columns: the numbers.
-    """
-
-    title: str
-    shows: str
-    alt: str
-    draw: Callable[[], Drawing]
-    predictions: tuple[Prediction, ...] = ()
-    columns: Mapping[str, Sequence[float]] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
 class Figure:
-    """A figure of the paper: what it shows, what the paper and theory say, what it is made of.
+    """A figure of the paper, with the statements of the paper and of theory, its runs and studies.
 
-    paper: what the paper reports, in our own words. theory: what is predicted. law: formulas, as
-    `typeset` reads them. source: where the law is from. choices: what the paper leaves open, or
-    empty. studies: functions that get the records of the runs, by the names of their files. work:
-    how long it takes, in about seconds: the longest is begun first.
+    paper: the paper's report, in our own words. theory: the predictions. law: formulas for
+    `typeset`. source: the source of the law. choices: parameters that the paper leaves open, or
+    empty. studies: functions of the records of all runs, by the names of their files. work: the
+    approximate time that the figure takes, seconds; the longest figures are begun first.
     """
 
     number: int

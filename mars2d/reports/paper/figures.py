@@ -1,12 +1,12 @@
-"""The figures of the paper: what each shows, what paper and theory say, what makes it."""
+"""Figures 2 to 9 of the paper: the statements of paper and theory, the runs and the studies."""
 
 from __future__ import annotations
 
-from mars2d.reports.paper.circling import radius_and_gaps
-from mars2d.reports.paper.coverage import coverage_cost, two_ends
-from mars2d.reports.paper.cycle import cyclic_growth, cyclic_radius
 from mars2d.reports.paper.figure import Figure, Run
-from mars2d.reports.paper.pursuit import cell_area, speed_ratio
+from mars2d.reports.paper.studies.circling import radius_and_gaps
+from mars2d.reports.paper.studies.coverage import coverage_cost, two_ends
+from mars2d.reports.paper.studies.cycle import cyclic_growth, cyclic_radius
+from mars2d.reports.paper.studies.pursuit import cell_area, speed_ratio
 
 __all__ = ["FIGURES"]
 

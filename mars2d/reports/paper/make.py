@@ -1,28 +1,38 @@
-"""Make one figure: run its experiments, draw them, and compare them with theory."""
+"""Make figures: run their experiments, draw them, and compare them with theory."""
 
 from __future__ import annotations
 
+import multiprocessing
 import re
+import signal
 import struct
 from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
-from mars2d.core.errors import described
+from mars2d.core.errors import Mars2dError, described
+from mars2d.core.interrupt import interrupts_blocked
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_drawing
 from mars2d.record.record import Record
-from mars2d.reports.paper.figure import Figure, Run, Study
+from mars2d.reports.paper.figure import Figure, Run
 from mars2d.reports.paper.result import Picture, Result
+from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
+from mars2d.study.work import worker_count
 from mars2d.world.loop import simulate
 
-__all__ = ["make"]
+__all__ = ["make", "make_all"]
+
+Watch = Callable[[int, Sequence[int]], None]
+"""Called repeatedly with the number of figures done, and the numbers of those being made."""
 
 
 def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
-    """Make all pictures of a figure in a folder and return what was made.
+    """Make all pictures of a figure in a folder and return the result.
 
-    What fails is said in the result's problems; the rest is made all the same.
+    A picture that fails is named in the result's problems; the others are made all the same.
     """
     pictures: list[Picture] = []
     records: list[Record] = []
@@ -35,7 +45,7 @@ def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
             record = simulate(experiment, seed).record
             pictures.append(_of_run(run, experiment, record, figure.number, folder))
             records.append(record)
-        except Exception as error:  # one figure less, and the page says so
+        except Exception as error:  # the page shows the problem in place of the figure
             problems.append(f"{run.experiment}: {described(error)}")
     for name, study in figure.studies.items():
         if len(records) < len(figure.runs):
@@ -87,16 +97,80 @@ def _of_study(
 
 
 def _save(draw: Callable[[], Any], path: Path) -> tuple[int, int]:
-    """Save a drawing as .pdf and .png and return the pixels of the latter."""
+    """Save a drawing as .pdf and .png; return the width and height of the .png, pixels."""
     save_drawing(draw, path.with_suffix(".pdf"))
     png = save_drawing(draw, path.with_suffix(".png"))
     with png.open("rb") as file:
-        width, height = struct.unpack(">II", file.read(24)[16:])  # of its first chunk
+        width, height = struct.unpack(">II", file.read(24)[16:])  # in its first chunk
     return width, height
 
 
 def _setting(experiment: str) -> str:
-    """Return what an experiment's file says of its setting, or an empty text."""
+    """Return the sentence after "Setting:" in an experiment's docstring, or an empty text."""
     doc = open_module(experiment).__doc__ or ""
     found = re.search(r"^Setting: (.+?)(?=[.:](?:\s|$)|\n\n|\Z)", doc, flags=re.M | re.S)
     return " ".join(found[1].split()) if found else ""
+
+
+def make_all(
+    figures: Sequence[Figure],
+    folder: Path,
+    seed: int,
+    done: dict[int, Result],
+    watch: Watch,
+    processes: int | None = None,
+) -> None:
+    """Make figures in a folder with several processes, and put the results into `done`.
+
+    done: filled as figures are completed, by their numbers, also if Ctrl-C ends the rest.
+    processes: by default one per processor; with 1, or for one figure, no process is started. The
+    results do not depend on it.
+    """
+    count = min(worker_count(processes), len(figures))
+    if count <= 1:
+        for figure in figures:
+            watch(len(done), [figure.number])
+            done[figure.number] = make(figure, folder, seed)
+        return
+    others = multiprocessing.active_children()
+    context = multiprocessing.get_context("spawn")  # a fork would copy locks held by threads
+    with ProcessPoolExecutor(count, context, initializer=_ignore_interrupts) as pool:
+        try:
+            _share(figures, folder, seed, done, watch, pool, count)
+        except BaseException:
+            for child in multiprocessing.active_children():
+                if child not in others:
+                    child.terminate()  # else we would wait for figures that are not wanted
+            raise
+
+
+def _share(
+    figures: Sequence[Figure],
+    folder: Path,
+    seed: int,
+    done: dict[int, Result],
+    watch: Watch,
+    pool: ProcessPoolExecutor,
+    count: int,
+) -> None:
+    """Give the figures to the processes, those with the most work first."""
+    waiting = sorted(figures, key=lambda figure: -figure.work)
+    active: dict[Future[Result], int] = {}
+    while waiting or active:
+        while waiting and len(active) < count:
+            figure = waiting.pop(0)
+            with interrupts_blocked():  # this may start a process
+                future = pool.submit(make, figure, folder, seed)
+            active[future] = figure.number
+        watch(len(done), sorted(active.values()))
+        for future in wait(active, timeout=0.2, return_when=FIRST_COMPLETED).done:
+            number = active.pop(future)
+            try:
+                done[number] = future.result()
+            except BrokenProcessPool:
+                raise Mars2dError(f"figure {number}: its process was ended from outside") from None
+
+
+def _ignore_interrupts() -> None:
+    """Leave Ctrl-C to the process that started this one."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

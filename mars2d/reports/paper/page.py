@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import html
 import math
+import re
 from collections.abc import Mapping, Sequence
+from importlib.resources import files
 from string import Template
 
 from mars2d.core.errors import counted
 from mars2d.reports.paper.figure import Figure
-from mars2d.reports.paper.folder import MARK, NUMBERS
 from mars2d.reports.paper.result import Picture, Result
-from mars2d.reports.paper.style import STYLE
-from mars2d.reports.paper.typeset import typeset
 from mars2d.scenario.prediction import Prediction, number
 
-__all__ = ["page", "verdict"]
+__all__ = ["MARK", "NUMBERS", "page", "typeset", "verdict"]
+
+NUMBERS = "numbers.json"
+"""The file of the numbers, which the page links to."""
+
+MARK = '<meta name="generator" content="mars2d paper">'
+"""The tag by which the page of an earlier run is recognized."""
 
 WIDE = 1.6
-"""A picture this many times as wide as high, and one without a companion, has its own row."""
+"""A picture at least this many times as wide as high has its own row."""
 
 PAPER = (
     "M. Casini and A. Garulli, MARS: An Educational Environment for Multiagent Robot Simulations, "
@@ -105,9 +110,9 @@ $rows</tbody>
 
 
 def page(figures: Sequence[Figure], done: Mapping[int, Result], seed: int) -> str:
-    """Return the page of those figures that were made; of the others it says that they were not.
+    """Return the page of the figures that were made; it lists the others as missing.
 
-    done: what was made, by the figures' numbers.
+    done: the results, by the figures' numbers.
     """
     from mars2d import __version__
 
@@ -116,7 +121,7 @@ def page(figures: Sequence[Figure], done: Mapping[int, Result], seed: int) -> st
     made = [(figure, done[figure.number]) for figure in figures if figure.number in done]
     return PAGE.substitute(
         mark=MARK,
-        style=STYLE,
+        style=files(__package__).joinpath("page.css").read_text(encoding="utf-8"),
         paper=_text(PAPER),
         version=_text(__version__),
         seed=seed,
@@ -128,7 +133,7 @@ def page(figures: Sequence[Figure], done: Mapping[int, Result], seed: int) -> st
 
 
 def verdict(result: Result) -> str:
-    """Return how a figure came out, in a few words, as ``3 of 3 predictions ok``."""
+    """Return the outcome of a figure in a few words, such as ``3 of 3 predictions ok``."""
     every = len(result.predictions)
     held = f"{every - result.failed} of {counted(every, 'prediction')} ok" if every else "shown"
     if result.problems:
@@ -171,7 +176,7 @@ def _section(figure: Figure, result: Result) -> str:
 
 
 def _pictures(pictures: Sequence[Picture]) -> str:
-    """Return pictures below each other, but pairs of tall ones side by side."""
+    """Return the pictures as HTML, one below the other, pairs of tall ones side by side."""
     tall = [picture.size[0] < WIDE * picture.size[1] for picture in pictures]
     made, k = "", 0
     while k < len(pictures):
@@ -239,3 +244,35 @@ def _numbers(numbers: Sequence[int]) -> str:
 
 def _text(text: object) -> str:
     return html.escape(str(text))
+
+
+# -- formulas
+
+GREEK = "alpha|beta|gamma|eta|theta|mu|pi|rho|phi|psi|omega"
+SIGNS = re.compile(rf"(?<![A-Za-z])({GREEK}|sum|int|nabla|le)(?![A-Za-z])")
+"""Words for which HTML has an entity of the same name."""
+
+MINUS = re.compile(r"(?<![^\s(={])-(?=[\s\w(&])")
+"""A minus; unlike a hyphen, it does not follow a letter."""
+
+DOT = re.compile(r"(?<= )\.(?= )")
+"""A product of vectors: a full stop between spaces."""
+
+SHIFTED = re.compile(r"([_^])(?:\{([^{}]*)\}|([^\W_]))")
+"""``_i``, ``^2``, ``_{ij}``."""
+
+
+def typeset(text: str) -> str:
+    """Return a formula in plain text as HTML, escaped, with Greek letters, sub- and superscripts.
+
+    >>> typeset("v = -k rho_{ij}^2 < 1")
+    'v = &minus;k &rho;<sub>ij</sub><sup>2</sup> &lt; 1'
+    """
+
+    def shifted(match: re.Match[str]) -> str:
+        tag = "sub" if match[1] == "_" else "sup"
+        return f"<{tag}>{match[3] if match[2] is None else match[2]}</{tag}>"
+
+    text = SIGNS.sub(r"&\1;", html.escape(text, quote=False))
+    text = DOT.sub("&middot;", MINUS.sub("&minus;", text))
+    return SHIFTED.sub(shifted, text)

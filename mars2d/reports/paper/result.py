@@ -1,4 +1,4 @@
-"""What was made of a figure: its pictures, with their numbers, as plain data."""
+"""The result of making a figure: its pictures and their numbers, as plain data."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ __all__ = ["Picture", "Result"]
 class Picture:
     """One picture and its numbers.
 
-    stem: the name of its files without suffix; they are a .png and a .pdf. title: a few words. alt:
-    what is to be seen, for those who don't see it. caption: what it shows. size: width and height
-    of the .png, pixels. command: the command that makes it alone, or empty. outcome: how the run
-    ended, or empty. digest: of the run's record, or empty. predictions: what formulas say of it.
-    columns: the numbers that a chart is made of, columns by their names.
+    stem: the name of its files, a .png and a .pdf, without suffix. title: a few words. alt: the
+    alternative text for people who can't see it. caption: the text below it. size: width and height
+    of the .png, pixels. command: the command that makes only this picture, or empty. outcome: the
+    run's end, or empty. digest: that of the run's record, or empty. predictions: those of formulas.
+    columns: the numbers in a chart, by their names.
     """
 
     stem: str
@@ -35,7 +35,7 @@ class Picture:
     columns: Mapping[str, Sequence[float]] = field(default_factory=dict)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all but the looks, as JSON knows it; numbers that are not finite are None."""
+        """Return commands and numbers as data for JSON; numbers that are not finite are None."""
         columns = {
             name: [float(v) if math.isfinite(v) else None for v in values]
             for name, values in self.columns.items()
@@ -52,10 +52,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class Result:
-    """What was made of a figure.
+    """The result of making a figure.
 
-    number: the figure's. setting: what its robots know, as the experiment's file says. pictures:
-    those that were made. problems: what went wrong, in words; empty when all was made.
+    number: the figure's. setting: the robots' knowledge, as the experiment's file states it.
+    pictures: those that were made. problems: messages of errors; empty if everything was made.
     """
 
     number: int
@@ -70,7 +70,7 @@ class Result:
 
     @property
     def failed(self) -> int:
-        """How many predictions do not hold."""
+        """The number of predictions that do not hold."""
         return sum(not p.ok for p in self.predictions)
 
     @property
@@ -79,7 +79,7 @@ class Result:
         return not self.problems and not self.failed
 
     def as_dict(self) -> dict[str, Any]:
-        """Return it as JSON knows it."""
+        """Return the result as data for JSON."""
         return {
             "figure": self.number,
             "ok": self.ok,

@@ -1,4 +1,4 @@
-"""Coverage: what it costs over time, and how two runs of one law part."""
+"""Coverage: the cost over time, and the divergence of two runs of one law."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ from numpy.typing import NDArray
 
 from mars2d.addons import Voronoi
 from mars2d.core.errors import counted
-from mars2d.reports.paper.chart import (
+from mars2d.reports.paper.studies.base import (
     MEASURED,
     OTHERS,
     THEORY,
+    Study,
+    addon,
     charts,
     from_zero,
     logarithmic,
     name,
+    some_rows,
 )
-from mars2d.reports.paper.figure import Study
-from mars2d.reports.paper.runs import addon, some_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
@@ -34,7 +35,7 @@ Float = NDArray[np.float64]
 
 
 def _costs(record: Record) -> tuple[Float, Float, Float]:
-    """Return times [s], the cost H [m^4], and how far the furthest is from its centroid [m]."""
+    """Return times [s], the cost H [m^4], and the largest distance to a robot's centroid [m]."""
     voronoi, rows = addon(record, Voronoi), some_rows(record)
     cells = [voronoi.of(record.frame(row)) for row in rows]
     cost = np.array([each.cost for each in cells])
@@ -43,7 +44,7 @@ def _costs(record: Record) -> tuple[Float, Float, Float]:
 
 
 def coverage_cost(records: Sequence[Record]) -> Study:
-    """Follow the cost H of a coverage and how far robots are from their centroids."""
+    """Plot the cost H of a coverage, and the largest distance of a robot from its centroid."""
     (record,) = records
     time, cost, off = _costs(record)
     xmin, xmax, ymin, ymax = record.scenario.bounds
@@ -74,7 +75,7 @@ def coverage_cost(records: Sequence[Record]) -> Study:
 
 
 def two_ends(records: Sequence[Record]) -> Study:
-    """Follow the costs of two runs of the same law, and how far they drift apart."""
+    """Plot the costs of two runs of the same law, and the distance between the runs."""
     first, second = records
     (time, cost, _), (_, other, _) = _costs(first), _costs(second)
     rows = some_rows(first)

@@ -1,4 +1,4 @@
-"""Pursuit: where capture begins, and what is left of the evader's cell."""
+"""Pursuit: the ratio of speeds at which capture begins, and the evader's cell over time."""
 
 from __future__ import annotations
 
@@ -9,9 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons import Game, Voronoi
-from mars2d.reports.paper.chart import BAD, MEASURED, OTHERS, THEORY, charts, from_zero, name
-from mars2d.reports.paper.figure import Study
-from mars2d.reports.paper.runs import addon, run, some_rows, top_speed
+from mars2d.reports.paper.studies.base import (
+    BAD,
+    MEASURED,
+    OTHERS,
+    THEORY,
+    Study,
+    addon,
+    charts,
+    from_zero,
+    name,
+    run,
+    some_rows,
+    top_speed,
+)
 from mars2d.scenario.prediction import Prediction
 
 if TYPE_CHECKING:
@@ -26,11 +37,11 @@ Float = NDArray[np.float64]
 
 RATIOS = (0.8, 0.9, 0.94, 0.945, 0.95, 0.955, 0.96, 0.98, 1.0, 1.1)
 STARTS = ((-2.0, 2.0, 0.0), (0.0, 0.0, 0.0), (3.0, -3.0, 0.0))
-"""Of the pursuer: metres and radians."""
+"""Initial poses of the pursuer: metres and radians."""
 
 
 def speed_ratio(records: Sequence[Record]) -> Study:
-    """Sweep the ratio of the two speeds: how near the pursuer gets, and when it is a capture."""
+    """Sweep the ratio of the two speeds; plot the least distance and the time of capture."""
     side = 2 * abs(float(records[0].scenario.robots[1].pose[0]))  # between two corner points
     touch = records[0].scenario.robots[0].diameter
     stop, speed = records[0].scenario.stop_time, top_speed(records[0], 1)
@@ -97,7 +108,7 @@ def speed_ratio(records: Sequence[Record]) -> Study:
 
 
 def cell_area(records: Sequence[Record]) -> Study:
-    """Follow the area of the evader's cell, and how far the pursuer is from it."""
+    """Plot the area of the evader's cell, and the distance between pursuer and evader."""
     (record,) = records
     game, voronoi, rows = addon(record, Game), addon(record, Voronoi), some_rows(record)
     (hunter, *_), (prey, *_) = game.teams(record.scenario)

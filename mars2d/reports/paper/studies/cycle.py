@@ -1,4 +1,4 @@
-"""Cyclic pursuit: the radius for several teams, and when they shrink or grow."""
+"""Cyclic pursuit: the radius for several teams, and the ratio at which they shrink or grow."""
 
 from __future__ import annotations
 
@@ -9,9 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.reports.paper.chart import OTHERS, THEORY, charts, logarithmic, name
-from mars2d.reports.paper.figure import Study
-from mars2d.reports.paper.runs import run
+from mars2d.reports.paper.studies.base import OTHERS, THEORY, Study, charts, logarithmic, name, run
 from mars2d.scenario.prediction import Prediction
 
 if TYPE_CHECKING:
@@ -29,7 +27,7 @@ TEAMS = (
     *((n, 0.1) for n in (3, 4, 6, 8, 10)),
     *((n, 0.2) for n in (3, 4, 6, 8, 10)),
 )
-"""How many robots, and the gain k_a [1/s]."""
+"""The number of robots, and the gain k_a [1/s]."""
 
 
 def _middle_distance(record: Record) -> Float:
@@ -94,7 +92,7 @@ def cyclic_radius(records: Sequence[Record]) -> Study:
 
 
 def cyclic_growth(records: Sequence[Record]) -> Study:
-    """Follow how a team shrinks, circles or grows, by the ratio of its two gains."""
+    """Plot how a team shrinks, circles or grows, depending on the ratio of its two gains."""
     count = len(records[0].scenario.robots)
     limit = 2 * count / pi * sin(pi / count)
     shares, curves = (0.9, 1.0, 1.1), []

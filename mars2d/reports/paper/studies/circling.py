@@ -1,4 +1,4 @@
-"""Collective circular motion: how far the beacon is, and how evenly robots are spread about it."""
+"""Collective circular motion: distances from the beacon, and how evenly robots surround it."""
 
 from __future__ import annotations
 
@@ -8,9 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mars2d.addons import Beacon
-from mars2d.reports.paper.chart import MEASURED, OTHERS, THEORY, charts, name
-from mars2d.reports.paper.figure import Study
-from mars2d.reports.paper.runs import addon, some_rows
+from mars2d.reports.paper.studies.base import (
+    MEASURED,
+    OTHERS,
+    THEORY,
+    Study,
+    addon,
+    charts,
+    name,
+    some_rows,
+)
 from mars2d.scenario.experiment import open_experiment
 
 if TYPE_CHECKING:
@@ -22,7 +29,7 @@ __all__ = ["radius_and_gaps"]
 
 
 def radius_and_gaps(records: Sequence[Record]) -> Study:
-    """Follow how far robots are from the beacon, and the gaps between them as seen from it."""
+    """Plot the robots' distances from the beacon, and the gaps between them as seen from it."""
     (record,) = records
     beacon = addon(record, Beacon)
     lamp = np.array([beacon.where(moment) for moment in record.time.tolist()])  # (T, 2)
