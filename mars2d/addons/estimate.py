@@ -12,7 +12,7 @@ from mars2d.addons.base import Addon
 from mars2d.core.description import entry, number, text
 from mars2d.core.errors import InputError
 from mars2d.core.scene import Scene, color, faded
-from mars2d.geometry.dead_reckoning import grown
+from mars2d.geometry.dead_reckoning import covariance_after_arc
 
 if TYPE_CHECKING:
     from mars2d.sensors.odometry import Odometry
@@ -114,7 +114,9 @@ class Estimate(Addon):
         self._last = reading
         if self._path:
             before, drift = self._path[-1], self._sensor.drift
-            self.covariance = grown(self.covariance, before, reading, self._semiaxis, drift)
+            self.covariance = covariance_after_arc(
+                self.covariance, before, reading, self._semiaxis, drift
+            )
         self._path.append(np.array(reading))
 
     def _ellipse(self) -> Float:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "TINY",
     "bounds_of",
     "distance_to_ring",
     "dot",
@@ -32,21 +33,24 @@ Complex = NDArray[np.complex128]
 Point = tuple[float, float]
 Outline = Sequence[Point]
 
+TINY = 1e-12
+"""Added to denominators, or a lower bound of them, where they may be zero."""
 
 ON_THE_EDGE = 1e-9
-"""A point as near as this to a polygon's boundary lies on it, metres."""
+"""A point at most this far from a polygon's boundary lies on it, metres."""
 
 
-# numpy's own abs and product of complex numbers round differently on different processors.
+# Vectors are complex numbers x + i y in several places. numpy's own abs and product of complex
+# numbers round differently on different processors, so `length` and `dot` are written out.
 
 
 def length(vector: Complex) -> Float:
-    """Return the lengths of vectors x + i y."""
+    """Return the lengths of vectors x + i y, (...)."""
     return np.asarray(np.hypot(vector.real, vector.imag))
 
 
 def dot(a: Complex, b: Complex) -> Float:
-    """Return the scalar products of vectors x + i y."""
+    """Return the scalar products of vectors x + i y, (...)."""
     return np.asarray(a.real * b.real + a.imag * b.imag)
 
 
@@ -77,14 +81,14 @@ def rectangle(xmin: float, xmax: float, ymin: float, ymax: float) -> Outline:
 
 
 def lines_and_areas(outlines: Sequence[Outline]) -> list[Any]:
-    """Return outlines as geometries of shapely: two vertices make a line, more a polygon."""
+    """Return outlines as geometries of shapely: a line for two vertices, else a polygon."""
     import shapely
 
     return [shapely.LineString(o) if len(o) == 2 else shapely.Polygon(o) for o in outlines]
 
 
 def grid_step(wanted: float) -> float:
-    """Return a length that is 1, 2 or 5 times a power of ten, the smallest one >= `wanted` > 0.
+    """Return the smallest number >= `wanted` > 0 that is 1, 2 or 5 times a power of ten.
 
     >>> grid_step(0.3), grid_step(2.0), grid_step(7)
     (0.5, 2.0, 10.0)
@@ -121,7 +125,7 @@ def point_segment_distance(px: Float, py: Float, segments: Float) -> Float:
 
 
 def edges_of(outline: Outline) -> list[tuple[Point, Point]]:
-    """Return the edges of an outline: one for two vertices (a wall), else the closed ring's."""
+    """Return the edges of an outline: one for a wall (two vertices), else those of the ring."""
     if len(outline) == 2:
         return [(outline[0], outline[1])]
     return list(zip(outline, (*outline[1:], outline[0]), strict=True))

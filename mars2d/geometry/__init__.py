@@ -1,4 +1,7 @@
-"""Algorithms of the plane, and the shapes of bodies."""
+"""Algorithms of the plane, and the shapes of bodies.
+
+The basic functions of the plane are in `mars2d.core.plane`, and exported here as well.
+"""
 
 from mars2d.core.plane import (
     Outline,

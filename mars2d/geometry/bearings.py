@@ -1,4 +1,4 @@
-"""Range and bearing of points, as they are seen from somewhere."""
+"""Range and bearing of points as seen from a pose."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ RANGE = Quantity("range", "m", "distance")
 BEARING = Quantity("bearing", "rad", "angle")
 
 ROUNDING = 1e-9
-"""A distance may be rounded by less than this share of it."""
+"""The relative rounding error of a distance is less than this."""
 
 
 class Sight(Protocol):
-    """What says whether something is in the way; see `mars2d.sensors.Surroundings`."""
+    """Tells whether something is in the way; see `mars2d.sensors.Surroundings`."""
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:
-        """Return whether something stands between `start` and points (k, 2)."""
+        """Return whether something is between `start` and each of the points (k, 2)."""
 
 
 def sighted(
@@ -44,15 +44,16 @@ def sighted(
 ) -> Float:
     """Return rows (k, 2) of range [m] and bearing [rad] of points (k, 2) as seen from a pose (3,).
 
-    reach: how far one sees, metres. field_of_view: the angle seen about the heading, radians.
-    sight: says what is hidden; None: nothing is. bodies: (k,), what each point belongs to. ignore:
-    the robot that is never in the way. What is not seen reads (inf, nan).
+    reach: the largest range, metres. field_of_view: the angle seen about the heading, radians.
+    sight: tells which points are hidden; without it, none is. bodies: (k,), the body to which each
+    point belongs. ignore: the robot that is never in the way. A point that is not seen has the row
+    (inf, nan).
     """
     rows = np.empty((len(points), 2))
     rows[:, 0], rows[:, 1] = inf, nan
     x, y, theta = pose.tolist()
     across, upwards = points[:, 0] - x, points[:, 1] - y
-    # In a crowd most are not even in the square about what one sees.
+    # In a crowd, most points are outside the square about the circle that is seen.
     larger = np.maximum(np.abs(across), np.abs(upwards))
     near = np.flatnonzero(larger <= reach * (1 + ROUNDING))
     apart = np.hypot(across[near], upwards[near])
@@ -70,9 +71,9 @@ def sighted(
 
 
 def hold_missing(rows: Float, true: Float) -> Float:
-    """Return measured rows (k, 2) of range and bearing with both missing where either is.
+    """Return measured rows (k, 2) of range and bearing, with both missing if either is.
 
-    true: the perfect rows. What was not seen stays unseen, whatever noise and outliers made of it.
+    true: the perfect rows. A point that was not seen stays missing, despite noise and outliers.
     """
     seen = np.isfinite(rows + true).all(axis=1, keepdims=True)
     return np.where(seen, rows, [inf, nan])
@@ -81,8 +82,8 @@ def hold_missing(rows: Float, true: Float) -> Float:
 def beam_angles(count: int, field_of_view: float) -> Float:
     """Return the bearings (count,) of evenly spaced beams, from -field_of_view / 2 on [rad].
 
-    Both ends are included; over a full circle the last one is left out, as it would be the first
-    again. A single beam looks ahead. They can't be written.
+    Both ends are included, except over a full circle, where the last would be the first again. A
+    single beam points ahead. The array is read-only.
     """
     full = field_of_view >= 2 * pi
     angles = np.linspace(-field_of_view / 2, field_of_view / 2, count, endpoint=not full)
@@ -93,7 +94,7 @@ def beam_angles(count: int, field_of_view: float) -> Float:
 
 
 def draw_sighted(scene: Scene, pose: Float, rows: ArrayLike, color: str) -> None:
-    """Draw lines from a sensor's pose (3,) to where it sees things, as rows (k, 2) say."""
+    """Draw lines from a sensor's pose (3,) to the points at ranges and bearings (k, 2)."""
     x, y, theta = pose.tolist()
     for distance, bearing in np.asarray(rows, dtype=float).reshape(-1, 2).tolist():
         if isfinite(distance + bearing):

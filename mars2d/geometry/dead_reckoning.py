@@ -1,4 +1,4 @@
-"""Dead reckoning: how unsure one is of a pose that is the sum of small steps."""
+"""Dead reckoning: the covariance of a pose that is the sum of small measured steps."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.scene import Scene, faded
 
-__all__ = ["covariances", "draw_pose", "grown", "odometry_covariance", "sinc"]
+__all__ = ["covariance_after_arc", "covariances", "draw_pose", "odometry_covariance", "sinc"]
 
 Float = NDArray[np.float64]
 
 
 def sinc(angle: float) -> float:
-    """Return sin(angle) / angle: the chord of an arc of twice that angle, over the arc."""
+    """Return sin(angle) / angle: the ratio of chord to arc for an arc of twice that angle."""
     return sin(angle) / angle if angle else 1.0
 
 
@@ -25,8 +25,8 @@ def odometry_covariance(
     """Return the covariance (3, 3) of dead reckoning after one more step, to first order.
 
     covariance: (3, 3) of (x, y, theta) before. theta: the heading before, radians. left, right:
-    what the rims travelled, metres. semiaxis: half the distance between the wheels, metres. drift:
-    the field of `Odometry`, sqrt(m).
+    the ways of the wheels' rims, metres. semiaxis: half the distance between the wheels, metres.
+    drift: the field of `Odometry`, sqrt(m).
 
     >>> after = odometry_covariance(np.zeros((3, 3)), 0.0, 1.0, 1.0, 0.5, 0.1)
     >>> after.diagonal().round(6).tolist()
@@ -39,7 +39,7 @@ def odometry_covariance(
     forward, spin = (left + right) / 2, (right - left) / (2 * semiaxis)
     middle, half = theta + spin / 2, spin / 2
     chord = sinc(half)
-    # d(chord) / d(spin); the series where the difference would cancel.
+    # d(chord) / d(spin); for small angles its series, since the difference would cancel.
     bend = -spin / 12 if abs(spin) < 1e-3 else (cos(half) - chord) / spin
     c, s = cos(middle), sin(middle)
     dx, dy = chord * forward * c, chord * forward * s
@@ -54,22 +54,24 @@ def odometry_covariance(
     return np.asarray(by_pose @ before @ by_pose.T + by_rims @ by_rims.T)
 
 
-def grown(spread: Float, before: Float, after: Float, semiaxis: float, drift: float) -> Float:
-    """Return the covariance (3, 3) after an arc from one pose (3,) to another.
+def covariance_after_arc(
+    covariance: Float, before: Float, after: Float, semiaxis: float, drift: float
+) -> Float:
+    """Return the covariance (3, 3) of dead reckoning after an arc from one pose (3,) to another.
 
-    semiaxis and drift as in `odometry_covariance`.
+    covariance: (3, 3) before. semiaxis and drift: as in `odometry_covariance`.
     """
     theta = float(before[2])
     dx, dy, turn = (after - before).tolist()
     middle, chord = theta + turn / 2, sinc(turn / 2)
     straight = cos(middle) * dx + sin(middle) * dy
-    way = straight / chord if abs(chord) > 1e-9 else 0.0  # a whole turn: no arc leads anywhere
+    way = straight / chord if abs(chord) > 1e-9 else 0.0  # a whole turn ends where it began
     rims = (way - semiaxis * turn, way + semiaxis * turn)
-    return odometry_covariance(spread, theta, *rims, semiaxis, drift)
+    return odometry_covariance(covariance, theta, *rims, semiaxis, drift)
 
 
 def draw_pose(scene: Scene, pose: ArrayLike, color: str) -> None:
-    """Draw a ring with a heading where something takes itself to be, a pose (3,); nan: nowhere."""
+    """Draw an estimated pose (3,) as a ring with a heading; nan: draw nothing."""
     x, y, theta = np.asarray(pose, dtype=float).tolist()
     if isfinite(x + y + theta):
         scene.circle((x, y), 0.0, stroke=color, fill=faded(color, 0.15), width=1.2, pixels=6.0)
@@ -78,7 +80,7 @@ def draw_pose(scene: Scene, pose: ArrayLike, color: str) -> None:
 
 
 def covariances(path: ArrayLike, semiaxis: float, drift: float) -> Float:
-    """Return the covariances (T, 3, 3) of poses (T, 3) that odometry tells one after the other.
+    """Return the covariances (T, 3, 3) of a path (T, 3) measured by odometry.
 
     path: x [m], y [m], theta [rad, not wrapped], at each control step. semiaxis: half the distance
     between the wheels, metres. drift: the field of Odometry, sqrt(m). The first pose is certain.
@@ -90,5 +92,5 @@ def covariances(path: ArrayLike, semiaxis: float, drift: float) -> Float:
     poses = np.asarray(path, dtype=float).reshape(-1, 3)
     found = np.zeros((len(poses), 3, 3))
     for k in range(1, len(poses)):
-        found[k] = grown(found[k - 1], poses[k - 1], poses[k], semiaxis, drift)
+        found[k] = covariance_after_arc(found[k - 1], poses[k - 1], poses[k], semiaxis, drift)
     return found

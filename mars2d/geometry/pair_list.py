@@ -1,4 +1,4 @@
-"""How near things are to touching, asked as seldom as can be.
+"""Pairs of discs and walls that may touch soon: a Verlet list, so that few gaps are measured.
 
 Points are complex numbers x + i y, in metres.
 """
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.plane import dot, length
+from mars2d.core.plane import TINY, dot, length
 
 __all__ = ["Clearance", "Close", "DiscPairs", "Walls"]
 
@@ -22,17 +22,15 @@ Complex = NDArray[np.complex128]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
-FEW = 32
-"""Up to this many discs all pairs are kept; above, those within a skin, found by a k-d tree."""
-
-TINY = 1e-12
+MAX_DISCS_ALL_PAIRS = 32
+"""Up to this number of discs, all pairs are kept; else those within a skin, found by a k-d tree."""
 
 
 class Walls:
     """Line segments that stand still."""
 
     def __init__(self, start: Complex, edge: Complex) -> None:
-        """Take where segments start and the vectors to their ends, (S,) each."""
+        """Take the segments' starting points and the vectors to their ends, (S,) each."""
         per_length = edge / length(edge) ** 2
         self._lines = np.array(
             [part for z in (start, edge, per_length) for part in (z.real, z.imag)]
@@ -48,7 +46,7 @@ class Walls:
         return some
 
     def shared(self) -> tuple[Float, Float, Float]:
-        """Return starts, edges, and edges by their squared lengths, (S, 2) each."""
+        """Return starts, edges, and edges divided by their squared lengths, (S, 2) each."""
         start, edge, per_length = (
             np.ascontiguousarray(self._lines[k : k + 2].T) for k in (0, 2, 4)
         )
@@ -72,7 +70,7 @@ class Walls:
 
 
 class Close(NamedTuple):
-    """Pairs that may touch, by local indices: discs i and j, and a disc and a segment."""
+    """Pairs that may touch, as indices: discs i and j; a disc and a segment."""
 
     i: Index
     j: Index
@@ -81,12 +79,14 @@ class Close(NamedTuple):
 
 
 class Clearance:
-    """Which of n discs may touch each other, or one of S segments, within the next while.
+    """Tells which of n discs may soon touch each other, or one of S segments.
 
-    Gaps are not measured anew each time. Pairs of discs are kept in a Verlet list: a pair that is
-    not in it was so far apart when the list was made that both would have to move by the `skin`
-    first. Likewise each disc keeps the gap to the nearest segment that it once had, less what it
-    may have moved since. Both are bounds, so a disc that is said to be free is free.
+    Gaps are not measured each time. Pairs of discs are kept in a Verlet list: a pair that is not in
+    the list was so far apart when the list was made that both discs would have to move by the
+    `skin` first. Likewise, the measured gap of each disc to its nearest segment is kept, less the
+    way that the disc may have moved since. Both are lower bounds, so a disc reported as free is
+    free.
+
     Source of the list: L. Verlet, Physical Review 159, 98 (1967).
     """
 
@@ -98,11 +98,12 @@ class Clearance:
         self._radii = radii
         self._walls = walls
         self._passing = np.array([i * n + j for i, j in sorted(passing)], dtype=np.intp)
-        self._wall_gap = np.full(n, -inf if len(self._walls) else inf)  # a bound from below
+        self._wall_gap = np.full(n, -inf if len(self._walls) else inf)  # a lower bound
         self._moved = np.zeros(n)  # since the pairs were listed
-        self._measured = np.zeros(n, dtype=bool)  # whose gaps to segments are exact now
-        self._skin = inf if n <= FEW else -1.0  # negative: list them at the first question
-        self._keep_pairs(*np.triu_indices(n if n <= FEW else 0, 1))
+        self._measured = np.zeros(n, dtype=bool)  # whether the gap to segments is exact now
+        all_pairs = n <= MAX_DISCS_ALL_PAIRS
+        self._skin = inf if all_pairs else -1.0  # negative: list the pairs at the first query
+        self._keep_pairs(*np.triu_indices(n if all_pairs else 0, 1))
 
     def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
         """Return arrays and numbers for the kernel, by its names; see ``kernel/team.h``."""
@@ -111,18 +112,18 @@ class Clearance:
             "radius": self._radii, "wall_gap": self._wall_gap, "moved": self._moved,
             "start": start, "edge": edge, "per_length": per_length,
         }  # fmt: skip
-        return arrays, {"segments": len(start), "few": FEW, "tiny": TINY}
+        return arrays, {"segments": len(start), "few": MAX_DISCS_ALL_PAIRS, "tiny": TINY}
 
     def measure(self, center: Complex) -> None:
-        """Take the discs' centres (n,), from which they move during what is asked next."""
+        """Take the discs' centres (n,), from which they move in the following queries."""
         self._center = center
         self._gaps: Float | None = None
         self._measured[:] = False
 
     def may_touch(self, reach: Float) -> Mask:
-        """Return which discs may touch something while each moves by at most `reach` (n,), metres.
+        """Return which discs may touch something, or be touched, within a motion.
 
-        A disc that may be touched counts as well.
+        reach: (n,) the largest way of each disc, metres.
         """
         if (self._moved + reach).max() > self._skin:
             self._list_pairs(reach)
@@ -145,16 +146,16 @@ class Clearance:
         self._wall_gap -= distance
 
     def close(self, who: Index, reach: float) -> Close:
-        """Return what may touch among the discs `who`, each moving by at most `reach`.
+        """Return the pairs among the discs `who` that may touch, each moving by at most `reach`.
 
-        Discs in the result are numbered as they stand in `who`.
+        The result's indices of discs are positions in `who`.
         """
         local = np.full(len(self._radii), -1)
         local[who] = np.arange(len(who))
         i, j = local[self._i], local[self._j]
         pair = np.flatnonzero((i >= 0) & (j >= 0))
         pair = pair[self._pair_gaps()[pair] <= 2 * reach]
-        # `moved` has been told already: what is within reach has a bound of zero or less.
+        # `moved` was called before: the bound of whatever is within reach is zero or less.
         some = np.flatnonzero(self._wall_gap[who] <= 0)
         row, segment = np.nonzero(self._wall_gaps(who[some]) <= reach)
         return Close(i[pair], j[pair], some[row], segment)
@@ -171,7 +172,7 @@ class Clearance:
         return np.asarray(distance - self._radii[which, None])
 
     def _list_pairs(self, reach: Float) -> None:
-        """Make the Verlet list anew, with a skin that lasts for several questions."""
+        """Rebuild the Verlet list, with a skin that lasts for several queries."""
         from scipy.spatial import cKDTree
 
         self._skin = float(2 * max(4 * reach.max(), self._radii.max()))
@@ -192,10 +193,10 @@ class Clearance:
 
 
 class DiscPairs:
-    """Discs that are close to each other, or to segments: their gaps as they move."""
+    """Discs that are close to each other or to segments, and their gaps as they move."""
 
     def __init__(self, radii: Float, pairs: Close, walls: Walls) -> None:
-        """Take the discs' radii (k,), the pairs, and the walls that the segments are numbers of."""
+        """Take the discs' radii (k,), the pairs, and the walls with all segments."""
         self._i, self._j, self._disc, self._segment = pairs
         self._walls = walls.take(self._segment)
         self._radii = radii
@@ -235,18 +236,18 @@ class DiscPairs:
         return np.asarray(self._gap[self._touch])
 
     def touching_points(self) -> tuple[Complex, Complex]:
-        """Return of the pairs that touch points on the first disc, and the normals from it."""
+        """Return points on the first disc of each touching pair, and the normals there."""
         normal, first = self.normal_of_touching(), self._first[self._touch]
         return self._center[first] + self._radii[first] * normal, normal
 
     def normal_of_touching(self) -> Complex:
-        """Return the unit vectors from the first to the second of the pairs that touch."""
+        """Return the unit vectors from the first to the second of each touching pair."""
         return np.asarray(self._normal[self._touch])
 
     def inwards(self, velocity: Complex) -> tuple[Float, Float]:
-        """Return how fast each of the pairs that touch moves into the other, (m,) m/s each.
+        """Return the speeds at which the two of each touching pair move into each other, (m,) m/s.
 
-        velocity: (k,) of the discs. What is no disc does not move.
+        velocity: (k,) of the discs. Segments do not move.
         """
         normal = self._normal[self._touch]
         first = dot(velocity[self._first[self._touch]], normal)
@@ -258,15 +259,15 @@ class DiscPairs:
     def time_to_touch(
         self, velocity: Complex, bend: Float, depth: float, *, again: bool = True
     ) -> float:
-        """Return for how long no pair gets deeper than `depth`, seconds.
+        """Return a time during which no pair gets deeper than `depth`, seconds.
 
-        A pair that is as deep already may get a little deeper: so the solver is called again soon
-        after an impact that it could not stop at once. Without `again`, pairs that touch are left
-        out.
+        A pair that is already that deep may get a little deeper, so that the solver is called again
+        soon after an impact that it could not stop at once. Without `again`, touching pairs are
+        left out.
 
-        velocity: (k,) of the discs; bend: (k,) m/s^2, how quickly a velocity may turn away from it.
-        Along straight lines the distance to a convex thing is a convex function of time: it falls
-        no faster than it does now.
+        velocity: (k,) of the discs. bend: (k,) m/s^2, a bound on the rate at which each velocity
+        turns. Along straight lines, the distance to a convex shape is a convex function of time,
+        so it never falls faster than it does now.
         """
         if not len(self._gap):
             return inf
@@ -276,7 +277,7 @@ class DiscPairs:
         turn = bend[self._first]
         turn[:pairs] += bend[self._j]
         closing = np.maximum(dot(approach, self._normal), 0.0)
-        # room = closing h + turn h^2 / 2, solved for h so that both may be zero
+        # room = closing h + turn h^2 / 2, solved for h in a form in which both may be zero
         room = np.maximum(self._gap + depth, depth / 64)
         h = 2 * room / (closing + np.sqrt(closing**2 + 2 * turn * room) + TINY)
         return float(h.min() if again else h[~self._touch].min(initial=inf))

@@ -18,50 +18,50 @@ __all__ = ["Goals", "Potential"]
 
 Float = NDArray[np.float64]
 
-NEAREST = 1e-3
-"""A rim as near as this to an obstacle is pushed as hard as it gets, metres."""
+MIN_CLEARANCE = 1e-3
+"""At smaller distances from an obstacle the repulsion grows no further, metres."""
 
 GRID = 1e-6
 """Obstacles as near to each other as this touch, metres."""
 
-STEP, FINEST = 0.02, 1e-4
-"""The steps in which a descent goes, metres, and those at which it has come to rest."""
+STEP, MIN_STEP = 0.02, 1e-4
+"""The first step of a descent, and the step at which it has come to rest, metres."""
 
-LONGEST = 100_000
-"""A descent takes no more steps than this."""
+MAX_STEPS = 100_000
+"""The largest number of steps of a descent."""
 
-STRIDE, ROUND = 25, 0.2
-"""A descent goes round in circles when so many steps lead less than this share of their length."""
+STRIDE, MIN_PROGRESS = 25, 0.2
+"""A descent circles if this number of steps leads less than this share of their length."""
 
 
 @runtime_checkable
 class Goals(Protocol):
-    """What says where robots are to go: the add-on Waypoints."""
+    """Tells the goals of robots: the add-on Waypoints."""
 
     routes: Sequence[Sequence[Point]]
     tolerance: float
 
     @property
     def key(self) -> str:
-        """Its name in ``world.addons``."""
+        """The add-on's name in ``world.addons``."""
 
     def goal(self, robot: int, frame: Any = None) -> Point:
-        """Return where a robot is to go now, or at a frame."""
+        """Return a robot's goal now, or at a frame."""
 
 
 class Potential(Description):
-    """The artificial potential of a point q among obstacles, with a goal that is given each time.
+    """The artificial potential of a point q among obstacles; each call gives the goal.
 
     >>> field = Potential([[(2, -1), (2, 1)]], reach=0.5)
     >>> field.force((0, 0), goal=(5, 0))
     (0.5, 0.0)
 
-    With d the distance to the goal, and rho that from the robot's rim to an edge of the obstacles,
-    U is attraction d^2 / 2, from d = far on its tangent, and for each edge with rho < reach another
-    repulsion (1/rho - 1/reach)^2 / 2. The force is F = -grad U: attraction min(d, far) towards the
-    goal, and repulsion (1/rho - 1/reach) / rho^2 away from the nearest point of each near edge. So
-    the force has no jumps. Edges are those of all obstacles together: what lies in another one, or
-    is drawn in pieces, counts once.
+    Let d be the distance to the goal, and rho that from the robot's rim to an edge of the
+    obstacles. U is attraction d^2 / 2, continued by its tangent from d = far on, plus repulsion
+    (1/rho - 1/reach)^2 / 2 for each edge with rho < reach. The force is F = -grad U: attraction
+    min(d, far) towards the goal, and repulsion (1/rho - 1/reach) / rho^2 away from the nearest
+    point of each near edge. So the force has no jumps. The edges are those of the obstacles'
+    union: overlapping obstacles, and those drawn in pieces, count once.
 
     Source: Khatib, Int. Journal of Robotics Research 5(1), 1986; with the attraction of constant
     length far away of Choset et al., Principles of Robot Motion (2005), section 4.1.
@@ -84,7 +84,7 @@ class Potential(Description):
 
     @cached_property
     def _area(self) -> Any:
-        """What is solid, as one geometry of shapely."""
+        """The union of all solid obstacles, as a geometry of shapely."""
         import shapely
 
         solid = [shapely.Polygon(outline) for outline in self.obstacles if len(outline) > 2]
@@ -94,7 +94,7 @@ class Potential(Description):
 
     @cached_property
     def _edges(self) -> Float:
-        """The edges (5, m) that stand free: x, y, along x, along y, length^2."""
+        """The edges (5, m) outside of solid obstacles: x, y, along x, along y, length^2."""
         import shapely
 
         area = self._area
@@ -108,7 +108,7 @@ class Potential(Description):
         return np.array([x1, y1, ex, ey, ex * ex + ey * ey])
 
     def _near(self, x: float, y: float) -> Iterator[tuple[float, float, float]]:
-        """Yield for each near edge rho, and the unit vector away from its nearest point."""
+        """Yield rho and the unit vector away from the nearest point, for each near edge."""
         x1, y1, ex, ey, square = self._edges
         along = np.clip(((x - x1) * ex + (y - y1) * ey) / square, 0.0, 1.0)
         dx, dy = x - x1 - along * ex, y - y1 - along * ey
@@ -116,10 +116,10 @@ class Potential(Description):
         near = np.flatnonzero(distance < self.reach + self.radius)
         for d, ax, ay in np.array([distance, dx, dy])[:, near].T.tolist():
             away = (ax / d, ay / d) if d > 0 else (0.0, 0.0)
-            yield max(d - self.radius, NEAREST), *away
+            yield max(d - self.radius, MIN_CLEARANCE), *away
 
     def force(self, at: Sequence[float] | Float, goal: Sequence[float] | Float) -> Point:
-        """Return the force F = -grad U (Fx, Fy) at (x, y) [m], in m/s: a velocity to go with."""
+        """Return the force F = -grad U (Fx, Fy) at (x, y) [m], in m/s: a desired velocity."""
         (x, y), (gx, gy) = map(float, at), map(float, goal)
         distance = hypot(gx - x, gy - y)
         pull = self.attraction * min(1.0, self.far / distance) if distance else 0.0
@@ -141,11 +141,11 @@ class Potential(Description):
         return fsum([self.attraction * square, *terms]) / 2
 
     def free(self, at: Sequence[float] | Float) -> bool:
-        """Return whether a robot at (x, y) touches no obstacle, nor lies in one."""
+        """Return whether a robot at (x, y) neither touches an obstacle nor lies in one."""
         import shapely
 
         x, y = map(float, at)
-        touched = any(rho <= NEAREST for rho, _, _ in self._near(x, y))
+        touched = any(rho <= MIN_CLEARANCE for rho, _, _ in self._near(x, y))
         return not (touched or shapely.contains_xy(self._area, x, y))
 
     @lru_cache(maxsize=8)  # noqa: B019 - a description is small, and the same for a whole film
@@ -154,9 +154,9 @@ class Potential(Description):
     ) -> tuple[tuple[Point, Point], ...]:
         """Return points (x, y) of a grid, each with the force's direction there.
 
-        goal: (x, y); bounds: (xmin, xmax, ymin, ymax) of the grid, spacing: between its points, all
-        in metres. Points where a robot has no room, or the force is zero, are left out. It is kept,
-        so that each frame of a film may ask again.
+        goal: (x, y); bounds: (xmin, xmax, ymin, ymax) of the grid; spacing: between its points, all
+        in metres. Points where a robot has no room or the force is zero are left out. The result
+        is cached, since each frame of a film asks for it.
         """
         xmin, xmax, ymin, ymax = bounds
         found: list[tuple[Point, Point]] = []
@@ -169,15 +169,15 @@ class Potential(Description):
         return tuple(found)
 
     def descend(self, start: Sequence[float], goal: Sequence[float], tolerance: float) -> Point:
-        """Return where one comes to who goes where the force points, in small steps.
+        """Return the end of a descent along the force in small steps.
 
-        That is a point nearer to the goal than `tolerance` [m], or a local minimum of the
-        potential, where the force is zero; a saddle, for one who comes exactly along its ridge.
-        Neither headings nor speeds count.
+        This is a point nearer to the goal than `tolerance` [m], or a local minimum of the
+        potential, where the force is zero; or a saddle, for a descent exactly along its ridge.
+        Headings and speeds don't matter.
         """
         (x, y), (gx, gy) = map(float, start), map(float, goal)
         step, count, before = STEP, 0, (x, y)
-        while hypot(gx - x, gy - y) > tolerance and count < LONGEST:
+        while hypot(gx - x, gy - y) > tolerance and count < MAX_STEPS:
             fx, fy = self.force((x, y), (gx, gy))
             size = hypot(fx, fy)
             if size == 0.0:
@@ -185,18 +185,17 @@ class Potential(Description):
             x, y = x + step * fx / size, y + step * fy / size
             count += 1
             if count % STRIDE == 0:
-                if hypot(x - before[0], y - before[1]) < ROUND * STRIDE * step:
+                if hypot(x - before[0], y - before[1]) < MIN_PROGRESS * STRIDE * step:
                     step /= 2
-                    if step < FINEST:
+                    if step < MIN_STEP:
                         return self.balance((x, y), (gx, gy))
                 before = x, y
         return x, y
 
     def balance(self, near: Sequence[float], goal: Sequence[float]) -> Point:
-        """Return the point near (x, y) at which the force is zero, by Newton's method.
+        """Return the point near (x, y) at which the force is zero, by Powell's hybrid method.
 
-        It is Powell's modification of it, that of MINPACK. Where there is no such point, as at a
-        kink of the potential, it is the one that was given.
+        If there is no such point, for example at a kink of the potential, return (x, y) itself.
         """
         from scipy.optimize import root
 
@@ -212,9 +211,10 @@ class Potential(Description):
 
     @lru_cache(maxsize=64)  # noqa: B019 - see arrows
     def lead(self, start: Point, route: tuple[Point, ...], tolerance: float) -> tuple[int, Point]:
-        """Return how many points of a route are reached by descending to one after the other.
+        """Return the number of points of a route reached by descending to one after the other.
 
-        And where that ends: near the last one, or at a local minimum before. It is kept, too.
+        The second value is the end of the way: near the last point, or at a local minimum before.
+        The result is cached.
         """
         for k, goal in enumerate(route):
             start = self.descend(start, goal, tolerance)

@@ -1,4 +1,4 @@
-"""Points and weights by which functions are integrated over polygons."""
+"""Points and weights for integrals over polygons."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ __all__ = ["nodes"]
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-FINEST = 64
-"""A triangle is divided along its sides into this many parts at most."""
+MAX_DIVISIONS = 64
+"""The largest number of parts into which each side of a triangle is divided."""
 
 
 def nodes(pieces: NDArray[Any], resolution: float) -> tuple[Float, Float, Index]:
-    """Return points (2, k), the area (k,) that each stands for, and in which polygon it lies (k,).
+    """Return points (2, k), the area (k,) of each, and the index of its polygon (k,).
 
     pieces: polygons of shapely without holes. resolution: the largest side of the triangles into
-    which they are divided, metres; on each the sum over its points is exact for polynomials of
-    degree 5. All areas are positive.
+    which they are divided, metres. On each triangle, the sum over its points is exact for
+    polynomials of degree 5. All areas are positive.
     """
     triangles, owner = _triangles(pieces)
     a, b, c = np.moveaxis(triangles, 1, 0)
     ab, ac, bc = b - a, c - a, c - b
     area = np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]) / 2
     longest = np.max([np.hypot(*side.T) for side in (ab, ac, bc)], axis=0)
-    parts = np.minimum(np.ceil(longest / resolution), FINEST).astype(int)
+    parts = np.minimum(np.ceil(longest / resolution), MAX_DIVISIONS).astype(int)
     points, areas, of = [np.empty((2, 0))], [np.empty(0)], [np.empty(0, dtype=np.intp)]
     for count in np.unique(parts[area > 0]).tolist():
         k = np.flatnonzero((parts == count) & (area > 0))
@@ -43,7 +43,7 @@ def nodes(pieces: NDArray[Any], resolution: float) -> tuple[Float, Float, Index]
 
 
 def _triangles(pieces: NDArray[Any]) -> tuple[Float, Index]:
-    """Return triangles (m, 3, 2) that polygons (k,) consist of, and of which each is one (m,)."""
+    """Return the triangles (m, 3, 2) of polygons (k,), and the index of each one's polygon (m,)."""
     import shapely
 
     corners, piece = shapely.get_coordinates(pieces, return_index=True)
@@ -55,7 +55,7 @@ def _triangles(pieces: NDArray[Any]) -> tuple[Float, Index]:
     ab, ac = fan[:, 1] - fan[:, 0], fan[:, 2] - fan[:, 0]
     turn = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
     right, left = (np.bincount(piece[side], s * turn > 0, len(pieces)) > 0 for s in (-1, 1))
-    starry = ~(right & left)  # its middle sees all of its corners
+    starry = ~(right & left)  # all corners are visible from the middle
     keep = starry[piece[side]]
     parts, of = fan[keep], piece[side][keep]
     if starry.all():
@@ -71,8 +71,8 @@ def _triangles(pieces: NDArray[Any]) -> tuple[Float, Index]:
 def _rule(count: int) -> tuple[Float, Float, Float]:
     """Return nodes u, v (m,) and shares (m,) of a quadrature on a triangle a + u (b-a) + v (c-a).
 
-    count: how many parts each side is divided into; each of count^2 triangles has seven nodes,
-    exact for polynomials of degree 5. Source: Radon, Monatshefte fuer Mathematik 52, 1948.
+    count: the number of parts of each side. Each of the count^2 triangles has seven nodes, exact
+    for polynomials of degree 5. Source: Radon, Monatshefte fuer Mathematik 52, 1948.
     """
     root = sqrt(15)
     u, v, share = [1 / 3], [1 / 3], [9 / 40]

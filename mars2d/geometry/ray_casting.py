@@ -1,12 +1,12 @@
-"""Fans: many rays from each of many points, and how far they go, in numpy over all at once.
+"""Ray casting: the lengths of many rays from each of many points, in numpy over all at once.
 
-All rays of a fan start in one point. So an edge or a disc can be met only by those whose bearings
-lie between its ends, and only these are looked at: a fan of 180 rays among 200 edges needs some
-hundred divisions in place of 36 000. What lies beyond the range, and edges that face away, are left
-out before.
+A fan is a set of rays that start in one point. An edge or a disc can be hit only by rays whose
+bearings lie between its ends, and only these are computed: a fan of 180 rays among 200 edges needs
+about a hundred divisions instead of 36 000. Things beyond the range, and edges that face away, are
+left out before.
 
-Which rays are looked at decides nothing else: how far a ray goes follows from its start, its
-direction and the thing alone. So a fan alone is, bit for bit, the same as one among others.
+The length of a ray follows from its start, its direction and the thing hit alone, in the same
+operations whatever else is cast. So a fan gives the same bits alone and among others.
 """
 
 from __future__ import annotations
@@ -28,34 +28,34 @@ Int = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 Parts = Sequence[tuple[Sequence[Point], float]]
-"""What a body consists of: convex polygons, counter-clockwise, or one point with a radius > 0."""
+"""The parts of a body: convex polygons, counter-clockwise, or one point with a radius > 0."""
 
 TURN = 2 * pi
 
 MARGIN = 1e-9
-"""So far beyond the ends of an edge or disc rays are looked at, rad."""
+"""Rays are computed up to this angle beyond the ends of an edge or disc, rad."""
 
 GRAZING = 1e-4
-"""An edge that is seen under a smaller angle is looked at by a formula that bears it, rad."""
+"""An edge seen under a smaller angle is computed by a formula that is stable there, rad."""
 
 CORNER = 1e-13
-"""A ray passes so near to an edge's end that it is aimed at, by rounding, per metre and one."""
+"""The rounding error by which a ray aimed at an edge's end passes it, per metre plus one."""
 
 SLACK = 1 + 1e-9
-"""What is culled lies farther away by this factor than need be."""
+"""The factor by which things must be farther away than the range to be culled."""
 
-AT_ONCE = 12_000
-"""About so many rays are cast together: more do not fit into the processor's cache."""
+MAX_RAYS_AT_ONCE = 12_000
+"""The approximate number of rays cast together; more do not fit into the processor's cache."""
 
 NOBODY = np.iinfo(np.int64).min
-"""What bears the number of no body, so that none who looks on is it."""
+"""The owner of obstacles; it differs from the number of every body that is ignored."""
 
 
 class _Table(NamedTuple):
-    """What is worked out of the bearings of a fan's rays (k,) alone.
+    """Values that depend on the bearings of a fan's rays (k,) alone.
 
-    cos, sin: of the bearings (k,). bearing: those from -2 pi to 4 pi, ascending, and number: which
-    ray it is (3 k,).
+    cos, sin: of the bearings (k,). bearing: the bearings from -2 pi to 4 pi, ascending, and number:
+    the ray of each (3 k,).
     """
 
     cos: Float
@@ -67,9 +67,9 @@ class _Table(NamedTuple):
 class _Beams(NamedTuple):
     """The rays of the fans that are cast together.
 
-    x, y: where the fans start (m,). heading: (m,), in [-pi, pi]. way_x, way_y: the rays' unit
-    vectors, those of all fans in turn (m k,). each: how many a fan has, k. reach: how far they go,
-    metres. ignore: whom each fan does not see (m,).
+    x, y: the fans' starting points (m,). heading: (m,), in [-pi, pi]. way_x, way_y: the rays' unit
+    vectors, fan by fan (m k,). each: the number of rays of a fan, k. reach: their range, metres.
+    ignore: the body that each fan does not see (m,).
     """
 
     x: Float
@@ -83,11 +83,11 @@ class _Beams(NamedTuple):
     ignore: Int
 
     def between(self, fan: Int, low: Float, width: Float) -> tuple[Int, Int, Mask]:
-        """Return which of the table's rays lie in intervals of bearings, and which are cut close.
+        """Return the table's rays in intervals of bearings, and which intervals end close to a ray.
 
-        low, width: where each interval begins, and how wide it is, rad (p,). Returns the first ray
-        and the one after the last of each (p,), the margin included, and whether one of them lies
-        within the margin of either end.
+        low, width: the beginning and the width of each interval, rad (p,). Returns for each (p,)
+        the first ray, the one after the last, both with the margin, and whether a ray lies within
+        the margin of either end.
         """
         bearing = self.table.bearing
         low = low - self.heading[fan]
@@ -99,7 +99,7 @@ class _Beams(NamedTuple):
         return first, end, near
 
     def rays(self, fan: Int, first: Int, count: Int) -> Int:
-        """Return the places among all rays of so many that follow one another in the table."""
+        """Return the indices among all rays of `count` consecutive rays of the table."""
         before = np.cumsum(count)
         total = int(before[-1]) if len(before) else 0
         within = np.arange(total) + np.repeat(first - before + count, count)
@@ -107,10 +107,10 @@ class _Beams(NamedTuple):
 
 
 class _Edges(NamedTuple):
-    """Edges as fans see them, pair by pair (p,).
+    """Pairs of fans and edges (p,).
 
-    low, width: the bearings between which it lies. area: of the parallelogram that it spans with
-    the start, m^2, and on which side. grazing: whether it is seen nearly from its end.
+    low, width: the interval of bearings of the edge. area: the signed area of the parallelogram
+    spanned by the edge and the fan's start, m^2. grazing: whether the edge is seen nearly end on.
     """
 
     fan: Int
@@ -122,7 +122,7 @@ class _Edges(NamedTuple):
 
 
 class _Discs(NamedTuple):
-    """Discs as fans see them, pair by pair (p,): bearings, where their middles lie [m], radii."""
+    """Pairs of fans and discs (p,): intervals of bearings, relative centres [m], radii [m]."""
 
     fan: Int
     low: Float
@@ -134,16 +134,16 @@ class _Discs(NamedTuple):
 
 
 class _Inside(NamedTuple):
-    """Which fans start in which bodies, (q,)."""
+    """Pairs of fans and bodies in which they start, (q,)."""
 
     fan: Int
     body: Int
 
 
 class _Met(NamedTuple):
-    """Rays (c,), by their places among all, and how far they go (c,).
+    """Rays (c,), by their indices among all, and their lengths (c,).
 
-    body: to which bodies (p,), of so many rays one after the other as `run` (p,) says.
+    body: the bodies hit (p,); run: the number of consecutive rays that hit each (p,).
     """
 
     ray: Int
@@ -153,11 +153,11 @@ class _Met(NamedTuple):
 
 
 class Fans:
-    """Casts fans of rays at bodies that move and obstacles that don't.
+    """Casts fans of rays at moving bodies and fixed obstacles.
 
-    A body is solid: a ray that starts in it goes 0 m. An obstacle is an outline: a ray that starts
-    in it goes on to its edge. Ends of edges belong to them, so that no ray slips through a corner,
-    and a ray along a wall meets its near end.
+    A body is solid: a ray that starts in it has length 0. An obstacle is an outline: a ray that
+    starts in it goes on to its edge. Ends of edges belong to them, so that no ray slips through a
+    corner, and a ray along a wall meets its near end.
 
     >>> fans = Fans([], [[(1, -1), (1, 1)]])
     >>> fans.distances(np.zeros((3, 1)), [-0.1, 0, 3], 5.0, [0]).round(3).tolist()
@@ -167,7 +167,7 @@ class Fans:
     def __init__(self, bodies: Sequence[Parts], obstacles: Sequence[Outline]) -> None:
         """Take the bodies' parts in their own frames, and the obstacles' outlines, metres.
 
-        Body i is number i, obstacle k is -1 - k.
+        Body i has the number i, obstacle k the number -1 - k.
         """
         rings: list[tuple[Sequence[Point], int]] = []
         for k, outline in enumerate(obstacles):
@@ -179,7 +179,7 @@ class Fans:
         self._build_rings(rings, fixed)
         self._disc_radius = np.array([radius for _, radius, _ in discs])
         self._disc_body = np.array([i for _, _, i in discs], dtype=int)
-        # Things are the rings, then the discs; each lies within a radius of its middle.
+        # Things are the rings, then the discs; each lies within a circle about its middle.
         boxes = [np.array([np.min(ring, axis=0), np.max(ring, axis=0)]) for ring, _ in rings]
         middles = [box.mean(axis=0) for box in boxes] + [center for center, _, _ in discs]
         halves = [np.hypot(*(box[1] - box[0])) / 2 for box in boxes]
@@ -188,14 +188,14 @@ class Fans:
         self._radius = np.concatenate([np.array(halves), self._disc_radius])
         body_of = np.concatenate([self._ring_body, self._disc_body])
         self._owner = np.where(body_of < 0, NOBODY, body_of)
-        # What is placed anew: the corners of rings, and the middles of all that moves.
+        # These move with the bodies: corners of rings, and middles.
         self._placed = self._middle[:, fixed:]
         corner = self._edge_number[self._moving]
         self._local = np.hstack([self._edge_a[:, self._moving], self._placed])
         self._body_of = np.concatenate([corner, body_of[fixed:]])
 
     def _build_rings(self, rings: list[tuple[Sequence[Point], int]], fixed: int) -> None:
-        """Lay out convex rings, or single edges, edge by edge; the first ones don't move."""
+        """Store convex rings, or single edges, edge by edge; the first `fixed` ones don't move."""
         size = np.array([1 if len(ring) == 2 else len(ring) for ring, _ in rings], dtype=int)
         corners = [np.array(ring, dtype=float) for ring, _ in rings]
         self._rings, self._ring_size = len(rings), size
@@ -216,7 +216,7 @@ class Fans:
         self._next[first + size[fixed:] - 1] = first
 
     def place(self, pose: Float) -> None:
-        """Put the bodies at poses (3, N): x, y [m], theta [rad]."""
+        """Move the bodies to poses (3, N): x, y [m], theta [rad]."""
         body, corners = self._body_of, len(self._next)
         c, s = np.cos(pose[2])[body], np.sin(pose[2])[body]
         x = pose[0][body] + c * self._local[0] - s * self._local[1]
@@ -231,11 +231,11 @@ class Fans:
     def distances(
         self, poses: Float, bearings: ArrayLike, reach: ArrayLike, ignore: ArrayLike
     ) -> Float:
-        """Return how far rays go, (m, k) metres; inf where nothing is hit.
+        """Return the lengths of rays, (m, k) metres; inf for a ray that hits nothing.
 
-        poses: x, y [m], heading [rad] of the fans (3, m). bearings: of their rays from the heading,
-        rad (k,). reach: metres, of all rays or (k,). ignore: the body that each fan does not see
-        (m,), a negative number for none.
+        poses: x, y [m], heading [rad] of the fans (3, m). bearings: those of their rays relative to
+        the heading, rad (k,). reach: the range of all rays, or of each (k,), metres. ignore: the
+        body that each fan does not see (m,), a negative number for none.
         """
         return self._cast(poses, bearings, reach, ignore, None)[0]
 
@@ -247,9 +247,10 @@ class Fans:
         ignore: ArrayLike,
         nothing: int,
     ) -> tuple[Float, Int]:
-        """Return how far rays go, and the bodies that they hit, (m, k) each; see `distances`.
+        """Return the lengths of rays and the bodies that they hit, (m, k) each; see `distances`.
 
-        nothing: what to return for a ray that hits none. Of bodies equally far the lowest counts.
+        nothing: the value for a ray that hits nothing. Of equally distant bodies, the one with the
+        lowest number counts.
         """
         return self._cast(poses, bearings, reach, ignore, nothing)
 
@@ -261,7 +262,7 @@ class Fans:
         ignore: ArrayLike,
         nothing: int | None,
     ) -> tuple[Float, Int]:
-        """Return how far rays go, (m, k), and what they hit, which is empty if nothing is None."""
+        """Return the lengths of rays, (m, k), and the bodies hit, empty if `nothing` is None."""
         far, blind = np.asarray(reach, dtype=float), np.asarray(ignore)
         limit = float(far.max(initial=0.0))
         table = _table(np.asarray(bearings, dtype=float).tobytes())
@@ -282,7 +283,7 @@ class Fans:
         return distances, bodies
 
     def _near(self, beams: _Beams) -> tuple[Int, Int]:
-        """Return fans and things that are within reach of each other, fan by fan."""
+        """Return pairs of fans and things within their range, fan by fan."""
         near = np.arange(len(self._radius))
         for middle, start in zip(self._middle, (beams.x, beams.y), strict=True):
             high, low = start.max() + beams.reach, start.min() - beams.reach
@@ -295,14 +296,14 @@ class Fans:
         return fan, near[thing]
 
     def _meet(self, beams: _Beams, fan: Int, thing: Int) -> Iterator[_Met]:
-        """Yield what rays meet of things that are near."""
+        """Yield the hits of rays on pairs of fans and things."""
         ring, disc = np.flatnonzero(thing < self._rings), np.flatnonzero(thing >= self._rings)
         edges, within_rings = self._edges(beams, fan[ring], thing[ring])
         discs, within_discs = self._discs(beams, fan[disc], thing[disc] - self._rings)
         for inside in (within_rings, within_discs):
             if len(inside.fan):
                 yield _at_once(beams, inside)
-        # Edges and discs together, since each call of numpy costs as much as some hundred numbers.
+        # Edges and discs together, since a call of numpy costs as much as some hundred numbers.
         eye = np.concatenate([edges.fan, discs.fan])
         low = np.concatenate([edges.low, discs.low])
         width = np.concatenate([edges.width, discs.width])
@@ -319,15 +320,15 @@ class Fans:
         yield self._meet_discs(discs, count[parted:], ray[there:], c[there:], s[there:])
 
     def _edges(self, beams: _Beams, fan: Int, ring: Int) -> tuple[_Edges, _Inside]:
-        """Return the edges that fans may see of rings, and which fans start inside which bodies."""
+        """Return the edges of rings that fans may see, and the bodies in which fans start."""
         size = self._ring_size[ring]
         before = np.cumsum(size) - size
         eye = np.repeat(fan, size)
         edge = np.arange(len(eye)) + np.repeat(self._ring_first[ring] - before, size)
         ax, ay = self._edge_a[0][edge] - beams.x[eye], self._edge_a[1][edge] - beams.y[eye]
         area = ax * self._edge[1][edge] - ay * self._edge[0][edge]
-        # Rings are counter-clockwise. From outside, some edges turn their outer sides to us, and
-        # hide the others; from inside, none does. Of a single edge both sides count.
+        # Rings are counter-clockwise. From outside, some edges show their outer sides and hide the
+        # others; from inside, none does. Of a single edge, both sides count.
         inside = np.minimum.reduceat(area, before) >= 0
         solid = inside & self._ring_solid[ring]
         facing = (area < 0) | np.repeat(inside ^ solid, size)
@@ -342,7 +343,7 @@ class Fans:
         width -= TURN * np.rint(width / TURN)
         low += np.minimum(width, 0)
         np.abs(width, out=width)
-        # The start may lie on the edge, which then is all around it.
+        # If the start lies on the edge, the edge is all around it.
         width[grazing & ((width > 3) | (far_a == 0) | (far_b == 0))] = TURN
         within = np.flatnonzero(solid)
         return (
@@ -351,7 +352,7 @@ class Fans:
         )
 
     def _meet_edges(self, edges: _Edges, count: Int, ray: Int, c: Float, s: Float) -> _Met:
-        """Return how far rays (c, s) go to edges, of which each meets `count` of them."""
+        """Return the lengths of rays (c, s) up to edges, each of which is hit by `count` rays."""
         edge = np.repeat(edges.edge, count)
         # The ray (c, s) t meets the line a + e u at t = (a x e) / ((c, s) x e).
         slope = c * self._edge[1][edge] - s * self._edge[0][edge]
@@ -361,10 +362,10 @@ class Fans:
     def _meet_closely(
         self, beams: _Beams, edges: _Edges, first: Int, count: Int, which: Int
     ) -> _Met:
-        """Return how far rays go that pass near an end of an edge, or along it; inf past it.
+        """Return the lengths of rays that pass near an end of an edge, or along it; inf for a miss.
 
-        Of two edges that share an end each looks at it by the same numbers, so that no ray can pass
-        between them.
+        For two edges that share an end, the result there follows from the same numbers, so that no
+        ray can pass between them.
         """
         count = count[which]
         ray = beams.rays(edges.fan[which], first[which], count)
@@ -391,7 +392,7 @@ class Fans:
         return _Met(ray, distance, self._edge_number[edges.edge[which]], count)
 
     def _discs(self, beams: _Beams, fan: Int, disc: Int) -> tuple[_Discs, _Inside]:
-        """Return the discs that fans may see, and which fans start inside which bodies."""
+        """Return the discs that fans may see, and the bodies in which fans start."""
         dx, dy = self._disc[0][disc] - beams.x[fan], self._disc[1][disc] - beams.y[fan]
         radius = self._disc_radius[disc]
         tangent = dx * dx + dy * dy - radius * radius
@@ -406,7 +407,7 @@ class Fans:
         return _Discs(fan, np.arctan2(dy, dx) - half, 2 * half, disc, dx, dy, radius), inside
 
     def _meet_discs(self, discs: _Discs, count: Int, ray: Int, c: Float, s: Float) -> _Met:
-        """Return how far rays (c, s) go to discs, of which each may meet `count` of them."""
+        """Return the lengths of rays (c, s) up to discs, each of which `count` rays may hit."""
         pair = np.repeat(np.arange(len(count)), count)
         dx, dy, radius = discs.dx[pair], discs.dy[pair], discs.radius[pair]
         across, along = c * dy - s * dx, c * dx + s * dy
@@ -418,7 +419,7 @@ class Fans:
 
 @lru_cache(maxsize=16)
 def _table(bearings: bytes) -> _Table:
-    """Return what is known of bearings, which are given as the bytes of floats."""
+    """Return the table of bearings, which are given as the bytes of floats."""
     given = np.frombuffer(bearings)
     turned = given % TURN
     order = np.argsort(turned)
@@ -428,10 +429,10 @@ def _table(bearings: bytes) -> _Table:
 
 
 def _strips(poses: Float, reach: float, each: int) -> Iterator[Int]:
-    """Yield which fans to cast together: not too many, and such as start near one another."""
+    """Yield groups of fans to cast together: not too many, with starting points close together."""
     x, y = poses[0], poses[1]
     order = np.lexsort((y, np.floor(x / reach))) if reach else np.arange(len(x))
-    many = max(AT_ONCE // max(each, 1), 1)
+    many = max(MAX_RAYS_AT_ONCE // max(each, 1), 1)
     for k in range(0, len(order) if each else 0, many):
         yield order[k : k + many]
 
@@ -447,7 +448,7 @@ def _beams(poses: Float, table: _Table, reach: float, ignore: Int) -> _Beams:
 
 
 def _first(found: list[_Met], nearest: Float, nothing: int) -> Int:
-    """Return which body each ray hits (c,), of those equally near the lowest."""
+    """Return the body that each ray hits (c,); of equally near ones, the lowest."""
     body = np.full(len(nearest), np.iinfo(int).max)
     for met in found:
         first = met.distance == nearest[met.ray]
@@ -458,13 +459,13 @@ def _first(found: list[_Met], nearest: Float, nothing: int) -> Int:
 
 
 def _at_once(beams: _Beams, inside: _Inside) -> _Met:
-    """Return that all rays of fans meet the bodies that they start in."""
+    """Return the hits of fans that start inside bodies: all their rays have length 0."""
     ray = (inside.fan[:, None] * beams.each + np.arange(beams.each)).ravel()
     return _Met(ray, np.zeros(len(ray)), inside.body, np.full(len(inside.fan), beams.each))
 
 
 def _aimed(apart: Float) -> Float:
-    """Return how far beside a point that is so far away a ray passes that is aimed at it."""
+    """Return the distance within which a ray counts as aimed at a point `apart` away, metres."""
     return np.minimum(CORNER * (1 + apart), MARGIN / 2 * apart)
 
 
@@ -474,7 +475,7 @@ def _points(rings: Sequence[Float]) -> Float:
 
 
 def _chains(outline: Outline) -> list[Sequence[Point]]:
-    """Return a convex outline, counter-clockwise; of any other, each edge by itself."""
+    """Return a convex outline as one ring, counter-clockwise; any other one as single edges."""
     if len(outline) > 2:
         ring = np.array(outline, dtype=float)
         edge = np.roll(ring, -1, axis=0) - ring

@@ -1,7 +1,7 @@
-"""How near convex pieces are to touching: polygons, walls and discs.
+"""The separation of convex pieces: polygons, walls and discs.
 
-A piece is the hull of its vertices, grown by a radius: a disc has one vertex, a wall two, a polygon
-three or more and radius 0. Points are complex numbers x + i y, in metres.
+A piece is the hull of its vertices, enlarged by a radius: a disc has one vertex, a wall two, a
+polygon three or more and radius 0. Points are complex numbers x + i y, in metres.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from math import cos, inf, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.plane import dot, length
+from mars2d.core.plane import TINY, dot, length
 
 __all__ = ["ConvexPairs", "Pieces"]
 
@@ -21,17 +21,15 @@ Complex = NDArray[np.complex128]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
-TINY = 1e-12
-
-NEAR = 1e-7
-"""Two points nearer than this do not give a direction, metres."""
+MIN_SPAN = 1e-7
+"""Two points nearer than this do not define a direction, metres."""
 
 
 class Pieces:
     """P convex pieces, in the frames of their bodies, or in the world's if they stand still.
 
-    What depends on the shapes alone is worked out once: of each piece the vertices, the edges,
-    and the axes, which are the directions in which it may be parted from another piece.
+    Values that depend on the shapes alone are computed once: the vertices and edges of each piece,
+    and its axes, the directions in which it may be separated from another piece.
     """
 
     def __init__(self, vertices: Sequence[Complex], radius: Float) -> None:
@@ -50,10 +48,11 @@ class Pieces:
         self._reach = np.asarray(along.max(axis=1))  # from the frame's origin, along each axis
 
     def local(self, which: Index) -> tuple[int, Complex, Float]:
-        """Return what a pair needs of some pieces (...), as K, (3 K + L, ...) and (L, ...).
+        """Return the local vectors of some pieces (...), as K, (3 K + L, ...) and (L, ...).
 
-        That is the largest number of vertices; the vertices, the edges, the edges over their
-        squared lengths, the axes; and how far the pieces reach along these.
+        The first value is the largest number of vertices. The second holds the vertices, the edges,
+        the edges divided by their squared lengths, and the axes. The third is the extent of the
+        pieces along their axes.
         """
         k = int(self._corners[which].max(initial=1))
         edge = self._edge[:k, which]
@@ -70,15 +69,15 @@ class Pieces:
 
 
 class ConvexPairs:
-    """M pairs of convex pieces that are close to each other: their gaps as they move.
+    """M pairs of convex pieces that are close to each other, and their gaps as they move.
 
-    pairs: the pieces of the pairs, (M,) and (M,), as given. `measure` sets
+    pairs: the indices of the pieces, (M,) and (M,), as given. `measure` sets
 
-    - gap: (M,) metres, the distance between the two pieces; if they overlap it is negative: how
-      far one has to be moved to part them;
+    - gap: (M,) metres, the distance between the two pieces; negative if they overlap: the
+      distance by which one has to be moved to separate them;
     - normal: (M,) unit vectors from the first piece to the second, along the shortest way between
       them, or out of each other;
-    - touch: (M,) whether the gap is zero or less; any_touch: whether one is.
+    - touch: (M,) whether the gap is zero or less; any_touch: whether any gap is.
 
     Source of the gap of pieces that overlap: the separating axis theorem, as in C. Ericson,
     Real-Time Collision Detection, section 5.2.1 (2005).
@@ -92,11 +91,11 @@ class ConvexPairs:
     def __init__(self, pieces: Pieces, body: Index, pairs: tuple[Index, Index]) -> None:
         """Take pairs of pieces, (M,) and (M,), and the bodies (P,) to which all pieces belong.
 
-        body: indices into what `measure` and `time_to_touch` are given; negative numbers for what
-        stands still.
+        body: indices into the arrays given to `measure` and `time_to_touch`; negative for pieces
+        that stand still.
         """
         self.pairs = pairs
-        # Each array with an axis of two has there the first pieces of the pairs, then the second.
+        # An axis of length two holds the first pieces of the pairs, then the second ones.
         both = np.stack(pairs)
         self._bodies = body[both]
         self._mover = np.maximum(self._bodies, -1)
@@ -111,8 +110,8 @@ class ConvexPairs:
         return len(self._radii)
 
     def measure(self, position: Complex, angle: Float) -> None:
-        """Take where the bodies are, (k,) metres and (k,) rad, and measure all gaps."""
-        # The last column is that of what stands still, with the index -1.
+        """Take the bodies' positions (k,) in metres and angles (k,) in rad; measure all gaps."""
+        # The last column, with the index -1, is for pieces that stand still.
         where = np.zeros((4, len(position) + 1))
         where[0, :-1], where[1, :-1] = position.real, position.imag
         angles = angle.tolist()
@@ -132,9 +131,9 @@ class ConvexPairs:
         distance = np.hypot(way_x, way_y)
         apart = separation > 0
         self.gap = np.where(apart, distance, separation) - self._radii
-        # Between points that almost coincide the axis is the surer direction.
-        use_way = apart & (distance > NEAR)
-        scale = np.maximum(distance, NEAR)
+        # Between points that almost coincide, the axis is the more accurate direction.
+        use_way = apart & (distance > MIN_SPAN)
+        scale = np.maximum(distance, MIN_SPAN)
         self.normal = np.empty(len(self), dtype=np.complex128)
         self.normal.real = np.where(use_way, way_x / scale, axis_x)
         self.normal.imag = np.where(use_way, way_y / scale, axis_y)
@@ -142,7 +141,7 @@ class ConvexPairs:
         self.any_touch = bool(self.touch.any())
 
     def _separate(self, x: Float, y: Float) -> tuple[Float, Float, Float]:
-        """Return the widest separation that an axis shows, and that axis, each (M,).
+        """Return the largest separation along an axis, and that axis, each (M,).
 
         x, y: (K, 2, M) the vertices of each piece as seen from the body of the other.
         """
@@ -177,14 +176,14 @@ class ConvexPairs:
         return sign * way_x[picked], sign * way_y[picked]
 
     def touching_bodies(self) -> tuple[Index, Index]:
-        """Return the bodies of the pairs that touch, as they were numbered."""
+        """Return the bodies of the pairs that touch."""
         first, second = self._bodies[:, self.touch]
         return first, second
 
     def touching_points(self, depth: float) -> Complex:
-        """Return where the pairs that touch do so: in the middle of the common part, (m,).
+        """Return the points (m,) of touch of the touching pairs: the middles of common faces.
 
-        depth: metres; what is as near to the surface as that belongs to it.
+        depth: metres; vertices at most this far from the surface belong to the face.
         """
         touch = self.touch
         nx, ny = self.normal.real[touch], self.normal.imag[touch]
@@ -203,9 +202,9 @@ class ConvexPairs:
         return np.asarray(px + self._base_x[touch] + 1j * (py + self._base_y[touch]))
 
     def inwards(self, velocity: Complex, spin: Float, depth: float) -> tuple[Float, Float]:
-        """Return how fast each body of the pairs that touch moves into the other, (m,) m/s each.
+        """Return the speeds at which the two of each touching pair move into each other, (m,) m/s.
 
-        depth: metres; what is as near to the surface as that belongs to it.
+        depth: metres; vertices at most this far from the surface belong to the face.
         """
         motion = np.zeros((3, len(velocity) + 1))
         motion[0, :-1], motion[1, :-1], motion[2, :-1] = (velocity.real, velocity.imag, spin)
@@ -222,15 +221,17 @@ class ConvexPairs:
     def time_to_touch(
         self, velocity: Complex, spin: Float, bend: Float, depth: float, *, again: bool = True
     ) -> float:
-        """Return for how long no pair gets deeper than `depth`, seconds; a bound from below.
+        """Return a time during which no pair gets deeper than `depth`, seconds: a lower bound.
 
-        A pair that is as deep already may get a little deeper, as two discs may. Without `again`,
-        pairs that touch are left out.
+        A pair that is already that deep may get a little deeper, like two discs. Without `again`,
+        touching pairs are left out.
 
-        velocity: (k,) of the bodies; spin: (k,) rad/s, which stays; bend: (k,) m/s^2, how quickly
-        a velocity may turn away from it.
-        Along its normal a pair is no further apart than it is. A vertex at r from its body's
-        position moves with velocity + i spin r, and turns away by at most bend + spin^2 |r|.
+        velocity: (k,) of the bodies. spin: (k,) rad/s, constant. bend: (k,) m/s^2, a bound on the
+        rate at which each velocity turns.
+
+        The distance along the present normal is a lower bound of the gap at any time. A vertex at r
+        from its body's position moves with velocity + i spin r, which turns by at most
+        bend + spin^2 |r|.
         """
         if not len(self):
             return inf
@@ -254,20 +255,20 @@ class ConvexPairs:
 
 
 def _time_to_close(room: Float, closing: Float, turn: Float) -> Float:
-    """Return the time until closing h + turn h^2 / 2 = room, s; closing [m/s] may be negative."""
+    """Return the time h until closing h + turn h^2 / 2 = room, s; closing [m/s] may be negative."""
     twice = 2 * room
     bent = turn * twice
     quick = np.abs(closing)
     total = np.sqrt(closing * closing + bent) + quick
-    # root - |closing|, without their cancelling
+    # root - |closing|, without cancellation
     slow = bent / np.maximum(total, TINY * TINY)
     return np.asarray(twice / (np.where(closing >= 0, total, slow) + TINY))
 
 
 def _axes(edge: Complex) -> Complex:
-    """Return the unit vectors in which a piece with these edges (K,) may be parted from another.
+    """Return the unit vectors along which a piece with edges (K,) may be separated from another.
 
-    They are the outward normals of the edges. A piece without area has directions along it too.
+    They are the outward normals of the edges, and for a piece without area also its directions.
     """
     edge = edge[length(edge) > 0]
     if not len(edge):

@@ -1,7 +1,7 @@
-"""The shapes of bodies: discs, polygons, and several of them in one.
+"""The shapes of bodies: discs, polygons, and compounds of them.
 
-A shape lies in the frame of its body, metres, x ahead. The physics is given convex pieces, what
-draws is given rims; mass properties are those of a uniform plate.
+A shape is given in the frame of its body, in metres, x ahead. The physics uses its convex pieces,
+drawing uses its rims; mass properties are those of a uniform plate.
 """
 
 from __future__ import annotations
@@ -33,26 +33,26 @@ __all__ = [
 
 Float = NDArray[np.float64]
 
-MOST_VERTICES = 64
-"""Of one polygon; more make the engine slow, and round things are discs."""
+MAX_VERTICES = 64
+"""The largest number of vertices of a polygon: more make the engine slow."""
 
-MOST_PARTS = 64
-"""Of one compound shape."""
+MAX_PARTS = 64
+"""The largest number of parts of a compound."""
 
-THINNEST = 1e-4
-"""A polygon's pieces are at least as thick as this, metres: so deep do resting bodies overlap."""
+MIN_THICKNESS = 1e-4
+"""The smallest thickness of a polygon's pieces, metres: the overlap of resting bodies."""
 
 STRAIGHT = 1e-12
-"""A vertex bends an outline if it lies farther off its neighbours' line, in the outline's size."""
+"""A vertex nearer to its neighbours' line is removed, relative to the outline's size."""
 
-CORNERS = 1024
-"""Of the polygon that stands for a disc where shapes are united: good for 8 digits."""
+DISC_CORNERS = 1024
+"""Corners of the polygon that stands for a disc in a union of shapes: accurate to 8 digits."""
 
 
 class Piece(NamedTuple):
-    """What the engine can hold: a convex polygon, counter-clockwise, or one point with a radius.
+    """A shape for the engine: a convex polygon, counter-clockwise, or one point with a radius.
 
-    vertices: at least three [m], or the one centre of a disc. radius: 0 for a polygon [m].
+    vertices: at least three [m], or the centre of a disc. radius: 0 for a polygon [m].
     """
 
     vertices: tuple[Point, ...]
@@ -60,9 +60,9 @@ class Piece(NamedTuple):
 
 
 class Rim(NamedTuple):
-    """What to draw: a closed outline, perhaps concave, or one point with a radius.
+    """A shape to draw: a closed outline, perhaps concave, or one point with a radius.
 
-    points: at least three [m], or the one centre of a disc. radius: 0 for an outline [m].
+    points: at least three [m], or the centre of a disc. radius: 0 for an outline [m].
     """
 
     points: tuple[Point, ...]
@@ -106,7 +106,7 @@ class Shape(Description):
 
     @property
     def area(self) -> float:
-        """Its area, m^2; what overlaps counts once."""
+        """Its area, m^2; overlapping parts count once."""
         return self.plate.area
 
     @property
@@ -123,18 +123,18 @@ class Shape(Description):
     def lever(self) -> float:
         """The mean distance of its points from the centroid, metres.
 
-        The friction of the ground holds a spinning body back with the torque mu m g lever.
+        Ground friction slows a spinning body with the torque mu m g lever.
         """
         return self.plate.lever
 
     @cached_property
     def bound(self) -> tuple[Point, float]:
-        """The centre (x, y) [m] and the radius [m] of the smallest circle round it."""
+        """The centre (x, y) [m] and the radius [m] of the smallest enclosing circle."""
         return _circle_round(self.pieces)
 
     @property
     def reach(self) -> float:
-        """How far it reaches from the frame's origin at most, metres."""
+        """The largest distance of its points from the frame's origin, at most, metres."""
         center, radius = self.bound
         return hypot(*center) + radius
 
@@ -196,16 +196,16 @@ class Disc(Shape):
 
 def _outline(name: str, value: object) -> Outline:
     result = checks.outline(name, value, least=3)
-    if len(result) > MOST_VERTICES:
+    if len(result) > MAX_VERTICES:
         raise InputError(
-            f"{name} has {len(result)} vertices: expected at most {MOST_VERTICES}; "
+            f"{name} has {len(result)} vertices: expected at most {MAX_VERTICES}; "
             "leave some out, use Disc for what is round, or Compound for several parts"
         )
     return result
 
 
 class Polygon(Shape):
-    """A polygon from its vertices [m] in order, either way round; concave ones are cut in pieces.
+    """A polygon from its vertices [m] in order, in either sense; concave ones are cut into pieces.
 
     >>> ell = Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
     >>> ell.area, len(ell.pieces), ell.thickness
@@ -215,16 +215,16 @@ class Polygon(Shape):
     outline: Outline = entry(check=_outline, unit="m", kw_only=False, doc="its vertices in order")
 
     def _validate(self) -> None:
-        if self.thickness < THINNEST:
+        if self.thickness < MIN_THICKNESS:
             raise wrong(
                 "Polygon.outline", self.outline,
-                f"at least {THINNEST:g} m of thickness in each convex piece; "
+                f"at least {MIN_THICKNESS:g} m of thickness in each convex piece; "
                 f"one is {self.thickness:.3g} m thin",
             )  # fmt: skip
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
-        """The outline if it is convex, else convex parts between its vertices."""
+        """The outline if it is convex, else convex parts of it, without new vertices."""
         return tuple(Piece(part, 0.0) for part in _convex_parts(self.outline))
 
     @cached_property
@@ -244,7 +244,7 @@ class Polygon(Shape):
 
 
 def known_shape(name: str, value: object, example: str = "Disc(0.2)") -> Shape:
-    """Check a shape: one of these here, whose pieces are known to be sound, or derived from one."""
+    """Check a shape: a Disc, Polygon or Compound, or derived from one, whose pieces are sound."""
     shape: Shape = checks.instance(Shape, example)(name, value)
     if isinstance(shape, Compound):
         for part in shape.parts:
@@ -256,8 +256,8 @@ def known_shape(name: str, value: object, example: str = "Disc(0.2)") -> Shape:
 
 def _parts(name: str, value: object) -> tuple[Shape, ...]:
     parts: tuple[Shape, ...] = checks.listing(Shape, "Disc(0.2)")(name, value)
-    if not 1 <= len(parts) <= MOST_PARTS:
-        raise wrong(name, value, f"from 1 to {MOST_PARTS} shapes, as [Disc(0.2), Polygon(...)]")
+    if not 1 <= len(parts) <= MAX_PARTS:
+        raise wrong(name, value, f"from 1 to {MAX_PARTS} shapes, as [Disc(0.2), Polygon(...)]")
     return parts
 
 
@@ -268,13 +268,13 @@ def rectangle(length: float, width: float) -> Polygon:
 
 
 class Compound(Shape):
-    """Several shapes in one rigid body; where they overlap, the area counts once.
+    """Several shapes in one rigid body; overlapping areas count once.
 
     >>> dumbbell = Compound([Disc(0.2).moved(-0.2, 0), Disc(0.2).moved(0.2, 0)])
     >>> len(dumbbell.pieces), [round(x, 12) for x in (dumbbell.area, dumbbell.bound[1])]
     (2, [0.062831853072, 0.3])
 
-    Mass properties are those of the parts' union. Where discs are among them, they are good for
+    Mass properties are those of the parts' union. If discs are among them, they are accurate to
     8 digits.
     """
 
@@ -303,8 +303,8 @@ class Compound(Shape):
 def _plate(rings: Sequence[Float]) -> Plate:
     """Return the mass properties of a region from its rings (k, 2), metres.
 
-    Outer rings run counter-clockwise, holes clockwise. Each edge stands for the triangle that it
-    spans with a point of reference, whose area has the sign of its sense of rotation.
+    Outer rings run counter-clockwise, holes clockwise. Each edge contributes the triangle that it
+    spans with a reference point, whose area has the sign of its sense of rotation.
     """
     start = np.concatenate(rings)
     end = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
@@ -325,8 +325,9 @@ def _plate(rings: Sequence[Float]) -> Plate:
 def _distance_integral(p: Point, q: Point) -> float:
     """Return the integral of the distance from 0 over the signed triangle (0, p, q), m^3.
 
-    With the edge's distance d from 0, and its ends at s along it and at rho from 0, it is
-    d / 6 (s rho + d^2 arsinh(s / |d|)) between the ends: |d|^3 / 3 sec^3 over the angle.
+    Let d be the edge's distance from 0, s the position along it, and rho the distance from 0. The
+    integral is d / 6 (s rho + d^2 arsinh(s / |d|)) between the ends: |d|^3 / 3 sec^3 over the
+    angle.
     """
     ex, ey = q[0] - p[0], q[1] - p[1]
     length = hypot(ex, ey)
@@ -369,17 +370,17 @@ def _circle(center: Point, radius: float, count: int) -> list[Point]:
 
 
 def _region(rim: Rim) -> Sequence[Point]:
-    """Return the polygon within a rim; for a disc one of its area, its moment right to 1e-11."""
+    """Return the polygon of a rim; for a disc one of the same area, its moment right to 1e-11."""
     if rim.radius == 0:
         return rim.points
-    turn = 2 * pi / CORNERS
-    return _circle(rim.points[0], rim.radius * sqrt(turn / sin(turn)), CORNERS)
+    turn = 2 * pi / DISC_CORNERS
+    return _circle(rim.points[0], rim.radius * sqrt(turn / sin(turn)), DISC_CORNERS)
 
 
 def _circle_round(pieces: Sequence[Piece]) -> tuple[Point, float]:
-    """Return the centre and radius of a circle round the pieces, the smallest but for rounding.
+    """Return the centre and radius of the smallest circle round the pieces, up to rounding.
 
-    Discs stand in with 64 points for finding the centre; the circle holds them all the same.
+    The centre is found with 64 points on each disc; the radius encloses the discs themselves.
     """
     import shapely
 
@@ -393,7 +394,7 @@ def _circle_round(pieces: Sequence[Piece]) -> tuple[Point, float]:
 
 
 def _width(piece: Piece) -> float:
-    """Return how far apart the two nearest parallel lines are that hold a piece, metres."""
+    """Return the width of a piece: the smallest distance of parallel lines round it, metres."""
     if piece.radius:
         return 2 * piece.radius
     ring = np.array(piece.vertices)
@@ -405,10 +406,10 @@ def _width(piece: Piece) -> float:
 
 @lru_cache(maxsize=256)
 def _convex_parts(outline: Outline) -> tuple[tuple[Point, ...], ...]:
-    """Return convex polygons, counter-clockwise, that make up a polygon; few, without new points.
+    """Return a few convex polygons, counter-clockwise, that make up a polygon, without new points.
 
     The triangles of a constrained Delaunay triangulation are merged across one diagonal after the
-    other where that leaves a convex polygon, the thinnest of all first.
+    other if the result is convex, the thinnest first.
     Source: Hertel and Mehlhorn, Fast triangulation of simple polygons (1983).
     """
     ring = list(outline)
@@ -426,7 +427,7 @@ def _convex_parts(outline: Outline) -> tuple[tuple[Point, ...], ...]:
 
 
 def _bend(a: Point, b: Point, c: Point) -> float:
-    """Return how far b lies outside the line from a to c, metres; negative where it turns right."""
+    """Return the distance of b outside the line from a to c, metres; negative at a right turn."""
     turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
     return turn / hypot(c[0] - a[0], c[1] - a[1])
 
@@ -437,7 +438,7 @@ def _bends(ring: Sequence[Point]) -> list[float]:
 
 
 def _bent(ring: Sequence[Point], slack: float) -> list[Point]:
-    """Return a ring without the vertices at which it runs straight on."""
+    """Return a ring without the vertices at which it is straight."""
     bends = _bends(ring)
     return [point for point, bend in zip(ring, bends, strict=True) if abs(bend) > slack]
 
@@ -471,7 +472,7 @@ def _triangles(ring: Sequence[Point]) -> list[Part]:
 def _merge(
     ring: Sequence[Point], parts: list[Part], slack: float, width: Callable[[Part], float]
 ) -> list[Part] | None:
-    """Return the parts with two of them made one, or None if no two make a convex one."""
+    """Return the parts with two of them merged, or None if no two make a convex one."""
     owner = {edge: part for part in parts for edge in zip(part, (*part[1:], part[0]), strict=True)}
     choices = []
     for (i, j), part in owner.items():
@@ -480,7 +481,7 @@ def _merge(
             continue
         whole = _joined(part, other, i, j)
         if _is_convex([ring[k] for k in whole], slack):
-            thin = round(min(width(part), width(other)) / slack)  # equal ones stay so when rounded
+            thin = round(min(width(part), width(other)) / slack)  # so that equal widths are equal
             choices.append((thin, i, j, part, other, whole))
     if not choices:
         return None
@@ -489,6 +490,6 @@ def _merge(
 
 
 def _joined(part: Part, other: Part, i: int, j: int) -> Part:
-    """Return two parts as one, across the diagonal that is (i, j) in one, (j, i) in the other."""
+    """Return two parts merged across their diagonal, (i, j) in the first, (j, i) in the other."""
     a, b = part.index(j), other.index(i)
     return _from_lowest((*part[a:], *part[:a], *(*other[b:], *other[:b])[1:-1]))

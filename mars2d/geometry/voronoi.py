@@ -1,4 +1,4 @@
-"""Voronoi cells of points within a region, and what is integrated over them."""
+"""Voronoi cells of points within a region, and integrals over them."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ Index = NDArray[np.intp]
 Phi = Callable[[Float, Float], ArrayLike]
 Segment = tuple[Point, Point]
 
-SAME = 1e-9
-"""Points nearer to each other than this share of all that is looked at are at the same place."""
+SAME_PLACE = 1e-9
+"""Points nearer than this are at the same place, relative to the size of region and points."""
 
-FAR = 8.0
-"""How far away, in sizes of all that is looked at, points are set that bound the outer cells."""
+FAR_POINTS = 8.0
+"""The distance of four points that bound the outer cells, in sizes of region and points."""
 
-FINENESS = 12
-"""Without a resolution, triangles of the quadrature are the region's longer side over this."""
+DEFAULT_DIVISIONS = 12
+"""The default resolution of the quadrature is the region's longer side divided by this."""
 
 
 class Weight:
-    """What gives a density: the base of add-ons by which Voronoi cells are weighted."""
+    """A density: the base of add-ons that weight Voronoi cells."""
 
     def of(self, points: Float) -> Float:
         """Return the density (k,) >= 0 at points (2, k) [m]."""
@@ -42,21 +42,21 @@ class Weight:
 
 
 class Tessellation:
-    """The Voronoi cells of n points in a region: to each point's belongs what is nearest to it.
+    """The Voronoi cells of n points in a region: a cell is the part nearest to its point.
 
     >>> halves = Tessellation([[1, 3], [1, 1]], [(0, 0), (4, 0), (4, 2), (0, 2)])
     >>> halves.areas.tolist(), halves.edge(0, 1)
     ([4.0, 4.0], ((2.0, 0.0), (2.0, 2.0)))
 
     points: (2, n) metres. region: the vertices of a polygon, convex or not. density: a function
-    phi(x, y) >= 0 of arrays (k,) that returns (k,), or a Weight, by which all but the areas is
-    weighted; without one it is 1. resolution: metres, the largest side of the triangles over which
-    a density is integrated; without one it is 1/12 of the region's longer side.
+    phi(x, y) >= 0 of arrays (k,) that returns (k,), or a Weight, which weights everything except
+    the areas; by default 1. resolution: metres, the largest side of the triangles over which a
+    density is integrated; by default 1/12 of the region's longer side.
 
-    All is worked out when it is asked for, once. Points may lie outside of the region; one whose
-    cell is empty has the area 0 and is its own centroid. Of several points at the same place the
-    first one has the cell. Raises InputError for points or a region that can't be, and for a
-    density that is negative, not finite or of the wrong shape. No array can be written to.
+    Everything is computed once, when it is first asked for. Points may lie outside of the region; a
+    point with an empty cell has area 0 and is its own centroid. Of several points at the same
+    place, the first one has the cell. Raises InputError for invalid points or regions, and for a
+    density that is negative, not finite or of the wrong shape. All arrays are read-only.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class Tessellation:
 
     @cached_property
     def cells(self) -> tuple[Any, ...]:
-        """The cell of each point, as polygons of shapely; in several pieces, or empty, if so."""
+        """The cell of each point, as a polygon of shapely, perhaps empty or in several pieces."""
         return tuple(self._cells)
 
     @cached_property
@@ -93,7 +93,7 @@ class Tessellation:
 
     @cached_property
     def centroids(self) -> Float:
-        """The weighted centroids (2, n) of the cells, m; that of one without mass is its point."""
+        """The weighted centroids (2, n) of the cells, m; for a cell without mass, its point."""
         mass, first, _ = self._moments
         return _unwritable(self.points + first / np.where(mass > 0, mass, 1.0))
 
@@ -108,24 +108,24 @@ class Tessellation:
 
     @property
     def gradient(self) -> Float:
-        """The derivatives (2, n) of the cost to each coordinate of the points."""
+        """The derivatives (2, n) of the cost by the coordinates of the points."""
         return np.asarray(2 * self.masses * (self.points - self.centroids))
 
     def neighbours(self, i: int) -> tuple[int, ...]:
-        """Return the points whose cells share an edge with that of point i within the region."""
+        """Return the points whose cells share an edge with the cell of point i."""
         return self._neighbours[i]
 
     def edge(self, i: int, j: int) -> Segment | None:
         """Return the ends of the edge that two cells share within the region, or None.
 
-        Where the region cuts it into several pieces this is the longest one.
+        If the region cuts the edge into several pieces, return the longest one.
         """
         pieces = self.edges.get((min(i, j), max(i, j)), ())
         return pieces[0] if pieces else None
 
     @cached_property
     def edges(self) -> dict[tuple[int, int], tuple[Segment, ...]]:
-        """All edges that two cells i < j share within the region, each in pieces, longest first."""
+        """All edges shared by two cells i < j within the region, in pieces, the longest first."""
         import shapely
 
         pairs, ends = self._diagram.ridge_points, np.array(self._diagram.ridge_vertices)
@@ -134,8 +134,8 @@ class Tessellation:
         lines = shapely.linestrings(self._corners[ends[own]])
         inside = shapely.intersection(lines, self._polygon)
         pieces, whose = shapely.get_parts(inside, return_index=True)
-        length = shapely.length(pieces)  # of points, where an edge touches the region, 0
-        long = np.flatnonzero(length > SAME * self._frame[1])
+        length = shapely.length(pieces)  # 0 for points, where an edge only touches the region
+        long = np.flatnonzero(length > SAME_PLACE * self._frame[1])
         long = long[np.argsort(-length[long], kind="stable")]
         first, last = (
             shapely.get_coordinates(shapely.get_point(pieces[long], k)).tolist() for k in (0, -1)
@@ -149,7 +149,7 @@ class Tessellation:
 
     @cached_property
     def _frame(self) -> tuple[Float, float]:
-        """The middle (2,) of the region and all points, and their size, a power of 2; metres."""
+        """The middle (2,) and the size of region and points, a power of 2; metres."""
         xmin, ymin, xmax, ymax = self._polygon.bounds
         low = np.minimum(self.points.min(axis=1), [xmin, ymin])
         high = np.maximum(self.points.max(axis=1), [xmax, ymax])
@@ -157,22 +157,23 @@ class Tessellation:
 
     @cached_property
     def _distinct(self) -> Index:
-        """The points but for those at the same place as one before."""
+        """The points without those at the same place as an earlier one."""
         from scipy.spatial import KDTree
 
-        pairs = KDTree(self.points.T).query_pairs(SAME * self._frame[1], output_type="ndarray")
+        radius = SAME_PLACE * self._frame[1]
+        pairs = KDTree(self.points.T).query_pairs(radius, output_type="ndarray")
         again = np.zeros(self.points.shape[1], dtype=bool)
         again[pairs.max(axis=1)] = True
         return np.flatnonzero(~again)
 
     @cached_property
     def _diagram(self) -> Any:
-        """The diagram of the distinct points, and of four that are far away."""
+        """The diagram of the distinct points and of four points far away."""
         from scipy.spatial import Voronoi
 
         middle, size = self._frame
         near = (self.points[:, self._distinct].T - middle) / size
-        far = FAR * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+        far = FAR_POINTS * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
         return Voronoi(np.vstack([near, far]))
 
     @cached_property
@@ -207,7 +208,7 @@ class Tessellation:
 
     @cached_property
     def _pieces(self) -> tuple[NDArray[Any], Index]:
-        """The polygons (k,) that the cells consist of, and whose each is, (k,)."""
+        """The polygons (k,) of all cells, and the point to which each belongs (k,)."""
         import shapely
 
         pieces, owner = shapely.get_parts(self._cells, return_index=True)
@@ -220,7 +221,7 @@ class Tessellation:
 
     @cached_property
     def _plain_moments(self) -> tuple[Float, Float, Float]:
-        """Sum over the sides of all polygons, by Green's theorem: it is exact."""
+        """The moments without a density: exact sums over all sides, by Green's theorem."""
         import shapely
 
         n = self.points.shape[1]
@@ -232,14 +233,14 @@ class Tessellation:
         ax, ay, bx, by = x[side], y[side], x[side + 1], y[side + 1]
         cross = ax * by - bx * ay
         sign = np.sign(np.bincount(piece[side], cross, len(pieces)))
-        cross *= sign[piece[side]]  # whichever way round
+        cross *= sign[piece[side]]  # rings may be clockwise
         square = ax * ax + ax * bx + bx * bx + ay * ay + ay * by + by * by
         sums = (cross / 2, cross * (ax + bx) / 6, cross * (ay + by) / 6, cross * square / 12)
         return _totals(of[side], sums, n)
 
     @cached_property
     def _weighted_moments(self) -> tuple[Float, Float, Float]:
-        """Sum over points of Gauss on triangles; weights are positive, as a density's should be."""
+        """The moments with a density: sums over the quadrature's points, with positive weights."""
         n = self.points.shape[1]
         points, areas, of = self._nodes
         mass = areas * self._phi(points)
@@ -249,9 +250,9 @@ class Tessellation:
 
     @cached_property
     def _nodes(self) -> tuple[Float, Float, Index]:
-        """The points (2, k) of the quadrature, their areas (k,), and whose cells they lie in."""
+        """The quadrature's points (2, k), their areas (k,), and the points of their cells (k,)."""
         xmin, ymin, xmax, ymax = self._polygon.bounds
-        resolution = self._resolution or max(xmax - xmin, ymax - ymin) / FINENESS
+        resolution = self._resolution or max(xmax - xmin, ymax - ymin) / DEFAULT_DIVISIONS
         pieces, owner = self._pieces
         points, areas, piece = nodes(pieces, resolution)
         return points, areas, owner[piece]
@@ -266,7 +267,7 @@ class Tessellation:
 def density_at(name: str, phi: Phi, points: Float) -> Float:
     """Return phi(x, y) at points (2, k) as an array (k,).
 
-    Raises InputError, beginning with `name`, if it is negative, not finite, or of another shape.
+    Raises InputError, beginning with `name`, if it is negative, not finite or of another shape.
     """
     expected = f"{name}: expected of phi(x, y) an array of numbers >= 0, as many as x has"
     given = phi(*points.copy())
@@ -297,10 +298,10 @@ def _points(points: ArrayLike) -> Float:
 
 
 def _region(region: Outline) -> Any:
-    """Return the polygon of an outline, made ready for many questions; it is kept."""
+    """Return the polygon of an outline, prepared for many queries; the result is cached."""
     try:
         return _prepared(region)
-    except TypeError:  # a list or array, which can't be looked up
+    except TypeError:  # a list or array, which is not hashable
         return _prepared(checks.outline("Tessellation.region", region, least=3))
 
 
@@ -314,7 +315,7 @@ def _prepared(region: Outline) -> Any:
 
 
 def _clipped(cells: NDArray[Any], region: Any) -> NDArray[Any]:
-    """Return what of convex cells lies in a region: polygons or several, perhaps empty."""
+    """Return the parts of convex cells within a region: polygons or multipolygons, or empty."""
     import shapely
 
     result = cells.copy()
@@ -329,19 +330,19 @@ def _clipped(cells: NDArray[Any], region: Any) -> NDArray[Any]:
 
 
 POLYGON, POLYGONS = 3, 6
-"""What shapely calls polygons and several of them in one, by number."""
+"""shapely's type numbers of polygons and multipolygons."""
 
 
 def _totals(of: Index, moments: Sequence[Float], count: int) -> tuple[Float, Float, Float]:
     """Return masses (count,), first moments (2, count) and second ones (count,) of all cells.
 
-    moments: what parts add to the cells `of` which they are: mass, first along x and y, second.
+    of: the cell of each part. moments: those of the parts: mass, first along x and y, second.
     """
     mass, x, y, second = (np.bincount(of, each, count).astype(float) for each in moments)
     return _unwritable(mass), _unwritable(np.array([x, y])), _unwritable(second)
 
 
 def _unwritable(array: Float) -> Float:
-    """Return an array that can't be written from now on: all laws are shown the same one."""
+    """Return the array made read-only, since all laws share it."""
     array.flags.writeable = False
     return array

@@ -8,7 +8,8 @@ import scipy.spatial
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d.geometry.pair_list import FEW, Clearance, DiscPairs, Walls
+from mars2d.geometry.pair_list import MAX_DISCS_ALL_PAIRS as FEW
+from mars2d.geometry.pair_list import Clearance, DiscPairs, Walls
 
 NOTHING = Walls(np.empty(0, complex), np.empty(0, complex))
 

@@ -13,7 +13,8 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.core.plane import edges_of
-from mars2d.geometry.ray_casting import AT_ONCE, Fans
+from mars2d.geometry.ray_casting import MAX_RAYS_AT_ONCE as AT_ONCE
+from mars2d.geometry.ray_casting import Fans
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.physics.rays import BODY, Rays, end_bars
 from mars2d.sensors import LineCamera, RangeFinder, SonarRing

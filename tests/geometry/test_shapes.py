@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mars2d.core.errors import InputError
-from mars2d.geometry.shapes import MOST_VERTICES, Compound, Disc, Piece, Polygon, Rim, Shape
+from mars2d.geometry.shapes import MAX_VERTICES, Compound, Disc, Piece, Polygon, Rim, Shape
 
 NAN = float("nan")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -163,7 +163,7 @@ def test_the_same_outline_is_always_cut_the_same_way():
         ([(0, 0), (1, 0)], "at least 3"),
         ([(0, 0), (1, NAN), (1, 1)], "finite"),
         ("square", "polygon's vertices"),
-        (_star(40, 0.9), f"has 80 vertices: expected at most {MOST_VERTICES}"),
+        (_star(40, 0.9), f"has 80 vertices: expected at most {MAX_VERTICES}"),
         ([(0, 0), (100, 0), (100, 9e-5), (0, 9e-5)], "one is 9e-05 m thin"),
         ([(0, 0), (1, 0), (0.5, 9e-5)], "thickness"),
     ],
