@@ -1,1 +1,1 @@
-"""The ground floor: what knows no robot."""
+"""The lowest room: everything that knows no robot."""

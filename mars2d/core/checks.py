@@ -1,4 +1,4 @@
-"""Checks of fields that are more than a number: points, poses, polygons, lists of parts."""
+"""Checks of fields: points, poses, polygons, lists of parts, functions, names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point
 
 __all__ = [
-    "LIMIT",
+    "MAX_COORDINATE",
     "function",
     "identifier",
     "instance",
@@ -31,8 +31,8 @@ __all__ = [
     "unique",
 ]
 
-LIMIT = 1e6
-"""Coordinates go up to this far, metres: beyond it a double can't hold a nanometre."""
+MAX_COORDINATE = 1e6
+"""The largest coordinate, metres: beyond it a double can't resolve a nanometre."""
 
 
 def _items(name: str, value: object, expected: str) -> list[Any]:
@@ -49,8 +49,8 @@ def _coordinates(name: str, value: object, items: list[Any], expected: str) -> l
         numbers = [real(name, item) for item in items]
     except InputError:
         raise wrong(name, value, f"{expected}, all of them finite") from None
-    if any(abs(number) > LIMIT for number in numbers):
-        raise wrong(name, value, f"{expected}, within +-{LIMIT:g}")
+    if any(abs(number) > MAX_COORDINATE for number in numbers):
+        raise wrong(name, value, f"{expected}, within +-{MAX_COORDINATE:g}")
     return numbers
 
 
@@ -75,13 +75,13 @@ def pose(name: str, value: object) -> tuple[float, float, float]:
 
 
 def outline(name: str, value: object, least: int = 2) -> Outline:
-    """Check an outline: two vertices a wall, more a closed polygon that does not cross itself."""
+    """Check an outline: a wall of two vertices, or a closed polygon that does not cross itself."""
     what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
     expected = f"{what}, as [(x, y), ...] in metres"
     items = _items(name, value, expected)
     points = [point(f"{name}[{i}]", item) for i, item in enumerate(items)]
     if len(points) > 2 and points[0] == points[-1]:
-        points.pop()  # a ring written closed
+        points.pop()  # the ring was given closed
     if len(points) < least:
         raise wrong(name, value, f"{expected}, at least {least} different ones")
     _check_apart(name, [*points, points[0]] if len(points) > 2 else points)
@@ -91,7 +91,7 @@ def outline(name: str, value: object, least: int = 2) -> Outline:
 
 
 def _check_apart(name: str, points: list[Point]) -> None:
-    """Refuse vertices one after the other that are the same; the first one may end the list."""
+    """Raise InputError if consecutive vertices are the same; a closed list ends with the first."""
     last = len(points) - 1
     for i, (a, b) in enumerate(pairwise(points)):
         if np.hypot(a[0] - b[0], a[1] - b[1]) < 1e-6:
@@ -100,13 +100,13 @@ def _check_apart(name: str, points: list[Point]) -> None:
 
 
 def _check_ring(name: str, points: list[Point]) -> None:
-    """Refuse a polygon that crosses itself or has no area."""
+    """Raise InputError for a polygon that crosses itself or has no area."""
     import shapely
 
     ring = shapely.Polygon(points)
     straight = np.linalg.matrix_rank(np.diff(np.array(points), axis=0), tol=1e-9) < 2
     if not ring.is_valid and not straight:
-        reason = shapely.is_valid_reason(ring)  # as "Self-intersection[1 1]"
+        reason = shapely.is_valid_reason(ring)  # for example "Self-intersection[1 1]"
         place = reason.partition("[")[2].rstrip("]").replace(" ", ", ")
         raise InputError(
             f"{name}: the polygon crosses or touches itself at ({place}): "
@@ -179,7 +179,7 @@ def listing(kind: type, example: str) -> Check:
 
 
 def names(name: str, value: object, expected: str) -> tuple[str, ...] | None:
-    """Check a list of names, at least one, none of them twice; it may be None."""
+    """Check a list of one or more different names, or None."""
     if value is None:
         return None
     if not isinstance(value, (tuple, list)) or not value:
@@ -193,19 +193,19 @@ def names(name: str, value: object, expected: str) -> tuple[str, ...] | None:
 
 
 def unique(name: str, keys: list[str]) -> None:
-    """Refuse names that stand twice in a list."""
+    """Raise InputError if a name occurs twice in a list."""
     for key, count in Counter(keys).items():
         if count > 1:
             raise InputError(f"{name}: two are called {key!r}; give one another name=...")
 
 
 def law(name: str, value: object, subject: str) -> object:
-    """Check a control law: something to be called with one argument, the `subject`."""
+    """Check a control law: a function of one argument, the `subject`."""
     return function(name, value, subject)
 
 
 def function(name: str, value: object, *arguments: str) -> object:
-    """Check something to be called with these arguments, described in words."""
+    """Check a function of these arguments, which are described in words."""
     count = {1: "one argument", 2: "two arguments"}[len(arguments)]
     words = " and ".join(arguments)
     if not callable(value):
@@ -219,12 +219,12 @@ def function(name: str, value: object, *arguments: str) -> object:
             f"{name} = {called}{given}: expected a function of exactly {count}, {words}"
         ) from None
     except ValueError:
-        pass  # a built-in without a signature: the first call will tell
+        pass  # a built-in without a signature: the first call will show
     return value
 
 
 def identifier(name: str, value: str | None, prefix: str) -> None:
-    """Refuse a part's name that can't follow the `prefix` under which a law finds it."""
+    """Raise InputError for a part's name that can't follow the `prefix` in the code of a law."""
     if value is None:
         return
     if not value.isidentifier() or value.startswith("_") or keyword.iskeyword(value):

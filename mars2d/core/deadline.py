@@ -1,4 +1,4 @@
-"""A limit to how long the user's code may take: it is broken off, and its line is known."""
+"""A time limit for the user's code, which is interrupted, with the line where that happened."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from mars2d.core.usercode import users_line
 __all__ = ["Deadline", "Late"]
 
 PATIENCE = 10.0
-"""Seconds that a control step may take."""
+"""The time that a control step may take, seconds."""
 
 GRACE = 5.0
-"""Seconds that it may then take to be broken off."""
+"""The time that the interruption may take, seconds."""
 
 
 class Late(BaseException):
-    """The user's code took too long. No Exception, so that its own `except` can't swallow it."""
+    """The user's code took too long; a BaseException, so that its own `except` can't swallow it."""
 
 
 class Deadline:
-    """Breaks off what runs within it, by Late, `patience` seconds after the last `alive`.
+    """Interrupts the block by raising Late, `patience` seconds after the last call of `alive`.
 
-    A thread of its own watches, so it works in every thread and on every system. What waits in the
-    operating system (``time.sleep``) can't be broken off; then `give_up` is called with the line
-    that hangs, from the watching thread, if it is given. Where no thread can be started, as in a
-    browser, nothing is broken off.
+    A separate thread watches the block, so it works in every thread and on every system. A call
+    that waits in the operating system (``time.sleep``) can't be interrupted; then `give_up`, if
+    given, is called from the watching thread with the line that hangs. If no thread can be
+    started, for example in a browser, nothing is interrupted.
     """
 
     def __init__(
@@ -46,11 +46,11 @@ class Deadline:
         self.where = ""
 
     def alive(self) -> None:
-        """Begin to count anew."""
+        """Restart the clock."""
         self._since, self._fired = time.monotonic(), False
 
     def arrived(self) -> str:
-        """Return the line that was broken off, where Late was caught within the block."""
+        """Return the line that was interrupted; to be called where the block caught Late."""
         self.alive()
         return self.where
 
@@ -71,7 +71,7 @@ class Deadline:
         with self._lock:
             self._ended.set()
         if self._fired and (kind is None or not issubclass(kind, Late)):
-            # Raised, but not arrived yet. To take it back would leave the interpreter slower.
+            # Late was raised but has not arrived. Revoking it would slow the interpreter down.
             with contextlib.suppress(Late):
                 time.sleep(GRACE)
 

@@ -1,4 +1,4 @@
-"""The errors that MARS2D raises, each written for the person who can mend it."""
+"""The errors that MARS2D raises, and the wording of their messages."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ __all__ = [
 
 
 CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
-"""Line breaks, and what tells a terminal to do something."""
+"""Line breaks and the control characters of terminals."""
 
 
 class Mars2dError(Exception):
-    """The root of all errors of this package.
+    """The base of all errors of this package.
 
-    where: the file and line that the error points at, as ``walk.py, line 12``, or None.
-    record: what was recorded until then, when the error ended a run, else None.
+    where: the file and line that the error points at, such as ``walk.py, line 12``, or None.
+    record: the record up to the error if it ended a run, else None.
     """
 
     where: str | None = None
@@ -41,19 +41,19 @@ class Mars2dError(Exception):
 
 
 class InputError(Mars2dError, ValueError):
-    """Something that was given can't be used; the message names it and says what was expected."""
+    """An input can't be used; the message names it and says what was expected."""
 
 
 class LawError(InputError):
-    """A control law, sensor or add-on of the user's raised, or returned what can't be used."""
+    """The user's control law, sensor or add-on raised an error or returned something unusable."""
 
 
 class UnknownNameError(LawError, AttributeError):
-    """A law asked for something that is not there."""
+    """A law asked for something that does not exist."""
 
 
 class MissingExtraError(InputError):
-    """An optional library is needed and not installed; the message holds the pip line."""
+    """An optional library is not installed; the message contains the pip command."""
 
 
 def likely(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
@@ -66,7 +66,7 @@ def likely(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
 
 
 def nearest(name: object, known: Iterable[str], likeness: float = 0.6, most: int = 12) -> str:
-    """Return the nearest known name as `likely` does, or else a list of all, if not over `most`.
+    """Return the nearest known name like `likely`, or else a list of at most `most` known names.
 
     >>> nearest("diametr", ["diameter", "mass"])
     "; did you mean 'diameter'?"
@@ -79,7 +79,7 @@ def nearest(name: object, known: Iterable[str], likeness: float = 0.6, most: int
 
 
 def described(error: BaseException) -> str:
-    """Return what an exception of the user's code says, with the name nearest to a misspelt one."""
+    """Return the message of an exception in the user's code, with a hint at a misspelt name."""
     if isinstance(error, InputError):
         return str(error)
     text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
@@ -97,12 +97,12 @@ def described(error: BaseException) -> str:
 
 
 def counted(count: int, thing: str) -> str:
-    """Return a number with its noun, as ``1 robot`` or ``2 robots``."""
+    """Return a number with its noun, such as ``1 step`` or ``2 steps``."""
     return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
 
 
 def ordinal(number: int) -> str:
-    """Return a number as it counts things in order, as ``1st`` or ``12th``.
+    """Return a number as an ordinal, such as ``1st`` or ``12th``.
 
     >>> [ordinal(number) for number in (2, 3, 12, 32)]
     ['2nd', '3rd', '12th', '32nd']
@@ -112,7 +112,7 @@ def ordinal(number: int) -> str:
 
 
 def one_line(text: object) -> str:
-    r"""Return what a text says in one line that a terminal shows: what it can't is escaped.
+    r"""Return a text as one line, its line breaks and control characters escaped.
 
     >>> one_line("two\nlines")
     'two\\nlines'
@@ -121,9 +121,9 @@ def one_line(text: object) -> str:
 
 
 def shown(value: Any, limit: int = 60) -> str:
-    """Return `value` as it is quoted in a message: its repr, cut to `limit` characters."""
+    """Return `value` as quoted in a message: its repr, cut to `limit` characters."""
     try:
         text = " ".join(repr(value).split())
-    except Exception as error:  # a user's own __repr__ may be what is broken
+    except Exception as error:  # from the user's own __repr__
         text = f"<{type(value).__name__} whose repr raises {type(error).__name__}>"
     return text if len(text) <= limit else text[: limit - 3] + "..."

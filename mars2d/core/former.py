@@ -1,4 +1,4 @@
-"""Former names of modules: an import by one of them warns, and gives what stands there now."""
+"""Former names of modules: importing one warns, and gives the names of the present module."""
 
 from __future__ import annotations
 
@@ -58,11 +58,11 @@ NOW = {
     "view.painter": "output.raster.painter",
     "view.picture": "output.raster.picture",
 }
-"""The modules that the documentation has named, and where their names are now."""
+"""The documented modules of earlier versions, and their present names."""
 
 
 class FormerNames:
-    """Finds the modules of `NOW` for the import system, which asks it last."""
+    """An import hook that finds the modules of `NOW`, after all other finders."""
 
     def find_spec(
         self,
@@ -70,7 +70,7 @@ class FormerNames:
         path: Sequence[str] | None = None,  # noqa: ARG002
         target: ModuleType | None = None,  # noqa: ARG002
     ) -> ModuleSpec | None:
-        """Return how a former name is loaded, None for any other name."""
+        """Return the import spec of a former name, or None for any other name."""
         package, _, former = name.partition(".")
         if package != "mars2d" or former not in NOW:
             return None
@@ -80,7 +80,7 @@ class FormerNames:
         """Let the import system make an empty module."""
 
     def exec_module(self, module: ModuleType) -> None:
-        """Warn, and give the module the names of the one that is there now."""
+        """Issue a FutureWarning, and copy the names of the present module."""
         now = f"mars2d.{NOW[module.__name__.partition('.')[2]]}"
         warnings.warn(f"{module.__name__} is {now} now", FutureWarning, stacklevel=2)
         there = vars(import_module(now))

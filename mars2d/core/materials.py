@@ -1,12 +1,12 @@
-"""What things are made of: density, friction and restitution by the material's name.
+"""Materials: density, friction and restitution by name.
 
-The engine multiplies the values of the two surfaces in a contact. So a surface has the square root
-of what a pair of the same material has: steel on steel gets 0.76 * 0.76 = 0.58. Unlike pairs come
-out near the tables for most of these, but too high with ice. What touches a surface of 1 and 1, as
-obstacles are by default, has its own values in the contact.
+The engine multiplies the values of the two surfaces in a contact. So each surface has the square
+root of the value for a pair of the same material: steel on steel gets 0.76 * 0.76 = 0.58. Pairs of
+different materials come out near the tables in most cases, but too high with ice. In contact with
+a surface of friction 1 and restitution 1, the default of obstacles, a body's own values apply.
 
-The figures are typical ones of clean, dry, solid things. Real ones scatter by a third and more,
-with finish, moisture and speed: measure where it matters. Sources:
+The figures are typical of clean, dry, solid bodies. Real values scatter by a third or more, with
+finish, moisture and speed: measure where it matters. Sources:
 
 - density and sliding friction: Marks' Standard Handbook for Mechanical Engineers, sections 6.1 and
   3.2, and the tables of engineeringtoolbox.com; between them, where they differ;
@@ -27,9 +27,9 @@ __all__ = ["MATERIALS", "Material", "material", "surface_friction", "surface_res
 
 
 class Material(NamedTuple):
-    """Density [kg/m^3], and what a surface of it brings into a contact.
+    """Density [kg/m^3], and the friction and restitution of a surface.
 
-    A contact has the product of both surfaces' friction and of both surfaces' restitution.
+    A contact has the product of both surfaces' friction, and of their restitution.
     """
 
     density: float
@@ -51,7 +51,7 @@ _PAIRS = {
     "teflon": (2200.0, 0.04, 0.5),
     "wood": (600.0, 0.4, 0.5),
 }
-"""Density [kg/m^3], and friction and restitution between two things of the same material."""
+"""Density [kg/m^3], and friction and restitution between two bodies of the same material."""
 
 MATERIALS: dict[str, Material] = {
     name: Material(density, round(friction**0.5, 2), round(restitution**0.5, 2))
@@ -104,5 +104,5 @@ def _surface(name: str, value: object, quantity: str, high: float) -> float:
 
 
 def _known(value: object) -> str:
-    """Return a hint at the nearest material's name, else all of them."""
+    """Return a hint at the nearest material's name, or else a list of all."""
     return nearest(value.lower(), MATERIALS) if isinstance(value, str) else ""

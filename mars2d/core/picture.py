@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.checks import LIMIT
+from mars2d.core.checks import MAX_COORDINATE
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.scene import LARGEST_IMAGE, rgb
@@ -49,7 +49,7 @@ def image_bounds(name: str, value: object) -> Bounds | None:
         return None
     if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 4:
         xmin, xmax, ymin, ymax = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
-        far = max(map(abs, (xmin, xmax, ymin, ymax))) > LIMIT
+        far = max(map(abs, (xmin, xmax, ymin, ymax))) > MAX_COORDINATE
         if xmin < xmax and ymin < ymax and not far:
             return xmin, xmax, ymin, ymax
     raise wrong(name, value, expected)

@@ -1,4 +1,4 @@
-"""A progress bar for a person who waits."""
+"""A progress bar on a terminal."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ __all__ = ["Progress"]
 
 
 class Stepped(Protocol):
-    """What progress is shown of: something whose iteration counts up."""
+    """An object whose iteration counts up."""
 
     iteration: int
 
 
 class Progress:
-    """A bar on one line of a terminal: how far, how quick, how long still; else silent."""
+    """A bar on one line of a terminal with progress, rate and time left; silent elsewhere."""
 
     def __init__(self, total: int, unit: str = "steps", stream: TextIO | None = None) -> None:
-        """Take how many steps there are in all; `stream` is stderr by default."""
+        """Take the total number of steps; `stream` is stderr by default."""
         self._total = max(total, 1)
         self._unit = unit
         self._stream = sys.stderr if stream is None else stream
@@ -28,14 +28,14 @@ class Progress:
         self._next = self._start + 0.5  # a short run needs no bar
         self._shown = False
 
-    def __call__(self, world: Stepped) -> None:
-        """Show how far a world has come."""
-        self.update(world.iteration)
+    def __call__(self, stepped: Stepped) -> None:
+        """Show the progress of an object by its iteration."""
+        self.update(stepped.iteration)
 
     def update(self, done: int, doing: str = "") -> None:
-        """Show that `done` steps of all have been made, ten times a second at most.
+        """Show that `done` of all steps are done, at most ten times a second.
 
-        doing: what is being done now, in place of how quick; for few steps that take long.
+        doing: the present activity, shown instead of the rate; for a few long steps.
         """
         if not self._on or (now := time.monotonic()) < self._next:
             return

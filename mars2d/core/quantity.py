@@ -1,4 +1,4 @@
-"""What is measured or commanded: kinds of numbers, how they look when nothing is there, and err."""
+"""Quantities that are measured or commanded: units, kinds, limits, missing values, outliers."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ __all__ = ["ANGLE", "COLOR", "DISTANCE", "FLAG", "NUMBER", "UNKNOWN", "Quantity"
 
 Values = NDArray[np.float64] | NDArray[np.bool_]
 
-GROSS = 10.0
-"""An outlier of a number without bounds is so many times further off than its noise."""
+OUTLIER_SCALE = 10.0
+"""The spread of outliers of a number without bounds, in units of its noise."""
 
 Kind = Literal["distance", "angle", "color", "flag", "number"]
 KINDS: tuple[str, ...] = get_args(Kind)
@@ -28,11 +28,11 @@ SYMBOLS = {"omega": "ω", "delta": "δ"}
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """One number that a sensor measures, or a drive is commanded by: its name, unit and kind.
+    """One number that is measured or commanded: its name, unit and kind.
 
-    kind: "distance" (>= 0, inf when nothing is there), "angle" (in (-pi, pi]), "color" (0 to 1),
-    "flag" (True or False) or "number". Of all but distances and flags, nan says that nothing is
-    there; of a flag, False. Raises InputError for any other kind.
+    kind: "distance" (>= 0, inf if missing), "angle" (in (-pi, pi]), "color" (0 to 1), "flag" (True,
+    or False if missing) or "number". A missing angle, color or number is nan. Raises InputError
+    for any other kind.
     """
 
     name: str
@@ -46,25 +46,25 @@ class Quantity:
 
     @property
     def symbol(self) -> str:
-        """Its name as people write it: ω for omega."""
+        """The name as a symbol: ω for omega."""
         return SYMBOLS.get(self.name, self.name)
 
     @property
     def missing(self) -> float | bool:
-        """What is read when nothing is there: inf, nan or False."""
+        """The value if there is nothing to measure: inf, nan or False."""
         return {"distance": inf, "flag": False}.get(self.kind, nan)
 
     def outlier(self, true: Values, noise: float, top: float, rng: np.random.Generator) -> Values:
-        """Return values that have nothing to do with the true ones; top: the longest distance."""
+        """Return random outliers in place of the true values; top: the largest distance."""
         if self.kind == "flag":
             return ~true.astype(bool)
         if self.kind == "number":
-            return np.asarray(true + GROSS * noise * rng.standard_normal(true.shape))
+            return np.asarray(true + OUTLIER_SCALE * noise * rng.standard_normal(true.shape))
         low, high = {"distance": (0.0, top), "angle": (-pi, pi), "color": (0.0, 1.0)}[self.kind]
         return rng.uniform(low, high, true.shape)
 
     def limited(self, values: Values, top: float) -> Values:
-        """Return values as the device gives them: within bounds, angles wrapped, or missing."""
+        """Return values within the kind's limits: clipped, wrapped, or missing beyond `top`."""
         if self.kind == "distance":
             return np.where(values > top, inf, np.maximum(values, 0.0))
         if self.kind == "color":
@@ -72,9 +72,9 @@ class Quantity:
         return wrap(values) if self.kind == "angle" else values
 
     def rounded(self, values: Values, step: float, top: float) -> Values:
-        """Return values within their limits at multiples of a step, or at the limit itself."""
+        """Return values rounded to multiples of a step, within the kind's limits."""
         result = np.round(values / step) * step
-        if self.kind == "distance":  # not up to beyond the range
+        if self.kind == "distance":  # don't round up beyond the range
             beyond = (result > top) & (values <= top)
             result = np.where(beyond, np.floor(values / step) * step, result)
         return self.limited(result, top)
@@ -87,4 +87,4 @@ COLOR = Quantity("color", "", "color")
 FLAG = Quantity("flag", "", "flag")
 
 UNKNOWN = (Quantity("u₁"), Quantity("u₂"))
-"""The command of a drive that does not say what it is."""
+"""The command of a drive that does not describe its inputs."""

@@ -292,7 +292,7 @@ def _points(points: ArrayLike) -> Float:
     except (TypeError, ValueError):
         raise wrong("Tessellation.points", points, expected) from None
     fits = found.ndim == 2 and found.shape[0] == 2 and found.shape[1] > 0
-    if not fits or not np.isfinite(found).all() or np.abs(found).max() > checks.LIMIT:
+    if not fits or not np.isfinite(found).all() or np.abs(found).max() > checks.MAX_COORDINATE:
         raise wrong("Tessellation.points", points, expected)
     return _unwritable(found)
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mars2d import InputError, Robot
-from mars2d.core.checks import LIMIT, instance, listing, outline, outlines, point, pose
+from mars2d.core.checks import MAX_COORDINATE, instance, listing, outline, outlines, point, pose
 
 NAN, INF = float("nan"), float("inf")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -26,8 +26,8 @@ def test_a_point_is_two_numbers_however_they_come(value):
 @pytest.mark.parametrize(
     "value",
     [(1,), (1, 2, 3), 1, None, "12", b"12", {1: 2, 3: 4}, (NAN, 0), (0, INF), (None, 0), ("1", 2),
-     (1j, 0), (True, 0), (10**400, 0), (2 * LIMIT, 0), ((1, 2), 3), np.zeros((2, 2)), np.array(1.0),
-     (np.array([1.0]), 2)],
+     (1j, 0), (True, 0), (10**400, 0), (2 * MAX_COORDINATE, 0), ((1, 2), 3),
+     np.zeros((2, 2)), np.array(1.0), (np.array([1.0]), 2)],
     ids=repr,
 )  # fmt: skip
 def test_anything_else_is_no_point(value):

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.checks import LIMIT
+from mars2d.core.checks import MAX_COORDINATE
 from mars2d.core.errors import InputError, counted, nearest, shown
 
 if TYPE_CHECKING:
@@ -166,10 +166,10 @@ class Drawing:
         """Refuse what is too far away, or has no size. Raises InputError."""
         xmin, xmax, ymin, ymax = self.bounds
         far = max(map(abs, (xmin, xmax, ymin, ymax)))
-        if not isfinite(far) or far > LIMIT:
+        if not isfinite(far) or far > MAX_COORDINATE:
             raise InputError(
                 f"{self.source}: lies up to {far:.3g} m from the origin, expected at most "
-                f"{LIMIT:g} m: at=(0, 0) moves it there, unit=... says how large it is"
+                f"{MAX_COORDINATE:g} m: at=(0, 0) moves it there, unit=... says how large it is"
             )
         if max(self.size) < 1e-3:
             raise InputError(
