@@ -21,7 +21,7 @@ import numpy as np
 
 from mars2d import Animation, Delaunay, Holonomic, Prediction, Robot, Scenario
 from mars2d.addons import Density, Voronoi
-from mars2d.geometry.voronoi import Tessellation
+from mars2d.geometry import Tessellation
 
 SIDE, BREAKDOWN = 5.0, 20.0  # m; s, when some robots break down
 SQUARE = [(0, 0), (0, SIDE), (SIDE, SIDE), (SIDE, 0)]

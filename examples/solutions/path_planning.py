@@ -24,7 +24,7 @@ import numpy as np
 
 from mars2d import Prediction
 from mars2d.addons import Waypoints
-from mars2d.geometry.potential_field import Potential
+from mars2d.geometry import Potential
 from mars2d.scenario import open_module
 
 base = open_module("path_planning")

@@ -16,7 +16,7 @@ import numpy as np
 
 from mars2d import Prediction
 from mars2d.addons import Game
-from mars2d.geometry.voronoi import Tessellation
+from mars2d.geometry import Tessellation
 from mars2d.scenario import open_module
 
 base = open_module("pursuit_voronoi")

@@ -15,7 +15,9 @@ from mars2d.core.plane import (
     rectangle,
     wrap,
 )
+from mars2d.geometry.potential_field import Potential
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
+from mars2d.geometry.voronoi import Tessellation
 
 __all__ = [
     "Compound",
@@ -23,7 +25,9 @@ __all__ = [
     "Outline",
     "Point",
     "Polygon",
+    "Potential",
     "Shape",
+    "Tessellation",
     "bounds_of",
     "distance_to_ring",
     "edges_of",
