@@ -76,7 +76,7 @@ class Picture:
 
 
 def read_picture(name: str, image: str, color: str | None = None) -> Picture:
-    """Return the picture in a PNG file, laid over `color`, or over white, where it is transparent.
+    """Return the picture in a PNG file; its transparent parts show `color`, or white.
 
     The file is read again only if it has changed. Raises InputError, beginning with `name`, if the
     file is missing, is not a PNG with 8 bits per channel, or is too large.

@@ -1,7 +1,7 @@
 """Families of parts by name: drives, sensors, add-ons; MARS2D's own and those of other packages.
 
 A package ships a part by an entry point of the group ``mars2d.<family>``, such as
-``mars2d.sensors``. They are looked up when somebody asks for parts by name, never on import.
+``mars2d.sensors``. Entry points are looked up when parts are asked for by name, never on import.
 """
 
 from __future__ import annotations
@@ -47,15 +47,15 @@ BASES = {
     "sensors": "Sensor",
     "addons": "Addon",
 }
-"""The class that all parts of a family derive from."""
+"""The base class of each family."""
 
 
 @dataclass(frozen=True)
 class Plugin:
-    """A part that another package ships by an entry point, or why it can't be used.
+    """A part that another package ships by an entry point, or the reason why it can't be used.
 
-    name: of the class, or of the entry point if there is no class. package, version: what `pip`
-    calls the package. kind: the class, None if it can't be used. problem: then why, in words.
+    name: of the class, or of the entry point if there is no class. package, version: those of
+    `pip`. kind: the class, None if it can't be used. problem: the reason, or empty.
     """
 
     family: str
@@ -69,7 +69,7 @@ class Plugin:
 def members(family: str) -> dict[str, type[Description]]:
     """Return the public classes of a family (``"sensors"``, ``"addons"``, ``"bodies"``) by name.
 
-    First those of MARS2D, then those of other packages that can be used, see `plugins`.
+    Those of MARS2D come first, then the usable ones of other packages; see `plugins`.
     """
     others = {p.name: p.kind for p in plugins(family) if p.kind is not None}
     return _own(family) | others
@@ -77,11 +77,11 @@ def members(family: str) -> dict[str, type[Description]]:
 
 @cache
 def plugins(family: str) -> tuple[Plugin, ...]:
-    """Return what other packages ship for a family, what can't be used with its problem.
+    """Return the parts that other packages ship for a family, unusable ones with their problem.
 
-    A name that MARS2D has itself, or another package before in the alphabet, is a problem.
+    A name that MARS2D itself or an earlier package in the alphabet has is a problem.
     """
-    from importlib.metadata import entry_points  # which takes a tenth of the package's import
+    from importlib.metadata import entry_points  # takes a tenth of the package's import time
 
     taken = dict.fromkeys(_own(family), "MARS2D itself")
     found = []
@@ -103,12 +103,12 @@ def plugin(family: str, name: str, package: str) -> type[Description] | None:
 
 
 def family_of(kind: type[Description]) -> str | None:
-    """Return the family of one of MARS2D's own parts, None for a class that is none."""
+    """Return the family of one of MARS2D's own parts, None for any other class."""
     return next((f for f, package in FAMILIES.items() if kind.__module__.startswith(package)), None)
 
 
 def package_of(family: str, kind: type[Description]) -> str | None:
-    """Return which package ships a class by an entry point, None if no one does."""
+    """Return the package that ships a class by an entry point, or None."""
     return next((p.package for p in plugins(family) if p.kind is kind), None)
 
 
@@ -118,7 +118,7 @@ def _load(family: str, entry: EntryPoint) -> Plugin:
     problem = ""
     try:
         kind = entry.load()
-    except (Exception, SystemExit) as error:  # another's code: it must not end us
+    except (Exception, SystemExit) as error:  # raised by the other package's code
         problem = f"{entry.value} can't be loaded: {described(error)}"
         return Plugin(family, entry.name, package, version, problem=problem)
     if not (isinstance(kind, type) and issubclass(kind, base)):
@@ -149,13 +149,13 @@ def _walk(family: str) -> Iterator[type[Description]]:
 
 
 def _leaves_methods(kind: type) -> bool:
-    """Return whether a class leaves methods to those that derive from it, as Contest does."""
+    """Return whether a class has abstract methods, like Contest."""
     methods = (getattr(kind, name, None) for name in dir(kind))
     return any(getattr(method, "__isabstractmethod__", False) for method in methods)
 
 
 def misspelt_groups() -> list[str]:
-    """Return entry points' groups that begin with ``mars2d.`` and are none, each with a hint."""
+    """Return groups of entry points that begin with ``mars2d.`` but are no family, with hints."""
     from importlib.metadata import entry_points
 
     groups = {group for group in entry_points().groups if group.startswith("mars2d.")}

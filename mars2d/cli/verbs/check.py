@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> None:
-    """Say what a file holds and whether it is sound."""
+    """Describe a file and check it for mistakes: code, a scenario, a record or a map."""
     path = Path(arguments.file)
     if path.suffix.lower() in maps.SUFFIXES:
         check_outputs(arguments, {"figure": figure.SUFFIXES})
@@ -78,7 +78,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> None:
-    """Say what was read of a map, and draw it."""
+    """Describe a map, and draw it if a figure is asked for."""
     known = reading_options()
     for name in settings:
         if name not in known:

@@ -15,7 +15,7 @@ def add_arguments(_: argparse.ArgumentParser) -> None:
 
 
 def execute(_: argparse.Namespace) -> None:
-    """Say what this machine offers, and whether the installation works."""
+    """Show what this machine offers, and test the installation."""
     broken = []
     for finding in examine():
         print(f"{MARKS[finding.ok]}  {finding.name:<12}{finding.text}")

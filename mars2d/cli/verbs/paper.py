@@ -38,7 +38,7 @@ def _numbers(text: str) -> list[int]:
 
 
 def execute(arguments: argparse.Namespace) -> None:
-    """Make the figures of the MARS paper anew, on a page beside what paper and theory say."""
+    """Regenerate the figures of the MARS paper on a page that compares them with theory."""
     seed, folder = check_seed(arguments.seed), arguments.folder
     figures = [f for f in FIGURES if arguments.only is None or f.number in arguments.only]
     prepare(folder, [name for figure in FIGURES for name in figure.files])

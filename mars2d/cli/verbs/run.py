@@ -66,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> None:
-    """Run an experiment, in a window where there is one, and save what is asked for."""
+    """Run an experiment, in a window if there is a display, and save the requested files."""
     check_outputs(arguments, OUTPUTS)
     if arguments.at is not None and arguments.figure is None:
         raise InputError("--at needs --figure OUT")

@@ -91,7 +91,7 @@ def arena(
     reach: float = 0.0,
     proximity: float = 0.0,
 ) -> Scene:
-    """Return a scene with obstacles and robots at random places where nothing touches."""
+    """Return a scene with obstacles and robots at random places, without contacts."""
     rng = np.random.default_rng(robots)
     places = _Places(side, rng)
     outlines = [
@@ -134,7 +134,7 @@ def _box(center: tuple[float, float], angle: float) -> Outline:
 
 
 def side_for(robots: int, cover: float = 0.05) -> float:
-    """Return the side of the arena that so many robots cover to this part, metres."""
+    """Return the side of an arena of which robots cover the share `cover`, metres."""
     return float(np.sqrt(robots * np.pi * RADIUS**2 / cover))
 
 
@@ -159,7 +159,7 @@ def s4() -> Scene:
 
 
 def team(robots: int, sampling_time: float, name: str = "team") -> Scene:
-    """Return so many robots at 5 % cover, with one obstacle for each fifty."""
+    """Return a scene of which robots cover 5 %, with one obstacle for each fifty."""
     title = f"{robots} robots"
     return arena(name, title, robots, robots // 50, side_for(robots), sampling_time)
 

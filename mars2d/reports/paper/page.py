@@ -1,4 +1,4 @@
-"""The page: each figure beside what the paper reports and what theory predicts, as HTML5."""
+"""The page, in HTML5: each figure beside the paper's report and the predictions of theory."""
 
 from __future__ import annotations
 
