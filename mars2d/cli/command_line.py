@@ -12,7 +12,6 @@ import threading
 import traceback
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
-from importlib import import_module
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
@@ -82,8 +81,7 @@ def parser() -> argparse.ArgumentParser:
     )
     root.add_argument("--version", action="version", version=f"mars2d {__version__}")
     verbs = root.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
-    for name in VERBS:
-        verb = import_module(f"mars2d.cli.verbs.{name}")
+    for name, verb in VERBS.items():
         doc = (verb.execute.__doc__ or "").strip()
         sub = verbs.add_parser(name, help=doc, description=doc, allow_abbrev=False)
         sub.set_defaults(execute=verb.execute, refuse=sub.error)

@@ -6,12 +6,14 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import mars2d
 from mars2d.cli import command_line as cli
+from mars2d.cli import verbs
 from tests.forking import Nursery
 
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
@@ -667,3 +669,8 @@ def test_a_closed_stdout_is_no_fault(tmp_path):
         check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_each_module_in_the_folder_of_verbs_is_a_verb():
+    modules = {path.stem for path in Path(verbs.__file__).parent.glob("*.py")} - {"__init__"}
+    assert set(verbs.VERBS) == modules

@@ -4,9 +4,11 @@ The module `run` is the verb ``mars2d run``. A verb's module has a function `add
 and a function `execute(arguments)`, whose docstring is the verb's help.
 """
 
+from importlib import import_module
+
 __all__ = ["VERBS"]
 
-VERBS = (
+NAMES = (
     "demo",
     "run",
     "edit",
@@ -22,3 +24,6 @@ VERBS = (
     "doctor",
 )
 """The names of the verbs, in the order in which the help lists them."""
+
+VERBS = {name: import_module(f"{__name__}.{name}") for name in NAMES}
+"""The verbs' modules by name."""
