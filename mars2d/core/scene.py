@@ -20,6 +20,7 @@ from mars2d.core.pixels import LARGEST_IMAGE
 from mars2d.core.plane import Outline
 
 __all__ = [
+    "INK",
     "PALETTE",
     "THEORY",
     "Arrow",
@@ -42,6 +43,9 @@ Anchor = Literal["center", "left", "right", "above", "below"]
 
 # Okabe & Ito's colours, distinguishable with every common colour vision deficiency (2008).
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#5f4b8b", "#444444")
+
+INK = "#3d4852"
+"""The colour of outlines."""
 
 THEORY = "#7b3294"
 """The colour of what theory predicts."""

@@ -18,7 +18,7 @@ from mars2d.core.plane import Outline, edges_of
 from mars2d.geometry.pair_list import Clearance, Close, DiscPairs, Walls
 from mars2d.geometry.separation import ConvexPairs, Pieces
 
-__all__ = ["Bounds", "Encounter"]
+__all__ = ["Bounds", "Collisions"]
 
 Float = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -106,7 +106,7 @@ class Bounds:
         offset = self.offset[who]
         return np.asarray(speed + np.hypot(offset.real, offset.imag) * np.abs(velocity[:, 2]))
 
-    def encounter(self, who: Index, reach: float) -> Encounter:
+    def collisions(self, who: Index, reach: float) -> Collisions:
         """Return all that may touch among bodies `who` (k,), whose circles move by `reach`.
 
         They move from where `clearance` was told that they are.
@@ -120,7 +120,7 @@ class Bounds:
             convex = self._convex(Close(i[~pairs], j[~pairs], body[~walls], segment[~walls]), who)
             close = Close(i[pairs], j[pairs], body[walls], segment[walls])
         discs = DiscPairs(self.radius[who], close, self._walls)
-        return Encounter(self, who, discs, convex)
+        return Collisions(self, who, discs, convex)
 
     def _convex(self, close: Close, who: Index) -> ConvexPairs | None:
         """Return the pairs of convex pieces of bodies, and of pieces and obstacles' edges."""
@@ -149,7 +149,7 @@ class Bounds:
         return np.asarray(self._obstacle[segment])
 
 
-class Encounter:
+class Collisions:
     """Some bodies and all that they may touch during the next while: their gaps as they move."""
 
     def __init__(

@@ -2,7 +2,7 @@
 
 What nothing can reach during the time to come is *carried*: robots go to the ends of their arcs and
 props glide, both in closed form, in one step of any length. What may touch something is *near*: it
-is stepped finely, robots by their clutches and props by the floor's grip.
+is stepped finely: drive joints hold robots to their commands, floor joints hold props.
 """
 
 from __future__ import annotations
@@ -13,59 +13,34 @@ from math import ceil, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.physics.collision import Bounds, Encounter
-from mars2d.physics.drive_joints import Clutches, Driven
-from mars2d.physics.floor_joints import Grips
+from mars2d.physics.collision import Bounds, Collisions
+from mars2d.physics.drive_joints import DriveJoints, Driven
+from mars2d.physics.floor_joints import FloorJoints
 from mars2d.physics.kernel import CONTACTS, EFFORT, PLACED, Kernel, reason_without
 from mars2d.physics.motion import Motion, Start
-from mars2d.physics.rope_limits import Tethers
+from mars2d.physics.rope_limits import RopeLimits
+from mars2d.physics.settings import (
+    GROUP,
+    GROUP_SLACK,
+    GROWTH,
+    ITERATIONS,
+    ITERATIONS_JOINTS,
+    ITERATIONS_UNEQUAL,
+    MAX_GROUP_RATIO,
+    PRESSED,
+    SLACK,
+    SLOP,
+    STRETCH,
+)
 from mars2d.physics.space import Space
 from mars2d.record.contact import CONTACT, ContactLog
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["SLOP", "Engine"]
+__all__ = ["Engine"]
 
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
-
-SLOP = 1e-4
-"""The overlap that the solver leaves in steady contact, metres."""
-
-ITERATIONS = 15
-ITERATIONS_UNEQUAL = 20  # with masses more than three times apart
-ITERATIONS_TIED = 60  # with joints: several may hold the same bodies
-
-SLACK = 1.25
-"""How much further than at its present speed a body may be thrown before gaps are asked anew."""
-
-STRETCH = 1 / 15
-"""How much longer a rope may be when it jerks, in parts of how deep bodies may enter.
-
-The solver draws it in again, and what it pulls at bounces by that much more than nothing.
-"""
-
-PRESSED = 0.25
-"""How deep bodies overlap at least that press against each other, in parts of the slop."""
-
-GROWTH = 2.0
-"""How much longer or shorter a substep may be than the one before, with the same joints.
-
-The solver begins with what they did in the substep before. From where the next one has to be
-shorter than that, they begin anew.
-"""
-
-GROUP = 64
-"""How many robots of a large team are stepped together, about: each group as finely as it needs."""
-
-ALIKE = 2.0
-"""How many times as heavy as another a robot of a team may be that is stepped in groups.
-
-Groups can't wait for one of which a robot is thrown further than was thought possible.
-"""
-
-SLACK_OF_GROUPS = 1.5
-"""What `SLACK` is for them, with equal masses: two that squeeze a third give it no more."""
 
 NOTHING = np.empty(0, dtype=CONTACT)
 NOTHING.flags.writeable = False
@@ -94,16 +69,16 @@ class Engine(Motion):
         unequal = mass.max() > 3 * mass.min()
         iterations = ITERATIONS_UNEQUAL if unequal else ITERATIONS
         if scenario.ties:
-            iterations = ITERATIONS_TIED
+            iterations = ITERATIONS_JOINTS
         slop = min(SLOP, scenario.max_overlap / 4, thinnest / 32)
         self._pressed = PRESSED * slop
         self.space = Space(scenario, slop, iterations)
         self.bounds = Bounds(bodies, [s.outline for s in scenario.surfaces], scenario.joined)
-        self._tethers = Tethers(scenario.ties, bodies) if scenario.ties else None
+        self._rope_limits = RopeLimits(scenario.ties, bodies) if scenario.ties else None
         self.contacts = ContactLog()
 
-        self._clutches = Clutches(scenario, self.space)
-        self._grips = Grips(scenario, self.space, self.bounds)
+        self._drive_joints = DriveJoints(scenario, self.space)
+        self._floor_joints = FloorJoints(scenario, self.space, self.bounds)
         self._set_accuracy(scenario, thinnest, iterations)
         self._slipping = np.zeros(self.count, dtype=bool)
         self._pulled = np.zeros(self.count, dtype=bool)
@@ -125,8 +100,8 @@ class Engine(Motion):
         if reason_without():
             return None
         ratio = float(self._mass.max() / self._mass.min())
-        self._groups = self.n // GROUP if ratio <= ALIKE and self.n >= 2 * GROUP else 1
-        slack = SLACK if self._groups == 1 else SLACK_OF_GROUPS * thrown(ratio)
+        self._groups = self.n // GROUP if ratio <= MAX_GROUP_RATIO and self.n >= 2 * GROUP else 1
+        slack = SLACK if self._groups == 1 else GROUP_SLACK * thrown(ratio)
         self._placed, self._reach = np.zeros(self.n, dtype=bool), np.zeros(self.n)
         arrays = {
             "state": self._state, "slipping": self._slipping, "placed": self._placed,
@@ -137,7 +112,7 @@ class Engine(Motion):
             "contact_step": self._contact_step, "pressed": self._pressed, "slack": slack,
             "growth": GROWTH, "last_step": self.space.last_step, "groups": self._groups,
         }  # fmt: skip
-        for part in (self.bounds, self._clutches, self.space):
+        for part in (self.bounds, self._drive_joints, self.space):
             more_arrays, more_numbers = part.shared()
             arrays |= more_arrays
             numbers |= more_numbers
@@ -149,25 +124,25 @@ class Engine(Motion):
         # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
         self._entry = min(0.75 * scenario.max_overlap, 0.125 * thinnest)
         # The depth under a force F settles at about F h^2 / (m iterations).
-        force = self._clutches.force
+        force = self._drive_joints.force
         push = float(max((force / self._mass[: self.n]).max(), force.max() / self._mass.min()))
         self._depth_of_push = 0.15 * scenario.max_overlap * iterations
         self._contact_step = sqrt(self._depth_of_push / push)
-        if self._tethers is not None:
-            self._contact_step = min(self._contact_step, self._tethers.longest_step)
+        if self._rope_limits is not None:
+            self._contact_step = min(self._contact_step, self._rope_limits.longest_step)
 
     def take_effort(self) -> Float:
         """Return the largest share of its bounds that each drive used since the last call, (n,)."""
         if self._kernel is not None and not self._left_over(EFFORT):
             return self._idle
-        return self._clutches.take_effort()
+        return self._drive_joints.take_effort()
 
     @property
     def velocity(self) -> Float:
         """The velocities (3, N) at this instant: x', y' [m/s], theta' [rad/s], as a new array."""
         velocity = super().velocity
         free = np.flatnonzero(~self._slipping[: self.n])  # the engine has chords of these
-        arcs = self._clutches.arcs(self._twist).take(free)
+        arcs = self._drive_joints.arcs(self._twist).take(free)
         velocity[:, free] = arcs.chord(self._state[free, 2], 0.0).T
         return velocity
 
@@ -206,8 +181,8 @@ class Engine(Motion):
         if self._slipping[body]:
             return False
         if body >= self.n:
-            return self._grips.bears(self._state[body, 3:], body, force, torque)
-        drives = self._clutches
+            return self._floor_joints.bears(self._state[body, 3:], body, force, torque)
+        drives = self._drive_joints
         share = max(force / drives.force[body], torque / drives.torque[body])
         if share > 1.0:
             return False
@@ -224,7 +199,7 @@ class Engine(Motion):
         if self._kernel is not None:
             self._drive_kernel(self._kernel, twist, duration, time)
             return
-        self._arcs = self._clutches.arcs(twist)
+        self._arcs = self._drive_joints.arcs(twist)
         elapsed = 0.0
         while elapsed < duration:
             left = duration - elapsed
@@ -260,14 +235,14 @@ class Engine(Motion):
         """
         self.bounds.clearance.measure(self.bounds.center(self._state))
         near, path = self._find_near(twist, duration)
-        self._clutches.release(~near[: self.n])
+        self._drive_joints.release(~near[: self.n])
         self._carry(~near, duration)
         if near.any():
             who = np.flatnonzero(near)
             robots = int(np.searchsorted(who, self.n))
-            drives = Driven(self._clutches, self._arcs, who[:robots])
-            encounter = self.bounds.encounter(who, path + self._max_overlap)
-            group = _Near(who, robots, drives, encounter, self._slipping[who])
+            drives = Driven(self._drive_joints, self._arcs, who[:robots])
+            collisions = self.bounds.collisions(who, path + self._max_overlap)
+            group = _Near(who, robots, drives, collisions, self._slipping[who])
             gone = self._substeps(group, duration, time, path)
         else:
             gone = duration
@@ -281,7 +256,7 @@ class Engine(Motion):
         velocity, state, n = self.space.velocity, self._state, self.n
         velocity[:n] = self._arcs.chord(state[:n, 2], duration)
         if carried[n:].any():
-            moved, _ = self._grips.glide(state[n:], np.arange(n, self.count), duration)
+            moved, _ = self._floor_joints.glide(state[n:], np.arange(n, self.count), duration)
             velocity[n : self.count] = moved / duration
 
     def _arrive(self, carried: Mask, gone: float, duration: float) -> None:
@@ -295,7 +270,7 @@ class Engine(Motion):
                 self._put(i, before[i, 0] + dx, before[i, 1] + dy, None)
         if carried[n:].any():
             who = n + np.flatnonzero(carried[n:])
-            moved, end = self._grips.glide(before[who], who, gone)
+            moved, end = self._floor_joints.glide(before[who], who, gone)
             self._state[who, 3:] = end
             if gone < duration:
                 after = (before[who, :3] + moved).tolist()
@@ -318,8 +293,8 @@ class Engine(Motion):
         speed = now.copy()
         speed[:n] = bounds.top_speed(twist.T, slice(n))
         near = self._slipping.copy()
-        if self._tethers is not None:
-            near |= self._tethers.tied
+        if self._rope_limits is not None:
+            near |= self._rope_limits.tied
         if near.any():
             speed = np.where(near, np.maximum(speed, now), speed)
         path, reach, count = 0.0, speed * duration, -1
@@ -337,18 +312,18 @@ class Engine(Motion):
 
         path: metres; before one of them has gone further, this returns. Returns the seconds gone.
         """
-        who, encounter = near.who, near.encounter
+        who, collisions = near.who, near.collisions
         everything = self._state
         gone = np.zeros(len(who))  # paths, metres
         elapsed = h = 0.0
         while True:
-            encounter.measure(everything[who])
+            collisions.measure(everything[who])
             if elapsed > 0:
-                self._note_contacts(time + elapsed, h, encounter)
+                self._note_contacts(time + elapsed, h, collisions)
             if elapsed >= duration:
                 break
-            if encounter.any_touch:
-                self._press(everything, encounter)
+            if collisions.any_touch:
+                self._press(everything, collisions)
             left = duration - elapsed
             state = everything[who]
             velocity, h = self._look_ahead(near, everything, state, left)
@@ -363,12 +338,12 @@ class Engine(Motion):
         self._slipping[who] = near.slipping
         return elapsed
 
-    def _press(self, everything: Float, encounter: Encounter) -> None:
+    def _press(self, everything: Float, collisions: Collisions) -> None:
         """Press together what touches by a rounding only, and would lose touch by another.
 
         everything: (N, 6) states of all bodies, which are brought up to date.
         """
-        for a, b, normal in encounter.grazing(self._pressed / 8):
+        for a, b, normal in collisions.grazing(self._pressed / 8):
             # Their common centre of mass stays.
             share = 1.0 if b < 0 else self._mass[b] / (self._mass[a] + self._mass[b])
             for i, way in ((a, share * self._pressed), (b, (share - 1) * self._pressed)):
@@ -376,9 +351,9 @@ class Engine(Motion):
                     everything[i, :2] += way * normal.real, way * normal.imag
                     self.space.place(i, *everything[i, :2].tolist())
 
-    def _note_contacts(self, time: float, h: float, encounter: Encounter) -> None:
-        if encounter.any_touch:
-            self.contacts.add(time, h, self.space.solved(), encounter.touching_pairs())
+    def _note_contacts(self, time: float, h: float, collisions: Collisions) -> None:
+        if collisions.any_touch:
+            self.contacts.add(time, h, self.space.solved(), collisions.touching_pairs())
         else:
             self.contacts.add_nothing()
 
@@ -391,10 +366,10 @@ class Engine(Motion):
         (k, 6) theirs. left: seconds until the end.
         """
         r, drives, slipping = near.robots, near.drives, near.slipping
-        touching = near.encounter.touching()
-        if self._tethers is not None:
-            self._tethers.measure(everything)
-            touching |= self._tethers.held()[near.who]
+        touching = near.collisions.touching()
+        if self._rope_limits is not None:
+            self._rope_limits.measure(everything)
+            touching |= self._rope_limits.held()[near.who]
         touching |= self._pulled[near.who]
         h = left
         slipping |= touching
@@ -406,32 +381,32 @@ class Engine(Motion):
             slipping[r:] = touching[r:]
         velocity, bend = drives.motion(state[:r], slipping[:r])
         if r < len(state):
-            glides = self._grips.motion(state[r:], slipping[r:], near.who[r:])
+            glides = self._floor_joints.motion(state[r:], slipping[r:], near.who[r:])
             velocity, bend = (np.concatenate([velocity, glides[0]]), np.append(bend, glides[1]))
-        h = min(h, near.encounter.time_to_touch(velocity, bend, self._entry))
-        if self._tethers is not None:
+        h = min(h, near.collisions.time_to_touch(velocity, bend, self._entry))
+        if self._rope_limits is not None:
             h = min(h, self._time_to_jerk(velocity, bend, near.who))
         return velocity, left / ceil(left / h - 1e-9)  # equal ones settle best, without a sliver
 
     def _time_to_jerk(self, velocity: Float, bend: Float, who: Index) -> float:
         """Return for how long no rope gets taut and longer; all that are tied are near."""
-        assert self._tethers is not None
+        assert self._rope_limits is not None
         all_velocity, all_bend = np.zeros((self.count, 3)), np.zeros(self.count)
         all_velocity[who], all_bend[who] = velocity, bend
-        return self._tethers.time_to_jerk(all_velocity, all_bend, STRETCH * self._entry)
+        return self._rope_limits.time_to_jerk(all_velocity, all_bend, STRETCH * self._entry)
 
     def _aim(self, near: _Near, state: Float, h: float) -> None:
         """Prepare those near, with states (k, 6), for a substep of h."""
         r, slipping = near.robots, near.slipping
         near.drives.aim(state[:r], slipping[:r], h, brief=h <= self._contact_step)
         if r < len(state):
-            self._grips.aim(state[r:], slipping[r:], near.who[r:], h)
+            self._floor_joints.aim(state[r:], slipping[r:], near.who[r:], h)
         if GROWTH * h < self.space.last_step and slipping.any():
             self.space.renew(near.who[slipping])
         for i in near.who[self._pulled[near.who]].tolist():
             self.space.pull(i, *self._pull[i].tolist())
-        if self._tethers is not None:
-            for rope, speed in self._tethers.drift(h):
+        if self._rope_limits is not None:
+            for rope, speed in self._rope_limits.drift(h):
                 self.space.draw_in(rope, speed)
 
 
@@ -439,12 +414,12 @@ class Engine(Motion):
 class _Near:
     """Those that may touch something, while they are stepped finely.
 
-    who: (k,) their numbers; `robots` robots, which `drives` move, then props. encounter: what they
+    who: (k,) their numbers; `robots` robots, which `drives` move, then props. collisions: what they
     may touch. slipping: (k,) which of them do not follow their commands now.
     """
 
     who: Index
     robots: int
     drives: Driven
-    encounter: Encounter
+    collisions: Collisions
     slipping: Mask

@@ -16,14 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.props.base import Prop
+from mars2d.core.materials import GRAVITY
 
 __all__ = ["GRAVITY", "Floor"]
 
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
-
-GRAVITY = 9.81
-"""The acceleration of gravity, m/s^2."""
 
 RESTS = 1e-6
 """What moves no faster than this is held as if at rest, m/s."""

@@ -14,14 +14,14 @@ from mars2d.physics.floor import Floor
 from mars2d.physics.space import Space
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Grips"]
+__all__ = ["FloorJoints"]
 
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 
-class Grips:
+class FloorJoints:
     """The floor under the props, as it acts on bodies.
 
     In the methods, `who` (m,) are the numbers of some props among all bodies, `state` (m, 6) and
@@ -34,7 +34,7 @@ class Grips:
         self._first = len(scenario.robots)
         self._floor = Floor(scenario.props)
         self._reach = bounds.reach
-        self._grip = np.zeros((len(scenario.props), 2))  # N and N m, what the floor may use now
+        self._allowed = np.zeros((len(scenario.props), 2))  # N and N m, what the floor may use now
 
     def glide(self, state: Float, who: Index, h: float) -> tuple[Float, Float]:
         """Return how far props slide in h seconds, and their velocities then, (m, 3) each."""
@@ -73,13 +73,13 @@ class Grips:
     def _hold(self, state: Float, slipping: Mask, who: Index) -> None:
         """Let the floor hold what slips; what rests untouched stays so, and is hit as if free."""
         props = who - self._first
-        grip = np.zeros((len(who), 2))
+        allowed = np.zeros((len(who), 2))
         rows = np.flatnonzero(slipping)
         if len(rows):
             held = np.array([self._space.held(i) for i in who[rows].tolist()])
             bounds = self._floor.bounds(state[rows, 3:], held, props[rows])
-            grip[rows] = np.column_stack(bounds)
-        changed = (grip != self._grip[props]).any(axis=1)
-        self._grip[props] = grip
-        for i, limits in zip(who[changed].tolist(), grip[changed].tolist(), strict=True):
-            self._space.grip(i, *limits)
+            allowed[rows] = np.column_stack(bounds)
+        changed = (allowed != self._allowed[props]).any(axis=1)
+        self._allowed[props] = allowed
+        for i, limits in zip(who[changed].tolist(), allowed[changed].tolist(), strict=True):
+            self._space.hold(i, *limits)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.physics.collision import Bounds, Encounter
-from mars2d.physics.engine import SLOP
+from mars2d.physics.collision import Bounds, Collisions
 from mars2d.physics.floor import Floor
 from mars2d.physics.motion import Arcs, Motion, Start, point_velocity
+from mars2d.physics.settings import SLOP
 from mars2d.physics.space import Space
 from mars2d.record.contact import ContactLog, Solved
 from mars2d.scenario.scenario import Scenario
@@ -83,8 +83,8 @@ class Kinematics(Motion):
         self._state = self._moved(arcs, start, duration)
         self._state[:, 3:] = self._now(arcs, self._state)
         if len(who):
-            encounter = self.bounds.encounter(who, float(reach[who].max()))
-            self._state[who] = self._substeps(twist, start, duration, time, who, encounter)[who]
+            collisions = self.bounds.collisions(who, float(reach[who].max()))
+            self._state[who] = self._substeps(twist, start, duration, time, who, collisions)[who]
         else:
             self.contacts.add_nothing()
         self.space.place_all(self._state[:, :3])
@@ -113,24 +113,24 @@ class Kinematics(Motion):
         duration: float,
         time: float,
         who: Index,
-        encounter: Encounter,
+        collisions: Collisions,
     ) -> Float:
         """Return the states (N, 6) after `duration`, having looked at each touch of `who`."""
         twist, n = twist.copy(), self.n
         arcs = Arcs(twist, self._in_robot_frame)
         elapsed = h = 0.0
         while True:
-            encounter.measure(state[who])
+            collisions.measure(state[who])
             now = self._now(arcs, state)
-            if elapsed > 0 and encounter.any_touch:
-                self._note(time + elapsed, h, state, now, encounter)
+            if elapsed > 0 and collisions.any_touch:
+                self._note(time + elapsed, h, state, now, collisions)
             elif elapsed > 0:
                 self.contacts.add_nothing()
             if elapsed >= duration:
                 state[:, 3:] = now
                 return state
-            if self._stops and encounter.any_touch:
-                stopped = who[encounter.inwards(now[who]) > INWARDS]
+            if self._stops and collisions.any_touch:
+                stopped = who[collisions.inwards(now[who]) > INWARDS]
                 twist[:, stopped[stopped < n]] = 0.0
                 arcs = Arcs(twist, self._in_robot_frame)
                 state[stopped[stopped >= n], 3:] = 0.0
@@ -140,15 +140,17 @@ class Kinematics(Motion):
             reach = self.bounds.reach[n:]
             bend[n:] = self._floor.braking(state[n:, 3:], reach, self._everyone)
             left = h = duration - elapsed
-            h = min(h, encounter.time_to_touch(now[who], bend[who], self._depth, again=self._stops))
+            h = min(
+                h, collisions.time_to_touch(now[who], bend[who], self._depth, again=self._stops)
+            )
             state = self._moved(arcs, state, h)
             elapsed = duration if h == left else elapsed + h
 
     def _note(
-        self, time: float, h: float, state: Float, velocity: Float, encounter: Encounter
+        self, time: float, h: float, state: Float, velocity: Float, collisions: Collisions
     ) -> None:
         """Note who touches whom after a step of h seconds."""
-        a, b, point, normal = encounter.touches()
+        a, b, point, normal = collisions.touches()
         points, normals = (np.column_stack([z.real, z.imag]) for z in (point, normal))
         approach = point_velocity(state, velocity, b, points)
         approach -= point_velocity(state, velocity, a, points)

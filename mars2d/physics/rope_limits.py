@@ -6,60 +6,57 @@ Points are complex numbers x + i y, in metres.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import inf, sqrt
+from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.bodies.attached_joint import Tie
-from mars2d.bodies.joints.hinge import Hinge
-from mars2d.bodies.joints.rope import Rope
-from mars2d.bodies.joints.spring import Spring
+from mars2d.bodies.attached_joint import AttachedJoint
+from mars2d.bodies.constraints import (
+    Constraint,
+    FixedDistance,
+    MaxDistance,
+    Pin,
+    SpringDamper,
+    TurningSpring,
+)
 from mars2d.bodies.rigid import Rigid
+from mars2d.geometry.pair_list import TINY
+from mars2d.physics.settings import BENT, SWING, TAUT
 
-__all__ = ["TAUT", "Tethers"]
+__all__ = ["RopeLimits"]
 
 Float = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
-SWING = 0.05
-"""The longest substep, in periods of a spring over 2 pi."""
 
-TAUT = 1e-6
-"""By how much a rope is shorter than said, metres: so it pulls as soon as it is straight."""
+class RopeLimits:
+    """The joints of a scenario, at least one: which bodies they hold now.
 
-BENT = 0.75
-"""What part of the stretch allowed a joint may be pulled apart in one substep."""
-
-TINY = 1e-12
-
-
-class Tethers:
-    """The joints of a scenario: which bodies they hold now.
-
-    A rope holds its bodies while it is taut; other joints always do. There is at least one joint.
+    A largest distance holds its bodies while it is taut, as a rope does; other constraints always
+    do.
     """
 
-    def __init__(self, ties: Sequence[Tie], bodies: Sequence[Rigid]) -> None:
-        """Take the joints and the bodies at the start."""
+    def __init__(self, joints: Sequence[AttachedJoint], bodies: Sequence[Rigid]) -> None:
+        """Take the joints, and the bodies at the start."""
         self._count = len(bodies)
-        self._ropes = np.array([isinstance(tie.joint, Rope) for tie in ties], dtype=bool)
+        self._ropes = _which(joints, MaxDistance)
+        self._always = _which(joints, Constraint, but=MaxDistance)
+        self._rigid = _which(joints, (MaxDistance, FixedDistance, Pin))
         self.tied = np.zeros(self._count, dtype=bool)
         """Which bodies have a joint, (N,)."""
-        for tie in ties:
-            self.tied[[i for i in (tie.a, tie.b) if i >= 0]] = True
-        # Arrays (2, k) have their first ends, then their second ones.
-        self._body = np.array([(tie.a, tie.b) for tie in ties], dtype=np.intp).T.copy()
+        for joint in joints:
+            self.tied[[i for i in (joint.a, joint.b) if i >= 0]] = True
+        # Arrays (2, k) have the first ends of joints, then their second ones.
+        self._body = np.array([(joint.a, joint.b) for joint in joints], dtype=np.intp).T.copy()
         self._fixed = self._body < 0
-        joints = [tie.joint for tie in ties]
-        self._anchor = np.array(
-            [[complex(*end) for end in (joint.anchor_a, joint.anchor_b)] for joint in joints]
-        ).T.copy()
-        self._length = np.array([tie.length for tie in ties])
-        self._springs = np.array([isinstance(tie.joint, Spring) for tie in ties], dtype=bool)
-        self.longest_step = min((_swing(tie, bodies) for tie in ties), default=inf)
+        ends = [(each.joint.anchor_a, each.joint.anchor_b) for each in joints]
+        self._anchor = np.array([[complex(*a), complex(*b)] for a, b in ends]).T.copy()
+        self._length = np.array([joint.length for joint in joints])
+        self.longest_step = min((_swing(joint, bodies) for joint in joints), default=inf)
         """The longest substep that the springs allow, seconds."""
 
     def measure(self, state: Float) -> None:
@@ -78,8 +75,8 @@ class Tethers:
     def held(self) -> Mask:
         """Return which bodies a joint holds, (N,): a rope does while it is taut."""
         held = np.zeros(self._count, dtype=bool)
-        tight = self._slack <= TAUT
-        held[self._body[~self._fixed & tight]] = True
+        holds = self._always | (self._slack <= TAUT)
+        held[self._body[~self._fixed & holds]] = True
         return held
 
     def time_to_jerk(self, velocity: Float, bend: Float, stretch: float) -> float:
@@ -100,7 +97,7 @@ class Tethers:
         room = np.maximum(self._slack + stretch, stretch / 64)
         h = 2 * room / (rate + np.sqrt(rate**2 + 2 * turn * room) + TINY)
         jerk = np.where(self._ropes, h, inf)
-        tight = (self._slack <= TAUT) & ~self._springs
+        tight = (self._slack <= TAUT) & self._rigid
         # The ends of a hinge may part in any direction at the start, those of a rod along it.
         apart = np.hypot(parting.real, parting.imag)
         along = np.abs(parting.real * self._normal.real + parting.imag * self._normal.imag)
@@ -122,7 +119,18 @@ class Tethers:
         return ends, np.where(self._fixed, 0.0, turn)
 
 
-def _swing(tie: Tie, bodies: Sequence[Rigid]) -> float:
-    """Return the longest substep that resolves how a joint's spring swings, seconds."""
-    stiffness = tie.joint.stiffness if isinstance(tie.joint, (Spring, Hinge)) else 0.0
-    return SWING / sqrt(stiffness * tie.lightness(bodies)) if stiffness else inf
+def _which(joints: Sequence[AttachedJoint], kinds: Any, but: Any = ()) -> Mask:
+    """Return which joints have a constraint of these kinds, leaving out others, (k,)."""
+    return np.array(
+        [
+            any(isinstance(each, kinds) and not isinstance(each, but) for each in joint.constraints)
+            for joint in joints
+        ],
+        dtype=bool,
+    )
+
+
+def _swing(joint: AttachedJoint, bodies: Sequence[Rigid]) -> float:
+    """Return the longest substep that resolves how a joint's springs swing, seconds."""
+    springs = [each for each in joint.constraints if isinstance(each, SpringDamper | TurningSpring)]
+    return min((SWING / joint.frequency(s, bodies) for s in springs if s.stiffness), default=inf)

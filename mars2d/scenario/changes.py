@@ -7,8 +7,6 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.base import Addon, hooks_of
-from mars2d.addons.communication import Communication
 from mars2d.core.errors import InputError, counted
 from mars2d.scenario.placement import obstruction
 from mars2d.scenario.scenario import Scenario
@@ -33,17 +31,12 @@ def check_same(before: Scenario, after: Scenario) -> None:
             raise _needs_new_start(f"Scenario.{field.name} is another one")
     _check_bodies("robots", FREE_OF_ROBOTS, before, after)
     _check_bodies("props", FREE_OF_BODIES, before, after)
-    busy = [{a.key: a for a in scenario.addons if _acts(a)} for scenario in (before, after)]
+    busy = [{a.key: a for a in scenario.addons if a.acts} for scenario in (before, after)]
     for key in sorted({*busy[0], *busy[1]}):
         if busy[0].get(key) != busy[1].get(key):
             raise _needs_new_start(
                 f"the add-on {key!r}, which does something at each step, is another one"
             )
-
-
-def _acts(addon: Addon) -> bool:
-    """Return whether an add-on does more than to draw and to stand in the way."""
-    return bool(hooks_of(addon)) or isinstance(addon, Communication)
 
 
 def _check_bodies(name: str, free: frozenset[str], before: Scenario, after: Scenario) -> None:

@@ -7,17 +7,21 @@ never end.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from math import hypot, isfinite, sqrt
+from math import hypot, isfinite
 
 import numpy as np
 
-from mars2d.bodies.attached_joint import Tie
+from mars2d.bodies.attached_joint import AttachedJoint
+from mars2d.bodies.constraints import (
+    Constraint,
+    FixedDistance,
+    MaxDistance,
+    Pin,
+    SpringDamper,
+    TurningSpring,
+)
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.joints.base import Joint
-from mars2d.bodies.joints.hinge import Hinge
-from mars2d.bodies.joints.rod import Rod
-from mars2d.bodies.joints.rope import Rope
-from mars2d.bodies.joints.spring import Spring
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, nearest
@@ -29,7 +33,7 @@ __all__ = [
     "check_drive",
     "check_ends",
     "check_forces",
-    "check_tie",
+    "check_joint",
     "corner",
 ]
 
@@ -184,9 +188,9 @@ def check_forces(bodies: Sequence[Rigid], drives: Sequence[Drive], max_overlap: 
 
 
 def check_ends(where: str, joint: Joint, names: Collection[str]) -> None:
-    """Refuse a joint of bodies that are not there, of one with itself, or of no known kind."""
-    if not isinstance(joint, (Rope, Rod, Spring, Hinge)):
-        raise wrong(where, joint, "a Rope, Rod, Spring or Hinge, or a class derived from one")
+    """Refuse a joint of bodies that are not there, of one with itself, or that do nothing."""
+    if type(joint).constraints is Joint.constraints:
+        raise wrong(where, joint, "a Rope, Rod, Spring or Hinge, or a class with `constraints`")
     for field in ("a", "b"):
         name = getattr(joint, field)
         if name is not None and name not in names:
@@ -196,64 +200,82 @@ def check_ends(where: str, joint: Joint, names: Collection[str]) -> None:
         raise wrong(f"{where}.b", joint.b, f"another body than a, {joint.a!r}")
 
 
-def check_tie(where: str, tie: Tie, bodies: Sequence[Rigid]) -> None:
+def check_joint(where: str, attached: AttachedJoint, bodies: Sequence[Rigid]) -> None:
     """Refuse a joint that would pull its bodies at once, or more quickly than can be followed."""
-    for field, index in (("a", tie.a), ("b", tie.b)):
-        anchor = getattr(tie.joint, f"anchor_{field}")
+    for field, index in (("a", attached.a), ("b", attached.b)):
+        anchor = getattr(attached.joint, f"anchor_{field}")
         if index >= 0 and not hypot(*anchor) <= REACH * bodies[index].shape.reach:
             most = REACH * bodies[index].shape.reach
             raise wrong(
                 f"{where}.anchor_{field}", anchor,
                 f"a point within {most:.4g} m of {bodies[index].name}'s centre of mass",
             )  # fmt: skip
-    apart = tie.apart(bodies)
-    if isinstance(tie.joint, Hinge) and apart > 1e-6:
-        raise InputError(
-            f"{where}: its anchors, {_ends(tie, bodies)}, lie {apart:.3g} m apart at the start; "
-            "a hinge is one point"
-        )
-    if isinstance(tie.joint, (Rope, Rod)):
-        _check_length(where, tie, apart, bodies)
-    if isinstance(tie.joint, (Spring, Hinge)):
-        _check_spring(where, tie, apart, bodies)
+    for constraint in attached.constraints:
+        _check_constraint(where, attached, constraint, bodies)
 
 
-def _ends(tie: Tie, bodies: Sequence[Rigid]) -> str:
-    a, b = ("({:.6g}, {:.6g})".format(*end) for end in tie.ends(bodies))
+def _check_constraint(
+    where: str, attached: AttachedJoint, constraint: Constraint, bodies: Sequence[Rigid]
+) -> None:
+    apart = attached.apart(bodies)
+    match constraint:
+        case Pin() if apart > 1e-6:
+            raise InputError(
+                f"{where}: its anchors, {_ends(attached, bodies)}, lie {apart:.3g} m apart at the "
+                "start; a hinge is one point"
+            )
+        case MaxDistance(length=length):
+            _check_length(where, attached, length, bodies, "at least that")
+        case FixedDistance(length=length):
+            _check_length(where, attached, length, bodies, "just that")
+        case SpringDamper(length=length):
+            _check_spring(where, attached, constraint, bodies)
+            speed = abs(apart - length) * attached.frequency(constraint, bodies)
+            if not (isfinite(speed) and speed <= FASTEST):
+                raise wrong(
+                    f"{where}.rest_length", length,
+                    f"nearer to the {apart:.4g} m at the start: it would throw its bodies at "
+                    f"{speed:.3g} m/s, and {FASTEST:g} m/s is the most",
+                )  # fmt: skip
+        case TurningSpring():
+            _check_spring(where, attached, constraint, bodies)
+
+
+def _ends(attached: AttachedJoint, bodies: Sequence[Rigid]) -> str:
+    a, b = ("({:.6g}, {:.6g})".format(*end) for end in attached.ends(bodies))
     return f"{a} and {b} in the world"
 
 
-def _check_length(where: str, tie: Tie, apart: float, bodies: Sequence[Rigid]) -> None:
-    """Refuse a rope or rod that does not reach from end to end."""
-    too_short = apart > tie.length * (1 + 1e-9) + 1e-9
-    too_long = apart < tie.length * (1 - 1e-9) - 1e-9
-    if tie.length < SHORTEST:
-        if tie.joint.length is None:  # type: ignore[attr-defined]
+def _check_length(
+    where: str, attached: AttachedJoint, length: float, bodies: Sequence[Rigid], least: str
+) -> None:
+    """Refuse a rope that does not reach from end to end, and a rod of another length."""
+    apart = attached.apart(bodies)
+    too_short = apart > length * (1 + 1e-9) + 1e-9
+    too_long = least == "just that" and apart < length * (1 - 1e-9) - 1e-9
+    if length < SHORTEST:
+        if getattr(attached.joint, "length", None) is None:
             raise InputError(f"{where}: its ends start at one point; use a Hinge, or give a length")
-        raise wrong(f"{where}.length", tie.length, f"a number >= {SHORTEST:g} [m]; or use a Hinge")
-    if too_short or (too_long and isinstance(tie.joint, Rod)):
-        least = "at least that" if isinstance(tie.joint, Rope) else "just that"
+        raise wrong(f"{where}.length", length, f"a number >= {SHORTEST:g} [m]; or use a Hinge")
+    if too_short or too_long:
         raise InputError(
-            f"{where}.length = {tie.length:g}: its ends, {_ends(tie, bodies)}, start "
+            f"{where}.length = {length:g}: its ends, {_ends(attached, bodies)}, start "
             f"{apart:.6g} m apart; expected {least}, or None"
         )
 
 
-def _check_spring(where: str, tie: Tie, apart: float, bodies: Sequence[Rigid]) -> None:
-    """Refuse a spring that swings, or throws, more quickly than substeps can follow."""
-    stiffness = tie.joint.stiffness  # type: ignore[attr-defined]
-    quick = sqrt(stiffness * tie.lightness(bodies))
+def _check_spring(
+    where: str,
+    attached: AttachedJoint,
+    spring: SpringDamper | TurningSpring,
+    bodies: Sequence[Rigid],
+) -> None:
+    """Refuse a spring that swings more quickly than substeps can follow."""
+    quick = attached.frequency(spring, bodies)
     if not quick <= QUICKEST:
-        most = stiffness * (QUICKEST / quick) ** 2
+        most = spring.stiffness * (QUICKEST / quick) ** 2
         raise wrong(
-            f"{where}.stiffness", stiffness,
+            f"{where}.stiffness", spring.stiffness,
             f"at most {most:.3g} for bodies as light as these: they would swing at "
             f"{quick:.3g} rad/s",
-        )  # fmt: skip
-    speed = abs(apart - tie.length) * quick
-    if isinstance(tie.joint, Spring) and not (isfinite(speed) and speed <= FASTEST):
-        raise wrong(
-            f"{where}.rest_length", tie.length,
-            f"nearer to the {apart:.4g} m at the start: it would throw its bodies at "
-            f"{speed:.3g} m/s, and {FASTEST:g} m/s is the most",
         )  # fmt: skip

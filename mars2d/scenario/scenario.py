@@ -14,10 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.addons.communication import Communication
-from mars2d.bodies.attached_joint import Tie
+from mars2d.bodies.attached_joint import AttachedJoint
 from mars2d.bodies.joints.base import Joint
-from mars2d.bodies.joints.hinge import Hinge
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
@@ -149,8 +147,7 @@ class Scenario(Description):
         names = [str(robot.name) for robot in robots] + [str(prop.name) for prop in props]
         checks.unique("Scenario.robots and props", names)
         checks.unique("Scenario.addons", [addon.key for addon in self.addons])
-        if sum(isinstance(addon, Communication) for addon in self.addons) > 1:
-            raise InputError("Scenario.addons: two are Communication, and robots talk over one")
+        self._check_only_ones()
         if self.stop_time / self.sampling_time > ROW_LIMIT:
             raise wrong(
                 "Scenario.stop_time", self.stop_time,
@@ -166,6 +163,13 @@ class Scenario(Description):
         self._check_bodies()
         self._check_joints()
         self._check_starts()
+
+    def _check_only_ones(self) -> None:
+        """Refuse two add-ons of a kind that a scenario has one of; kinds derived from it count."""
+        for kind in {k for addon in self.addons for k in type(addon).__mro__}:
+            why = vars(kind).get("only_one")
+            if why and sum(isinstance(addon, kind) for addon in self.addons) > 1:
+                raise InputError(f"Scenario.addons: two are {kind.__name__}, and {why}")
 
     @staticmethod
     def from_file(path: str | Path) -> Scenario:
@@ -243,9 +247,10 @@ class Scenario(Description):
             named += [(f"{type(prop).__name__} {prop.name}", joint) for joint in brought]
         for where, joint in named:
             limits.check_ends(where, joint, self._indices)
-        for (where, _), tie in zip(named, self.ties, strict=True):
-            limits.check_tie(where, tie, self.bodies)
-            for index, anchor in ((tie.a, tie.joint.anchor_a), (tie.b, tie.joint.anchor_b)):
+        for (where, _), attached in zip(named, self.ties, strict=True):
+            limits.check_joint(where, attached, self.bodies)
+            joint = attached.joint
+            for index, anchor in ((attached.a, joint.anchor_a), (attached.b, joint.anchor_b)):
                 if 0 <= index < len(self.robots):
                     robot = self.robots[index]
                     limits.check_drive(str(robot.name), robot.drive, hypot(*anchor))
@@ -271,23 +276,21 @@ class Scenario(Description):
         return {body.name: i for i, body in enumerate(self.bodies)}
 
     @cached_property
-    def ties(self) -> tuple[Tie, ...]:
+    def ties(self) -> tuple[AttachedJoint, ...]:
         """All joints, those that props bring included, with the bodies that they hold."""
         joints = [*self.joints, *(joint for prop in self.props for joint in prop.joints())]
         result = []
         for joint in joints:
             a = self._indices[joint.a]
             b = -1 if joint.b is None else self._indices[joint.b]
-            result.append(Tie.of(joint, a, b, self.bodies))
+            result.append(AttachedJoint.of(joint, a, b, self.bodies))
         return tuple(result)
 
     @cached_property
     def joined(self) -> frozenset[tuple[int, int]]:
         """Pairs (i, j), i < j, of bodies that share a hinge, and so don't collide."""
         return frozenset(
-            (min(tie.a, tie.b), max(tie.a, tie.b))
-            for tie in self.ties
-            if isinstance(tie.joint, Hinge) and tie.b >= 0
+            (min(tie.a, tie.b), max(tie.a, tie.b)) for tie in self.ties if tie.pinned and tie.b >= 0
         )
 
     @cached_property

@@ -16,6 +16,9 @@ __all__ = ["Drive", "Wheeled"]
 
 Float = NDArray[np.float64]
 
+STICK_TURN = 1.5
+"""How quickly a robot turns by a stick that is held to the side, rad/s, if its wheels can."""
+
 ROUNDING = 1e-12
 """By how much, relatively, a command may exceed its limits: limiting twice changes nothing."""
 
@@ -60,6 +63,9 @@ class Drive(Description):
     frame: ClassVar[Literal["robot", "world"]] = "robot"
     """The frame that `twist` gives linear velocities in."""
 
+    holonomic: ClassVar[bool] = False
+    """Whether it can move in any direction at once."""
+
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) within the actuators' limits; here, as they are."""
         return command
@@ -76,9 +82,20 @@ class Drive(Description):
         """Return the commands (2, n) that ask this of the two actuators, (2, n)."""
         return actuators
 
+    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+        """Return the command that a stick asks for which is held across to the right, and ahead.
+
+        across, ahead: from -1 to 1, in the picture for a drive that moves in the world's frame.
+        Here, the first number of a command is a speed; the second is a spin, or a speed, too.
+        """
+        most = self.max_linear_speed
+        if self.frame == "world":
+            return most * across, most * ahead
+        return most * ahead, -STICK_TURN * across
+
     @property
     def quantities(self) -> tuple[Quantity, ...]:
-        """What the two numbers of a command are, for figures and tables; here nobody knows."""
+        """The two numbers of a command, for figures and tables; by default they are not known."""
         return ()
 
     @property
@@ -144,6 +161,14 @@ class Wheeled(Drive):
         """Return (v, omega), (2, n), of rims with these speeds."""
         left, right = actuators
         return np.array([(left + right) / 2, (right - left) / (2 * self.wheel_semiaxis)])
+
+    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+        """Return the command that a stick asks for; it slows down as far as it needs to turn."""
+        most = self.max_linear_speed
+        rim = min(STICK_TURN * self.wheel_semiaxis, most)
+        turn, way = -rim * across, ahead * (most - rim * abs(across))
+        first, second = self.command_for(np.array([[way - turn], [way + turn]])).ravel().tolist()
+        return first, second
 
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) with each rim's speed clipped to +-max_linear_speed."""

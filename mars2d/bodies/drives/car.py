@@ -44,6 +44,10 @@ class Car(Drive):
         """The bounds of the acceleration [m/s^2] and of the steering rate [rad/s]."""
         return self.max_acceleration, self.max_steering_rate
 
+    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+        """Return the command that a stick asks for: across, it steers."""
+        return self.max_linear_speed * ahead, -self.max_steering * across
+
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n), the speed clipped to +-max_linear_speed, the angle likewise."""
         limit = np.array([[self.max_linear_speed], [self.max_steering]])

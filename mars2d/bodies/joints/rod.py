@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mars2d.bodies.constraints import Constraint, FixedDistance
 from mars2d.bodies.joints.base import Joint
 from mars2d.core.description import number
 
@@ -15,3 +16,7 @@ class Rod(Joint):
         default=None, above=0, high=1e6, unit="m", optional=True,
         doc="how long it is; None: as far as its ends are apart at the start",
     )  # fmt: skip
+
+    def constraints(self, apart: float) -> tuple[Constraint, ...]:
+        """Return a fixed distance."""
+        return (FixedDistance(apart if self.length is None else self.length),)
