@@ -1,9 +1,9 @@
-"""What ties robots to their drives while something may touch them.
+"""Drive joints: they tie robots to their commands while something may touch them.
 
-As long as a robot follows its command, it is primed with its chord's velocity each substep. When
-contact or a joint has thrown it off, it slips: its velocity is left to the solver, and its drive is
-engaged, a control body that pulls it with bounded force and torque until it follows again, and for
-a few short substeps more.
+A robot that follows its command gets the velocity of its chord in each substep. When a contact or a
+joint has thrown it off its command, it slips: the solver decides its velocity, and its drive is
+engaged. That is a control body which pulls the robot with bounded force and torque until it follows
+again, and for a few short substeps more.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 SMALLEST = float(np.finfo(float).tiny)
-"""The smallest normal number: nothing is divided by less."""
+"""The smallest normal number: no divisor is smaller."""
 
 
 class DriveJoints:
     """The drives of n robots, as they act on bodies."""
 
     def __init__(self, scenario: Scenario, space: Space) -> None:
-        """Take the robots and where their bodies are."""
+        """Take the scenario with the robots, and the space with their bodies."""
         robots = scenario.robots
         self.space = space
         self.count = len(scenario.bodies)
@@ -58,7 +58,7 @@ class DriveJoints:
         return arrays, {"turned": self.turned, "linger": LINGER, "least": SMALLEST}
 
     def arcs(self, twist: Float) -> Arcs:
-        """Return how the robots move where nothing holds them; twist: (3, n), what is asked."""
+        """Return how free robots move under twists (3, n)."""
         return Arcs(twist, self._in_robot_frame)
 
     def release(self, away: Mask) -> None:
@@ -101,16 +101,16 @@ class Driven:
         self._since = joints.since[who]
 
     def motion(self, state: Float, slipping: Mask) -> tuple[Float, Float]:
-        """Return how they move now, (m, 3), and how quickly that may turn, (m,) m/s^2."""
+        """Return their velocities (m, 3), and how fast these may turn, (m,) m/s^2."""
         chord = self._arcs.chord(state[:, 2], 0.0)
         velocity = np.where(slipping[:, None], state[:, 3:], chord)
         return velocity, np.where(slipping, 0.0, self._bend)
 
     def time_to_brake(self, state: Float, slipping: Mask) -> float:
-        """Return when the first drive ends the spin of a robot that just begins to slip, s; or inf.
+        """Return when the first drive stops the spin of a robot that begins to slip, s; else inf.
 
-        A substep that is longer lets it turn on for all of it. It need not be so short that this
-        can't be seen.
+        In a longer substep the robot turns on until its end. The time has a lower bound, where this
+        turn is too small to be seen.
         """
         begins = slipping & (self._since > 0)
         if not begins.any():
@@ -121,20 +121,20 @@ class Driven:
         return float(lasts[begins].min())
 
     def out_of_reach(self, state: Float, h: float) -> Mask:
-        """Return which their drives can't bring back to their commands within h, (m,)."""
+        """Return which robots their drives can't bring back to their commands within h s, (m,)."""
         error = np.abs(state[:, 3:] - self._arcs.chord(state[:, 2], h))
         slow = np.hypot(error[:, 0], error[:, 1]) * self._mass > self._force * h
         return np.asarray(slow | (error[:, 2] * self._moment > self._torque * h))
 
     def aim(self, state: Float, slipping: Mask, h: float, *, brief: bool) -> None:
-        """Set the velocities of robots and of their control bodies for a substep of h.
+        """Set the velocities of robots and of their control bodies for a substep of h seconds.
 
-        The engine moves bodies by the velocities that they have, then joints work towards the
-        control bodies': so these get the velocities of the substep after this one.
+        The engine first moves bodies by their velocities, then joints pull these towards the
+        velocities of the control bodies: so control bodies get those of the substep after this.
 
-        brief: whether the substep is as short as those in contact are. Then a drive stays engaged
-        for a while that need not be: a robot that pushes loses touch now and then. But what comes
-        from afar is to hit with its momentum alone, not with all that its drive gives meanwhile.
+        brief: whether the substep is as short as in contact. Then a drive stays engaged for a while
+        after its robot follows again, since a robot that pushes loses touch now and then. But a
+        robot that comes from afar hits with its momentum alone, without its drive's force.
         """
         joints, who = self._drive_joints, self._who
         joints.since[who] = self._since = np.where(slipping, 0, self._since + 1)
@@ -149,7 +149,7 @@ class Driven:
         joints.engage(wanted)
 
     def note_effort(self, slipping: Mask) -> None:
-        """Note how much of their bounds the drives of those that slip used in the last substep."""
+        """Note the shares of their bounds that drives of slipping robots have just used."""
         who = self._who[slipping]
         if len(who):
             used = self._drive_joints.space.effort(who.tolist())

@@ -1,8 +1,8 @@
 """Contact physics: bodies moved exactly where nothing touches, by forces where something does.
 
-What nothing can reach during the time to come is *carried*: robots go to the ends of their arcs and
-props glide, both in closed form, in one step of any length. What may touch something is *near*: it
-is stepped finely: drive joints hold robots to their commands, floor joints hold props.
+A body that nothing can reach during the next step is *carried*: robots go to the ends of their arcs
+and props glide, both in closed form, in one step of any length. A body that may touch something is
+*near*. It is stepped finely: drive joints pull robots to their commands, floor joints hold props.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ NOTHING.flags.writeable = False
 
 
 def thrown(ratio: float) -> float:
-    """Return how many times as fast as both were a body may be thrown, head-on without loss.
+    """Return the highest speed after a head-on impact without loss, in parts of both speeds before.
 
-    ratio: of the masses of what throws it and its own, at least 1.
+    ratio: the mass of the other body by its own, at least 1.
     """
     return (3 * ratio - 1) / (ratio + 1)
 
@@ -60,7 +60,7 @@ class Engine(Motion):
     def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
         """Build robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls.
 
-        start: how everything moves at first, by default as the scenario says.
+        start: how all bodies move at first; by default, as the scenario says.
         """
         bodies = scenario.bodies
         self.n, self.count = len(scenario.robots), len(bodies)
@@ -94,7 +94,7 @@ class Engine(Motion):
         self._idle.flags.writeable = False
 
     def _compiled(self, scenario: Scenario) -> Kernel | None:
-        """Return the kernel that moves such a world, or None if it takes the plain engine."""
+        """Return the kernel if it can move this world, else None: then the plain engine does."""
         if scenario.props or scenario.ties or not self.bounds.only_centred_discs:
             return None
         if reason_without():
@@ -119,7 +119,7 @@ class Engine(Motion):
         return Kernel(arrays, numbers)
 
     def _set_accuracy(self, scenario: Scenario, thinnest: float, iterations: int) -> None:
-        """Work out how deep a body may enter in one substep, and how long one in contact may be."""
+        """Work out the deepest entry in one substep, and the longest substep in contact."""
         self._max_overlap = scenario.max_overlap
         # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
         self._entry = min(0.75 * scenario.max_overlap, 0.125 * thinnest)
@@ -150,13 +150,13 @@ class Engine(Motion):
 
     @property
     def motion(self) -> Start:
-        """How everything moves now: an engine that starts with it goes on from here."""
+        """How all bodies move now: an engine that starts with it goes on from here."""
         state = self._state.copy()
         state[:, 3:] = self.velocity.T
         return Start(state, self._slipping.copy(), self._twist)
 
     def let_go(self) -> None:
-        """Let nothing pull at any body from outside any more."""
+        """End all pulls from outside."""
         self._pulled[:] = False
 
     def pull(self, body: int, force: tuple[float, float], torque: float) -> None:
@@ -167,16 +167,17 @@ class Engine(Motion):
         self._slipping[body] = True
 
     def step_under(self, acceleration: float) -> float:
-        """Return how long a pull that accelerates a body by so much may act unchanged, seconds.
+        """Return how long a pull may act unchanged, seconds.
 
-        Then it presses it no deeper into something than drives do. acceleration: m/s^2, > 0.
+        Within this time it presses a body no deeper into another than drives do. acceleration: of
+        the body by the pull, m/s^2, > 0.
         """
         return sqrt(self._depth_of_push / acceleration)
 
     def bears(self, body: int, force: float, torque: float) -> bool:
-        """Return whether what holds a body takes a force [N] and torque [N m] without yielding.
+        """Return whether a body stays where it is held under a force [N] and torque [N m].
 
-        That is the drive of a robot that follows its command, and the floor under a prop at rest.
+        A robot that follows its command is held by its drive, a prop at rest by the floor.
         """
         if self._slipping[body]:
             return False
@@ -191,9 +192,9 @@ class Engine(Motion):
         return True
 
     def drive(self, twist: Float, duration: float, time: float) -> None:
-        """Move everything for `duration` seconds, the robots driven by constant twists (3, n).
+        """Move all bodies for `duration` seconds under constant twists (3, n) of the robots.
 
-        time: that of the start, seconds, for the contacts.
+        time: at the start, seconds, for the contacts.
         """
         self._twist = twist
         if self._kernel is not None:
@@ -207,7 +208,7 @@ class Engine(Motion):
             elapsed = duration if gone == left else elapsed + gone
 
     def _drive_kernel(self, kernel: Kernel, twist: Float, duration: float, time: float) -> None:
-        """Do the same by the kernel."""
+        """Do the same with the kernel."""
         left = kernel.drive(twist, duration, time)
         self._left |= left
         if self._groups > 1:
@@ -216,22 +217,22 @@ class Engine(Motion):
             self.space.misplace(np.flatnonzero(self._placed).tolist() if left & PLACED else ())
 
     def take_contacts(self) -> NDArray[np.void]:
-        """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
+        """Return the contacts since the last call by time, one row (dtype CONTACT) per pair."""
         if self._kernel is None:
             return self.contacts.take()
         return self._kernel.take() if self._left_over(CONTACTS) else NOTHING
 
     def _left_over(self, what: int) -> bool:
-        """Return whether the kernel has left something that is taken now."""
+        """Return whether the kernel has left something, and note that it is taken."""
         there = bool(self._left & what)
         self._left &= ~what
         return there
 
     def _advance(self, twist: Float, duration: float, time: float) -> float:
-        """Go on by at most `duration` seconds, and return by how much.
+        """Go on by at most `duration` seconds, and return the seconds gone.
 
-        It is less when a body has been thrown further than was thought possible: then it is to be
-        asked anew what it may touch.
+        They are fewer if a body was thrown further than was thought possible: then its neighbours
+        have to be found anew.
         """
         self.bounds.clearance.measure(self.bounds.center(self._state))
         near, path = self._find_near(twist, duration)
@@ -252,7 +253,7 @@ class Engine(Motion):
         return gone
 
     def _carry(self, carried: Mask, duration: float) -> None:
-        """Set the velocities that bring what touches nothing to where it will be."""
+        """Set the velocities that bring carried bodies to where they will be."""
         velocity, state, n = self.space.velocity, self._state, self.n
         velocity[:n] = self._arcs.chord(state[:n, 2], duration)
         if carried[n:].any():
@@ -260,7 +261,7 @@ class Engine(Motion):
             velocity[n : self.count] = moved / duration
 
     def _arrive(self, carried: Mask, gone: float, duration: float) -> None:
-        """Read the state; put those that were carried where they are after `gone` seconds."""
+        """Read the state, and put carried bodies where they are after `gone` seconds."""
         before, n = self._state, self.n
         self._state = self.space.read().copy()
         if gone < duration:  # they were on the chord of a longer time
@@ -284,9 +285,9 @@ class Engine(Motion):
             self._state[i, 2] = theta
 
     def _find_near(self, twist: Float, duration: float) -> tuple[Mask, float]:
-        """Return which bodies may touch something, and the longest path that one may take.
+        """Return which bodies may touch something, and the longest path that one of them may take.
 
-        One that is near may be pushed by the quickest of them, and so be near to others.
+        A body that is near may be pushed by the fastest of them, and so get near to others.
         """
         bounds, n = self.bounds, self.n
         now = bounds.top_speed(self._state[:, 3:])
@@ -308,9 +309,9 @@ class Engine(Motion):
         return near, path
 
     def _substeps(self, near: _Near, duration: float, time: float, path: float) -> float:
-        """Step through `duration` as finely as those need that are near something.
+        """Step through `duration` as finely as the bodies near need; return the seconds gone.
 
-        path: metres; before one of them has gone further, this returns. Returns the seconds gone.
+        path: metres; it returns before one of them has gone further.
         """
         who, collisions = near.who, near.collisions
         everything = self._state
@@ -339,12 +340,12 @@ class Engine(Motion):
         return elapsed
 
     def _press(self, everything: Float, collisions: Collisions) -> None:
-        """Press together what touches by a rounding only, and would lose touch by another.
+        """Press bodies together that touch by a rounding error only, and would part by another.
 
         everything: (N, 6) states of all bodies, which are brought up to date.
         """
         for a, b, normal in collisions.grazing(self._pressed / 8):
-            # Their common centre of mass stays.
+            # Their common centre of mass stays where it is.
             share = 1.0 if b < 0 else self._mass[b] / (self._mass[a] + self._mass[b])
             for i, way in ((a, share * self._pressed), (b, (share - 1) * self._pressed)):
                 if i >= 0:
@@ -360,10 +361,10 @@ class Engine(Motion):
     def _look_ahead(
         self, near: _Near, everything: Float, state: Float, left: float
     ) -> tuple[Float, float]:
-        """Return how those near move, (k, 3), and how long the next substep may be, seconds.
+        """Return the velocities (k, 3) of the bodies near, and the length of the next substep [s].
 
-        Who of them slips is brought up to date. everything: (N, 6) states of all bodies; state:
-        (k, 6) theirs. left: seconds until the end.
+        It updates which of them slip. everything: (N, 6) states of all bodies; state: (k, 6) of
+        those near. left: seconds until the end.
         """
         r, drives, slipping = near.robots, near.drives, near.slipping
         touching = near.collisions.touching()
@@ -386,17 +387,19 @@ class Engine(Motion):
         h = min(h, near.collisions.time_to_touch(velocity, bend, self._entry))
         if self._rope_limits is not None:
             h = min(h, self._time_to_jerk(velocity, bend, near.who))
-        return velocity, left / ceil(left / h - 1e-9)  # equal ones settle best, without a sliver
+        return velocity, left / ceil(
+            left / h - 1e-9
+        )  # equal substeps settle best, and leave no sliver
 
     def _time_to_jerk(self, velocity: Float, bend: Float, who: Index) -> float:
-        """Return for how long no rope gets taut and longer; all that are tied are near."""
+        """Return for how long no rope gets taut and longer; all bodies with joints are near."""
         assert self._rope_limits is not None
         all_velocity, all_bend = np.zeros((self.count, 3)), np.zeros(self.count)
         all_velocity[who], all_bend[who] = velocity, bend
         return self._rope_limits.time_to_jerk(all_velocity, all_bend, STRETCH * self._entry)
 
     def _aim(self, near: _Near, state: Float, h: float) -> None:
-        """Prepare those near, with states (k, 6), for a substep of h."""
+        """Prepare the bodies near, with states (k, 6), for a substep of h seconds."""
         r, slipping = near.robots, near.slipping
         near.drives.aim(state[:r], slipping[:r], h, brief=h <= self._contact_step)
         if r < len(state):
@@ -412,10 +415,10 @@ class Engine(Motion):
 
 @dataclass
 class _Near:
-    """Those that may touch something, while they are stepped finely.
+    """The bodies that may touch something, while they are stepped finely.
 
-    who: (k,) their numbers; `robots` robots, which `drives` move, then props. collisions: what they
-    may touch. slipping: (k,) which of them do not follow their commands now.
+    who: (k,) their numbers; first the robots, `robots` of them, which `drives` move, then props.
+    collisions: what they may touch. slipping: (k,) which do not follow their commands now.
     """
 
     who: Index

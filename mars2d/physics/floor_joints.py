@@ -1,6 +1,6 @@
-"""What holds props on the floor while something may touch them.
+"""Floor joints: friction of the floor on props while something may touch them.
 
-A prop that nothing touches glides in closed form. Else it is left to the solver, and the floor
+A prop that nothing touches glides in closed form. Otherwise the solver moves it, and the floor
 holds it by joints of bounded force and torque.
 """
 
@@ -29,7 +29,7 @@ class FloorJoints:
     """
 
     def __init__(self, scenario: Scenario, space: Space, bounds: Bounds) -> None:
-        """Take the props, where their bodies are, and how far these reach."""
+        """Take the scenario with the props, the space with their bodies, and their bounds."""
         self._space = space
         self._first = len(scenario.robots)
         self._floor = Floor(scenario.props)
@@ -41,7 +41,7 @@ class FloorJoints:
         return self._floor.glide(state[:, 3:], who - self._first, h)
 
     def bears(self, velocity: Float, body: int, force: float, torque: float) -> bool:
-        """Return whether a prop, moving at (3,), stays at rest under a force and a torque."""
+        """Return whether a prop with a velocity (3,) stays at rest under a force and a torque."""
         prop = body - self._first
         most, spin = float(self._floor.force[prop]), float(self._floor.torque[prop])
         if velocity.any() or not most:
@@ -49,16 +49,16 @@ class FloorJoints:
         return (force / most) ** 2 + (torque / spin) ** 2 <= 1.0
 
     def motion(self, state: Float, slipping: Mask, who: Index) -> tuple[Float, Float]:
-        """Return how props move now, (m, 3), and how quickly that may turn, (m,) m/s^2."""
+        """Return the velocities of props, (m, 3), and how fast these may change, (m,) m/s^2."""
         velocity = state[:, 3:]
         braking = self._floor.braking(velocity, self._reach[who], who - self._first)
         return velocity, np.where(slipping, 0.0, braking)
 
     def aim(self, state: Float, slipping: Mask, who: Index, h: float) -> None:
-        """Set the velocities of props and what the floor may use for a substep of h.
+        """Set the velocities of props, and what the floor may use, for a substep of h seconds.
 
-        One that glides has its velocity at the end, so that the solver meets what it then runs into
-        with the right one; it is put back by as much as it would go too short with that.
+        A gliding prop gets its velocity at the end, so that the solver has the right one for an
+        impact. With that it would not go far enough, so it is put ahead by the difference.
         """
         self._space.velocity[who] = state[:, 3:]
         glides = np.flatnonzero(~slipping & state[:, 3:].any(axis=1))
@@ -71,7 +71,7 @@ class FloorJoints:
         self._hold(state, slipping, who)
 
     def _hold(self, state: Float, slipping: Mask, who: Index) -> None:
-        """Let the floor hold what slips; what rests untouched stays so, and is hit as if free."""
+        """Let the floor hold props that slip; a prop at rest is free until it is hit."""
         props = who - self._first
         allowed = np.zeros((len(who), 2))
         rows = np.flatnonzero(slipping)

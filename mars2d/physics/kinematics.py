@@ -1,4 +1,4 @@
-"""Motion without forces: where things touch, a robot stops, or nothing happens at all."""
+"""Motion without forces: when things touch, a robot stops, or nothing happens."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 INWARDS = 1e-9
-"""From this speed towards what it touches a body is stopped, m/s."""
+"""A body that moves faster into something it touches is stopped, m/s."""
 
 
 class Kinematics(Motion):
     """The motion of one world's bodies where ``Scenario.physics`` is "stop" or "ideal".
 
-    All follow their commands exactly, props glide on their own. With "stop", what would go into
-    another body or an obstacle stands still for the rest of the control step; a prop for good. With
-    "ideal" it goes through. Contacts are noted either way, without impulses. Joints do not act.
+    Robots follow their commands exactly, and props glide. With "stop", a robot that would enter
+    another body or an obstacle stands still for the rest of the control step, a prop for good. With
+    "ideal", both go through. Contacts are noted either way, without impulses. Joints do not act.
     """
 
     def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
         """Take robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls.
 
-        start: how everything moves at first, by default as the scenario says.
+        start: how all bodies move at first; by default, as the scenario says.
         """
         bodies = scenario.bodies
         self.n = len(scenario.robots)
@@ -53,22 +53,22 @@ class Kinematics(Motion):
 
     @property
     def motion(self) -> Start:
-        """How everything moves now: one that starts with it goes on from here."""
+        """How all bodies move now: a motion that starts with it goes on from here."""
         nobody, still = np.zeros(len(self._state), dtype=bool), np.zeros((3, self.n))
         return Start(self._state.copy(), nobody, still)
 
     def take_effort(self) -> Float:
-        """Return zeros (n,): no drive has to make an effort."""
+        """Return zeros (n,): no drive makes an effort."""
         return np.zeros(self.n)
 
     def take_contacts(self) -> NDArray[np.void]:
-        """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
+        """Return the contacts since the last call by time, one row (dtype CONTACT) per pair."""
         return self.contacts.take()
 
     def drive(self, twist: Float, duration: float, time: float) -> None:
-        """Move everything for `duration` seconds, the robots driven by constant twists (3, n).
+        """Move all bodies for `duration` seconds under constant twists (3, n) of the robots.
 
-        time: that of the start, seconds, for the contacts.
+        time: at the start, seconds, for the contacts.
         """
         speed = self.bounds.top_speed(self._state[:, 3:])
         speed[: self.n] = self.bounds.top_speed(twist.T, slice(self.n))
@@ -115,7 +115,7 @@ class Kinematics(Motion):
         who: Index,
         collisions: Collisions,
     ) -> Float:
-        """Return the states (N, 6) after `duration`, having looked at each touch of `who`."""
+        """Return the states (N, 6) after `duration`, with each touch of bodies `who` found."""
         twist, n = twist.copy(), self.n
         arcs = Arcs(twist, self._in_robot_frame)
         elapsed = h = 0.0

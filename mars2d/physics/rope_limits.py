@@ -1,4 +1,4 @@
-"""Bodies that joints hold: when a rope will be taut, and how long a substep may be.
+"""Rope limits: when joints hold their bodies, and how long a substep may be.
 
 Points are complex numbers x + i y, in metres.
 """
@@ -36,8 +36,8 @@ Mask = NDArray[np.bool_]
 class RopeLimits:
     """The joints of a scenario, at least one: which bodies they hold now.
 
-    A largest distance holds its bodies while it is taut, as a rope does; other constraints always
-    do.
+    A largest distance, such as a rope's, holds its bodies while it is taut; other constraints
+    always do.
     """
 
     def __init__(self, joints: Sequence[AttachedJoint], bodies: Sequence[Rigid]) -> None:
@@ -83,14 +83,14 @@ class RopeLimits:
         """Return how long a substep may be, seconds.
 
         Until then no rope gets longer by more than `stretch` metres, and no joint is pulled apart
-        by more than a part of that, as its ends go straight on where they should go round.
+        by more than a part of that, since its ends go straight on instead of round.
 
-        velocity: (N, 3) of all bodies; bend: (N,) m/s^2, how quickly one may turn away from it.
+        velocity: (N, 3) of all bodies; bend: (N,) m/s^2, how fast it may change.
         """
         (speed_a, speed_b), (turn_a, turn_b) = self._at_the_ends(velocity, bend)
         parting = speed_b - speed_a
         rate = np.maximum(parting.real * self._normal.real + parting.imag * self._normal.imag, 0.0)
-        # What moves across a rope or rod lengthens it too.
+        # Motion across a rope or rod lengthens it, too.
         across = parting.real * self._normal.imag - parting.imag * self._normal.real
         swing = np.where(self._length > 0, across**2 / np.maximum(self._apart, TINY), 0.0)
         turn = self._turn = turn_a + turn_b + swing
@@ -107,12 +107,12 @@ class RopeLimits:
         return float(np.minimum(jerk, np.where(tight, pulled_apart, inf)).min())
 
     def drift(self, h: float) -> Iterator[tuple[int, float]]:
-        """Yield each rope, by its number, and how quickly substeps of h let it get longer, m/s."""
+        """Yield each rope's number, and how fast substeps of h seconds let it get longer, m/s."""
         for k in np.flatnonzero(self._ropes).tolist():
             yield k, float(self._turn[k]) * h
 
     def _at_the_ends(self, velocity: Float, bend: Float) -> tuple[Complex, Float]:
-        """Return the velocities of all ends, (2, k), and how quickly they may turn [m/s^2]."""
+        """Return the velocities of all ends, (2, k), and how fast these may turn [m/s^2]."""
         x, y, spin = np.where(self._fixed, 0.0, velocity[self._body].transpose(2, 0, 1))
         ends = x - spin * self._arm_y + 1j * (y + spin * self._arm_x)
         turn = bend[self._body] + spin**2 * np.hypot(self._arm_x, self._arm_y)

@@ -1,4 +1,4 @@
-"""The bodies of one world in pymunk. No other module knows the engine's objects.
+"""Space: the bodies of one world in pymunk. Only `rays` and `kernel` know its objects, too.
 
 Bodies are numbered robots first, then props; obstacles are -1, -2, ... The engine walks them in one
 order: robots, props, the robots' control bodies, then the static ones, the floor first.
@@ -62,12 +62,12 @@ _ARBITER = (
 
 
 _IN_TOUCH = (0, 1)
-"""The engine's states of contacts that are not over: just begun, going on."""
+"""The engine's states of contacts that have just begun, or go on."""
 
 ORIGIN = (0.0, 0.0)
 
 GOLDEN = (5**0.5 - 1) / 2
-"""Multiples of it, less their whole part, lie evenly scattered from 0 to 1."""
+"""The fractional parts of its multiples are scattered evenly from 0 to 1."""
 
 
 class Space:
@@ -169,7 +169,7 @@ class Space:
     def _joint_pair(
         self, holder: pymunk.Body, body: pymunk.Body, force: float, torque: float
     ) -> JointPair:
-        """Return what makes a body move as its holder does, with bounded force and torque."""
+        """Return joints that make a body move as its holder does, with bounded force and torque."""
         ends = ORIGIN, ORIGIN
         pivot = _Constraint(self._space, "PivotJoint", holder, body, *ends, max_bias=0.0)
         gear = _Constraint(self._space, "GearJoint", holder, body, 0.0, 1.0, max_bias=0.0)
@@ -200,12 +200,12 @@ class Space:
         return self._everything[: len(self._bodies)]
 
     def step(self, h: float) -> None:
-        """Set the velocities of all bodies to `velocity`, and go on by h seconds.
+        """Set the velocities of all bodies to `velocity`, and step by h seconds.
 
         The solver begins with the impulses of the step before, scaled by the ratio of the steps'
         lengths, but takes back the unscaled ones: a drive at its bound would push with
-        F (2 h - h before), impacts would be undone by half. So those of contacts are scaled where
-        they are kept, and the solver is told that both steps are equally long.
+        F (2 h - h before), and impacts would be undone by half. So the impulses of contacts are
+        scaled where they are kept, and the solver is told that both steps are equally long.
         """
         if h != self.last_step:
             self._scale_contacts(h / self.last_step)
@@ -228,14 +228,14 @@ class Space:
                     contact.jtAcc *= ratio
 
     def misplace(self, which: Iterable[int]) -> None:
-        """Note which bodies, and no others, have been put somewhere else since the last step.
+        """Note that these bodies, and no others, were moved since the last step.
 
-        The next query is to find them there.
+        The next query finds them where they are.
         """
         self._misplaced = set(which)
 
     def misplace_all(self, state: Float) -> None:
-        """Note that all bodies have states (N, 6), where the next query is to find them."""
+        """Note the states (N, 6) of all bodies; the next query finds them there."""
         self._elsewhere = state
 
     def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
@@ -278,7 +278,7 @@ class Space:
     # -- what holds bodies ------------------------------------------------------------------
 
     def engage(self, i: int) -> None:
-        """Let a robot's drive act through its joints, which have not held anything yet."""
+        """Let a robot's drive act through its joints, which begin anew."""
         for joint in self._drive_joints[i]:
             joint.renew()
             joint.add()
@@ -318,17 +318,17 @@ class Space:
         return _impulse(pivot.address) / self.last_step, _impulse(gear.address) / self.last_step
 
     def draw_in(self, k: int, speed: float) -> None:
-        """Let rope k, which is longer than it ought to be, get shorter by no more than this, m/s.
+        """Bound the speed at which rope k, if it is too long, is drawn in, m/s.
 
-        What is drawn in goes on to move, and makes the rope slack.
+        A body that is drawn in keeps moving, which makes the rope slack.
         """
         self._joints[k][0].set(max_bias=speed)
 
     def renew(self, which: Index) -> None:
-        """Let the joints of some bodies begin anew, as if they had not held anything yet.
+        """Let the drive joints or floor joints of some bodies begin anew.
 
-        Robots among them are engaged. It is to be done where a step is much shorter than the one
-        before: the solver would begin with what the joints did in that.
+        Robots among them are engaged. Do so before a step that is much shorter than the one before,
+        since the solver begins with the impulses of joints in that.
         """
         for i in which.tolist():
             _renew(self._drive_joints[i] if i < self.robots else self._floor_joints.get(i, ()))
@@ -336,9 +336,9 @@ class Space:
     # -- contacts ---------------------------------------------------------------------------
 
     def solved(self) -> Solved:
-        """Return the contacts of the last step, those included that parted shortly before.
+        """Return the contacts of the last step, with those that parted shortly before.
 
-        To be asked when the state after the step has been read.
+        Read the state after the step first.
         """
         buffer = self._arbiter_buffer
         buffer.clear()
@@ -401,10 +401,10 @@ def _own(robot: int) -> pymunk.ShapeFilter:
 
 
 def _scattered(shapes: list[pymunk.Shape]) -> list[pymunk.Shape]:
-    """Return shapes in an order in which neighbours lie far apart, always the same.
+    """Return shapes in a fixed order in which neighbours lie far apart.
 
-    The engine sorts shapes into a tree as they come. Neighbours one after the other make it
-    lopsided, and rays through it up to twice as slow.
+    The engine sorts shapes into a tree as they come. If neighbours follow one another, the tree is
+    lopsided, and rays through it are up to twice as slow.
     """
     order = sorted(range(len(shapes)), key=lambda k: k * GOLDEN % 1.0)
     return [shapes[k] for k in order]
@@ -419,10 +419,10 @@ def _static() -> pymunk.Body:
 
 
 class _Constraint:
-    """A joint of the engine's, which can begin anew.
+    """A joint of the engine that can begin anew.
 
-    It does so in place, by the engine's own function: to make objects of pymunk, which own the
-    memory, takes many times as long.
+    It does so in place, by the engine's own function. Making new objects of pymunk takes many times
+    as long.
     """
 
     def __init__(
@@ -434,7 +434,7 @@ class _Constraint:
         *numbers: Any,
         **settings: float,
     ) -> None:
-        """Make one, as yet outside the space. kind: its name in pymunk, which takes the numbers."""
+        """Make one outside of the space. kind: its class in pymunk, which takes the numbers."""
         self._space, self._owner = space._space, getattr(pymunk, kind)(a, b, *numbers)
         self.address = self._owner._constraint
         itself = ffi.cast(f"cp{kind} *", self.address)
@@ -443,13 +443,13 @@ class _Constraint:
         self.set(**settings)
 
     def set(self, **settings: float) -> None:
-        """Set what all joints have, by its name in pymunk."""
+        """Set settings that all joints have, by their names in pymunk."""
         self._settings |= settings
         for name, value in settings.items():
             _SETTERS[name](self.address, value)
 
     def renew(self) -> None:
-        """Let it begin as if it had not held anything yet; it must be outside the space."""
+        """Let it begin as if it had held nothing yet; it must be outside of the space."""
         self._make()
         for name, value in self._settings.items():
             _SETTERS[name](self.address, value)
@@ -478,7 +478,7 @@ Maker = Callable[..., _Constraint]
 
 
 def _renew(joints: Iterable[_Constraint]) -> None:
-    """Let joints that are in the space begin anew; the engine walks them in this order."""
+    """Let joints in the space begin anew; the engine walks them in this order."""
     for act in (_Constraint.remove, _Constraint.renew, _Constraint.add):
         for joint in joints:
             act(joint)

@@ -1,4 +1,4 @@
-"""What of a scenario may change while its world runs, and what needs a new start."""
+"""Changes of a scenario: which ones a running world takes, and which need a new start."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Float = NDArray[np.float64]
 FREE = frozenset(
     {"title", "robots", "props", "workspace", "on_exit", "stop_time", "addons", "animation"}
 )
-"""Fields of a scenario that may change, robots, props and add-ons not in every way."""
+"""Fields of a scenario that may change; robots, props and add-ons in some ways only."""
 
 FREE_OF_BODIES = frozenset({"pose", "color"})
 FREE_OF_ROBOTS = FREE_OF_BODIES | {"controller"}
@@ -57,10 +57,10 @@ def _needs_new_start(what: str) -> InputError:
 
 
 def with_poses(scenario: Scenario, poses: Float) -> Scenario:
-    """Return a scenario whose bodies are at poses (3, N), checked.
+    """Return the scenario with its bodies at poses (3, N), checked.
 
-    It stays as it is where joints are, whose lengths may be those at the start, and where robots
-    are in one another because physics="ideal" lets them.
+    A scenario with joints is returned unchanged, since lengths may be those at the start. So is one
+    with robots inside each other, which physics="ideal" allows.
     """
     if scenario.ties:
         for body, rigid in enumerate(scenario.bodies):

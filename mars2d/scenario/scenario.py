@@ -69,12 +69,12 @@ def _workspace(name: str, value: object) -> Outline | None:
 
 
 class Scenario(Description):
-    """Everything about an experiment but its laws: frozen, validated, in SI units.
+    """Everything about an experiment except its laws: frozen, validated, in SI units.
 
     >>> Scenario(robots=[Robot(pose=(0, 0, 0))]).bounds
     (-5.0, 5.0, -5.0, 5.0)
 
-    Raises InputError for whatever the engine could not simulate truthfully: robots that start
+    Raises InputError for anything that the engine could not simulate truthfully: robots that start
     inside an obstacle, inside each other or outside the workspace, polygons that cross themselves,
     numbers out of range.
     """
@@ -165,7 +165,7 @@ class Scenario(Description):
         self._check_starts()
 
     def _check_only_ones(self) -> None:
-        """Refuse two add-ons of a kind that a scenario has one of; kinds derived from it count."""
+        """Refuse two add-ons of a kind, derived ones included, of which a scenario has only one."""
         for kind in {k for addon in self.addons for k in type(addon).__mro__}:
             why = vars(kind).get("only_one")
             if why and sum(isinstance(addon, kind) for addon in self.addons) > 1:
@@ -173,11 +173,11 @@ class Scenario(Description):
 
     @staticmethod
     def from_file(path: str | Path) -> Scenario:
-        """Return the scenario in a .toml file, as `save` writes it and people write it.
+        """Return the scenario in a .toml file, written by `save` or by hand.
 
-        path: a relative one is looked for beside the file that calls this, then in the current
+        path: a relative path is looked for beside the file that calls this, then in the current
         folder. Raises InputError, which points at the line. The law of the team, if the file names
-        one, is not part of a scenario: `mars2d.run` and `open_experiment` take the file with it.
+        one, is not part of a scenario: `mars2d.run` and `open_experiment` read it from the file.
         """
         from mars2d.scenario import toml_file
 
@@ -190,10 +190,10 @@ class Scenario(Description):
     def save(
         self, path: str | Path, control: Callable[[Any], Any] | str | None = None
     ) -> tuple[str, ...]:
-        """Write it to a .toml file, over what is there; return what could not be written.
+        """Write it to a .toml file, which is replaced; return the names of parts left out.
 
-        control: the law of the team, as a function of a file or as ``team.py:control``. Of laws the
-        place is written, code of one's own is not. Raises InputError if the file can't be written.
+        control: the law of the team, as a function of a file or as ``team.py:control``. The file
+        names the place of laws; it holds no code. Raises InputError if it can't be written.
         """
         from mars2d.scenario import toml_file
 
@@ -217,7 +217,7 @@ class Scenario(Description):
         )
 
     def _check_sensors(self) -> None:
-        """Refuse sensors that would measure between control steps, or hold too much back."""
+        """Refuse sensors that would measure between control steps, or whose latency is too long."""
         for robot in self.robots:
             for sensor in robot.sensors:
                 sensor.check_timing(f"{type(sensor).__name__} of {robot.name}", self.sampling_time)
@@ -239,7 +239,7 @@ class Scenario(Description):
         limits.check_forces(self.bodies, drives, self.max_overlap)
 
     def _check_joints(self) -> None:
-        """Refuse joints of bodies that are not there, or that would pull them at once."""
+        """Refuse joints of unknown bodies, and joints that would pull them at once."""
         named = [(f"Scenario.joints[{i}]", joint) for i, joint in enumerate(self.joints)]
         for prop in self.props:
             with called(f"{type(prop).__name__}.joints()", prop.joints):
@@ -268,7 +268,7 @@ class Scenario(Description):
 
     @cached_property
     def bodies(self) -> tuple[Rigid, ...]:
-        """All bodies that move, as the physics takes them: the robots, then the props."""
+        """The rigid bodies of all robots, then of all props."""
         return (*(robot.rigid for robot in self.robots), *(prop.rigid for prop in self.props))
 
     @cached_property
@@ -277,7 +277,7 @@ class Scenario(Description):
 
     @cached_property
     def ties(self) -> tuple[AttachedJoint, ...]:
-        """All joints, those that props bring included, with the bodies that they hold."""
+        """All joints attached to their bodies, with those that props bring."""
         joints = [*self.joints, *(joint for prop in self.props for joint in prop.joints())]
         result = []
         for joint in joints:
@@ -288,14 +288,14 @@ class Scenario(Description):
 
     @cached_property
     def joined(self) -> frozenset[tuple[int, int]]:
-        """Pairs (i, j), i < j, of bodies that share a hinge, and so don't collide."""
+        """Pairs (i, j), i < j, of bodies that share a hinge, and so do not collide."""
         return frozenset(
             (min(tie.a, tie.b), max(tie.a, tie.b)) for tie in self.ties if tie.pinned and tie.b >= 0
         )
 
     @cached_property
     def surfaces(self) -> tuple[Obstacle, ...]:
-        """What stands in the way: the add-ons' obstacles, then the workspace where it is a wall."""
+        """The obstacles: those of the add-ons, then the workspace if it is a wall."""
         found = [
             Obstacle(outline, addon.friction, addon.restitution)
             for addon in self.addons
@@ -330,18 +330,18 @@ class Scenario(Description):
         return np.array([robot.pose for robot in self.robots]).T
 
     def index_of(self, field: str, robot: str | int) -> int:
-        """Return the index of a robot that is given by its name, or by its index.
+        """Return the index of a robot that is given by its name or index.
 
-        Raises InputError, which begins with `field`, for one that is not there.
+        Raises InputError, which begins with `field`, if there is no such robot.
         """
         return _index_of(field, "robot", robot, [str(each.name) for each in self.robots])
 
     def body_index_of(self, field: str, body: str | int) -> int:
-        """Return the index in `bodies` of a robot or prop that is given as in `index_of`."""
+        """Return the index in `bodies` of a robot or prop that is given by its name or index."""
         return _index_of(field, "body", body, [rigid.name for rigid in self.bodies])
 
     def body_name(self, body: int) -> str:
-        """Return what a body of a contact is called; -1 - k is obstacle k, or the wall."""
+        """Return the name of a body of a contact; -1 - k is obstacle k, or the wall."""
         if body >= 0:
             return self.bodies[body].name
         walled = len(self.surfaces) > len(self.obstacles)
@@ -349,7 +349,7 @@ class Scenario(Description):
 
     @property
     def last_iteration(self) -> int:
-        """The iteration at the stop time: the run has this many sampling times."""
+        """The iteration at the stop time: the number of sampling times of the run."""
         return floor(self.stop_time / self.sampling_time * (1 + 1e-12) + 1e-9)
 
     @cached_property
@@ -370,7 +370,7 @@ def _index_of(field: str, kind: str, wanted: str | int, names: list[str]) -> int
 
 
 def _named(part: Any, kind: str, index: int, taken: set[str | None]) -> Any:
-    """Return a robot or prop with a name that no other has, unless it has one."""
+    """Return a robot or prop with its own name, or else with one that no other has."""
     if part.name is not None:
         return part
     name = f"{kind}{index}"

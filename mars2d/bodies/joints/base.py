@@ -1,4 +1,4 @@
-"""What a joint is: something between two bodies, or between one and the world."""
+"""The base of joints, which tie two bodies together, or one to the world."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ STEEL = "#52606d"
 class Joint(Description):
     """The base of all joints.
 
-    A joint holds on to a point of body `a` and to one of body `b`, or of the world. A joint of
-    one's own says by `constraints` what it does to them, and by `draw` how it looks. Joints act
-    where ``Scenario.physics`` is "contact".
+    A joint holds a point of body `a` and a point of body `b`, or of the world. A joint of one's
+    own says in `constraints` what it does to its bodies, and in `draw` how it looks. Joints act
+    if ``Scenario.physics`` is "contact".
     """
 
     a: str = text(doc="the name of a robot or prop")
@@ -38,14 +38,15 @@ class Joint(Description):
     )  # fmt: skip
 
     def constraints(self, apart: float) -> tuple[Constraint, ...]:
-        """Return the constraints that it puts on its bodies, see `mars2d.bodies.constraints`.
+        """Return the constraints that it puts on its bodies; see `mars2d.bodies.constraints`.
 
-        apart: metres, how far apart its ends are at the start.
+        apart: the distance of its ends at the start, metres. A constraint of that distance comes
+        first.
         """
         raise NotImplementedError(f"{type(self).__name__} must say what it does to its bodies")
 
     def draw(self, scene: Scene, start: Float, end: Float, length: float) -> None:  # noqa: ARG002
-        """Draw it between its ends (2,), metres in the world; here, as a rod.
+        """Draw it between its ends (2,), metres in the world; by default, as a rod.
 
         length: metres, that of its first constraint, 0 if this has none.
         """

@@ -29,8 +29,8 @@ def turning_limits(name: str, value: Any) -> tuple[float, float] | None:
 class Hinge(Joint):
     """A pin through both bodies, or through one and the world: `anchor_a` and `anchor_b` are one.
 
-    Bodies that share a hinge do not collide with each other. With limits it turns only so far; with
-    stiffness and damping a spring turns it back to the angle of the start.
+    Bodies that share a hinge do not collide with each other. Limits bound its angle; with stiffness
+    and damping, a spring turns it back to the angle at the start.
     """
 
     limits: tuple[float, float] | None = entry(
@@ -42,7 +42,7 @@ class Hinge(Joint):
     damping: float = number(default=0.0, low=0, high=1e6, unit="N m s/rad", doc="of its turning")
 
     def constraints(self, apart: float) -> tuple[Constraint, ...]:  # noqa: ARG002
-        """Return a pin, and what bounds its turning."""
+        """Return a pin, and the limits and the spring of its angle."""
         found: list[Constraint] = [Pin()]
         if self.limits is not None:
             found.append(TurningRange(*self.limits))

@@ -10,7 +10,7 @@ __all__ = ["Rod"]
 
 
 class Rod(Joint):
-    """A rigid rod without weight: it holds two points at its length, and turns freely at both."""
+    """A rigid rod without weight: it keeps two points at a distance, and turns freely at both."""
 
     length: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,
@@ -18,5 +18,5 @@ class Rod(Joint):
     )  # fmt: skip
 
     def constraints(self, apart: float) -> tuple[Constraint, ...]:
-        """Return a fixed distance."""
+        """Return the distance of its ends."""
         return (FixedDistance(apart if self.length is None else self.length),)

@@ -20,9 +20,9 @@ STRAIGHT = 2e-3
 
 
 class Rope(Joint):
-    """A rope that does not stretch: it holds two points no further apart than its length.
+    """A rope that does not stretch: it keeps two points no further apart than its length.
 
-    It weighs nothing, and lets other things pass. A jerk on it is inelastic.
+    It has no weight, and other things pass through it. A jerk on it is inelastic.
     """
 
     length: float | None = number(
@@ -31,7 +31,7 @@ class Rope(Joint):
     )  # fmt: skip
 
     def constraints(self, apart: float) -> tuple[Constraint, ...]:
-        """Return a largest distance."""
+        """Return the largest distance of its ends."""
         return (MaxDistance(apart if self.length is None else self.length),)
 
     def draw(self, scene: Scene, start: Float, end: Float, length: float) -> None:
