@@ -17,7 +17,7 @@ from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.solid import Solid
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError
-from mars2d.core.registry import family_of, members, package_of, plugin, snake_case
+from mars2d.core.registry import FAMILIES, family_of, members, package_of, plugin, snake_case
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
@@ -121,11 +121,11 @@ def from_description(value: Any) -> Any:
         for base in (Scenario, Robot, Animation):  # a derived class counts as one of them
             if isinstance(value, base):
                 return {"type": base.__name__, **_fields(value, base)}
-        family = next(name for name, base in _FAMILIES.items() if isinstance(value, base))
-        package = package_of(_FOLDERS[family], kind) if family in _FOLDERS else None
+        name, own = next((n, own) for n, own in _OWN.items() if isinstance(value, own.base))
+        package = package_of(own.family, kind) if own.family else None
         shipped = {} if package is None else {"from": package}
-        own = {"type": kind.__name__, "own": family, **shipped}
-        return own | _fields(value) | _moving(value)
+        head = {"type": kind.__name__, "own": name, **shipped}
+        return head | _fields(value) | _moving(value)
     if isinstance(value, (list, tuple)):
         return [from_description(item) for item in value]
     if value is None or isinstance(value, (bool, int, float, str)):
@@ -160,21 +160,27 @@ def _moving(value: Description) -> dict[str, Any]:
     return {}
 
 
-_FAMILIES: dict[str, type[Description]] = {
-    "drive": Drive,
-    "prop": Prop,
-    "joint": Joint,
-    "shape": Shape,
-    "add-on": Addon,
-    "neighbourhood": Neighbourhood,
-    "sensor": Description,
-}
-"""What parts of the user's own are called."""
+class _Own(NamedTuple):
+    """A kind of parts of the user's own.
 
-_FOLDERS = {
-    "drive": "bodies", "prop": "props", "joint": "joints", "add-on": "addons", "sensor": "sensors",
-}  # fmt: skip
-"""Of those, the families in which another package can ship a part by an entry point."""
+    base: the class that they derive from. family: the family in which another package can ship one
+    by an entry point, if it can.
+    """
+
+    base: type[Description]
+    family: str = ""
+
+
+_OWN = {
+    "drive": _Own(Drive, "bodies"),
+    "prop": _Own(Prop, "props"),
+    "joint": _Own(Joint, "joints"),
+    "shape": _Own(Shape),
+    "add-on": _Own(Addon, "addons"),
+    "neighbourhood": _Own(Neighbourhood),
+    "sensor": _Own(Description, "sensors"),
+}
+"""The kinds of parts of the user's own, by their names in files."""
 
 LOST = "This is code, which is not written down"
 """What files say about parts that they do not hold."""
@@ -254,7 +260,7 @@ def _is_function(value: Any) -> bool:
 
 def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:
     """Return a part of another package; None if it is not installed, or has other fields now."""
-    kind = plugin(_FOLDERS[value["own"]], value["type"], value["from"])
+    kind = plugin(_OWN[value["own"]].family, value["type"], value["from"])
     if kind is None:
         return None
     lost: list[str] = []
@@ -274,7 +280,7 @@ def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:
 @cache
 def _kinds() -> dict[str, type[Description]]:
     kinds: dict[str, type[Description]] = {kind.__name__: kind for kind in _KNOWN}
-    for family in ("bodies", "sensors", "addons", "props", "joints"):
+    for family in FAMILIES:
         for name, kind in members(family).items():
             kinds[f"{family}.{name}" if name in kinds else name] = kind
     return kinds
