@@ -35,8 +35,11 @@ def follow(recipes: list[tuple[str, str, str]], folder: Path) -> set[str]:
     for name, table, code in recipes:
         file = folder / name
         if table:
-            text = file.read_text(encoding="utf-8")
-            changed = re.sub(rf"^({table}\b.*[\[{{(]\n)", rf"\g<1>{code}", text, flags=re.M)
+            imports, _, lines = code.rpartition("\n\n")
+            text = file.read_text(encoding="utf-8").replace(
+                "\nfrom mars2d", f"\n{imports}\nfrom mars2d", 1
+            )
+            changed = re.sub(rf"^({table}\b.*[\[{{(]\n)", rf"\g<1>{lines}", text, flags=re.M)
             assert changed != text, f"{name} has no {table}"
         elif file.exists():
             part = code.rpartition(" ")[2].strip()
