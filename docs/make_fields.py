@@ -13,54 +13,39 @@ from typing import Any
 
 from mars2d import (
     Animation,
-    Car,
     Delaunay,
-    Differential,
     Drive,
     Everyone,
     Graph,
-    Holonomic,
     Nearest,
     Prediction,
     Robot,
     Scenario,
-    Unicycle,
     Within,
-    addons,
-    sensors,
 )
-from mars2d.addons import Addon, Burst, Communication, Floor, Map
-from mars2d.bodies import Ball, Bar, Box, Gate, Hinge, Joint, Prop, Puck, Rod, Rope, Solid, Spring
+from mars2d.addons import Addon, Burst
+from mars2d.bodies import Joint, Prop
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError
 from mars2d.core.materials import MATERIALS
 from mars2d.geometry import Compound, Disc, Polygon
-from mars2d.scenario.registry import summary
-from mars2d.sensors import (
-    Bumper,
-    Ground,
-    Imu,
-    LineCamera,
-    Odometry,
-    Pose,
-    Proximity,
-    RangeBearing,
-    RangeFinder,
-    Sensor,
-    SonarRing,
-)
+from mars2d.scenario.registry import members, summary
+from mars2d.sensors import Sensor
+
+
+def shipped(family: str) -> list[type[Description]]:
+    """Return MARS2D's own parts of a family."""
+    return [kind for kind in members(family).values() if kind.__module__.startswith("mars2d.")]
+
 
 KINDS: tuple[type[Description], ...] = (
     Scenario, Robot, Animation,
-    Drive, Unicycle, Differential, Car, Holonomic,
+    Drive, *shipped("bodies"),
     Disc, Polygon, Compound,
-    Prop, Box, Bar, Ball, Puck, Gate, Solid,
-    Joint, Rope, Rod, Spring, Hinge,
-    Sensor, Proximity, RangeFinder, SonarRing, Bumper, LineCamera,
-    RangeBearing, sensors.Beacon, Pose, Odometry, Imu, Ground,
-    Addon, Map, addons.Beacon, Floor, Communication, Burst, addons.Estimate,
-    addons.Voronoi, addons.Density, addons.Game, addons.Ring, addons.Waypoints,
-    addons.PotentialField, addons.Trails, addons.FieldOfView, addons.Theory,
+    Prop, *shipped("props"),
+    Joint, *shipped("joints"),
+    Sensor, *shipped("sensors"),
+    Addon, *shipped("addons"), Burst,
     Everyone, Within, Nearest, Delaunay, Graph,
     Prediction,
 )  # fmt: skip

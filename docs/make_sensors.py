@@ -9,6 +9,7 @@ import io
 import re
 import sys
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import pi
 from pathlib import Path
 
@@ -165,20 +166,18 @@ def _ground() -> World:
     return alone(robot, steps=12, command=(0.2, 0), things=[track], area=near)
 
 
+def _in_a_room(kind: type[Sensor]) -> World:
+    """Show a sensor with its default fields, ahead of which stand things."""
+    return room(Robot(pose=(-0.6, -0.2, 0.2), sensors=[kind()]))
+
+
 SCENES: dict[type[Sensor], Callable[[], World]] = {
-    Proximity: _proximity,
-    RangeFinder: _range_finder,
-    SonarRing: _sonar_ring,
-    Bumper: _bumper,
-    LineCamera: _line_camera,
-    RangeBearing: _range_bearing,
-    Pose: _pose,
-    Odometry: _odometry,
-    Imu: _imu,
-    sensors.Beacon: _beacon,
-    Ground: _ground,
+    kind: globals().get(f"_{snake_case(kind.__name__)}", partial(_in_a_room, kind))
+    for kind in make_fields.shipped("sensors")
 }
 """For each sensor a world that shows what it does."""
+
+INDEX = DOCS / "sensors" / "index.md"
 
 
 def page(kind: type[Sensor]) -> Path:
@@ -196,6 +195,17 @@ def with_table(text: str, kind: type[Sensor]) -> str:
     return new
 
 
+def with_rows(text: str) -> str:
+    """Return the index with a row for each sensor, as its page says in a comment."""
+    rows = ""
+    for kind in SCENES:
+        found = re.search(r"<!-- index (.*) -->", page(kind).read_text(encoding="utf-8"))
+        assert found is not None, f"{page(kind).name} has no comment for the index"
+        rows += f"| [`{kind.__name__}`]({page(kind).name}) {found[1]}\n"
+    head, mark, rest = text.partition("|---|---|---|---|\n")
+    return head + mark + rows + rest[rest.index("\n\n") + 1 :]
+
+
 def draw(kind: type[Sensor]) -> None:
     """Save the picture of a sensor at work."""
     world = SCENES[kind]()
@@ -211,3 +221,4 @@ if __name__ == "__main__":
         path = page(kind)
         path.write_text(with_table(path.read_text(encoding="utf-8"), kind), encoding="utf-8")
         draw(kind)
+    INDEX.write_text(with_rows(INDEX.read_text(encoding="utf-8")), encoding="utf-8")

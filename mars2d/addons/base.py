@@ -51,6 +51,9 @@ class Addon(Stateful):
         default=1.0, check=surface_restitution,
         doc="of its obstacles, a number or a material's name; a contact has the product of both",
     )  # fmt: skip
+    only_one: ClassVar[str] = ""
+    """Why a scenario has no two of them, as "robots talk over one"; "": it may have several."""
+
     rng: ClassVar[np.random.Generator]
     """Its own random stream, on the copy that a world works on."""
 
@@ -69,6 +72,11 @@ class Addon(Stateful):
 
     def _validate(self) -> None:
         checks.identifier(f"{type(self).__name__}.name", self.name, "world.addons.")
+
+    @property
+    def acts(self) -> bool:
+        """Whether a run depends on it by more than its obstacles."""
+        return bool(hooks_of(self))
 
     def obstacles(self) -> tuple[Outline, ...]:
         """Return the outlines that stand in the way: two vertices a wall, more a closed polygon."""

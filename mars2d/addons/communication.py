@@ -30,6 +30,9 @@ class Communication(Addon):
     As it is by default, the channel is perfect and draws no random numbers.
     """
 
+    only_one = "robots talk over one"
+    acts = True
+
     range: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,
         doc="how far robots hear each other, from pose to pose; None: everywhere",

@@ -1,4 +1,4 @@
-"""A rigid body as the physics takes it, be it a robot or a prop."""
+"""A rigid body, as the physics sees a robot or a prop."""
 
 from __future__ import annotations
 
@@ -30,8 +30,9 @@ class Surface(NamedTuple):
 class Rigid(NamedTuple):
     """One body at the start.
 
-    kind: the class that describes it, as "Robot" or "Box". pose: x, y [m], theta [rad]. velocity:
-    x', y' [m/s], theta' [rad/s]. shape: about the pose, which is that of the centre of mass.
+    kind: the class that describes it, such as "Robot" or "Box". pose: x, y [m], theta [rad].
+    velocity: x', y' [m/s], theta' [rad/s]. shape: about the pose, which is that of the centre of
+    mass.
     """
 
     kind: str
@@ -44,12 +45,12 @@ class Rigid(NamedTuple):
 
     @property
     def is_disc(self) -> bool:
-        """Whether it is nothing but one disc."""
+        """Whether its shape is a single disc."""
         return isinstance(self.shape, Disc)
 
     @property
     def bound(self) -> tuple[Point, float]:
-        """A circle that holds it at the start: its centre and radius, metres."""
+        """A circle around it at the start: centre and radius, metres."""
         center, radius = self.shape.bound
         return self.to_world(center), radius
 

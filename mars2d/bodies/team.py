@@ -1,4 +1,4 @@
-"""The drives of all robots of a world, those that are equal taken together."""
+"""The drives of all robots of a world; robots with equal drives are handled together."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ __all__ = ["Drives"]
 Float = NDArray[np.float64]
 Stream = Callable[[str], np.random.Generator]
 
-FASTEST = 1e6
-"""What a drive may ask for at most, m/s and rad/s."""
+MAX_TWIST = 1e6
+"""The largest velocity that a drive may ask for, m/s and rad/s."""
 
-LONGEST = 1e6
+MAX_DEAD_TIME = 1e6
 """The longest dead time, in sampling times: all commands under way are kept."""
 
 BLOCK = 256
-"""For so many control steps random numbers are drawn at once."""
+"""The number of control steps for which random numbers are drawn at once."""
 
 
 class _Team:
     """Robots with equal drives."""
 
     def __init__(self, drive: Drive, columns: Any, noise: Iterator[Float] | None) -> None:
-        """Take the drive, which columns of commands are theirs, and where random numbers are."""
+        """Take the drive, the robots' columns of the commands, and their random numbers."""
         self.drive, self.columns, self.noise = drive, columns, noise
         self.normal: Float | None = None  # those of this control step
         name = f"drive {type(drive).__name__}"
@@ -45,12 +45,12 @@ class Drives:
     """The drives of a world's robots: from all commands (2, n) to all twists (3, n)."""
 
     def __init__(self, drives: Mapping[str, Drive], sampling_time: float, stream: Stream) -> None:
-        """Take the drives by their robots' names, the sampling time [s], and what opens streams.
+        """Take the drives by robots' names, the sampling time [s], and a source of random streams.
 
         Raises InputError for a dead time of more than a million sampling times.
         """
         for drive in drives.values():
-            if drive.dead_time > LONGEST * sampling_time:
+            if drive.dead_time > MAX_DEAD_TIME * sampling_time:
                 raise wrong(
                     f"{type(drive).__name__}.dead_time", drive.dead_time,
                     f"at most a million sampling times of {sampling_time:g} s",
@@ -70,7 +70,7 @@ class Drives:
     def limit(self, command: Float, last: Float) -> Float:
         """Limit commands (2, n), in place, to what the drives can do after the last ones (2, n).
 
-        Raises LawError where a drive of the user's fails.
+        Raises LawError if a drive of the user's fails.
         """
         _saturate(self._teams, command)
         if self._rated:
@@ -91,9 +91,9 @@ class Drives:
             team.normal = next(team.noise)
 
     def twist(self, command: Float) -> Float:
-        """Return the twists (3, n) that the drives make of commands (2, n), noise included.
+        """Return the twists (3, n) for commands (2, n), with the drives' noise.
 
-        Raises LawError where a drive of the user's fails.
+        Raises LawError if a drive of the user's fails.
         """
         twist = np.empty((3, command.shape[1]))
         for team in self._teams:
@@ -102,8 +102,8 @@ class Drives:
                 if team.normal is not None:
                     mine = team.drive.disturb(mine, team.normal)
                 twist[:, team.columns] = team.drive.twist(mine)
-        if not (np.abs(twist) <= FASTEST).all():  # neither for NaN
-            raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {FASTEST:g}")
+        if not (np.abs(twist) <= MAX_TWIST).all():  # neither for NaN
+            raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {MAX_TWIST:g}")
         return twist
 
 
@@ -114,7 +114,7 @@ def _saturate(teams: list[_Team], command: Float) -> None:
 
 
 def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:
-    """Return each different drive and the names of the robots that have it."""
+    """Return each distinct drive with the names of its robots."""
     groups: list[tuple[Drive, list[str]]] = []
     for name, mine in drives.items():
         for drive, names in groups:
@@ -127,7 +127,7 @@ def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:
 
 
 def _normal(streams: list[np.random.Generator]) -> Iterator[Float]:
-    """Yield standard normal numbers (2, n), each robot's from a stream of its own."""
+    """Yield standard normal numbers (2, n); each robot has a random stream of its own."""
     while True:
         blocks = [stream.standard_normal((BLOCK, 2)) for stream in streams]
         yield from np.stack(blocks, axis=-1)

@@ -23,7 +23,17 @@ from typing import NamedTuple
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import nearest
 
-__all__ = ["MATERIALS", "Material", "material", "surface_friction", "surface_restitution"]
+__all__ = [
+    "GRAVITY",
+    "MATERIALS",
+    "Material",
+    "material",
+    "surface_friction",
+    "surface_restitution",
+]
+
+GRAVITY = 9.81
+"""The acceleration of gravity, m/s^2."""
 
 
 class Material(NamedTuple):

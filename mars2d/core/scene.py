@@ -19,6 +19,7 @@ from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.plane import Outline
 
 __all__ = [
+    "INK",
     "PALETTE",
     "THEORY",
     "Arrow",
@@ -44,6 +45,9 @@ LARGEST_IMAGE = 4096
 
 # Okabe & Ito's colours, distinguishable with every common colour vision deficiency (2008).
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#5f4b8b", "#444444")
+
+INK = "#3d4852"
+"""The colour of outlines."""
 
 THEORY = "#7b3294"
 """The colour of theoretical predictions."""

@@ -1,7 +1,8 @@
-"""Bodies that are close to each other or to obstacles: how near they are to touching.
+"""Collision: how close bodies are to each other and to obstacles, and when they may touch.
 
-Points are complex numbers x + i y, in metres. Bodies are known by circles round them, most of which
-are the bodies themselves; what is no disc is looked at in convex pieces where its circle is near.
+Points are complex numbers x + i y, in metres. Bodies are bounded by circles, which for discs are
+the bodies themselves. Bodies of other shapes are compared in convex pieces when their circles are
+near.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from mars2d.core.plane import Outline, edges_of
 from mars2d.geometry.pair_list import Clearance, Close, DiscPairs, Walls
 from mars2d.geometry.separation import ConvexPairs, Pieces
 
-__all__ = ["Bounds", "Encounter"]
+__all__ = ["Bounds", "Collisions"]
 
 Float = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -26,7 +27,7 @@ Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 RIM = 1e-3
-"""What of a polygon is as near to its surface as this lies on it, metres."""
+"""A point of a polygon that is as near to its surface lies on it, metres."""
 
 
 class Bounds:
@@ -99,17 +100,17 @@ class Bounds:
         return position if arm is None else position + arm
 
     def top_speed(self, velocity: Float, who: Index | slice = slice(None)) -> Float:
-        """Return how fast the circles' centres may be at velocities (k, 3), m/s."""
+        """Return the highest speeds of the circles' centres at velocities (k, 3), m/s."""
         speed = np.hypot(velocity[:, 0], velocity[:, 1])
         if self._centred:
             return np.asarray(speed)
         offset = self.offset[who]
         return np.asarray(speed + np.hypot(offset.real, offset.imag) * np.abs(velocity[:, 2]))
 
-    def encounter(self, who: Index, reach: float) -> Encounter:
-        """Return all that may touch among bodies `who` (k,), whose circles move by `reach`.
+    def collisions(self, who: Index, reach: float) -> Collisions:
+        """Return all that bodies `who` (k,) may touch while their circles move by `reach` metres.
 
-        They move from where `clearance` was told that they are.
+        They start where `clearance` was last told that they are.
         """
         close = self.clearance.close(who, reach)
         convex = None
@@ -120,7 +121,7 @@ class Bounds:
             convex = self._convex(Close(i[~pairs], j[~pairs], body[~walls], segment[~walls]), who)
             close = Close(i[pairs], j[pairs], body[walls], segment[walls])
         discs = DiscPairs(self.radius[who], close, self._walls)
-        return Encounter(self, who, discs, convex)
+        return Collisions(self, who, discs, convex)
 
     def _convex(self, close: Close, who: Index) -> ConvexPairs | None:
         """Return the pairs of convex pieces of bodies, and of pieces and obstacles' edges."""
@@ -149,13 +150,13 @@ class Bounds:
         return np.asarray(self._obstacle[segment])
 
 
-class Encounter:
-    """Some bodies and all that they may touch during the next while: their gaps as they move."""
+class Collisions:
+    """Some bodies, all that they may touch during the next step, and the gaps between them."""
 
     def __init__(
         self, bounds: Bounds, who: Index, discs: DiscPairs, convex: ConvexPairs | None
     ) -> None:
-        """Take the bodies `who` (k,), and the pairs by their numbers 0 to k - 1."""
+        """Take the bodies `who` (k,), and pairs of them by their numbers 0 to k - 1."""
         self._bounds, self._who = bounds, who
         self._discs, self._convex = discs, convex
 
@@ -241,8 +242,8 @@ class Encounter:
     ) -> float:
         """Return for how long no pair gets deeper than `depth` metres, seconds.
 
-        velocity: (k, 3). bend: (k,) m/s^2, how quickly it may turn away from that. Without `again`,
-        pairs that touch are left out.
+        velocity: (k, 3). bend: (k,) m/s^2, how fast it may change. Without `again`, pairs that
+        touch are left out.
         """
         center = self._center_velocity(velocity)
         spin = velocity[:, 2]

@@ -1,9 +1,9 @@
-"""What ties robots to their drives while something may touch them.
+"""Drive joints: they tie robots to their commands while something may touch them.
 
-As long as a robot follows its command, it is primed with its chord's velocity each substep. When
-contact or a joint has thrown it off, it slips: its velocity is left to the solver, and its drive is
-engaged, a control body that pulls it with bounded force and torque until it follows again, and for
-a few short substeps more.
+A robot that follows its command gets the velocity of its chord in each substep. When a contact or a
+joint has thrown it off its command, it slips: the solver decides its velocity, and its drive is
+engaged. That is a control body which pulls the robot with bounded force and torque until it follows
+again, and for a few short substeps more.
 """
 
 from __future__ import annotations
@@ -15,43 +15,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.physics.motion import Arcs
+from mars2d.physics.settings import DEFAULT_OVERLAP, LINGER, TURNED
 from mars2d.physics.space import Space
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Clutches", "Driven"]
+__all__ = ["DriveJoints", "Driven"]
 
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
-LINGER = 3
-"""For how many substeps a drive stays engaged that need not be any more."""
-
-TURNED = 0.01
-"""How far a rim may turn on while its drive stops it, in parts of the overlap allowed.
-
-It is what keeps slides along walls with friction within half a percent of the formula. Where more
-overlap is allowed than by default, a larger part of it is: speed is wanted then.
-"""
-
-FINE = 1e-3
-"""The overlap allowed by default, metres."""
-
-LEAST = float(np.finfo(float).tiny)
-"""The smallest normal number: nothing is divided by less."""
+SMALLEST = float(np.finfo(float).tiny)
+"""The smallest normal number: no divisor is smaller."""
 
 
-class Clutches:
+class DriveJoints:
     """The drives of n robots, as they act on bodies."""
 
     def __init__(self, scenario: Scenario, space: Space) -> None:
-        """Take the robots and where their bodies are."""
+        """Take the scenario with the robots, and the space with their bodies."""
         robots = scenario.robots
         self.space = space
         self.count = len(scenario.bodies)
         self.mass, self.moment = np.array([robot.inertia for robot in robots]).T.copy()
         self.rim = np.array([robot.chassis.bound[1] for robot in robots])
-        self.turned = TURNED * scenario.max_overlap * max(1.0, scenario.max_overlap / FINE)
+        overlap = scenario.max_overlap
+        self.turned = TURNED * overlap * max(1.0, overlap / DEFAULT_OVERLAP)
         self.force = np.array([robot.drive.max_force for robot in robots])
         self.torque = np.array([robot.drive.max_torque for robot in robots])
         self._in_robot_frame = np.array([robot.drive.frame == "robot" for robot in robots])
@@ -66,10 +55,10 @@ class Clutches:
             "torque": self.torque, "in_robot_frame": self._in_robot_frame,
             "engaged": self._engaged, "since": self.since, "effort": self.effort,
         }  # fmt: skip
-        return arrays, {"turned": self.turned, "linger": LINGER, "least": LEAST}
+        return arrays, {"turned": self.turned, "linger": LINGER, "least": SMALLEST}
 
     def arcs(self, twist: Float) -> Arcs:
-        """Return how the robots move where nothing holds them; twist: (3, n), what is asked."""
+        """Return how free robots move under twists (3, n)."""
         return Arcs(twist, self._in_robot_frame)
 
     def release(self, away: Mask) -> None:
@@ -101,67 +90,67 @@ class Driven:
     In the methods `state` (m, 6) and `slipping` (m,) are theirs.
     """
 
-    def __init__(self, clutches: Clutches, arcs: Arcs, who: Index) -> None:
+    def __init__(self, joints: DriveJoints, arcs: Arcs, who: Index) -> None:
         """Take the robots' numbers (m,), and the arcs of all robots."""
-        self._clutches, self._who = clutches, who
+        self._drive_joints, self._who = joints, who
         self._arcs = arcs.take(who)
         self._spin, self._bend = self._arcs.spin, self._arcs.bend
-        self._mass, self._moment = clutches.mass[who], clutches.moment[who]
-        self._force, self._torque = clutches.force[who], clutches.torque[who]
-        self._rim = clutches.rim[who]
-        self._since = clutches.since[who]
+        self._mass, self._moment = joints.mass[who], joints.moment[who]
+        self._force, self._torque = joints.force[who], joints.torque[who]
+        self._rim = joints.rim[who]
+        self._since = joints.since[who]
 
     def motion(self, state: Float, slipping: Mask) -> tuple[Float, Float]:
-        """Return how they move now, (m, 3), and how quickly that may turn, (m,) m/s^2."""
+        """Return their velocities (m, 3), and how fast these may turn, (m,) m/s^2."""
         chord = self._arcs.chord(state[:, 2], 0.0)
         velocity = np.where(slipping[:, None], state[:, 3:], chord)
         return velocity, np.where(slipping, 0.0, self._bend)
 
     def time_to_brake(self, state: Float, slipping: Mask) -> float:
-        """Return when the first drive ends the spin of a robot that just begins to slip, s; or inf.
+        """Return when the first drive stops the spin of a robot that begins to slip, s; else inf.
 
-        A substep that is longer lets it turn on for all of it. It need not be so short that this
-        can't be seen.
+        In a longer substep the robot turns on until its end. The time has a lower bound, where this
+        turn is too small to be seen.
         """
         begins = slipping & (self._since > 0)
         if not begins.any():
             return inf
         spin = np.abs(state[:, 5] - self._spin)
-        rim = np.maximum(spin * self._rim, LEAST)
-        lasts = np.maximum(spin * self._moment / self._torque, self._clutches.turned / rim)
+        rim = np.maximum(spin * self._rim, SMALLEST)
+        lasts = np.maximum(spin * self._moment / self._torque, self._drive_joints.turned / rim)
         return float(lasts[begins].min())
 
     def out_of_reach(self, state: Float, h: float) -> Mask:
-        """Return which their drives can't bring back to their commands within h, (m,)."""
+        """Return which robots their drives can't bring back to their commands within h s, (m,)."""
         error = np.abs(state[:, 3:] - self._arcs.chord(state[:, 2], h))
         slow = np.hypot(error[:, 0], error[:, 1]) * self._mass > self._force * h
         return np.asarray(slow | (error[:, 2] * self._moment > self._torque * h))
 
     def aim(self, state: Float, slipping: Mask, h: float, *, brief: bool) -> None:
-        """Set the velocities of robots and of their control bodies for a substep of h.
+        """Set the velocities of robots and of their control bodies for a substep of h seconds.
 
-        The engine moves bodies by the velocities that they have, then joints work towards the
-        control bodies': so these get the velocities of the substep after this one.
+        The engine first moves bodies by their velocities, then joints pull these towards the
+        velocities of the control bodies: so control bodies get those of the substep after this.
 
-        brief: whether the substep is as short as those in contact are. Then a drive stays engaged
-        for a while that need not be: a robot that pushes loses touch now and then. But what comes
-        from afar is to hit with its momentum alone, not with all that its drive gives meanwhile.
+        brief: whether the substep is as short as in contact. Then a drive stays engaged for a while
+        after its robot follows again, since a robot that pushes loses touch now and then. But a
+        robot that comes from afar hits with its momentum alone, without its drive's force.
         """
-        clutches, who = self._clutches, self._who
-        clutches.since[who] = self._since = np.where(slipping, 0, self._since + 1)
+        joints, who = self._drive_joints, self._who
+        joints.since[who] = self._since = np.where(slipping, 0, self._since + 1)
         holds = slipping | (self._since <= LINGER) if brief else slipping
         spin = np.where(slipping, state[:, 5], self._spin)
         now, ahead = self._arcs.chord(np.array([state[:, 2], state[:, 2] + spin * h]), h)
-        velocity = clutches.space.velocity
+        velocity = joints.space.velocity
         velocity[who] = np.where(slipping[:, None], state[:, 3:], now)
-        velocity[clutches.count + who] = ahead
-        wanted = np.zeros(len(clutches.since), dtype=bool)
+        velocity[joints.count + who] = ahead
+        wanted = np.zeros(len(joints.since), dtype=bool)
         wanted[who] = holds
-        clutches.engage(wanted)
+        joints.engage(wanted)
 
     def note_effort(self, slipping: Mask) -> None:
-        """Note how much of their bounds the drives of those that slip used in the last substep."""
+        """Note the shares of their bounds that drives of slipping robots have just used."""
         who = self._who[slipping]
         if len(who):
-            used = self._clutches.space.effort(who.tolist())
-            self._clutches.effort[who] = np.maximum(self._clutches.effort[who], used)
+            used = self._drive_joints.space.effort(who.tolist())
+            self._drive_joints.effort[who] = np.maximum(self._drive_joints.effort[who], used)

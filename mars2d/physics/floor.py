@@ -1,11 +1,12 @@
-"""How the floor holds what lies on it: friction against sliding and spinning.
+"""The floor: its friction against sliding and spinning of what lies on it.
 
 A body that lies flat and moves at v, turning at omega, is held by a force F u / d against v and a
 torque F k s / d against omega, where F = mu m g, u = |v|, s = k |omega|, d = sqrt(u^2 + s^2), and
-the lever k is the mean distance of the body's points from its centre of mass. So what only slides
-is held by F, what only spins by F k, and what does both by less of either: one that is pushed turns
-easily. Source: the ellipsoid in place of the limit surface of S. Goyal, A. Ruina, J. Papadopoulos,
-Wear 143, 307 (1991), as in R. D. Howe, M. R. Cutkosky, Int. J. Robotics Research 15, 531 (1996).
+the lever k is the mean distance of the body's points from its centre of mass. So a body that only
+slides is held by F, one that only spins by F k, and one that does both by less of either: a body
+that is pushed turns easily. Source: the ellipsoid in place of the limit surface of S. Goyal, A.
+Ruina, J. Papadopoulos, Wear 143, 307 (1991), as in R. D. Howe, M. R. Cutkosky, Int. J. Robotics
+Research 15, 531 (1996).
 """
 
 from __future__ import annotations
@@ -16,27 +17,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.props.base import Prop
+from mars2d.core.materials import GRAVITY
 
 __all__ = ["GRAVITY", "Floor"]
 
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-GRAVITY = 9.81
-"""The acceleration of gravity, m/s^2."""
-
 RESTS = 1e-6
-"""What moves no faster than this is held as if at rest, m/s."""
+"""A body that moves no faster is held as if at rest, m/s."""
 
-ROUNDS = 30
+MAX_ROUNDS = 30
 CLOSE = 1e-13
-"""How Newton's method ends: after so many rounds, or when it goes on by no more than this."""
+"""Newton's method ends after `MAX_ROUNDS`, or after a step of `CLOSE` at most."""
 
 
 def _quadrature(count: int) -> tuple[Float, Float]:
-    """Return nodes and weights for integrals from 0 to 1 of what bends sharply at 0.
+    """Return nodes and weights for integrals from 0 to 1 of functions that bend sharply at 0.
 
-    They are those of Gauss and Legendre in t, where the integrals' variable is t^3.
+    They are those of Gauss and Legendre in t, where the variable of the integrals is t^3.
     """
     t, weight = np.polynomial.legendre.leggauss(count)
     t = (t + 1) / 2
@@ -65,8 +64,8 @@ class Floor:
     def bounds(self, velocity: Float, held: Float, who: Index) -> tuple[Float, Float]:
         """Return the largest force [N] and torque [N m] against bodies `who`, (k,) each.
 
-        velocity: (k, 3). held: (k, 2) force and torque that the floor held them with just now: what
-        rests is held by both together as by either alone.
+        velocity: (k, 3). held: (k, 2) force and torque of the floor on them in the last substep: a
+        body at rest is held by both together as by either alone.
         """
         force, torque, lever = self.force[who], self.torque[who], self._lever[who]
         u, s = np.hypot(velocity[:, 0], velocity[:, 1]), lever * np.abs(velocity[:, 2])
@@ -81,7 +80,7 @@ class Floor:
         return force * first, torque * second
 
     def braking(self, velocity: Float, reach: Float, who: Index) -> Float:
-        """Return how quickly points of bodies `who` may slow down at most, (k,) m/s^2.
+        """Return the largest deceleration of points of bodies `who`, (k,) m/s^2.
 
         velocity: (k, 3). reach: (k,) metres, how far points lie from the bodies' poses.
         """
@@ -109,7 +108,7 @@ class Floor:
 
 
 def _alone(speed: Float, rate: Float, h: float) -> tuple[Float, Float]:
-    """Return the ways in h over the speeds [s], and what is left of these, of constant slowing."""
+    """Return ways by initial speeds [s], and the shares of these left, at constant deceleration."""
     stops = (rate * h >= speed) & (rate > 0)
     lasts = np.where(stops, speed / np.where(rate > 0, rate, 1.0), h)
     left = np.where(stops, 0.0, 1.0 - rate * lasts / np.where(speed > 0, speed, 1.0))
@@ -140,7 +139,7 @@ def _together(speed: Float, rate: Float, h: float) -> tuple[Float, Float]:
     stops = integral(zero) <= h
     low, high = zero, one
     x = np.maximum(1 - slower * h / np.maximum(np.hypot(b, o), 1e-150), 0.0)
-    for _ in range(ROUNDS):  # Newton's method, with bisection where that leaves the bounds
+    for _ in range(MAX_ROUNDS):  # Newton's method, with bisection where that leaves the bounds
         gone = integral(x)
         low, high = np.where(gone >= h, x, low), np.where(gone <= h, x, high)
         rate_now = np.maximum(np.hypot(b, o * x ** (exponent - 1)), 1e-150)

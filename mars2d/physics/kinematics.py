@@ -1,14 +1,14 @@
-"""Motion without forces: where things touch, a robot stops, or nothing happens at all."""
+"""Motion without forces: when things touch, a robot stops, or nothing happens."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.physics.collision import Bounds, Encounter
-from mars2d.physics.engine import SLOP
+from mars2d.physics.collision import Bounds, Collisions
 from mars2d.physics.floor import Floor
 from mars2d.physics.motion import Arcs, Motion, Start, point_velocity
+from mars2d.physics.settings import SLOP
 from mars2d.physics.space import Space
 from mars2d.record.contact import ContactLog, Solved
 from mars2d.scenario.scenario import Scenario
@@ -20,21 +20,21 @@ Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 INWARDS = 1e-9
-"""From this speed towards what it touches a body is stopped, m/s."""
+"""A body that moves faster into something it touches is stopped, m/s."""
 
 
 class Kinematics(Motion):
     """The motion of one world's bodies where ``Scenario.physics`` is "stop" or "ideal".
 
-    All follow their commands exactly, props glide on their own. With "stop", what would go into
-    another body or an obstacle stands still for the rest of the control step; a prop for good. With
-    "ideal" it goes through. Contacts are noted either way, without impulses. Joints do not act.
+    Robots follow their commands exactly, and props glide. With "stop", a robot that would enter
+    another body or an obstacle stands still for the rest of the control step, a prop for good. With
+    "ideal", both go through. Contacts are noted either way, without impulses. Joints do not act.
     """
 
     def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
         """Take robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls.
 
-        start: how everything moves at first, by default as the scenario says.
+        start: how all bodies move at first; by default, as the scenario says.
         """
         bodies = scenario.bodies
         self.n = len(scenario.robots)
@@ -53,22 +53,22 @@ class Kinematics(Motion):
 
     @property
     def motion(self) -> Start:
-        """How everything moves now: one that starts with it goes on from here."""
+        """How all bodies move now: a motion that starts with it goes on from here."""
         nobody, still = np.zeros(len(self._state), dtype=bool), np.zeros((3, self.n))
         return Start(self._state.copy(), nobody, still)
 
     def take_effort(self) -> Float:
-        """Return zeros (n,): no drive has to make an effort."""
+        """Return zeros (n,): no drive makes an effort."""
         return np.zeros(self.n)
 
     def take_contacts(self) -> NDArray[np.void]:
-        """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
+        """Return the contacts since the last call by time, one row (dtype CONTACT) per pair."""
         return self.contacts.take()
 
     def drive(self, twist: Float, duration: float, time: float) -> None:
-        """Move everything for `duration` seconds, the robots driven by constant twists (3, n).
+        """Move all bodies for `duration` seconds under constant twists (3, n) of the robots.
 
-        time: that of the start, seconds, for the contacts.
+        time: at the start, seconds, for the contacts.
         """
         speed = self.bounds.top_speed(self._state[:, 3:])
         speed[: self.n] = self.bounds.top_speed(twist.T, slice(self.n))
@@ -83,8 +83,8 @@ class Kinematics(Motion):
         self._state = self._moved(arcs, start, duration)
         self._state[:, 3:] = self._now(arcs, self._state)
         if len(who):
-            encounter = self.bounds.encounter(who, float(reach[who].max()))
-            self._state[who] = self._substeps(twist, start, duration, time, who, encounter)[who]
+            collisions = self.bounds.collisions(who, float(reach[who].max()))
+            self._state[who] = self._substeps(twist, start, duration, time, who, collisions)[who]
         else:
             self.contacts.add_nothing()
         self.space.place_all(self._state[:, :3])
@@ -113,24 +113,24 @@ class Kinematics(Motion):
         duration: float,
         time: float,
         who: Index,
-        encounter: Encounter,
+        collisions: Collisions,
     ) -> Float:
-        """Return the states (N, 6) after `duration`, having looked at each touch of `who`."""
+        """Return the states (N, 6) after `duration`, with each touch of bodies `who` found."""
         twist, n = twist.copy(), self.n
         arcs = Arcs(twist, self._in_robot_frame)
         elapsed = h = 0.0
         while True:
-            encounter.measure(state[who])
+            collisions.measure(state[who])
             now = self._now(arcs, state)
-            if elapsed > 0 and encounter.any_touch:
-                self._note(time + elapsed, h, state, now, encounter)
+            if elapsed > 0 and collisions.any_touch:
+                self._note(time + elapsed, h, state, now, collisions)
             elif elapsed > 0:
                 self.contacts.add_nothing()
             if elapsed >= duration:
                 state[:, 3:] = now
                 return state
-            if self._stops and encounter.any_touch:
-                stopped = who[encounter.inwards(now[who]) > INWARDS]
+            if self._stops and collisions.any_touch:
+                stopped = who[collisions.inwards(now[who]) > INWARDS]
                 twist[:, stopped[stopped < n]] = 0.0
                 arcs = Arcs(twist, self._in_robot_frame)
                 state[stopped[stopped >= n], 3:] = 0.0
@@ -140,15 +140,17 @@ class Kinematics(Motion):
             reach = self.bounds.reach[n:]
             bend[n:] = self._floor.braking(state[n:, 3:], reach, self._everyone)
             left = h = duration - elapsed
-            h = min(h, encounter.time_to_touch(now[who], bend[who], self._depth, again=self._stops))
+            h = min(
+                h, collisions.time_to_touch(now[who], bend[who], self._depth, again=self._stops)
+            )
             state = self._moved(arcs, state, h)
             elapsed = duration if h == left else elapsed + h
 
     def _note(
-        self, time: float, h: float, state: Float, velocity: Float, encounter: Encounter
+        self, time: float, h: float, state: Float, velocity: Float, collisions: Collisions
     ) -> None:
         """Note who touches whom after a step of h seconds."""
-        a, b, point, normal = encounter.touches()
+        a, b, point, normal = collisions.touches()
         points, normals = (np.column_stack([z.real, z.imag]) for z in (point, normal))
         approach = point_velocity(state, velocity, b, points)
         approach -= point_velocity(state, velocity, a, points)

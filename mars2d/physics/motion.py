@@ -1,4 +1,4 @@
-"""Motion: the state of what moves bodies, how their points move, arcs in closed form."""
+"""Motion: the state of moving bodies, velocities of their points, arcs in closed form."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ Index = NDArray[np.integer[Any]]
 class Start(NamedTuple):
     """How bodies move at an instant: their states (N, 6), which of them slip (N,), twists (3, n).
 
-    A state is x, y [m], theta [rad], and their rates; a twist is what a robot's drive is asked for.
+    A state is x, y [m], theta [rad], and their rates; a twist is the velocity that a drive is asked
+    for.
     """
 
     state: Float
@@ -26,7 +27,7 @@ class Start(NamedTuple):
     twist: Float
 
     def moved(self, poses: Mapping[int, tuple[float, float, float]]) -> Start:
-        """Return the same with some bodies at other poses, where they stand still."""
+        """Return a copy with some bodies at rest at other poses."""
         state, slipping = self.state.copy(), self.slipping.copy()
         for body, pose in poses.items():
             state[body] = (*pose, 0.0, 0.0, 0.0)
@@ -35,7 +36,7 @@ class Start(NamedTuple):
 
 
 class Motion:
-    """What moves a world's bodies; `_state` (N, 6) are their x, y, theta, x', y', theta' now."""
+    """The base of engines. `_state` (N, 6) holds x, y, theta, x', y', theta' of all bodies."""
 
     _state: Float
 
@@ -53,7 +54,7 @@ class Motion:
 def point_velocity(state: Float, velocity: Float, body: Index, point: Float) -> Float:
     """Return the velocities (k, 2) of points (k, 2) of bodies (k,); negative ones stand still.
 
-    state: (N, 6) of all bodies, or what else begins with their poses. velocity: (N, 3) of theirs.
+    state: (N, 6) of all bodies, or any array that begins with poses. velocity: (N, 3).
     """
     result = np.zeros((len(body), 2))
     moves = body >= 0
@@ -71,7 +72,7 @@ class Arcs:
     """
 
     def __init__(self, twist: Float, in_robot_frame: Mask) -> None:
-        """Take the twists (3, k), and whether their first two rows are along the robot's axes."""
+        """Take the twists (3, k), and which of them are in the robot's frame, (k,)."""
         self._twist, self._in_robot_frame = twist, in_robot_frame
         self._forward, self._left, self.spin = twist
         self._turning = np.where(in_robot_frame, self.spin, 0.0)
@@ -83,7 +84,7 @@ class Arcs:
 
     @property
     def bend(self) -> Float:
-        """How quickly their velocities turn, (k,) m/s^2."""
+        """How fast their velocities turn, (k,) m/s^2."""
         return np.asarray(np.abs(np.hypot(self._forward, self._left) * self._turning))
 
     def chord(self, theta: Float, h: float) -> Float:

@@ -1,4 +1,4 @@
-"""Rays in pymunk's space: many at once through the engine's own function, with what each hits."""
+"""Rays in pymunk's space: many at once by the engine's own function, and what each hits."""
 
 from __future__ import annotations
 
@@ -30,28 +30,28 @@ _POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 _ALL = 0xFFFFFFFF
 
 SIGHT = 1 << 31
-"""The category of what only rays meet."""
+"""The category of shapes that only rays meet."""
 
 BODY = _ALL & ~SIGHT
-"""The categories of what bodies and rays meet."""
+"""The categories of shapes that bodies and rays meet."""
 
 BAR = 1e-9
 """Half the length of a bar across the end of a wall, metres."""
 
 GRAZING = 1e-7
-"""A ray at a smaller angle to an edge is looked at again, rad: rounding decides where it hits."""
+"""A ray at a smaller angle to an edge is checked again, rad: rounding decides where it hits."""
 
 CORNER = 1e-13
-"""A ray passes so near to a corner that it is aimed at, by rounding, per metre and one."""
+"""A ray that is aimed at a corner passes it at this distance by rounding, per metre and one."""
 
 AT_THE_END = 1e-9
-"""What a ray hits so near to its end does not hide the end, metres."""
+"""A surface as near to the end of a ray does not hide the end, metres."""
 
 
 def end_bars(a: Point, b: Point) -> list[tuple[Point, Point]]:
     """Return two bars across the ends of a wall, so short that they count as points.
 
-    A wall has no thickness, and the engine lets a ray that runs along it pass. It meets the bar.
+    A wall has no thickness, so the engine lets a ray along it pass. Such a ray meets the bar.
     """
     dx, dy = b[0] - a[0], b[1] - a[1]
     apart = float(np.hypot(dx, dy))
@@ -62,8 +62,9 @@ def end_bars(a: Point, b: Point) -> list[tuple[Point, Point]]:
 class Rays:
     """Casts rays into a space.
 
-    The engine's function is called once a ray, with nothing made anew in between: from the fourth
-    ray on this is several times quicker than pymunk's method, which makes an object of each answer.
+    The engine's function is called once for each ray, and no objects are made in between. From the
+    fourth ray on this is several times faster than pymunk's method, which makes an object of each
+    answer.
     """
 
     def __init__(self, space: pymunk.Space, bodies: Mapping[pymunk.Shape, int]) -> None:
@@ -90,7 +91,7 @@ class Rays:
         self._pose_buffer = batch.Buffer()
 
     def _reserve(self, count: int) -> None:
-        """Make room for so many rays at once."""
+        """Make room for this many rays at once."""
         self._count = count
         self._keep = ends, hits = ffi.new("cpVect[]", count), ffi.new("cpSegmentQueryInfo[]", count)
         self._end_of = [ends[k] for k in range(count)]
@@ -123,7 +124,7 @@ class Rays:
     def _sweep(
         self, start: Point, angles: Float, reach: ArrayLike, ignore: int
     ) -> tuple[Addresses, Float]:
-        """Send rays at angles (k,), and return what shapes they hit, 0 if none, and how far."""
+        """Send rays at angles (k,); return the shapes they hit, 0 if none, and the distances."""
         far = np.asarray(reach, dtype=float)
         c, s = np.cos(angles), np.sin(angles)
         ends = np.empty((len(angles), 2))
@@ -134,7 +135,7 @@ class Rays:
     def _met(
         self, start: Point, way: tuple[Float, Float], far: Float, ends: Float, ignore: int
     ) -> tuple[Addresses, Float]:
-        """Return what shapes rays hit, 0 if none, and how far they go, (k,) each.
+        """Return the shapes that rays hit, 0 if none, and the distances, (k,) each.
 
         way: their directions, two (k,). far: their lengths, (k,) or one. ends: (k, 2).
         """
@@ -162,7 +163,7 @@ class Rays:
     ) -> None:
         """Let rays that are aimed at corners of bodies meet them.
 
-        The engine looks at each side of a polygon alone: by rounding such a ray may miss both.
+        The engine checks each side of a polygon by itself: by rounding, such a ray may miss both.
         """
         buffer = self._pose_buffer
         buffer.clear()
@@ -175,7 +176,7 @@ class Rays:
         apart = np.hypot(dx, dy)
         near = np.flatnonzero((apart <= far.max(initial=0.0)) & (self._corner_body != ignore))
         offset = np.column_stack([dy[near], -dx[near]])
-        beside = offset @ np.array(way)  # rounded as the processor likes: looked at again below
+        beside = offset @ np.array(way)  # rounding depends on the processor: checked again below
         reach = CORNER * (1 + apart[near])
         for row in np.flatnonzero(np.abs(beside).min(axis=1, initial=inf) < 2 * reach).tolist():
             x, y = float(dx[near[row]]), float(dy[near[row]])
@@ -187,10 +188,10 @@ class Rays:
                     shapes[k], distance[k] = self._corner_shape[near[row]], along
 
     def _grazing(self, start: Point, way: Point, end: Float, ignore: int) -> tuple[int, float]:
-        """Return what a ray hits that runs along an edge, and how far that is.
+        """Return the shape that a ray along an edge hits, and the distance.
 
-        The engine divides two roundings where a ray lies in an edge. It meets the edge's near end.
-        way: its direction.
+        The engine divides two rounding errors if a ray lies in an edge. Such a ray meets the edge's
+        near end. way: its direction.
         """
         own = pymunk.ShapeFilter(group=ignore + 1)
         reach = float(np.hypot(end[0] - start[0], end[1] - start[1]))
@@ -209,7 +210,7 @@ class Rays:
         return address, distance
 
     def distances(self, start: Point, angles: Float, reach: ArrayLike, ignore: int) -> Float:
-        """Return how far rays at angles (k,) go, inf where nothing is hit; see Surroundings."""
+        """Return the lengths of rays at angles (k,), inf where nothing is hit; see Surroundings."""
         return self._sweep(start, angles, reach, ignore)[1]
 
     def hidden(
@@ -244,6 +245,6 @@ def _beside(start: Point, way: Point, point: Point) -> float:
 
 
 def _nearest_ahead(start: Point, way: Point, points: list[Point]) -> float:
-    """Return how far a ray goes to what lies in it between some points; inf if that is behind."""
+    """Return how far along a ray the nearest of some points lies; inf if they lie behind."""
     along = [way[0] * (x - start[0]) + way[1] * (y - start[1]) for x, y in points]
     return inf if max(along) < 0 else max(min(along), 0.0)

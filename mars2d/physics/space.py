@@ -1,4 +1,4 @@
-"""The bodies of one world in pymunk. No other module knows the engine's objects.
+"""Space: the bodies of one world in pymunk. Only `rays` and `kernel` know its objects, too.
 
 Bodies are numbered robots first, then props; obstacles are -1, -2, ... The engine walks them in one
 order: robots, props, the robots' control bodies, then the static ones, the floor first.
@@ -17,16 +17,20 @@ from numpy.typing import NDArray
 from pymunk import batch
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.bodies.attached_joint import Tie
-from mars2d.bodies.joints.base import Joint
-from mars2d.bodies.joints.hinge import Hinge
-from mars2d.bodies.joints.rod import Rod
-from mars2d.bodies.joints.rope import Rope
-from mars2d.bodies.joints.spring import Spring
+from mars2d.bodies.attached_joint import AttachedJoint
+from mars2d.bodies.constraints import (
+    Constraint,
+    FixedDistance,
+    MaxDistance,
+    Pin,
+    SpringDamper,
+    TurningRange,
+    TurningSpring,
+)
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.physics.rays import BODY, SIGHT, Rays, end_bars
-from mars2d.physics.rope_limits import TAUT
+from mars2d.physics.settings import JOINT_BIAS, TAUT
 from mars2d.record.contact import Solved
 from mars2d.scenario.scenario import Scenario
 
@@ -58,15 +62,12 @@ _ARBITER = (
 
 
 _IN_TOUCH = (0, 1)
-"""The engine's states of contacts that are not over: just begun, going on."""
+"""The engine's states of contacts that have just begun, or go on."""
 
 ORIGIN = (0.0, 0.0)
 
 GOLDEN = (5**0.5 - 1) / 2
-"""Multiples of it, less their whole part, lie evenly scattered from 0 to 1."""
-
-JOINT_BIAS = 0.7**1000
-"""What is left after a second of the error of a joint: 30 % of it go in 1 ms."""
+"""The fractional parts of its multiples are scattered evenly from 0 to 1."""
 
 
 class Space:
@@ -93,11 +94,11 @@ class Space:
         self._space.add(*_scattered([s for s, body in self._shapes.items() if body < 0]))
         drives = [robot.drive for robot in scenario.robots]
         self._bounds = np.array([(drive.max_force, drive.max_torque) for drive in drives])
-        self._clutches = [
-            self._clutch(self._controls[i], self._bodies[i], *limits)
+        self._drive_joints = [
+            self._joint_pair(self._controls[i], self._bodies[i], *limits)
             for i, limits in enumerate(self._bounds.tolist())
         ]
-        self._grips: dict[int, Clutch] = {}
+        self._floor_joints: dict[int, JointPair] = {}
         self._ties = scenario.ties
         self._joints = [self._add_joint(tie) for tie in self._ties]
 
@@ -165,10 +166,10 @@ class Space:
         self._shapes |= dict.fromkeys(segments, k)
         return body
 
-    def _clutch(
+    def _joint_pair(
         self, holder: pymunk.Body, body: pymunk.Body, force: float, torque: float
-    ) -> Clutch:
-        """Return what makes a body move as its holder does, with bounded force and torque."""
+    ) -> JointPair:
+        """Return joints that make a body move as its holder does, with bounded force and torque."""
         ends = ORIGIN, ORIGIN
         pivot = _Constraint(self._space, "PivotJoint", holder, body, *ends, max_bias=0.0)
         gear = _Constraint(self._space, "GearJoint", holder, body, 0.0, 1.0, max_bias=0.0)
@@ -176,14 +177,14 @@ class Space:
         gear.set(max_force=torque)
         return pivot, gear
 
-    def _add_joint(self, tie: Tie) -> list[_Constraint]:
-        a, b = (self._floor if i < 0 else self._bodies[i] for i in (tie.a, tie.b))
-        make = next(_MAKERS[kind] for kind in type(tie.joint).__mro__ if kind in _MAKERS)
-        constraints = make(tie, partial(_Constraint, self._space), a, b)
-        for constraint in constraints:
-            constraint.set(collide_bodies=not isinstance(tie.joint, Hinge), error_bias=JOINT_BIAS)
-            constraint.add()
-        return constraints
+    def _add_joint(self, attached: AttachedJoint) -> list[_Constraint]:
+        a, b = (self._floor if i < 0 else self._bodies[i] for i in (attached.a, attached.b))
+        make = partial(_Constraint, self._space)
+        made = [_translated(attached, each, make, a, b) for each in attached.constraints]
+        for joint in made:
+            joint.set(collide_bodies=not attached.pinned, error_bias=JOINT_BIAS)
+            joint.add()
+        return made
 
     # -- state ------------------------------------------------------------------------------
 
@@ -199,12 +200,12 @@ class Space:
         return self._everything[: len(self._bodies)]
 
     def step(self, h: float) -> None:
-        """Set the velocities of all bodies to `velocity`, and go on by h seconds.
+        """Set the velocities of all bodies to `velocity`, and step by h seconds.
 
         The solver begins with the impulses of the step before, scaled by the ratio of the steps'
         lengths, but takes back the unscaled ones: a drive at its bound would push with
-        F (2 h - h before), impacts would be undone by half. So those of contacts are scaled where
-        they are kept, and the solver is told that both steps are equally long.
+        F (2 h - h before), and impacts would be undone by half. So the impulses of contacts are
+        scaled where they are kept, and the solver is told that both steps are equally long.
         """
         if h != self.last_step:
             self._scale_contacts(h / self.last_step)
@@ -227,14 +228,14 @@ class Space:
                     contact.jtAcc *= ratio
 
     def misplace(self, which: Iterable[int]) -> None:
-        """Note which bodies, and no others, have been put somewhere else since the last step.
+        """Note that these bodies, and no others, were moved since the last step.
 
-        The next query is to find them there.
+        The next query finds them where they are.
         """
         self._misplaced = set(which)
 
     def misplace_all(self, state: Float) -> None:
-        """Note that all bodies have states (N, 6), where the next query is to find them."""
+        """Note the states (N, 6) of all bodies; the next query finds them there."""
         self._elsewhere = state
 
     def shared(self) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
@@ -242,8 +243,8 @@ class Space:
         arrays: dict[str, NDArray[Any]] = {
             "body": _addresses(body._body for body in self._bodies),
             "control": _addresses(body._body for body in self._controls),
-            "pivot": _addresses(pivot.address for pivot, _ in self._clutches),
-            "gear": _addresses(gear.address for _, gear in self._clutches),
+            "pivot": _addresses(pivot.address for pivot, _ in self._drive_joints),
+            "gear": _addresses(gear.address for _, gear in self._drive_joints),
         }
         numbers = [*range(len(self._bodies)), *(-1 - k for k in range(len(self._statics)))]
         address = _addresses(body._body for body in self._bodies + self._statics)
@@ -277,20 +278,20 @@ class Space:
     # -- what holds bodies ------------------------------------------------------------------
 
     def engage(self, i: int) -> None:
-        """Let a robot's drive act through its joints, which have not held anything yet."""
-        for joint in self._clutches[i]:
+        """Let a robot's drive act through its joints, which begin anew."""
+        for joint in self._drive_joints[i]:
             joint.renew()
             joint.add()
 
     def disengage(self, i: int) -> None:
         """Take a robot's joints out again."""
-        for joint in self._clutches[i]:
+        for joint in self._drive_joints[i]:
             joint.remove()
 
     def effort(self, which: list[int]) -> Float:
         """Return the shares of their bounds that engaged drives used in the last step."""
-        clutches = [self._clutches[i] for i in which]
-        used = np.array([_impulse(joint.address) for clutch in clutches for joint in clutch])
+        pairs = [self._drive_joints[i] for i in which]
+        used = np.array([_impulse(joint.address) for pair in pairs for joint in pair])
         share = used.reshape(-1, 2) / (self._bounds[which] * self.last_step)
         return np.asarray(share.max(axis=1))
 
@@ -299,45 +300,45 @@ class Space:
         self._bodies[i].force = x, y
         self._bodies[i].torque = torque
 
-    def grip(self, i: int, force: float, torque: float) -> None:
+    def hold(self, i: int, force: float, torque: float) -> None:
         """Let the floor hold a body with a force [N] and a torque [N m] of friction."""
-        if i not in self._grips:
-            self._grips[i] = self._clutch(self._floor, self._bodies[i], force, torque)
-            for joint in self._grips[i]:
+        if i not in self._floor_joints:
+            self._floor_joints[i] = self._joint_pair(self._floor, self._bodies[i], force, torque)
+            for joint in self._floor_joints[i]:
                 joint.add()
-        pivot, gear = self._grips[i]
+        pivot, gear = self._floor_joints[i]
         pivot.set(max_force=force)
         gear.set(max_force=torque)
 
     def held(self, i: int) -> tuple[float, float]:
         """Return the force [N] and torque [N m] of the floor on a body in the last step."""
-        if i not in self._grips:
+        if i not in self._floor_joints:
             return 0.0, 0.0
-        pivot, gear = self._grips[i]
+        pivot, gear = self._floor_joints[i]
         return _impulse(pivot.address) / self.last_step, _impulse(gear.address) / self.last_step
 
     def draw_in(self, k: int, speed: float) -> None:
-        """Let rope k, which is longer than it ought to be, get shorter by no more than this, m/s.
+        """Bound the speed at which rope k, if it is too long, is drawn in, m/s.
 
-        What is drawn in goes on to move, and makes the rope slack.
+        A body that is drawn in keeps moving, which makes the rope slack.
         """
         self._joints[k][0].set(max_bias=speed)
 
     def renew(self, which: Index) -> None:
-        """Let the joints of some bodies begin anew, as if they had not held anything yet.
+        """Let the drive joints or floor joints of some bodies begin anew.
 
-        Robots among them are engaged. It is to be done where a step is much shorter than the one
-        before: the solver would begin with what the joints did in that.
+        Robots among them are engaged. Do so before a step that is much shorter than the one before,
+        since the solver begins with the impulses of joints in that.
         """
         for i in which.tolist():
-            _renew(self._clutches[i] if i < self.robots else self._grips.get(i, ()))
+            _renew(self._drive_joints[i] if i < self.robots else self._floor_joints.get(i, ()))
 
     # -- contacts ---------------------------------------------------------------------------
 
     def solved(self) -> Solved:
-        """Return the contacts of the last step, those included that parted shortly before.
+        """Return the contacts of the last step, with those that parted shortly before.
 
-        To be asked when the state after the step has been read.
+        Read the state after the step first.
         """
         buffer = self._arbiter_buffer
         buffer.clear()
@@ -400,10 +401,10 @@ def _own(robot: int) -> pymunk.ShapeFilter:
 
 
 def _scattered(shapes: list[pymunk.Shape]) -> list[pymunk.Shape]:
-    """Return shapes in an order in which neighbours lie far apart, always the same.
+    """Return shapes in a fixed order in which neighbours lie far apart.
 
-    The engine sorts shapes into a tree as they come. Neighbours one after the other make it
-    lopsided, and rays through it up to twice as slow.
+    The engine sorts shapes into a tree as they come. If neighbours follow one another, the tree is
+    lopsided, and rays through it are up to twice as slow.
     """
     order = sorted(range(len(shapes)), key=lambda k: k * GOLDEN % 1.0)
     return [shapes[k] for k in order]
@@ -418,10 +419,10 @@ def _static() -> pymunk.Body:
 
 
 class _Constraint:
-    """A joint of the engine's, which can begin anew.
+    """A joint of the engine that can begin anew.
 
-    It does so in place, by the engine's own function: to make objects of pymunk, which own the
-    memory, takes many times as long.
+    It does so in place, by the engine's own function. Making new objects of pymunk takes many times
+    as long.
     """
 
     def __init__(
@@ -433,7 +434,7 @@ class _Constraint:
         *numbers: Any,
         **settings: float,
     ) -> None:
-        """Make one, as yet outside the space. kind: its name in pymunk, which takes the numbers."""
+        """Make one outside of the space. kind: its class in pymunk, which takes the numbers."""
         self._space, self._owner = space._space, getattr(pymunk, kind)(a, b, *numbers)
         self.address = self._owner._constraint
         itself = ffi.cast(f"cp{kind} *", self.address)
@@ -442,13 +443,13 @@ class _Constraint:
         self.set(**settings)
 
     def set(self, **settings: float) -> None:
-        """Set what all joints have, by its name in pymunk."""
+        """Set settings that all joints have, by their names in pymunk."""
         self._settings |= settings
         for name, value in settings.items():
             _SETTERS[name](self.address, value)
 
     def renew(self) -> None:
-        """Let it begin as if it had not held anything yet; it must be outside the space."""
+        """Let it begin as if it had held nothing yet; it must be outside of the space."""
         self._make()
         for name, value in self._settings.items():
             _SETTERS[name](self.address, value)
@@ -472,51 +473,36 @@ _SETTERS = {
     "distance": lib.cpPinJointSetDist,
 }
 
-Clutch = tuple[_Constraint, _Constraint]
+JointPair = tuple[_Constraint, _Constraint]
 Maker = Callable[..., _Constraint]
 
 
 def _renew(joints: Iterable[_Constraint]) -> None:
-    """Let joints that are in the space begin anew; the engine walks them in this order."""
+    """Let joints in the space begin anew; the engine walks them in this order."""
     for act in (_Constraint.remove, _Constraint.renew, _Constraint.add):
         for joint in joints:
             act(joint)
 
 
-def _rope(tie: Tie, make: Maker, a: pymunk.Body, b: pymunk.Body) -> list[_Constraint]:
-    ends = tie.joint.anchor_a, tie.joint.anchor_b
-    return [make("SlideJoint", a, b, *ends, 0.0, tie.length - TAUT, max_bias=0.0)]
-
-
-def _rod(tie: Tie, make: Maker, a: pymunk.Body, b: pymunk.Body) -> list[_Constraint]:
-    ends = tie.joint.anchor_a, tie.joint.anchor_b
-    return [make("PinJoint", a, b, *ends, distance=tie.length)]
-
-
-def _spring(tie: Tie, make: Maker, a: pymunk.Body, b: pymunk.Body) -> list[_Constraint]:
-    joint = tie.joint
-    assert isinstance(joint, Spring)
-    ends = joint.anchor_a, joint.anchor_b
-    return [make("DampedSpring", a, b, *ends, tie.length, joint.stiffness, joint.damping)]
-
-
-def _hinge(tie: Tie, make: Maker, a: pymunk.Body, b: pymunk.Body) -> list[_Constraint]:
-    joint, turned = tie.joint, tie.turned
-    assert isinstance(joint, Hinge)
-    made = [make("PivotJoint", a, b, joint.anchor_a, joint.anchor_b)]
-    if tie.b < 0:  # it is a that turns against the world
-        a, b, turned = b, a, -turned
-    if joint.limits is not None:
-        least, largest = joint.limits
-        made.append(make("RotaryLimitJoint", a, b, turned + least, turned + largest))
-    if joint.stiffness or joint.damping:
-        made.append(make("DampedRotarySpring", a, b, -turned, joint.stiffness, joint.damping))
-    return made
-
-
-_MAKERS: dict[type[Joint], Callable[..., list[_Constraint]]] = {
-    Rope: _rope,
-    Rod: _rod,
-    Spring: _spring,
-    Hinge: _hinge,
-}
+def _translated(
+    attached: AttachedJoint, constraint: Constraint, make: Maker, a: pymunk.Body, b: pymunk.Body
+) -> _Constraint:
+    """Return the engine's joint for a constraint between bodies a and b."""
+    ends = attached.joint.anchor_a, attached.joint.anchor_b
+    still, turning, turned = a, b, attached.turned
+    if attached.b < 0:  # it is a that turns against the world
+        still, turning, turned = b, a, -turned
+    match constraint:
+        case MaxDistance(length=length):
+            return make("SlideJoint", a, b, *ends, 0.0, length - TAUT, max_bias=0.0)
+        case FixedDistance(length=length):
+            return make("PinJoint", a, b, *ends, distance=length)
+        case SpringDamper(length=length, stiffness=k, damping=c):
+            return make("DampedSpring", a, b, *ends, length, k, c)
+        case Pin():
+            return make("PivotJoint", a, b, *ends)
+        case TurningRange(least=least, largest=largest):
+            return make("RotaryLimitJoint", still, turning, turned + least, turned + largest)
+        case TurningSpring(stiffness=k, damping=c):
+            return make("DampedRotarySpring", still, turning, -turned, k, c)
+    raise TypeError(f"{constraint!r} is unknown to the physics")

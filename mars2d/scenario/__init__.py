@@ -1,7 +1,32 @@
 """The frozen description of an experiment, its files and its laws."""
 
-from mars2d.scenario.experiment import load_law, open_experiment, open_module
+from mars2d.scenario.animation import Animation
+from mars2d.scenario.experiment import (
+    Experiment,
+    examples,
+    load_law,
+    open_experiment,
+    open_module,
+)
+from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Robot", "Scenario", "load_law", "open_experiment", "open_module"]
+__all__ = [
+    "Animation",
+    "Delaunay",
+    "Everyone",
+    "Experiment",
+    "Graph",
+    "Nearest",
+    "Neighbourhood",
+    "Prediction",
+    "Robot",
+    "Scenario",
+    "Within",
+    "examples",
+    "load_law",
+    "open_experiment",
+    "open_module",
+]

@@ -1,4 +1,4 @@
-"""The frozen description of how an experiment looks."""
+"""The frozen description of an experiment's looks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What of a scenario may change while its world runs, and what needs a new start."""
+"""Changes of a scenario: which ones a running world takes, and which need a new start."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.base import Addon, hooks_of
-from mars2d.addons.communication import Communication
 from mars2d.core.errors import InputError, counted
 from mars2d.scenario.placement import obstruction
 from mars2d.scenario.scenario import Scenario
@@ -20,7 +18,7 @@ Float = NDArray[np.float64]
 FREE = frozenset(
     {"title", "robots", "props", "workspace", "on_exit", "stop_time", "addons", "animation"}
 )
-"""Fields of a scenario that may change, robots, props and add-ons not in every way."""
+"""Fields of a scenario that may change; robots, props and add-ons in some ways only."""
 
 FREE_OF_BODIES = frozenset({"pose", "color"})
 FREE_OF_ROBOTS = FREE_OF_BODIES | {"controller"}
@@ -33,17 +31,12 @@ def check_same(before: Scenario, after: Scenario) -> None:
             raise _needs_new_start(f"Scenario.{field.name} is another one")
     _check_bodies("robots", FREE_OF_ROBOTS, before, after)
     _check_bodies("props", FREE_OF_BODIES, before, after)
-    busy = [{a.key: a for a in scenario.addons if _acts(a)} for scenario in (before, after)]
+    busy = [{a.key: a for a in scenario.addons if a.acts} for scenario in (before, after)]
     for key in sorted({*busy[0], *busy[1]}):
         if busy[0].get(key) != busy[1].get(key):
             raise _needs_new_start(
                 f"the add-on {key!r}, which does something at each step, is another one"
             )
-
-
-def _acts(addon: Addon) -> bool:
-    """Return whether an add-on does more than to draw and to stand in the way."""
-    return bool(hooks_of(addon)) or isinstance(addon, Communication)
 
 
 def _check_bodies(name: str, free: frozenset[str], before: Scenario, after: Scenario) -> None:
@@ -64,10 +57,10 @@ def _needs_new_start(what: str) -> InputError:
 
 
 def with_poses(scenario: Scenario, poses: Float) -> Scenario:
-    """Return a scenario whose bodies are at poses (3, N), checked.
+    """Return the scenario with its bodies at poses (3, N), checked.
 
-    It stays as it is where joints are, whose lengths may be those at the start, and where robots
-    are in one another because physics="ideal" lets them.
+    A scenario with joints is returned unchanged, since lengths may be those at the start. So is one
+    with robots inside each other, which physics="ideal" allows.
     """
     if scenario.ties:
         for body, rigid in enumerate(scenario.bodies):

@@ -1,4 +1,4 @@
-"""Experiments: from a file, a shipped example, a module or a Scenario to what can be run."""
+"""Experiments: opened from a file, a shipped example, a module or a Scenario."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import itertools
 import numbers
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, Protocol, cast
 
 from mars2d.core import checks
 from mars2d.core.description import wrong
@@ -27,9 +27,6 @@ from mars2d.scenario.options import override
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.scenario import Scenario
 
-if TYPE_CHECKING:
-    from mars2d.record.record import Record
-
 __all__ = [
     "Experiment",
     "examples",
@@ -40,19 +37,33 @@ __all__ = [
 
 _counter = itertools.count()
 
-LONGEST = 100
-"""Characters of a line of code that an error shows."""
+MAX_LINE = 100
+"""The most characters of a line of code in an error."""
+
+
+class Run(Protocol):
+    """A record, as far as it decides whether it can be compared with predictions."""
+
+    @property
+    def finished(self) -> bool:
+        """Whether it went on to its end."""
+
+    @property
+    def interventions(self) -> Sequence[object]:
+        """What was done by hand."""
+
+    def __len__(self) -> int: ...
 
 
 @dataclass(frozen=True)
 class Experiment:
-    """A scenario, the law of its team, and what its file says of it.
+    """A scenario, the law of its team, and what its file says about it.
 
     filename: the file's name, or empty. checks: the function of the record that compares a run with
-    theory, or None. summary: the first line of the file's docstring, or empty. path: where the file
-    lies, or None. opened: opens the experiment anew, with laws that share nothing with these; None
-    where it does not come from a file alone. files: all that was read for it. functions: the public
-    functions that its file defines, by name.
+    theory, or None. summary: the first line of the file's docstring, or empty. path: of the file,
+    or None. opened: opens the experiment anew, with laws that share nothing with these; None if it
+    does not come from a file alone. files: all files read for it. functions: the public functions
+    that its file defines, by name.
     """
 
     scenario: Scenario
@@ -66,14 +77,14 @@ class Experiment:
     functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
 
     def reopened(self) -> Experiment:
-        """Return the experiment opened anew, or itself where it does not come from a file.
+        """Return the experiment opened anew, or itself if it does not come from a file.
 
-        Raises InputError, as `open_experiment` does, where the file has changed for the worse.
+        Raises InputError, as `open_experiment` does, if the file has an error by now.
         """
         return self if self.opened is None else self.opened()
 
     def redrawn(self, scenario: Scenario) -> Experiment:
-        """Return the experiment with another scenario, robots of the same names with their laws."""
+        """Return the experiment with another scenario; robots of the same names keep their laws."""
         laws = {robot.name: robot.controller for robot in self.scenario.robots}
         robots = [r.replace(controller=laws.get(r.name, r.controller)) for r in scenario.robots]
         opened = self.opened
@@ -83,13 +94,12 @@ class Experiment:
             opened=None if opened is None else lambda: opened().redrawn(scenario),
         )
 
-    def predictions(self, record: Record) -> tuple[Prediction, ...]:
-        """Return what `checks` makes of a run; nothing without checks, or of a run cut short.
+    def predictions(self, record: Run) -> tuple[Prediction, ...]:
+        """Return the predictions that `checks` compares with a run; none without `checks`.
 
-        Nor is there anything to compare in a run without a single step, or changed by hand.
-
-        Raises LawError, which points at file and line, where `checks` raises or returns anything
-        but predictions.
+        There are none for a run that was cut short, has not a single step, or was changed by hand.
+        Raises LawError, which points at file and line, if `checks` raises, or returns anything but
+        predictions.
         """
         if self.checks is None or not record.finished or record.interventions or len(record) < 2:
             return ()
@@ -126,12 +136,11 @@ def open_experiment(
     """Return the experiment that `source` names, with its fields overridden by `options`.
 
     source: a file (.py, or .toml of a scenario), the name of a shipped example, a module, or a
-    Scenario. options: dotted names of fields, or keyword parameters of a scenario function, with
-    their values; ``map`` is a file whose walls take the place of the experiment's, or a Map, and
-    ``map.unit`` and the like are how it is read. control: the law of the team, in place of the
-    experiment's own. seed: of the run; a scenario function gets it that has a parameter ``seed``,
-    unless the options set that: so starts may be drawn at random. Raises InputError, which points
-    at file and line.
+    Scenario. options: values by dotted names of fields, or by parameters of a scenario function.
+    ``map`` is a file whose walls replace those of the experiment, or a Map; options such as
+    ``map.unit`` say how to read it. control: the law of the team, instead of the experiment's own.
+    seed: of the run. A scenario function with a parameter ``seed`` gets it unless the options set
+    that, so that it can draw starts at random. Raises InputError, which points at file and line.
     """
     if options is not None and not isinstance(options, Mapping):
         raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
@@ -212,9 +221,9 @@ def open_module(source: str | Path) -> ModuleType:
 
 
 def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
-    """Return the law called `name` from a file of its own: a function or generator of the robot.
+    """Return the law called `name` from a file: a function or generator of the robot.
 
-    path: a relative one is looked for beside the file that calls this, then in the current folder.
+    path: a relative path is looked for beside the file that calls this, then in the current folder.
     Each call runs the file anew, so that robots with the same law share nothing. Raises InputError,
     which points at file and line.
     """
@@ -227,7 +236,7 @@ def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
 
 
 def law_in(file: Path, name: str, subject: str = "the robot") -> Callable[[Any], Any]:
-    """Return the law called `name` in a file, which is run anew; `subject` is what it is of."""
+    """Return the law called `name` in a file, which is run anew; `subject`: the robot or world."""
     module = _load(file, "a law")
     try:
         return _law_of(module, name, subject)
@@ -246,7 +255,7 @@ def _law_of(module: ModuleType, name: str, subject: str) -> Callable[[Any], Any]
 
 
 def _scripts(path: Path) -> list[Path]:
-    """Return the experiments beside a path, written in Python or as scenario files."""
+    """Return the experiments beside a path: Python files and scenario files."""
     files = path.parent.iterdir() if path.parent.is_dir() else ()
     return [file for file in files if file.suffix in (".py", ".toml")]
 
@@ -268,7 +277,7 @@ def _find(source: str | Path) -> Path:
 
 
 def _load(path: Path, what: str = "an experiment") -> ModuleType:
-    """Run a file as a module of its own, which no other one can see."""
+    """Run a file as a module of its own, which no other module can see."""
     if path.suffix != ".py":
         or_toml = " or .toml" if what == "an experiment" else ""
         raise InputError(f"{path}: expected {what}, a file that ends in .py{or_toml}")
@@ -279,16 +288,16 @@ def _load(path: Path, what: str = "an experiment") -> ModuleType:
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     before = set(sys.modules)
-    sys.modules[name] = module  # dataclasses look a class's module up by its name
+    sys.modules[name] = module  # dataclasses look up a class's module by name
     folder = str(path.parent.absolute())
     sys.path.insert(0, folder)  # an experiment may import what lies beside it
-    # Compiled code that is kept is taken for new if a file is saved twice within a second.
+    # If a file is saved twice within a second, compiled code of the first would be taken as new.
     keeps, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
         spec.loader.exec_module(module)
     except SyntaxError as error:
         line = (error.text or "").strip()
-        line = line if len(line) <= LONGEST else line[: LONGEST - 3] + "..."
+        line = line if len(line) <= MAX_LINE else line[: MAX_LINE - 3] + "..."
         problem = InputError(": ".join(filter(None, [error.msg, line])))
         note_file(Path(error.filename or path))
         place = Path(error.filename or path).name
@@ -306,7 +315,7 @@ def _load(path: Path, what: str = "an experiment") -> ModuleType:
 
 
 def _forget_modules(before: set[str], folder: str) -> None:
-    """Forget the modules that came from a folder, so that another one's are not taken for them."""
+    """Forget the modules of a folder, so that they are not taken for those of another."""
     for name in set(sys.modules) - before:
         file = getattr(sys.modules[name], "__file__", None)
         if file is not None and str(Path(file).parent) == folder:
@@ -315,7 +324,7 @@ def _forget_modules(before: set[str], folder: str) -> None:
 
 
 def _line_in(error: BaseException, path: Path) -> str:
-    """Return the place in `path` that an error passed through."""
+    """Return the line of `path` that an error passed through."""
     lines = [
         step.lineno
         for step in traceback.extract_tb(error.__traceback__)
@@ -394,7 +403,7 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
 
 
 def _check_kind(name: str, value: Any, default: Any) -> None:
-    """Refuse what is not a number for a parameter whose default is one, and text for a truth."""
+    """Refuse a value that is no number if the default is one, and text if that is a truth value."""
     if isinstance(default, bool):
         if isinstance(value, str):
             raise wrong(f"scenario({name})", value, f"True or False; its default is {default}")

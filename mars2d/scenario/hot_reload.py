@@ -1,4 +1,4 @@
-"""A scenario that was read from its file again: what of it is the same, and what a run keeps."""
+"""Hot reload: a scenario read from its file again, and how much of it a run can take over."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ WHOLE = FREE - {"robots", "props", "addons"}
 
 
 def alike(first: Any, second: Any) -> bool:
-    """Return whether two values are the same but for their code, which was run twice.
+    """Return whether two values are the same except for code that was run twice.
 
-    Classes and functions of a file that is run again are others each time, of the same names.
+    Running a file again makes new classes and functions of the same names.
     """
     if first is second:
         return True
@@ -38,9 +38,9 @@ def alike(first: Any, second: Any) -> bool:
 
 
 def check_alike(before: Scenario, after: Scenario) -> None:
-    """Refuse a scenario read again that a run can't go on with; the InputError says why not.
+    """Refuse a scenario read again if a run can't go on with it; the InputError says why not.
 
-    Only laws may be others, and what `mars2d.scenario.changes` lets change.
+    Laws may have changed, and what `mars2d.scenario.changes` allows.
     """
     there = {addon.key: addon for addon in before.addons}
     addons = [_recognised(there.get(addon.key), addon) for addon in after.addons]
@@ -61,7 +61,7 @@ def _recognised(before: Any, after: Any) -> Any:
 
 
 def _body(before: Robot | Prop, after: Robot | Prop) -> Robot | Prop:
-    """Return a robot or prop with all that is alike as it was before, its law aside."""
+    """Return a robot or prop as before in all fields that are alike, except its law."""
     if type(before).__qualname__ != type(after).__qualname__:
         return after
     names = [f.name for f in dataclasses.fields(after) if f.name != "controller"]
@@ -71,9 +71,9 @@ def _body(before: Robot | Prop, after: Robot | Prop) -> Robot | Prop:
 
 
 def carried(fresh: Scenario, kept: Scenario) -> Scenario:
-    """Return a scenario that was read again with all that may change as it is in `kept`.
+    """Return a scenario read again, with everything that may change as in `kept`.
 
-    Its laws, and whatever else has code, are those of `fresh`.
+    Its laws, and other parts with code, are those of `fresh`.
     """
     read = {addon.key: addon for addon in fresh.addons}
     return fresh.replace(
@@ -85,7 +85,7 @@ def carried(fresh: Scenario, kept: Scenario) -> Scenario:
 
 
 def _moved(fresh: Any, kept: Any) -> list[Any]:
-    """Return bodies at the poses and in the colours of others."""
+    """Return bodies with the poses and colours of others."""
     return [a.replace(pose=b.pose, color=b.color) for a, b in zip(fresh, kept, strict=True)]
 
 

@@ -1,4 +1,4 @@
-"""Laws by where they stand: ``walk.py:walk``, as a scenario's file names them."""
+"""References to laws by file and name, such as ``walk.py:walk``, in scenario files."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ __all__ = ["Reference", "seen_from"]
 
 EXPECTED = "where a law stands, as 'walk.py:walk': a file of Python, and a function in it"
 
-HIGHEST = 2
-"""How many folders up a file may lie that is named relative to another."""
+MAX_UP = 2
+"""The number of folders up to a file that is still named by a relative path."""
 
 
 class Reference(NamedTuple):
@@ -30,9 +30,9 @@ class Reference(NamedTuple):
 
     @classmethod
     def of(cls, function: Callable[..., Any] | None) -> Self | None:
-        """Return where a function stands, its file as an absolute path.
+        """Return the reference to a function, with the absolute path of its file.
 
-        None for what can't be found again under a name: lambdas, closures, partials, objects.
+        None for functions that can't be found by name: lambdas, closures, partials, objects.
         """
         if not inspect.isfunction(function):
             return None
@@ -43,14 +43,14 @@ class Reference(NamedTuple):
 
     @classmethod
     def read(cls, field: str, value: object) -> Self:
-        """Return what ``FILE:FUNCTION`` names; a file alone means its `control`.
+        """Return the reference that ``FILE:FUNCTION`` names; a file alone means its `control`.
 
         Raises InputError, which begins with `field`, for anything else.
         """
         if not isinstance(value, str):
             raise wrong(field, value, EXPECTED)
         file, colon, name = value.rpartition(":")
-        if not colon or value.endswith(".py"):  # a colon may be that of C:\walk.py
+        if not colon or value.endswith(".py"):  # the colon may be that of C:\walk.py
             file, name = value, "control"
         if not file.endswith(".py") or not name.isidentifier():
             raise wrong(field, value, EXPECTED)
@@ -58,10 +58,10 @@ class Reference(NamedTuple):
 
 
 def seen_from(file: str, folder: Path) -> str:
-    """Return an absolute name as a file in `folder` writes it: relative unless it is far off."""
+    """Return the path of a file seen from `folder`: relative unless it is far away."""
     try:
         relative = os.path.relpath(file, folder.absolute())
     except ValueError:  # on another drive
         return Path(file).as_posix()
-    near = Path(relative).parts.count("..") <= HIGHEST
+    near = Path(relative).parts.count("..") <= MAX_UP
     return Path(relative if near else file).as_posix()

@@ -1,23 +1,28 @@
-"""What contacts and joints can hold: masses, moments, sizes, speeds, stiffness.
+"""Limits of what contacts and joints can hold: masses, moments, sizes, speeds, stiffness.
 
-What lies beyond would let bodies pass through walls, or need so many substeps that a run would
-never end.
+Beyond them bodies would pass through walls, or a run would need so many substeps that it never
+ends.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from math import hypot, isfinite, sqrt
+from math import hypot, isfinite
 
 import numpy as np
 
-from mars2d.bodies.attached_joint import Tie
+from mars2d.bodies.attached_joint import AttachedJoint
+from mars2d.bodies.constraints import (
+    Constraint,
+    FixedDistance,
+    MaxDistance,
+    Pin,
+    SpringDamper,
+    TurningSpring,
+)
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.joints.base import Joint
-from mars2d.bodies.joints.hinge import Hinge
-from mars2d.bodies.joints.rod import Rod
-from mars2d.bodies.joints.rope import Rope
-from mars2d.bodies.joints.spring import Spring
+from mars2d.bodies.props.base import MAX_SPEED
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, nearest
@@ -29,7 +34,7 @@ __all__ = [
     "check_drive",
     "check_ends",
     "check_forces",
-    "check_tie",
+    "check_joint",
     "corner",
 ]
 
@@ -39,25 +44,23 @@ MASS_RATIO = 10.0
 SIZE_RATIO = 1e4
 """The largest ratio of a body's length to another one's thickness."""
 
-LIGHTEST, HEAVIEST = 1e-6, 1e6
+MIN_MASS, MAX_MASS = 1e-6, 1e6
+"""Of a body, kg."""
 
-FASTEST = 100.0
-"""How fast a point of a body may be at the start, or by a spring or a spin, m/s."""
+MIN_CROSSING = 1e-6
+"""The shortest time in which a body may cross the largest overlap at the start, seconds."""
 
-CROSSING = 1e-6
-"""At the start nothing may cross the largest overlap in less, seconds."""
+MAX_PUSH = 1e9
+"""The highest acceleration of the lightest body by a drive, m/s^2 per metre of `max_overlap`."""
 
-STRONGEST = 1e9
-"""How strongly a drive may push the lightest body, m/s^2 for each metre of the largest overlap."""
+MAX_FREQUENCY = 1e3
+"""The highest angular frequency of a spring, rad/s; higher ones need ever more substeps."""
 
-QUICKEST = 1e3
-"""The largest angular frequency of a spring, rad/s; quicker ones need ever more substeps."""
+MAX_ARM = 10.0
+"""The longest lever of a joint, in parts of the body's greatest distance from its origin."""
 
-REACH = 10.0
-"""How far off a body a joint may hold it, in greatest distances of the body from its origin."""
-
-SHORTEST = 1e-3
-"""The shortest rope and rod, metres."""
+MIN_LENGTH = 1e-3
+"""The length of the shortest rope and rod, metres."""
 
 
 def check_centred(name: str, shape: Shape) -> None:
@@ -73,11 +76,11 @@ def check_centred(name: str, shape: Shape) -> None:
 def check_bodies(bodies: Sequence[Rigid], material: Mapping[str, str], max_overlap: float) -> None:
     """Refuse bodies that contacts can't hold.
 
-    material: of those whose masses come of it, by their names. max_overlap: metres.
+    material: the material that gives a body its mass, by the body's name. max_overlap: metres.
     """
     for body in bodies:
         _check_mass(body, material)
-        _check_motion(body, min(FASTEST, max_overlap / CROSSING))
+        _check_motion(body, min(MAX_SPEED, max_overlap / MIN_CROSSING))
     lightest = min(bodies, key=lambda body: body.inertia.mass)
     heaviest = max(bodies, key=lambda body: body.inertia.mass)
     if heaviest.inertia.mass > MASS_RATIO * lightest.inertia.mass * (1 + 1e-12):
@@ -98,14 +101,14 @@ def check_bodies(bodies: Sequence[Rigid], material: Mapping[str, str], max_overl
 
 
 def _check_mass(body: Rigid, material: Mapping[str, str]) -> None:
-    """Refuse a mass or moment that no thing of that shape can have."""
+    """Refuse a mass or moment that is impossible for the shape."""
     mass, moment = body.inertia
-    if not LIGHTEST <= mass <= HEAVIEST:
+    if not MIN_MASS <= mass <= MAX_MASS:
         made_of = material.get(body.name)
         hint = "" if made_of is None else f", that of {made_of}; give it, or another height"
         raise wrong(
             f"{body.kind}.mass of {body.name}", mass,
-            f"a mass >= {LIGHTEST:g} and <= {HEAVIEST:g} [kg]{hint}",
+            f"a mass >= {MIN_MASS:g} and <= {MAX_MASS:g} [kg]{hint}",
         )  # fmt: skip
     most = mass * body.shape.reach**2
     if not 1e-3 * most <= moment <= most * (1 + 1e-9):
@@ -117,7 +120,7 @@ def _check_mass(body: Rigid, material: Mapping[str, str]) -> None:
 
 
 def _check_motion(body: Rigid, fastest: float) -> None:
-    """Refuse a surface that a user's own prop has made up, and what starts too fast."""
+    """Refuse an impossible surface of a user's own prop, and a body that starts too fast."""
     friction, restitution = body.surface
     if not (0 <= friction <= 1e3 and 0 <= restitution <= 1):
         raise wrong(
@@ -127,7 +130,7 @@ def _check_motion(body: Rigid, fastest: float) -> None:
     vx, vy, omega = body.velocity
     speed = hypot(vx, vy) + abs(omega) * body.shape.reach
     if not speed <= fastest:
-        why = "" if fastest == FASTEST else f", as max_overlap is {fastest * CROSSING:g} m"
+        why = "" if fastest == MAX_SPEED else f", as max_overlap is {fastest * MIN_CROSSING:g} m"
         raise wrong(
             f"{body.kind}.velocity of {body.name}", body.velocity,
             f"no point of it faster than {fastest:g} m/s{why}; one has {speed:.4g} m/s",
@@ -135,7 +138,7 @@ def _check_motion(body: Rigid, fastest: float) -> None:
 
 
 def _by_material(heaviest: Rigid, lightest: Rigid, material: Mapping[str, str]) -> str:
-    """Return how a mass that comes of a material can be changed."""
+    """Return how a mass that a material gives can be changed."""
     if heaviest.name in material:
         times = 1.05 * heaviest.inertia.mass / lightest.inertia.mass / MASS_RATIO
         return (
@@ -148,33 +151,33 @@ def _by_material(heaviest: Rigid, lightest: Rigid, material: Mapping[str, str]) 
 
 
 def corner(shape: Shape) -> float:
-    """Return how far from the origin a corner of a shape lies, metres; a centred disc has none."""
+    """Return the largest distance of a corner from the origin, metres; 0 for a centred disc."""
     centred_disc = isinstance(shape, Disc) and shape.center == (0.0, 0.0)
     return 0.0 if centred_disc else shape.reach
 
 
 def check_drive(name: str, drive: Drive, arm: float) -> None:
-    """Refuse a drive that could swing a corner, or a joint's end, faster than can be followed.
+    """Refuse a drive that could swing a corner, or a joint's end, too fast for the substeps.
 
-    arm: metres, from the centre of rotation to it.
+    arm: metres, from the centre of rotation to the corner or end.
     """
     if arm == 0 or not type(drive).__module__.startswith("mars2d."):
-        return  # at one of the user's own the world looks when it is asked
+        return  # a drive of the user's own is checked when it is asked
     hard = np.array([[a, b] for a in (-1e9, 0.0, 1e9) for b in (-1e9, 0.0, 1e9)]).T
     spin = float(np.abs(drive.twist(drive.saturate(hard))[2]).max())
-    if not spin * arm <= FASTEST:
+    if not spin * arm <= MAX_SPEED:
         raise InputError(
             f"{name}.drive: {type(drive).__name__} turns at up to {spin:.4g} rad/s; what lies "
             f"{arm:.4g} m off the centre of rotation goes at {spin * arm:.4g} m/s then, and "
-            f"{FASTEST:g} m/s is the most"
+            f"{MAX_SPEED:g} m/s is the most"
         )
 
 
 def check_forces(bodies: Sequence[Rigid], drives: Sequence[Drive], max_overlap: float) -> None:
-    """Refuse an overlap so small that the drives' forces would need ever more substeps for it."""
+    """Refuse an overlap so small that the drives' forces would need too many substeps."""
     lightest = min(bodies, key=lambda body: body.inertia.mass)
     force = max(drive.max_force for drive in drives)
-    least = force / lightest.inertia.mass / STRONGEST
+    least = force / lightest.inertia.mass / MAX_PUSH
     if max_overlap < least:
         raise wrong(
             "Scenario.max_overlap", max_overlap,
@@ -184,9 +187,9 @@ def check_forces(bodies: Sequence[Rigid], drives: Sequence[Drive], max_overlap: 
 
 
 def check_ends(where: str, joint: Joint, names: Collection[str]) -> None:
-    """Refuse a joint of bodies that are not there, of one with itself, or of no known kind."""
-    if not isinstance(joint, (Rope, Rod, Spring, Hinge)):
-        raise wrong(where, joint, "a Rope, Rod, Spring or Hinge, or a class derived from one")
+    """Refuse a joint of unknown bodies, of a body with itself, or without constraints."""
+    if type(joint).constraints is Joint.constraints:
+        raise wrong(where, joint, "a Rope, Rod, Spring or Hinge, or a class with `constraints`")
     for field in ("a", "b"):
         name = getattr(joint, field)
         if name is not None and name not in names:
@@ -196,64 +199,82 @@ def check_ends(where: str, joint: Joint, names: Collection[str]) -> None:
         raise wrong(f"{where}.b", joint.b, f"another body than a, {joint.a!r}")
 
 
-def check_tie(where: str, tie: Tie, bodies: Sequence[Rigid]) -> None:
-    """Refuse a joint that would pull its bodies at once, or more quickly than can be followed."""
-    for field, index in (("a", tie.a), ("b", tie.b)):
-        anchor = getattr(tie.joint, f"anchor_{field}")
-        if index >= 0 and not hypot(*anchor) <= REACH * bodies[index].shape.reach:
-            most = REACH * bodies[index].shape.reach
+def check_joint(where: str, attached: AttachedJoint, bodies: Sequence[Rigid]) -> None:
+    """Refuse a joint that would pull its bodies at once, or too fast for the substeps."""
+    for field, index in (("a", attached.a), ("b", attached.b)):
+        anchor = getattr(attached.joint, f"anchor_{field}")
+        if index >= 0 and not hypot(*anchor) <= MAX_ARM * bodies[index].shape.reach:
+            most = MAX_ARM * bodies[index].shape.reach
             raise wrong(
                 f"{where}.anchor_{field}", anchor,
                 f"a point within {most:.4g} m of {bodies[index].name}'s centre of mass",
             )  # fmt: skip
-    apart = tie.apart(bodies)
-    if isinstance(tie.joint, Hinge) and apart > 1e-6:
-        raise InputError(
-            f"{where}: its anchors, {_ends(tie, bodies)}, lie {apart:.3g} m apart at the start; "
-            "a hinge is one point"
-        )
-    if isinstance(tie.joint, (Rope, Rod)):
-        _check_length(where, tie, apart, bodies)
-    if isinstance(tie.joint, (Spring, Hinge)):
-        _check_spring(where, tie, apart, bodies)
+    for constraint in attached.constraints:
+        _check_constraint(where, attached, constraint, bodies)
 
 
-def _ends(tie: Tie, bodies: Sequence[Rigid]) -> str:
-    a, b = ("({:.6g}, {:.6g})".format(*end) for end in tie.ends(bodies))
+def _check_constraint(
+    where: str, attached: AttachedJoint, constraint: Constraint, bodies: Sequence[Rigid]
+) -> None:
+    apart = attached.apart(bodies)
+    match constraint:
+        case Pin() if apart > 1e-6:
+            raise InputError(
+                f"{where}: its anchors, {_ends(attached, bodies)}, lie {apart:.3g} m apart at the "
+                "start; a hinge is one point"
+            )
+        case MaxDistance(length=length):
+            _check_length(where, attached, length, bodies, "at least that")
+        case FixedDistance(length=length):
+            _check_length(where, attached, length, bodies, "just that")
+        case SpringDamper(length=length):
+            _check_spring(where, attached, constraint, bodies)
+            speed = abs(apart - length) * attached.frequency(constraint, bodies)
+            if not (isfinite(speed) and speed <= MAX_SPEED):
+                raise wrong(
+                    f"{where}.rest_length", length,
+                    f"nearer to the {apart:.4g} m at the start: it would throw its bodies at "
+                    f"{speed:.3g} m/s, and {MAX_SPEED:g} m/s is the most",
+                )  # fmt: skip
+        case TurningSpring():
+            _check_spring(where, attached, constraint, bodies)
+
+
+def _ends(attached: AttachedJoint, bodies: Sequence[Rigid]) -> str:
+    a, b = ("({:.6g}, {:.6g})".format(*end) for end in attached.ends(bodies))
     return f"{a} and {b} in the world"
 
 
-def _check_length(where: str, tie: Tie, apart: float, bodies: Sequence[Rigid]) -> None:
-    """Refuse a rope or rod that does not reach from end to end."""
-    too_short = apart > tie.length * (1 + 1e-9) + 1e-9
-    too_long = apart < tie.length * (1 - 1e-9) - 1e-9
-    if tie.length < SHORTEST:
-        if tie.joint.length is None:  # type: ignore[attr-defined]
+def _check_length(
+    where: str, attached: AttachedJoint, length: float, bodies: Sequence[Rigid], least: str
+) -> None:
+    """Refuse a rope that does not reach from end to end, and a rod of another length."""
+    apart = attached.apart(bodies)
+    too_short = apart > length * (1 + 1e-9) + 1e-9
+    too_long = least == "just that" and apart < length * (1 - 1e-9) - 1e-9
+    if length < MIN_LENGTH:
+        if getattr(attached.joint, "length", None) is None:
             raise InputError(f"{where}: its ends start at one point; use a Hinge, or give a length")
-        raise wrong(f"{where}.length", tie.length, f"a number >= {SHORTEST:g} [m]; or use a Hinge")
-    if too_short or (too_long and isinstance(tie.joint, Rod)):
-        least = "at least that" if isinstance(tie.joint, Rope) else "just that"
+        raise wrong(f"{where}.length", length, f"a number >= {MIN_LENGTH:g} [m]; or use a Hinge")
+    if too_short or too_long:
         raise InputError(
-            f"{where}.length = {tie.length:g}: its ends, {_ends(tie, bodies)}, start "
+            f"{where}.length = {length:g}: its ends, {_ends(attached, bodies)}, start "
             f"{apart:.6g} m apart; expected {least}, or None"
         )
 
 
-def _check_spring(where: str, tie: Tie, apart: float, bodies: Sequence[Rigid]) -> None:
-    """Refuse a spring that swings, or throws, more quickly than substeps can follow."""
-    stiffness = tie.joint.stiffness  # type: ignore[attr-defined]
-    quick = sqrt(stiffness * tie.lightness(bodies))
-    if not quick <= QUICKEST:
-        most = stiffness * (QUICKEST / quick) ** 2
+def _check_spring(
+    where: str,
+    attached: AttachedJoint,
+    spring: SpringDamper | TurningSpring,
+    bodies: Sequence[Rigid],
+) -> None:
+    """Refuse a spring that swings too fast for the substeps."""
+    quick = attached.frequency(spring, bodies)
+    if not quick <= MAX_FREQUENCY:
+        most = spring.stiffness * (MAX_FREQUENCY / quick) ** 2
         raise wrong(
-            f"{where}.stiffness", stiffness,
+            f"{where}.stiffness", spring.stiffness,
             f"at most {most:.3g} for bodies as light as these: they would swing at "
             f"{quick:.3g} rad/s",
-        )  # fmt: skip
-    speed = abs(apart - tie.length) * quick
-    if isinstance(tie.joint, Spring) and not (isfinite(speed) and speed <= FASTEST):
-        raise wrong(
-            f"{where}.rest_length", tie.length,
-            f"nearer to the {apart:.4g} m at the start: it would throw its bodies at "
-            f"{speed:.3g} m/s, and {FASTEST:g} m/s is the most",
         )  # fmt: skip

@@ -1,4 +1,4 @@
-"""The option ``map``: an experiment on a map from a file, in place of its own."""
+"""The option ``map``: run an experiment on a map from a file instead of its own."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ __all__ = ["MapOption", "reading_options"]
 
 
 def reading_options() -> list[str]:
-    """Return the names of what says how a map is read, ``unit`` and the like."""
+    """Return the names of the options for reading a map, such as ``unit``."""
     return [name for name in inspect.signature(Map.from_file).parameters if name != "path"]
 
 
 @dataclass(frozen=True)
 class MapOption:
-    """The option ``map`` with how it is to be read, ``map.unit`` and the like.
+    """The option ``map``, with options for reading it such as ``map.unit``.
 
-    file: a file's name or a Map, None if it was not given. caller: a relative name is looked for
+    file: a file's name or a Map, None if it was not given. caller: a relative path is looked for
     beside this file, then in the current folder.
     """
 
@@ -54,7 +54,7 @@ class MapOption:
         return cls(file, settings, caller)
 
     def value_for(self, default: Any) -> Any:
-        """Return what a scenario function's parameter `map` gets, in place of its default."""
+        """Return the value of a scenario function's parameter `map`, instead of its default."""
         file = default if self.file is None else self.file
         return MapOption(file, self.settings, self.caller).map() if self.settings else file
 
@@ -72,25 +72,25 @@ class MapOption:
         return Map.from_file(file.absolute(), **self.settings)
 
     def override(self, scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
-        """Return the scenario with the map in place of its own, and other options set.
+        """Return the scenario with the map instead of its own, and other options set.
 
-        A workspace that is the default one, or smaller than the map, becomes the rectangle round
-        it. Raises InputError, which names free room, where a body would stand in a wall.
+        A workspace that is the default one, or smaller than the map, becomes the rectangle around
+        the map. Raises InputError, which names free room, if a body would stand in a wall.
         """
         return _with_map(scenario, options, self.map())
 
 
 MARGIN = 1.0
-"""From a map's walls to the edge of a workspace that is made for it, metres."""
+"""The distance from a map's walls to the edge of a workspace made for it, metres."""
 
-NAMED = 3
-"""For so many bodies room is named."""
+MAX_HINTS = 3
+"""The number of bodies for which an error names free room."""
 
-OPEN = Scenario.__dataclass_fields__["workspace"].default
+DEFAULT_WORKSPACE = Scenario.__dataclass_fields__["workspace"].default
 
 
 def _with_map(scenario: Scenario, options: Mapping[str, Any], chart: Map) -> Scenario:
-    """Return the scenario with a map in place of its own, and the options set."""
+    """Return the scenario with a map instead of its own, and the options set."""
     rest = dict(options)
     for name in reading_options():
         if name in rest:  # as mars2d check has it
@@ -117,7 +117,7 @@ def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:
     xmin, xmax, ymin, ymax = bounds_of([p for o in chart.obstacles() for p in o])
     left, right, low, high = bounds_of(scenario.workspace)
     within = left <= xmin and xmax <= right and low <= ymin and ymax <= high
-    if within and scenario.workspace != OPEN:
+    if within and scenario.workspace != DEFAULT_WORKSPACE:
         return scenario.workspace
     return rectangle(xmin - MARGIN, xmax + MARGIN, ymin - MARGIN, ymax + MARGIN)
 
@@ -136,7 +136,7 @@ def _room(scenario: Scenario, chart: Map, workspace: Outline | None) -> str:
             return f"; there is no room for {body.name} anywhere"
         if place == center:
             continue
-        if len(hints) == NAMED:
+        if len(hints) == MAX_HINTS:
             return f"; {', '.join(hints)}, and others have none where they stand"
         place = nearest_room(center, radius, outlines, within) or place  # indoors first
         x, y, theta = body.pose

@@ -1,4 +1,4 @@
-"""Who is whose neighbour: everyone, those within range, the nearest, Delaunay's, a graph's."""
+"""Neighbourhoods: everyone, robots within range, the nearest, Delaunay's, or a graph."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ Neighbours = Sequence[Sequence[int]]
 Edges = tuple[tuple[int, int], ...]
 
 FLAT = 1e-9
-"""Robots that lie off a line by less than this share of its length stand on it."""
+"""A robot is on a line if it is off by less than this share of the line's length."""
 
 ROUNDING = 1e-9
-"""Distances that differ by less than this share of them may be one, but for rounding."""
+"""Distances that differ by less than this share may differ by rounding only."""
 
-FEW = 64
-"""Of so many robots all are sorted, as that is quicker than to look for the near ones."""
+MAX_SORTED = 64
+"""Up to this many robots, sorting all is faster than searching for the near ones."""
 
 
 class Neighbourhood(Description):
-    """The base of all rules that say who is whose neighbour: derive and write `of`.
+    """The base of all neighbourhoods, rules of who is whose neighbour: derive and write `of`.
 
     >>> class Ring(Neighbourhood):
     ...     def of(self, position):
@@ -50,11 +50,11 @@ class Neighbourhood(Description):
     >>> Ring().of(np.zeros((2, 3)))
     [[1], [2], [0]]
 
-    What a user's `of` returns is checked: for each robot a list of others' indices, each once.
+    The result of a user's `of` is checked: for each robot, a list of other robots' indices.
     """
 
     fixed: ClassVar[bool] = False
-    """Whether it gives the same at all positions, so that it is asked once."""
+    """Whether it does not depend on positions, so that it is asked only once."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
@@ -73,7 +73,7 @@ class Neighbourhood(Description):
 
 
 def _checked(of: Callable[[Any, Float], Neighbours]) -> Callable[[Any, Float], Neighbours]:
-    """Wrap a rule's `of` so that what can't be used is a LawError; returns lists of its own."""
+    """Wrap a rule's `of` to return new lists, and raise LawError for results of no use."""
 
     @functools.wraps(of)
     def checked(self: Neighbourhood, position: Float) -> Neighbours:
@@ -112,12 +112,12 @@ class Everyone(Neighbourhood):
     fixed = True
 
     def of(self, position: Float) -> Neighbours:
-        """Return all but oneself."""
+        """Return all other robots."""
         return _Others(position.shape[1])
 
 
 class _Others(Sequence[Sequence[int]]):
-    """For each of n robots all others, listed when they are asked for: they are n^2 in all."""
+    """For each of n robots all others; listed on demand, since they are n^2 in all."""
 
     def __init__(self, n: int) -> None:
         self._n = n
@@ -137,7 +137,7 @@ class _Others(Sequence[Sequence[int]]):
 def within(dx: Float, dy: Float, distance: float) -> NDArray[np.bool_]:
     """Return which vectors (k,), (k,) [m] are no longer than a distance, the bound included.
 
-    Where rounding decides, Python's hypot does, whose result is the same wherever it runs.
+    Where rounding decides, Python's hypot is used: its result is the same on all processors.
     """
     apart = np.hypot(dx, dy)
     near = np.asarray(apart <= distance)
@@ -147,15 +147,15 @@ def within(dx: Float, dy: Float, distance: float) -> NDArray[np.bool_]:
 
 
 class Within(Neighbourhood):
-    """Those whose poses lie within a range [m]: the disc graph."""
+    """Robots whose poses lie within a range [m]: the disc graph."""
 
     range: float = number(above=0, high=1e6, unit="m", kw_only=False, doc="the largest distance")
 
     def of(self, position: Float) -> Neighbours:
-        """Return those within range, the bound included, by their indices."""
+        """Return the robots within range, the bound included, by index."""
         from scipy.spatial import cKDTree
 
-        # The tree compares squares, which are rounded otherwise than distances.
+        # The tree compares squares, which are rounded differently from distances.
         tree = cKDTree(position.T)
         pairs = tree.query_pairs(self.range * (1 + ROUNDING), output_type="ndarray")
         dx, dy = position[:, pairs[:, 1]] - position[:, pairs[:, 0]]
@@ -167,12 +167,12 @@ class Within(Neighbourhood):
 
 
 class Nearest(Neighbourhood):
-    """The k nearest robots, nearest first; of those equally far the one of lower index."""
+    """The k nearest robots, nearest first; of robots equally far, the one of lower index."""
 
     count: int = integer(low=1, high=10_000, kw_only=False, doc="how many")
 
     def of(self, position: Float) -> Neighbours:
-        """Return the nearest ones; all others, where they are fewer."""
+        """Return the nearest robots; all others, if they are fewer."""
         x, y = position
         k = min(self.count, len(x) - 1)
         result = []
@@ -184,38 +184,38 @@ class Nearest(Neighbourhood):
 
 
 def _candidates(position: Float, k: int) -> Iterator[NDArray[np.int64]]:
-    """Yield, for each robot, indices in order with itself and its k nearest robots among them.
+    """Yield, for each robot, ordered indices that include itself and its k nearest robots.
 
-    So all that are as far away as the last of them are in it, too.
+    All robots as far away as the last of these are included, too.
     """
     n = position.shape[1]
-    if n <= FEW or 4 * k > n:
+    if n <= MAX_SORTED or 4 * k > n:
         yield from [np.arange(n)] * n
         return
     from scipy.spatial import cKDTree
 
     tree = cKDTree(position.T)
     far = np.asarray(tree.query(position.T, k=[k + 1])[0])[:, 0]  # the nearest is oneself
-    # The tree compares squares, which are rounded otherwise than distances, and may be 0.
+    # The tree compares squares, which are rounded differently from distances, and may be 0.
     reach = far * (1 + ROUNDING) + 1e-150
     for near in tree.query_ball_point(position.T, reach, return_sorted=True):
         yield np.array(near, dtype=np.int64)
 
 
 class Delaunay(Neighbourhood):
-    """Those whose Voronoi cells share an edge with one's own: the edges of Delaunay's triangles.
+    """Robots whose Voronoi cells share an edge with one's own: the edges of Delaunay's triangles.
 
-    The cells are those of the whole plane, so that robots at the rim have neighbours far away, too.
-    Robots on one line are neighbours in their order, those in one place by their indices; so they
-    are if all are in one place. Else, of several robots in one place, all but one have only that
-    one. Where more than three cells meet in a point, which of the opposite ones are neighbours is
-    up to the triangulation.
+    The cells are those of the whole plane, so robots at the rim have distant neighbours, too.
+    Robots on one line are neighbours in their order, and robots that are all in one place in the
+    order of their indices. Otherwise, of several robots in one place, all but one have only that
+    one as neighbour. Where more than three cells meet in a point, the triangulation decides which
+    opposite cells are neighbours.
 
     Source: de Berg et al., Computational Geometry (2008), chapters 7 and 9.
     """
 
     def of(self, position: Float) -> Neighbours:
-        """Return the neighbours in Delaunay's triangulation, by their indices."""
+        """Return the neighbours in Delaunay's triangulation, by index."""
         found: list[set[int]] = [set() for _ in range(position.shape[1])]
         for i, j in _delaunay_edges(position):
             found[i].add(j)
@@ -240,10 +240,10 @@ def _delaunay_edges(position: Float) -> list[tuple[int, int]]:
 
 
 def _without_flat(simplices: NDArray[Any], points: Float, least: float) -> list[tuple[int, int]]:
-    """Return the edges of triangles (m, 3), but for the long sides of flat ones at the rim.
+    """Return the edges of triangles (m, 3), without the long sides of flat ones at the rim.
 
-    Rounding makes such triangles of robots in a row: cells that meet a million kilometres away.
-    least: the height of a triangle that is not flat, metres.
+    By rounding, robots in a row get such triangles: their cells meet a million kilometres away.
+    least: the smallest height of a triangle that is not flat, metres.
     """
     owners: dict[tuple[int, int], set[int]] = {}
     flat: dict[int, list[tuple[int, int]]] = {}  # their sides, the longest first

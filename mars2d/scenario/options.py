@@ -1,4 +1,4 @@
-"""Options: the fields of a scenario by their dotted names, with other values."""
+"""Options: other values for fields of a scenario, by dotted names."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ __all__ = ["override", "parse_setting"]
 
 
 def override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
-    """Return the scenario with all options set at once: they are only checked together.
+    """Return the scenario with all options set at once, so that they are checked together.
 
-    options: values by dotted names, as ``robots.*.diameter``. Raises InputError for unknown names.
+    options: values by dotted names, such as ``robots.*.diameter``. Raises InputError for unknown
+    names.
     """
     tree: dict[str, Any] = {}
     for name, value in options.items():
@@ -32,14 +33,14 @@ def override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
 
 
 class _Leaf:
-    """A value that an option sets, at the end of its path."""
+    """The value that an option sets, at the end of its path."""
 
     def __init__(self, value: Any) -> None:
         self.value = value
 
 
 def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
-    """Return `target` with its fields set as the tree says; ``*`` is all items of a list."""
+    """Return `target` with the fields of the tree set; ``*`` means all items of a list."""
     if isinstance(tree, _Leaf):
         return tree.value
     if isinstance(target, tuple):
@@ -81,7 +82,7 @@ def _index(text: str, length: int, path: tuple[str, ...]) -> int:
 def parse_setting(text: str) -> tuple[str, Any]:
     """Return (name, value) of a setting ``name=value`` from the command line.
 
-    The value is a Python literal, as ``0.5``, ``True`` or ``(1, 2)``; anything else is text.
+    The value is a Python literal, such as ``0.5``, ``True`` or ``(1, 2)``; anything else is text.
     """
     name, equals, value = text.partition("=")
     if not equals or not name.strip():

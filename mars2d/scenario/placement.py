@@ -19,10 +19,10 @@ Float = NDArray[np.float64]
 
 
 def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
-    """Return what a body would do at its place that it must not, as "overlap red", or "".
+    """Return what forbids a body to be at its place, such as "overlap red"; "" if nothing does.
 
-    poses: (3, N) of all bodies, of which those of the others are not looked at. With
-    physics="ideal" nothing is in anybody's way.
+    poses: (3, N) of all bodies; only that body is checked. With physics="ideal" nothing is in the
+    way.
     """
     bodies = [
         rigid._replace(pose=tuple(pose))
@@ -53,7 +53,7 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
 
 
 def _near(bodies: list[Rigid], body: int) -> list[int]:
-    """Return which other bodies may touch one, the nearest first."""
+    """Return the other bodies that may touch a body, the nearest first."""
     centers = np.array([rigid.bound[0] for rigid in bodies])
     radii = np.array([rigid.bound[1] for rigid in bodies])
     gaps = np.hypot(*(centers - centers[body]).T) - radii - radii[body]
@@ -62,7 +62,7 @@ def _near(bodies: list[Rigid], body: int) -> list[int]:
 
 
 def _core(body: Rigid, less: float) -> Any:
-    """Return the ground that a body covers, without a rim `less` metres wide."""
+    """Return the ground that a body covers, less a rim of `less` metres."""
     import shapely
 
     if body.is_disc:

@@ -1,4 +1,4 @@
-"""Predictions: what a formula says, what a run measured, and whether they agree."""
+"""Predictions: a number by a formula, a number measured in a run, and whether they agree."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from mars2d.core.errors import InputError, counted
 __all__ = ["Prediction", "number", "table"]
 
 WIDTH = 80
-"""Columns of a terminal, which a table keeps to."""
+"""Columns of a table, as a terminal has."""
 
 DIGITS = 12
-"""Significant digits that a table shows at most."""
+"""The most significant digits that a table shows."""
 
-FEW = 6
-"""So many decimals may an exact 0 have."""
+MAX_ZEROS = 6
+"""The most decimals of an exact 0."""
 
 
 def _line(name: str, value: object) -> str:
@@ -56,9 +56,9 @@ def _tolerance(name: str, value: object) -> float:
 
 
 class Prediction(Description):
-    """A number that a formula predicts, beside the one that a run measured.
+    """A number that a formula predicts, and the number that a run measured.
 
-    `measured` may be NaN or infinite where nothing could be measured: that is never ok. Raises
+    `measured` may be NaN or infinite if nothing could be measured: that is never ok. Raises
     InputError for other fields that are not finite, and for a tolerance below 0.
 
     >>> fall = Prediction("time to fall", 0.45, 0.448, 0.01, "s")
@@ -82,7 +82,7 @@ class Prediction(Description):
     ) -> Self:
         """Return a prediction whose tolerance is a share of the predicted number.
 
-        percent: > 0. Raises InputError where the prediction is 0, of which all shares are 0.
+        percent: > 0. Raises InputError if the prediction is 0, since all shares of it are 0.
 
         >>> Prediction.within("speed", 0.5, 0.49, percent=4, unit="m/s").tolerance
         0.02
@@ -103,9 +103,9 @@ class Prediction(Description):
         return abs(self.measured - self.predicted) <= self.tolerance
 
     def as_dict(self) -> dict[str, Any]:
-        """Return name, predicted, measured, tolerance and ok, as JSON knows them.
+        """Return name, predicted, measured, tolerance and ok, as JSON can hold them.
 
-        A measured number that is NaN or infinite, which JSON has no word for, is None.
+        JSON has no NaN and infinities: a measured number of these is None.
         """
         return {
             "name": self.name,
@@ -117,9 +117,9 @@ class Prediction(Description):
 
 
 def table(predictions: Sequence[Prediction]) -> str:
-    """Return predictions as a table of text, 80 columns wide; an empty text if there are none.
+    """Return predictions as a table of text, 80 columns wide; empty if there are none.
 
-    Numbers have so many digits that the tolerance shows. Long names go over several lines.
+    Numbers have enough digits to show the tolerance. Long names take several lines.
     """
     if not predictions:
         return ""
@@ -150,7 +150,7 @@ def table(predictions: Sequence[Prediction]) -> str:
 
 
 def number(value: float, tolerance: float) -> str:
-    """Return a number as text with the digits that count: two of the tolerance's, 12 at most."""
+    """Return a number as text, down to two digits of the tolerance; 12 digits at most."""
     if math.isnan(value):
         return "not a number"
     if math.isinf(value):
@@ -160,7 +160,7 @@ def number(value: float, tolerance: float) -> str:
     last = _exponent(tolerance) - 1  # the power of ten of the last digit
     first = _exponent(value) if value else 0
     decimals = max(-last, 0)
-    if value == 0 and decimals > FEW:
+    if value == 0 and decimals > MAX_ZEROS:
         return "0"
     if decimals < DIGITS and max(first, 0) + 1 + decimals <= DIGITS:
         return f"{value:z.{decimals}f}"

@@ -1,4 +1,4 @@
-"""Text in brackets that is wrapped to a width: what a listing in Python and a TOML file share."""
+"""Text in brackets, wrapped to a width, for Python files and TOML files."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ INDENT = 4
 class Brackets(NamedTuple):
     """A bracketed list: ``[1, 2]``, ``{a = 1}``, ``Robot(pose=(0.0, 0.0, 0.0))``.
 
-    opening: the bracket and what stands before it. filled: where it is broken, lines take as many
-    items as fit, else one.
+    opening: the bracket and the text before it. filled: a list that does not fit on one line has as
+    many items per line as fit, else one.
     """
 
     opening: str
@@ -33,8 +33,7 @@ Node = str | Brackets
 def laid_out(node: Node, indent: int = 0, width: int = WIDTH) -> str:
     """Return a node as text: on one line if it fits, else broken after its opening bracket.
 
-    indent: columns in front of its first line, and of its last. A line may be longer where a single
-    item is.
+    indent: of its first and last line, columns. A line is longer than `width` if a single item is.
 
     >>> print(laid_out(Brackets("[", ["1.0", "2.0", "3.0"], "]", filled=True), width=14))
     [
@@ -66,12 +65,12 @@ def _flat(node: Node) -> str:
 
 
 def numeral(value: float) -> str:
-    """Return a number, also one of numpy, as both read it back bit for bit."""
+    """Return a number, also one of numpy, as text that both read back bit for bit."""
     return repr(float(value) if isinstance(value, float) else int(value))
 
 
 def comment(text: str) -> str:
-    """Return a line of comment; what is no part of a line is left out."""
+    """Return a line of comment, without characters that can't be part of a line."""
     return "# " + "".join(c for c in " ".join(text.split()) if c.isprintable())
 
 

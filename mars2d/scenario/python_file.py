@@ -1,4 +1,4 @@
-"""A scenario as Python that makes an equal one."""
+"""Scenarios as Python files that make equal ones."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ __all__ = ["as_python"]
 
 Law = Callable[[Any], Any]
 
-TITLE = 90
-"""Characters of a title in a docstring, at most."""
+MAX_TITLE = 90
+"""The most characters of a title in a docstring."""
 
 
 def as_python(
     scenario: Scenario, control: Law | None = None, folder: Path | str | None = None
 ) -> str:
-    r"""Return a file of Python that makes a scenario, as `mars2d run` takes it.
+    r"""Return the text of a Python file that makes a scenario, for `mars2d run`.
 
-    Only what differs from its default is written. Laws are loaded from where they stand, if they
-    are functions at the top of a file. What else is code is left out, or replaced as in a record
-    that is loaded, and named in a comment. control: the law of the team. folder: where the file is
-    to lie; laws near it then have relative paths.
+    Only values that differ from their defaults are written. Laws are loaded from their files, if
+    they are functions at the top of these. Other code is left out, or replaced as in a loaded
+    record, and named in a comment. control: the law of the team. folder: the folder of the file;
+    laws near it get relative paths.
 
     >>> print(as_python(Scenario(title="Alone", stop_time=5.0)).partition("\n\n")[2])
     from mars2d import Robot, Scenario
@@ -48,24 +48,24 @@ def as_python(
         body.append(f"control = {lister.law(control)}")
     lost = [*missing, *(f"law {name_of(law)}" for law in lister.lost)]
     notes = [comment(f"{serialize.LOST}: {name}") for name in dict.fromkeys(lost)]
-    title = comment(kept.title)[2:][:TITLE].replace("\\", "/").replace('"', "'").strip()
+    title = comment(kept.title)[2:][:MAX_TITLE].replace("\\", "/").replace('"', "'").strip()
     head = [f'"""{title or "A scenario."}"""', "", *lister.imports(), ""]
     return "\n".join([*head, *notes, *body]) + "\n"
 
 
 class _Lister:
-    """Writes parts as calls of their classes, and keeps what is to be imported for that.
+    """Writes parts as calls of their classes, and collects the imports.
 
-    lost: laws that can't be found again.
+    lost: laws that can't be found by name.
     """
 
     def __init__(self, folder: Path | None) -> None:
         self.folder = folder
         self.lost: list[Law] = []
-        self._names: dict[str, tuple[str, str]] = {}  # as they are called: module and name there
+        self._names: dict[str, tuple[str, str]] = {}  # by alias: module and name there
 
     def call(self, part: Description, index: int = 0) -> Brackets:
-        """Return the call that makes a part; index: where it stands in its list."""
+        """Return the call that makes a part; index: its place in its list."""
         kind = type(part)
         first = next((f.name for f in dataclasses.fields(kind) if not f.kw_only), None)
         values = serialize.changed(part, index)
@@ -99,7 +99,7 @@ class _Lister:
         return Brackets("[", items, "]", filled=True)
 
     def law(self, law: Law) -> str:
-        """Return the call that loads a law; None for one that can't be found again."""
+        """Return the call that loads a law; "None" if it can't be found by name."""
         found = Reference.of(law)
         if found is None:
             self.lost.append(law)
@@ -110,7 +110,7 @@ class _Lister:
         return f"load_law({quoted(file)}{name})"
 
     def _class(self, kind: type[Description]) -> str:
-        """Return what a class is called; of two with one name the later gets its family's, too."""
+        """Return the name for a class; the later of two with one name gets its family's, too."""
         source = _public_module(kind), kind.__name__
         name = kind.__name__
         if self._names.get(name, source) != source:
@@ -119,7 +119,7 @@ class _Lister:
         return name
 
     def imports(self) -> list[str]:
-        """Return the lines that import what was used."""
+        """Return the lines of imports."""
         modules = defaultdict(list)
         lines = []
         for alias, (module, name) in self._names.items():
@@ -135,7 +135,7 @@ class _Lister:
 
 
 def _public_module(kind: type) -> str:
-    """Return the package nearest to the top that has a class among its names."""
+    """Return the outermost package that exports a class."""
     names = kind.__module__.split(".")
     above = (".".join(names[:depth]) for depth in range(1, len(names)))
     public = (p for p in above if getattr(sys.modules[p], kind.__name__, None) is kind)

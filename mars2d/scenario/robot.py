@@ -21,10 +21,10 @@ from mars2d.sensors.base import Sensor
 __all__ = ["Robot"]
 
 DIAMETER = 0.3
-"""That of a robot of which nothing else is said, metres."""
+"""The default diameter, metres."""
 
-ACCELERATION = 1e5
-"""How strongly a drive may accelerate its robot, m/s^2; more needs ever more substeps."""
+MAX_ACCELERATION = 1e5
+"""The highest acceleration of a robot by its drive, m/s^2; more needs ever more substeps."""
 
 
 def _controller(name: str, value: object) -> object:
@@ -99,12 +99,12 @@ class Robot(Description):
         return self.replace(pose=(x, y, theta))
 
     def sensor(self, key: str) -> Sensor | None:
-        """Return the sensor of a name; a loaded record's robot lacks those of the user's own."""
+        """Return the sensor with a name; None in a loaded record for sensors of the user's own."""
         return next((sensor for sensor in self.sensors if sensor.key == key), None)
 
     @property
     def radius(self) -> float:
-        """Of a disc half the diameter, else that of a circle round the shape, metres."""
+        """Half the diameter of a disc, else the radius of a circle around the shape, metres."""
         return self.diameter / 2 if self.shape is None else self.shape.bound[1]
 
     @property
@@ -115,7 +115,7 @@ class Robot(Description):
 
     @cached_property
     def chassis(self) -> Shape:
-        """Its shape about the centre of rotation, which is its centre of mass, too."""
+        """Its shape about the centre of rotation, which is also its centre of mass."""
         shape = Disc(self.diameter) if self.shape is None else self.shape
         return shape.moved(-self.center_offset, 0.0) if self.center_offset else shape
 
@@ -131,16 +131,16 @@ class Robot(Description):
 
     @property
     def rigid(self) -> Rigid:
-        """The body that it is at the start."""
+        """Its rigid body at the start."""
         still = (0.0, 0.0, 0.0)
         shape, inertia, surface = self.chassis, self.inertia, self.surface
         return Rigid("Robot", str(self.name), self.pose, still, shape, inertia, surface)
 
     def _validate(self) -> None:
-        if self.drive.max_force > ACCELERATION * self.mass:
+        if self.drive.max_force > MAX_ACCELERATION * self.mass:
             raise wrong(
                 "Robot.drive.max_force", self.drive.max_force,
-                f"at most {ACCELERATION:g} m/s^2 times the mass, {self.mass:g} kg",
+                f"at most {MAX_ACCELERATION:g} m/s^2 times the mass, {self.mass:g} kg",
             )  # fmt: skip
         if self.shape is not None and self.diameter != DIAMETER:
             raise wrong("Robot.diameter", self.diameter, "no diameter, as a shape is given")

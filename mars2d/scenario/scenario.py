@@ -14,10 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.addons.communication import Communication
-from mars2d.bodies.attached_joint import Tie
+from mars2d.bodies.attached_joint import AttachedJoint
 from mars2d.bodies.joints.base import Joint
-from mars2d.bodies.joints.hinge import Hinge
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
@@ -71,12 +69,12 @@ def _workspace(name: str, value: object) -> Outline | None:
 
 
 class Scenario(Description):
-    """Everything about an experiment but its laws: frozen, validated, in SI units.
+    """Everything about an experiment except its laws: frozen, validated, in SI units.
 
     >>> Scenario(robots=[Robot(pose=(0, 0, 0))]).bounds
     (-5.0, 5.0, -5.0, 5.0)
 
-    Raises InputError for whatever the engine could not simulate truthfully: robots that start
+    Raises InputError for anything that the engine could not simulate truthfully: robots that start
     inside an obstacle, inside each other or outside the workspace, polygons that cross themselves,
     numbers out of range.
     """
@@ -149,8 +147,7 @@ class Scenario(Description):
         names = [str(robot.name) for robot in robots] + [str(prop.name) for prop in props]
         checks.unique("Scenario.robots and props", names)
         checks.unique("Scenario.addons", [addon.key for addon in self.addons])
-        if sum(isinstance(addon, Communication) for addon in self.addons) > 1:
-            raise InputError("Scenario.addons: two are Communication, and robots talk over one")
+        self._check_only_ones()
         if self.stop_time / self.sampling_time > ROW_LIMIT:
             raise wrong(
                 "Scenario.stop_time", self.stop_time,
@@ -167,13 +164,20 @@ class Scenario(Description):
         self._check_joints()
         self._check_starts()
 
+    def _check_only_ones(self) -> None:
+        """Refuse two add-ons of a kind, derived ones included, of which a scenario has only one."""
+        for kind in {k for addon in self.addons for k in type(addon).__mro__}:
+            why = vars(kind).get("only_one")
+            if why and sum(isinstance(addon, kind) for addon in self.addons) > 1:
+                raise InputError(f"Scenario.addons: two are {kind.__name__}, and {why}")
+
     @staticmethod
     def from_file(path: str | Path) -> Scenario:
-        """Return the scenario in a .toml file, as `save` writes it and people write it.
+        """Return the scenario in a .toml file, written by `save` or by hand.
 
-        path: a relative one is looked for beside the file that calls this, then in the current
+        path: a relative path is looked for beside the file that calls this, then in the current
         folder. Raises InputError, which points at the line. The law of the team, if the file names
-        one, is not part of a scenario: `mars2d.run` and `open_experiment` take the file with it.
+        one, is not part of a scenario: `mars2d.run` and `open_experiment` read it from the file.
         """
         from mars2d.scenario import toml_file
 
@@ -186,10 +190,10 @@ class Scenario(Description):
     def save(
         self, path: str | Path, control: Callable[[Any], Any] | str | None = None
     ) -> tuple[str, ...]:
-        """Write it to a .toml file, over what is there; return what could not be written.
+        """Write it to a .toml file, which is replaced; return the names of parts left out.
 
-        control: the law of the team, as a function of a file or as ``team.py:control``. Of laws the
-        place is written, code of one's own is not. Raises InputError if the file can't be written.
+        control: the law of the team, as a function of a file or as ``team.py:control``. The file
+        names the place of laws; it holds no code. Raises InputError if it can't be written.
         """
         from mars2d.scenario import toml_file
 
@@ -213,7 +217,7 @@ class Scenario(Description):
         )
 
     def _check_sensors(self) -> None:
-        """Refuse sensors that would measure between control steps, or hold too much back."""
+        """Refuse sensors that would measure between control steps, or whose latency is too long."""
         for robot in self.robots:
             for sensor in robot.sensors:
                 sensor.check_timing(f"{type(sensor).__name__} of {robot.name}", self.sampling_time)
@@ -235,7 +239,7 @@ class Scenario(Description):
         limits.check_forces(self.bodies, drives, self.max_overlap)
 
     def _check_joints(self) -> None:
-        """Refuse joints of bodies that are not there, or that would pull them at once."""
+        """Refuse joints of unknown bodies, and joints that would pull them at once."""
         named = [(f"Scenario.joints[{i}]", joint) for i, joint in enumerate(self.joints)]
         for prop in self.props:
             with called(f"{type(prop).__name__}.joints()", prop.joints):
@@ -243,9 +247,10 @@ class Scenario(Description):
             named += [(f"{type(prop).__name__} {prop.name}", joint) for joint in brought]
         for where, joint in named:
             limits.check_ends(where, joint, self._indices)
-        for (where, _), tie in zip(named, self.ties, strict=True):
-            limits.check_tie(where, tie, self.bodies)
-            for index, anchor in ((tie.a, tie.joint.anchor_a), (tie.b, tie.joint.anchor_b)):
+        for (where, _), attached in zip(named, self.ties, strict=True):
+            limits.check_joint(where, attached, self.bodies)
+            joint = attached.joint
+            for index, anchor in ((attached.a, joint.anchor_a), (attached.b, joint.anchor_b)):
                 if 0 <= index < len(self.robots):
                     robot = self.robots[index]
                     limits.check_drive(str(robot.name), robot.drive, hypot(*anchor))
@@ -263,7 +268,7 @@ class Scenario(Description):
 
     @cached_property
     def bodies(self) -> tuple[Rigid, ...]:
-        """All bodies that move, as the physics takes them: the robots, then the props."""
+        """The rigid bodies of all robots, then of all props."""
         return (*(robot.rigid for robot in self.robots), *(prop.rigid for prop in self.props))
 
     @cached_property
@@ -271,28 +276,26 @@ class Scenario(Description):
         return {body.name: i for i, body in enumerate(self.bodies)}
 
     @cached_property
-    def ties(self) -> tuple[Tie, ...]:
-        """All joints, those that props bring included, with the bodies that they hold."""
+    def ties(self) -> tuple[AttachedJoint, ...]:
+        """All joints attached to their bodies, with those that props bring."""
         joints = [*self.joints, *(joint for prop in self.props for joint in prop.joints())]
         result = []
         for joint in joints:
             a = self._indices[joint.a]
             b = -1 if joint.b is None else self._indices[joint.b]
-            result.append(Tie.of(joint, a, b, self.bodies))
+            result.append(AttachedJoint.of(joint, a, b, self.bodies))
         return tuple(result)
 
     @cached_property
     def joined(self) -> frozenset[tuple[int, int]]:
-        """Pairs (i, j), i < j, of bodies that share a hinge, and so don't collide."""
+        """Pairs (i, j), i < j, of bodies that share a hinge, and so do not collide."""
         return frozenset(
-            (min(tie.a, tie.b), max(tie.a, tie.b))
-            for tie in self.ties
-            if isinstance(tie.joint, Hinge) and tie.b >= 0
+            (min(tie.a, tie.b), max(tie.a, tie.b)) for tie in self.ties if tie.pinned and tie.b >= 0
         )
 
     @cached_property
     def surfaces(self) -> tuple[Obstacle, ...]:
-        """What stands in the way: the add-ons' obstacles, then the workspace where it is a wall."""
+        """The obstacles: those of the add-ons, then the workspace if it is a wall."""
         found = [
             Obstacle(outline, addon.friction, addon.restitution)
             for addon in self.addons
@@ -327,18 +330,18 @@ class Scenario(Description):
         return np.array([robot.pose for robot in self.robots]).T
 
     def index_of(self, field: str, robot: str | int) -> int:
-        """Return the index of a robot that is given by its name, or by its index.
+        """Return the index of a robot that is given by its name or index.
 
-        Raises InputError, which begins with `field`, for one that is not there.
+        Raises InputError, which begins with `field`, if there is no such robot.
         """
         return _index_of(field, "robot", robot, [str(each.name) for each in self.robots])
 
     def body_index_of(self, field: str, body: str | int) -> int:
-        """Return the index in `bodies` of a robot or prop that is given as in `index_of`."""
+        """Return the index in `bodies` of a robot or prop that is given by its name or index."""
         return _index_of(field, "body", body, [rigid.name for rigid in self.bodies])
 
     def body_name(self, body: int) -> str:
-        """Return what a body of a contact is called; -1 - k is obstacle k, or the wall."""
+        """Return the name of a body of a contact; -1 - k is obstacle k, or the wall."""
         if body >= 0:
             return self.bodies[body].name
         walled = len(self.surfaces) > len(self.obstacles)
@@ -346,7 +349,7 @@ class Scenario(Description):
 
     @property
     def last_iteration(self) -> int:
-        """The iteration at the stop time: the run has this many sampling times."""
+        """The iteration at the stop time: the number of sampling times of the run."""
         return floor(self.stop_time / self.sampling_time * (1 + 1e-12) + 1e-9)
 
     @cached_property
@@ -367,7 +370,7 @@ def _index_of(field: str, kind: str, wanted: str | int, names: list[str]) -> int
 
 
 def _named(part: Any, kind: str, index: int, taken: set[str | None]) -> Any:
-    """Return a robot or prop with a name that no other has, unless it has one."""
+    """Return a robot or prop with its own name, or else with one that no other has."""
     if part.name is not None:
         return part
     name = f"{kind}{index}"

@@ -1,4 +1,4 @@
-"""Scenarios as plain data: what a file can hold, without code."""
+"""Scenarios as plain data, without code, as files hold them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from mars2d.core.errors import InputError
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
-from mars2d.scenario.registry import family_of, members, package_of, plugin
+from mars2d.scenario.registry import FAMILIES, family_of, members, package_of, plugin
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
@@ -41,9 +41,9 @@ __all__ = [
 
 
 class Place(NamedTuple):
-    """What a field holds: parts that derive from `base`, one of them or a list.
+    """A field that holds parts derived from `base`: one of them or a list.
 
-    default: which one is meant where nothing is said, None if that must be said.
+    default: the class that is meant if no type is given; None if a type must be given.
     """
 
     base: type[Description]
@@ -69,24 +69,24 @@ PARTS: dict[type[Description], dict[str, Place]] = {
     Compound: {"parts": Place(Shape, many=True)},
     Communication: {"burst": Place(Burst, default=Burst)},
 }
-"""Which fields hold parts."""
+"""The fields that hold parts."""
 
 
 def parts_of(kind: type[Description]) -> dict[str, Place]:
-    """Return which fields of a class hold parts, those that it inherits included."""
+    """Return the fields of a class, inherited ones included, that hold parts."""
     return {name: at for base in kind.__mro__ for name, at in PARTS.get(base, {}).items()}
 
 
 def kinds_of(base: type[Description]) -> dict[str, type[Description]]:
-    """Return all classes by name that a file may hold where a `base` is expected."""
+    """Return all classes by name that a file may name where a `base` is expected."""
     return {kind.__name__: kind for kind in _kinds().values() if issubclass(kind, base)}
 
 
 def changed(part: Description, index: int = 0) -> dict[str, Any]:
     """Return the fields of a part that differ from their defaults, in order.
 
-    index: where it stands in its list. The name that a scenario gives a robot or prop there anyway
-    is left out.
+    index: its place in its list. The name that a scenario gives a robot or prop there by itself is
+    left out.
 
     >>> changed(Robot(mass=2.0, diameter=0.3, name="robot0"))
     {'mass': 2.0}
@@ -94,8 +94,8 @@ def changed(part: Description, index: int = 0) -> dict[str, Any]:
     found = {}
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
-        anyway = field.name == "name" and value == _name_anyway(part, index)
-        if not (anyway or _is_default(field, value)):
+        by_itself = field.name == "name" and value == _default_name(part, index)
+        if not (by_itself or _is_default(field, value)):
             found[field.name] = value
     return found
 
@@ -106,26 +106,26 @@ def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
     return bool(field.default == value)  # of a field without one, MISSING equals nothing
 
 
-def _name_anyway(part: Description, index: int) -> str | None:
+def _default_name(part: Description, index: int) -> str | None:
     if isinstance(part, Robot):
         return f"robot{index}"
     return f"{snake_case(type(part).__name__)}{index}" if isinstance(part, Prop) else None
 
 
 def from_description(value: Any) -> Any:
-    """Return a description as dicts, lists, text and numbers; of a function there is its name."""
+    """Return a description as dicts, lists, text and numbers; a function becomes its name."""
     if isinstance(value, Description):
         kind = type(value)
         if kind.__module__.startswith("mars2d."):
             return {"type": _type_of(kind), **_fields(value)}
-        for base in (Scenario, Robot, Animation):  # one derived from these is one of them
+        for base in (Scenario, Robot, Animation):  # a derived class counts as one of them
             if isinstance(value, base):
                 return {"type": base.__name__, **_fields(value, base)}
-        family = next(name for name, base in _FAMILIES.items() if isinstance(value, base))
-        package = package_of(_FOLDERS[family], kind) if family in _FOLDERS else None
+        name, own = next((n, own) for n, own in _OWN.items() if isinstance(value, own.base))
+        package = package_of(own.family, kind) if own.family else None
         shipped = {} if package is None else {"from": package}
-        own = {"type": kind.__name__, "own": family, **shipped}
-        return own | _fields(value) | _moving(value)
+        head = {"type": kind.__name__, "own": name, **shipped}
+        return head | _fields(value) | _moving(value)
     if isinstance(value, (list, tuple)):
         return [from_description(item) for item in value]
     if value is None or isinstance(value, (bool, int, float, str)):
@@ -134,13 +134,13 @@ def from_description(value: Any) -> Any:
 
 
 def _fields(value: Description, kind: type[Description] | None = None) -> dict[str, Any]:
-    """Return the fields of a description made plain, or those of a class that it derives from."""
+    """Return the fields of a description as plain data, or those of a class it derives from."""
     fields = dataclasses.fields(kind or type(value))
     return {f.name: from_description(getattr(value, f.name)) for f in fields}
 
 
 def _moving(value: Description) -> dict[str, Any]:
-    """Return what of a part of the user's own matters to motion; its code is not in the file."""
+    """Return the data of a part of the user's own that motion depends on; its code is lost."""
     if isinstance(value, Addon):
         return {"obstacles": from_description(value.obstacles())}
     if isinstance(value, Prop):
@@ -160,39 +160,45 @@ def _moving(value: Description) -> dict[str, Any]:
     return {}
 
 
-_FAMILIES: dict[str, type[Description]] = {
-    "drive": Drive,
-    "prop": Prop,
-    "joint": Joint,
-    "shape": Shape,
-    "add-on": Addon,
-    "neighbourhood": Neighbourhood,
-    "sensor": Description,
-}
-"""What parts of the user's own are called."""
+class _Own(NamedTuple):
+    """A kind of parts of the user's own.
 
-_FOLDERS = {
-    "drive": "bodies", "prop": "props", "joint": "joints", "add-on": "addons", "sensor": "sensors",
-}  # fmt: skip
-"""Of those, the families in which another package can ship a part by an entry point."""
+    base: the class that they derive from. family: the family in which another package can ship one
+    by an entry point, if it can.
+    """
+
+    base: type[Description]
+    family: str = ""
+
+
+_OWN = {
+    "drive": _Own(Drive, "bodies"),
+    "prop": _Own(Prop, "props"),
+    "joint": _Own(Joint, "joints"),
+    "shape": _Own(Shape),
+    "add-on": _Own(Addon, "addons"),
+    "neighbourhood": _Own(Neighbourhood),
+    "sensor": _Own(Description, "sensors"),
+}
+"""The kinds of parts of the user's own, by their names in files."""
 
 LOST = "This is code, which is not written down"
-"""What files say of parts that they do not hold."""
+"""What files say about parts that they do not hold."""
 
 MOVING = ("drive", "joint", "shape")
-"""Without such parts of the user's own a scenario does not move as it did."""
+"""Families of which a part of the user's own is needed to move as recorded."""
 
 
 def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
-    """Return the scenario that `from_description` made plain, and what is missing of it.
+    """Return the scenario that `from_description` made plain, and the names of missing parts.
 
-    Laws do not come back, nor do parts that hold a function of the user's own, nor what is of the
-    user's own itself: sensors and joints are left out, of add-ons only the obstacles stay. A prop
-    is replaced by a Solid of its shape, mass and surface, a shape by the parts that were drawn of
-    it, a drive by a Unicycle, a neighbourhood by Everyone.
-    All are named in the second value, as ``sensor Eyes``. A part that a package ships by an entry
-    point comes back where that package is installed, else it is named with it, as
-    ``sensor Lidar (of the package acme)``. Raises InputError for anything that is no scenario.
+    Laws do not come back, nor do parts that hold a function of the user's own. Of parts of the
+    user's own, sensors and joints are left out, and add-ons keep their obstacles only. A prop is
+    replaced by a Solid of its shape, mass and surface, a shape by the parts that were drawn of it,
+    a drive by a Unicycle, a neighbourhood by Everyone. All are named in the second value, such as
+    ``sensor Eyes``. A part that a package ships by an entry point comes back if that package is
+    installed, else it is named with it, such as ``sensor Lidar (of the package acme)``. Raises
+    InputError for anything but a scenario.
     """
     missing: list[str] = []
     result = _to_description(data, missing)
@@ -202,9 +208,9 @@ def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
 
 
 def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
-    """Return a scenario without code of the user's own but for laws, and what is missing of it.
+    """Return a scenario without code of the user's own except laws, and the missing parts.
 
-    What is missing, and what stands in for it, is as after `to_scenario`.
+    Missing parts are replaced as by `to_scenario`.
     """
     kept, missing = to_scenario(from_description(scenario))
     pairs = zip(kept.robots, scenario.robots, strict=True)
@@ -213,7 +219,7 @@ def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
 
 
 def to_value(data: Any) -> Any:
-    """Return what `from_description` made plain of one field; LookupError if that is lost."""
+    """Return the value that `from_description` made plain; LookupError if a part is missing."""
     missing: list[str] = []
     value = _to_description(data, missing)
     if missing:
@@ -254,7 +260,7 @@ def _is_function(value: Any) -> bool:
 
 def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:
     """Return a part of another package; None if it is not installed, or has other fields now."""
-    kind = plugin(_FOLDERS[value["own"]], value["type"], value["from"])
+    kind = plugin(_OWN[value["own"]].family, value["type"], value["from"])
     if kind is None:
         return None
     lost: list[str] = []
@@ -274,14 +280,14 @@ def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:
 @cache
 def _kinds() -> dict[str, type[Description]]:
     kinds: dict[str, type[Description]] = {kind.__name__: kind for kind in _KNOWN}
-    for family in ("bodies", "sensors", "addons", "props", "joints"):
+    for family in FAMILIES:
         for name, kind in members(family).items():
             kinds[f"{family}.{name}" if name in kinds else name] = kind
     return kinds
 
 
 def _type_of(kind: type[Description]) -> str:
-    """Return how a class is called in a file: its name, with its family if two have the name."""
+    """Return the name of a class in files, with its family if two have the same name."""
     own = f"{family_of(kind)}.{kind.__name__}"
     return own if own in _kinds() else kind.__name__
 
@@ -293,7 +299,7 @@ _KNOWN = (
 
 
 def _stand_in(family: str, fields: dict[str, Any]) -> Any:
-    """Return what stands for a part of the user's own, or that it is left out."""
+    """Return the replacement for a part of the user's own, or `_LEFT_OUT`."""
     if family == "drive":
         return Unicycle(**{f.name: fields[f.name] for f in dataclasses.fields(Drive)})
     if family == "prop":

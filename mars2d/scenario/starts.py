@@ -1,4 +1,4 @@
-"""Whether bodies start where they can: within the workspace, off obstacles, apart."""
+"""Starts: bodies must start within the workspace, off obstacles, and apart."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["check_apart", "check_in_workspace", "check_off_obstacles", "check_off_walls"]
 
 SMOOTH = 64
-"""Corners a quarter of a circle, where a disc is compared with a polygon."""
+"""Corners per quarter of a circle, for a disc that is compared with a polygon."""
 
 
 def check_in_workspace(robots: Sequence[Rigid], workspace: Outline) -> None:
@@ -109,9 +109,9 @@ def check_apart(
 
 
 def _depth(a: Rigid, b: Rigid, of_bounds: float, overlap: float) -> float:
-    """Return about how deep two bodies overlap, metres; 0 if they do not, or no deeper than may be.
+    """Return about how deep two bodies overlap, metres; 0 if no deeper than is allowed.
 
-    of_bounds: how deep the circles round them do.
+    of_bounds: the overlap of the circles around them.
     """
     if a.is_disc and b.is_disc:
         return of_bounds
@@ -138,7 +138,7 @@ def footprint(body: Rigid) -> shapely.Geometry:
 
 
 def _core(body: Rigid, overlap: float) -> shapely.Geometry:
-    """Return a body's ground without the rim that may overlap."""
+    """Return a body's ground, less the rim that may overlap."""
     return footprint(body).buffer(-_allowed(body, overlap), join_style="mitre")
 
 

@@ -1,4 +1,4 @@
-"""Scenarios as TOML files, which people read and edit.
+"""Scenarios as TOML files, for people to read and edit.
 
 ``format = 1`` stands first, then the scenario's fields by their names. A part is a table with its
 `type`; robots and other lists are tables in ``[[ ]]``. A law is named as ``walk.py:walk``.
@@ -32,20 +32,20 @@ SUFFIX = ".toml"
 
 FORMAT = 1
 
-LARGEST = 5_000_000
-"""Bytes of a file."""
+MAX_BYTES = 5_000_000
+"""The size of the largest file."""
 
-MOST = 10_000
-"""Parts in one list."""
+MAX_PARTS = 10_000
+"""The most parts in one list."""
 
-DEEP = re.compile(r"""(?:\.[ \t]*+(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')[ \t]*+){20}""")
-"""A name within a name, and so on: the time to read one grows with the square of its depth."""
+TOO_DEEP = re.compile(r"""(?:\.[ \t]*+(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')[ \t]*+){20}""")
+"""A deeply nested name: the time to read it grows with the square of its depth."""
 
-LONG = re.compile(r"[=\[,][ \t]*+[+-]?(?:0[xob])?[\da-fA-F_]{1000}")
-"""A number whose digits would fill the memory while they are read."""
+TOO_LONG = re.compile(r"[=\[,][ \t]*+[+-]?(?:0[xob])?[\da-fA-F_]{1000}")
+"""A number with so many digits that reading it would fill the memory."""
 
 NONE = "none"
-"""What stands for None."""
+"""The text that stands for None."""
 
 Law = Callable[[Any], Any]
 
@@ -54,12 +54,12 @@ Law = Callable[[Any], Any]
 
 
 def save(scenario: Scenario, path: str | Path, control: Law | str | None = None) -> tuple[str, ...]:
-    """Write a scenario to a file, and return what could not be written, as ``add-on Lamps``.
+    """Write a scenario to a file, and return the parts left out, such as ``add-on Lamps``.
 
-    control: the law of the team, a function or ``team.py:control``. Of a law the file names the
-    place: only a function at the top of a file can be found again. What else is code is left out,
-    or replaced as in a record that is loaded (see `Record.missing`); comments in the file say so.
-    What was in the file before is lost. Raises InputError where it can't be written.
+    control: the law of the team, a function or ``team.py:control``. The file names the place of a
+    law, so only a function at the top of a file can be written. Other code is left out, or replaced
+    as in a loaded record (see `Record.missing`); comments in the file say so. A file that exists is
+    replaced. Raises InputError if it can't be written.
     """
     path = Path(path)
     if path.suffix.lower() != SUFFIX:
@@ -78,7 +78,7 @@ def save(scenario: Scenario, path: str | Path, control: Law | str | None = None)
 class _Writer:
     """Writes a scenario as the text of a file in a folder.
 
-    missing: what could not be written.
+    missing: the parts that were left out.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -99,9 +99,9 @@ class _Writer:
         return "\n".join([*head, "", f"format = {FORMAT}", *team, *self._table(kept, "")]) + "\n"
 
     def _table(self, part: Description, path: str, index: int = 0) -> list[str]:
-        """Return the lines of a part's table, but for its header.
+        """Return the lines of a part's table, without its header.
 
-        path: its name with a full stop, nothing for the scenario. index: where it is in its list.
+        path: its name and a full stop; empty for the scenario. index: its place in its list.
         """
         lines, below = [], []
         fields, places = serialize.changed(part, index), serialize.parts_of(type(part))
@@ -114,7 +114,7 @@ class _Writer:
                     below += ["", f"[[{path}{name}]]", *_type(place, item)]
                     below += self._table(item, f"{path}{name}.", i)
             else:
-                line = f"{name} = {laid_out(self._in_line(place, value), width=LARGEST)}"
+                line = f"{name} = {laid_out(self._in_line(place, value), width=MAX_BYTES)}"
                 if len(line) <= WIDTH and (path or "{" not in line):
                     lines.append(line)
                 else:
@@ -132,7 +132,7 @@ class _Writer:
         return f"{name} = {node}"
 
     def _law(self, field: str, law: Law | str) -> str:
-        """Return the line that names a law, or a comment that says why there is none."""
+        """Return the line that names a law, or a comment that says why it is missing."""
         if isinstance(law, str):
             Reference.read(field, law)
             return f"{field} = {quoted(law)}"
@@ -144,7 +144,7 @@ class _Writer:
         return f"{field} = {quoted(f'{seen_from(found.file, self.folder)}:{found.name}')}"
 
     def _in_line(self, place: Place, part: Description) -> Node:
-        """Return a part as a table in one line; its type alone if it has nothing else to say."""
+        """Return a part as a table in one line; as its type alone if no field has been changed."""
         places = serialize.parts_of(type(part))
         items: list[Node] = [*_type(place, part)]
         for name, value in serialize.changed(part).items():
@@ -168,7 +168,7 @@ class _Writer:
         return self._plain(value)
 
     def _plain(self, value: Any) -> Node:
-        """Return what is plain as TOML has it."""
+        """Return a plain value in TOML."""
         if value is None:
             return quoted(NONE)
         if isinstance(value, bool):
@@ -183,7 +183,7 @@ class _Writer:
 
 
 def _type(place: Place, part: Description) -> list[str]:
-    """Return the line that says of which type a part is, where there is more than one."""
+    """Return the line with the type of a part, unless only one type is possible."""
     kind = type(part)
     return [] if kind is place.base else [f"type = {quoted(kind.__name__)}"]
 
@@ -194,9 +194,9 @@ def _type(place: Place, part: Description) -> list[str]:
 def read(path: str | Path) -> tuple[Scenario, Law | None]:
     """Return the scenario in a file, and the law of its team or None.
 
-    What it names, laws and images, lies beside it or in the current folder. Each law is loaded anew
-    for each robot, as by `load_law`. Raises InputError, which says what is wrong, in which line,
-    and what was expected.
+    Laws and images that it names lie beside it or in the current folder. Each robot gets its law
+    loaded anew, as by `load_law`. Raises InputError, which says what is wrong, in which line, and
+    what was expected.
     """
     path = Path(path)
     if path.suffix.lower() != SUFFIX:
@@ -212,24 +212,24 @@ def read(path: str | Path) -> tuple[Scenario, Law | None]:
 def _text(path: Path) -> str:
     try:
         with path.open("rb") as file:
-            data = file.read(LARGEST + 1)
+            data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"{path}: can't be read: {reason}") from error
-    if len(data) > LARGEST:
-        raise InputError(f"{path}: expected at most {LARGEST / 1e6:g} MB, it is larger")
+    if len(data) > MAX_BYTES:
+        raise InputError(f"{path}: expected at most {MAX_BYTES / 1e6:g} MB, it is larger")
     try:
-        return data.decode("utf-8-sig")  # some editors begin with a mark
+        return data.decode("utf-8-sig")  # some editors write a mark first
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         raise _at(f"{path.name}, line {line}", "expected text in UTF-8; save it so") from None
 
 
 def _check_names_and_numbers(path: Path, text: str) -> None:
-    """Refuse what the parser would read for hours, or with all memory there is."""
+    """Refuse text that would take the parser hours, or all memory."""
     problems = (
-        (DEEP, "tables lie in each other too deeply"),
-        (LONG, "a number has too many digits"),
+        (TOO_DEEP, "tables lie in each other too deeply"),
+        (TOO_LONG, "a number has too many digits"),
     )
     for pattern, problem in problems:
         found = pattern.search(text)
@@ -255,7 +255,7 @@ def _parsed(path: Path, text: str) -> dict[str, Any]:
 
 
 PYTHON = re.compile(r"=\s*\(|\b(True|False|None)\b")
-"""What is written otherwise in TOML."""
+"""Python that is written differently in TOML."""
 
 HINT = "; TOML writes true, false and [1, 2]; what is None is left out"
 
@@ -267,9 +267,9 @@ def _at(where: str, problem: str) -> InputError:
 
 
 class _Reader:
-    """Makes a scenario of what a file says, and points at what is wrong there.
+    """Makes the scenario of a file, with errors that point at the line.
 
-    Tables are called ``robots[2].drive``, the scenario's own is empty.
+    Tables have names such as ``robots[2].drive``; that of the scenario is empty.
     """
 
     def __init__(self, path: Path, text: str) -> None:
@@ -296,7 +296,7 @@ class _Reader:
             raise _at(self._where("", "format"), problem)
 
     def _part(self, place: Place, value: Any, at: str) -> Description:
-        """Return a part: of a table, or of its type's name alone."""
+        """Return the part that a table describes, or the name of its type alone."""
         if isinstance(value, str):
             value = {"type": value}
         if not isinstance(value, dict):
@@ -324,7 +324,7 @@ class _Reader:
             raise _at(self._where(at), f"{kind.__name__}: {described(error)}") from error
 
     def _kind(self, place: Place, name: object, at: str) -> type[Description]:
-        """Return the class that a type's name means, or that is meant where there is none."""
+        """Return the class that the name of a type means, or the default without a name."""
         if name is None and place.default is not None:
             return place.default
         kinds = serialize.kinds_of(place.base)
@@ -339,7 +339,7 @@ class _Reader:
     def _field(
         self, kind: type[Description], field: dataclasses.Field[Any], value: Any, at: str
     ) -> Any:
-        """Return the value of a field, not checked yet."""
+        """Return the value of a field, before it is checked."""
         check = field.metadata.get("check")
         if value == NONE and check is not None and _accepts(check, None):
             return value if _accepts(check, NONE) else None
@@ -358,14 +358,14 @@ class _Reader:
             problem = f"{header}: expected a list of tables; write [[{header}]] above each"
             raise _at(self._where(*_split(at)), problem)
         if not isinstance(value, list):
-            return value  # as robots = 5, or to be refused
-        if len(value) > MOST:
-            problem = f"{_split(at)[1]}: expected at most {MOST}, not {len(value)}"
+            return value  # such as robots = 5, or refused later
+        if len(value) > MAX_PARTS:
+            problem = f"{_split(at)[1]}: expected at most {MAX_PARTS}, not {len(value)}"
             raise _at(self._where(*_split(at)), problem)
         return [self._part(place, item, f"{at}[{i}]") for i, item in enumerate(value)]
 
     def _image(self, name: str) -> str:
-        """Return the name of an image, with its folder if it lies beside the file."""
+        """Return the path of an image, with its folder if it lies beside the file."""
         beside = self.path.absolute().parent / name
         try:
             return str(beside) if beside.is_file() else name
@@ -373,7 +373,7 @@ class _Reader:
             return name
 
     def _plain(self, value: Any, at: str) -> Any:
-        """Return a value of lists, text and numbers; a table with a type is a part."""
+        """Return a value of lists, text and numbers; a table with a type becomes a part."""
         if isinstance(value, list):
             return [self._plain(item, at) for item in value]
         if isinstance(value, dict):
@@ -398,16 +398,16 @@ class _Reader:
         return _at(self._where(table, field), str(wrong(field, value, expected)))
 
     def _where(self, table: str, field: str = "") -> str:
-        """Return what an error points at: the file, the line if it is known, and the table."""
+        """Return the place of an error: the file, the line if it is known, and the table."""
         place = _inside(table, field) if field else table
-        while place and place not in self._lines:  # of what lies in one line, that line
+        while place and place not in self._lines:  # the line of a table around it
             place = place[: max(place.rfind("."), place.rfind("["), 0)]
         line = f"line {self._lines[place]}" if place else ""
         return ", ".join(filter(None, [self.path.name, line, table]))
 
 
 HEADS = ("format", "control")
-"""What a file says beside the fields of its scenario."""
+"""The keys of a file that are no fields of its scenario."""
 
 
 def _inside(at: str, name: str) -> str:
@@ -423,7 +423,7 @@ def _split(at: str) -> tuple[str, str]:
 def _accepts(check: Check, value: object) -> bool:
     try:
         check("", value)
-    except Exception:  # which is how another package's may refuse
+    except Exception:  # another package's check may refuse by any error
         return False
     return True
 
@@ -433,7 +433,7 @@ KEY = re.compile(r"([A-Za-z_]\w*)\s*[.=]")
 
 
 def _lines_of(text: str) -> dict[str, int]:
-    r"""Return in which line each table and each field begins, by their places.
+    r"""Return the line in which each table and each field begins, by their places.
 
     >>> _lines_of('format = 1\n[[robots]]\npose = [1, 2]\n[robots.drive]')
     {'format': 1, 'robots[0]': 2, 'robots[0].pose': 3, 'robots[0].drive': 4}

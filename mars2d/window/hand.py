@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mars2d.bodies.rigid import Rigid, Triple
 from mars2d.core.errors import InputError, LawError
+from mars2d.core.materials import GRAVITY
 from mars2d.core.plane import Point
 from mars2d.core.scene import Anchor, Scene, Shape, faded
 from mars2d.output.layers.bodies import draw_prop, draw_robot
@@ -65,7 +66,7 @@ def pull_of(scenario: Scenario, body: int) -> tuple[float, float]:
         drive = scenario.robots[body].drive
         held, speed = drive.max_force, max(speed, 1.5 * drive.max_linear_speed)
     else:
-        held = scenario.props[body - n].ground_friction * mass * 9.81
+        held = scenario.props[body - n].ground_friction * mass * GRAVITY
     return 1.5 * held + EASE * mass, min(speed, FASTEST)
 
 

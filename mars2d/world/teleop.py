@@ -5,18 +5,12 @@ from __future__ import annotations
 from math import hypot
 from typing import NamedTuple
 
-import numpy as np
-
 from mars2d.addons.contest import Contest
-from mars2d.bodies.drives.base import Drive, Wheeled
-from mars2d.bodies.drives.car import Car
+from mars2d.bodies.drives.base import Drive
 from mars2d.core.errors import InputError, nearest
 from mars2d.scenario.scenario import Scenario
 
 __all__ = ["Stick", "command_of", "ramped", "robot_of"]
-
-TURN = 1.5
-"""How quickly a robot turns at most, rad/s, where its wheels are quick enough."""
 
 RISE, FALL = 4.0, 8.0
 """How quickly a stick follows the keys, in parts of its way in a second: out, and back."""
@@ -41,18 +35,7 @@ def command_of(drive: Drive, stick: Stick) -> tuple[float, float]:
     go ahead or back by it, and turn: a robot of two wheels at 1.5 rad/s, or as quickly as its
     wheels allow, for which it goes slower as far as needed; a car steers.
     """
-    across, ahead = stick
-    most = drive.max_linear_speed
-    if drive.frame == "world":
-        return most * across, most * ahead
-    if isinstance(drive, Car):
-        return most * ahead, -drive.max_steering * across
-    if not isinstance(drive, Wheeled):
-        return most * ahead, -TURN * across
-    rim = min(TURN * drive.wheel_semiaxis, most)
-    turn, way = -rim * across, ahead * (most - rim * abs(across))
-    first, second = drive.command_for(np.array([[way - turn], [way + turn]])).ravel().tolist()
-    return first, second
+    return drive.steered(*stick)
 
 
 def ramped(stick: Stick, wanted: Stick, duration: float) -> Stick:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.map import Map
 from mars2d.core.errors import InputError, counted
-from mars2d.physics.versions import versions
+from mars2d.physics.settings import versions
 from mars2d.record.contact import CONTACT, rows_of
 from mars2d.record.interventions import Change, Intervention
 from mars2d.record.record import Record

@@ -25,7 +25,7 @@ from mars2d.core.usercode import called
 from mars2d.physics.engine import Engine
 from mars2d.physics.kinematics import Kinematics
 from mars2d.physics.motion import Start
-from mars2d.physics.versions import versions
+from mars2d.physics.settings import versions
 from mars2d.record.columns import Column, DiskError, Storage
 from mars2d.record.contact import CONTACT
 from mars2d.record.frame import Frame

@@ -84,20 +84,6 @@ SENSORS = {name: {} for name in sensors.__all__ if name in members("sensors")}
 SENSORS |= {"Proximity": {"range": 0.5}, "Beacon": {"range": 2.0}}
 """The fields of each shipped sensor that is added, without noise."""
 
-ADDONS: dict[str, dict] = {
-    "Beacon": {"at": (0.4, 0.1)},
-    "Density": {"function": lambda x, y: 1 / (1 + x * x + y * y)},
-    "Estimate": {},
-    "FieldOfView": {},
-    "Floor": {"color": "#00ff00"},
-    "PotentialField": {},
-    "Theory": {"draws": lambda scene, frame: None},
-    "Trails": {},
-    "Voronoi": {},
-    "Waypoints": {"routes": [[(0.1, 0.1), (1.0, 0.3)]]},
-}
-"""The fields of each shipped add-on that is added."""
-
 ACTING = {
     "Communication": "carries messages, which laws hear, and draws which are lost",
     "Game": "is a referee: who is caught stands still, and the run may end",
@@ -105,6 +91,18 @@ ACTING = {
     "Ring": "is a referee: who is out has lost, and the run ends",
 }
 """Add-ons that are there to change a run, and how."""
+
+NEEDED: dict[str, dict] = {
+    "Beacon": {"at": (0.4, 0.1)},
+    "Density": {"function": lambda x, y: 1 / (1 + x * x + y * y)},
+    "Floor": {"color": "#00ff00"},
+    "Theory": {"draws": lambda scene, frame: None},
+    "Waypoints": {"routes": [[(0.1, 0.1), (1.0, 0.3)]]},
+}
+"""The fields that an add-on must be given."""
+
+ADDONS = {name: NEEDED.get(name, {}) for name in members("addons") if name not in ACTING}
+"""The fields of each shipped add-on that is added."""
 
 SHOWN_BY_OTHERS = {"Floor": {"sensor:ground"}}
 """Columns of others that are to change: what a floor's colour is measured by."""

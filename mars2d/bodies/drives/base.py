@@ -1,4 +1,4 @@
-"""What a drive is: from a command to the motion it asks for, and the force it can use."""
+"""The base of drives: from a command to the motion that it asks for, and the force for it."""
 
 from __future__ import annotations
 
@@ -16,23 +16,26 @@ __all__ = ["Drive", "Wheeled"]
 
 Float = NDArray[np.float64]
 
+STICK_TURN = 1.5
+"""How quickly a robot turns by a stick that is held to the side, rad/s, if its wheels can."""
+
 ROUNDING = 1e-12
-"""By how much, relatively, a command may exceed its limits: limiting twice changes nothing."""
+"""The share by which a command may exceed its limits, so that limiting twice changes nothing."""
 
 
 class Drive(Description):
     """The base of all drives.
 
-    A drive says how a command (2,) becomes a motion; `twist` is all that a drive of one's own
-    needs. Every method works on the columns of many robots at once. What happens to a command:
+    A drive turns a command (2,) into a motion. A drive of one's own needs `twist` only. Every
+    method works on the columns of many robots at once. A command takes these steps:
 
-    1. `saturate` limits it to what the actuators can do, `accelerate` to what they can do so soon
-       after the last one; the result is what is recorded;
+    1. `saturate` limits it to what the actuators can do, `accelerate` to what they can reach from
+       the last command; the result is recorded;
     2. it waits for `Scenario.command_delay` and for the drive's `dead_time`;
     3. `disturb` adds the actuators' noise, which is not recorded;
-    4. `twist` gives the velocity that is asked for.
+    4. `twist` returns the velocity that it asks for.
 
-    Two actuators move a robot. Unless a drive says otherwise, the command is what they do.
+    Two actuators move a robot. By default the command is the speed of each.
     """
 
     max_linear_speed: float = number(
@@ -60,8 +63,11 @@ class Drive(Description):
     frame: ClassVar[Literal["robot", "world"]] = "robot"
     """The frame that `twist` gives linear velocities in."""
 
+    holonomic: ClassVar[bool] = False
+    """Whether it can move in any direction at once."""
+
     def saturate(self, command: Float) -> Float:
-        """Return commands (2, n) within the actuators' limits; here, as they are."""
+        """Return commands (2, n) within the actuators' limits; by default, unchanged."""
         return command
 
     def twist(self, command: Float) -> Float:
@@ -69,21 +75,32 @@ class Drive(Description):
         raise NotImplementedError(f"{type(self).__name__} must say how it moves")
 
     def actuators(self, command: Float) -> Float:
-        """Return what commands (2, n) ask of the two actuators, (2, n)."""
+        """Return the speeds (2, n) that commands (2, n) ask of the two actuators."""
         return command
 
     def command_for(self, actuators: Float) -> Float:
-        """Return the commands (2, n) that ask this of the two actuators, (2, n)."""
+        """Return the commands (2, n) that ask for these speeds (2, n) of the actuators."""
         return actuators
+
+    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+        """Return the command that a stick asks for which is held across to the right, and ahead.
+
+        across, ahead: from -1 to 1, in the picture for a drive that moves in the world's frame.
+        Here, the first number of a command is a speed; the second is a spin, or a speed, too.
+        """
+        most = self.max_linear_speed
+        if self.frame == "world":
+            return most * across, most * ahead
+        return most * ahead, -STICK_TURN * across
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
-        """What the two numbers of a command are, for figures and tables; here nobody knows."""
+        """The two numbers of a command, for figures and tables; by default they are not known."""
         return ()
 
     @property
     def rates(self) -> tuple[float | None, float | None]:
-        """How much each actuator may change in a second, in its own unit; None: at will."""
+        """The largest change of each actuator in a second, in its own unit; None: unlimited."""
         return self.max_acceleration, self.max_acceleration
 
     @cached_property
@@ -92,7 +109,7 @@ class Drive(Description):
         return np.array([[inf if rate is None else rate] for rate in self.rates])
 
     def accelerate(self, command: Float, last: Float, duration: float) -> Float:
-        """Return commands (2, n), each actuator's change since the last ones limited.
+        """Return commands (2, n) with the change of each actuator limited.
 
         last: (2, n), the commands issued `duration` seconds before.
         """
@@ -105,7 +122,7 @@ class Drive(Description):
         return np.where(over.any(axis=0), self.command_for(had + change.clip(-most, most)), command)
 
     def disturb(self, command: Float, normal: Float) -> Float:
-        """Return what the actuators make of commands (2, n): each is off by a share of its own.
+        """Return commands (2, n) as noisy actuators execute them: each is off by a random share.
 
         normal: (2, n), numbers of the standard normal distribution, one for each actuator.
         """
@@ -144,6 +161,14 @@ class Wheeled(Drive):
         """Return (v, omega), (2, n), of rims with these speeds."""
         left, right = actuators
         return np.array([(left + right) / 2, (right - left) / (2 * self.wheel_semiaxis)])
+
+    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+        """Return the command that a stick asks for; it slows down as far as it needs to turn."""
+        most = self.max_linear_speed
+        rim = min(STICK_TURN * self.wheel_semiaxis, most)
+        turn, way = -rim * across, ahead * (most - rim * abs(across))
+        first, second = self.command_for(np.array([[way - turn], [way + turn]])).ravel().tolist()
+        return first, second
 
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) with each rim's speed clipped to +-max_linear_speed."""

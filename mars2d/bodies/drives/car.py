@@ -12,13 +12,13 @@ __all__ = ["Car"]
 
 
 class Car(Drive):
-    """Steers with its front wheels, commanded by (v [m/s], steering angle delta [rad]).
+    """A car with steered front wheels, commanded by (v [m/s], steering angle delta [rad]).
 
     x' = v cos(theta), y' = v sin(theta), theta' = v tan(delta) / wheelbase: the bicycle model. The
     pose is that of the middle of the rear axle, v its speed; it turns about a point wheelbase /
-    tan(delta) to the left. Speed and steering are limited each by itself, so a car that is too fast
-    keeps its curvature. `noise` is that of the speed in shares of the speed, and that of the
-    steering angle in shares of max_steering, which it never exceeds.
+    tan(delta) to the left. Speed and steering are limited each by itself, so a car that is told to
+    go too fast keeps its curvature. `noise` is that of the speed in shares of the speed, and that
+    of the steering angle in shares of max_steering, which it never exceeds.
 
     Source: K. M. Lynch and F. C. Park, Modern Robotics (2017), section 13.3.1.
     """
@@ -43,6 +43,10 @@ class Car(Drive):
     def rates(self) -> tuple[float | None, float | None]:
         """The bounds of the acceleration [m/s^2] and of the steering rate [rad/s]."""
         return self.max_acceleration, self.max_steering_rate
+
+    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+        """Return the command that a stick asks for: across, it steers."""
+        return self.max_linear_speed * ahead, -self.max_steering * across
 
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n), the speed clipped to +-max_linear_speed, the angle likewise."""

@@ -5,8 +5,10 @@ from __future__ import annotations
 from math import pi
 from typing import Any
 
-from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.constraints import Constraint, Pin, TurningRange, TurningSpring
+from mars2d.bodies.joints.base import Float, Joint
 from mars2d.core.description import entry, number, real, wrong
+from mars2d.core.scene import INK, Scene
 
 __all__ = ["Hinge", "turning_limits"]
 
@@ -27,8 +29,8 @@ def turning_limits(name: str, value: Any) -> tuple[float, float] | None:
 class Hinge(Joint):
     """A pin through both bodies, or through one and the world: `anchor_a` and `anchor_b` are one.
 
-    Bodies that share a hinge do not collide with each other. With limits it turns only so far; with
-    stiffness and damping a spring turns it back to the angle of the start.
+    Bodies that share a hinge do not collide with each other. Limits bound its angle; with stiffness
+    and damping, a spring turns it back to the angle at the start.
     """
 
     limits: tuple[float, float] | None = entry(
@@ -38,3 +40,16 @@ class Hinge(Joint):
         default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that turns it back"
     )
     damping: float = number(default=0.0, low=0, high=1e6, unit="N m s/rad", doc="of its turning")
+
+    def constraints(self, apart: float) -> tuple[Constraint, ...]:  # noqa: ARG002
+        """Return a pin, and the limits and the spring of its angle."""
+        found: list[Constraint] = [Pin()]
+        if self.limits is not None:
+            found.append(TurningRange(*self.limits))
+        if self.stiffness or self.damping:
+            found.append(TurningSpring(stiffness=self.stiffness, damping=self.damping))
+        return tuple(found)
+
+    def draw(self, scene: Scene, start: Float, end: Float, length: float) -> None:  # noqa: ARG002
+        """Draw a pin, seen from above."""
+        scene.circle(start, 0.0, fill="#ffffff", stroke=INK, width=2.0, pixels=4.0)

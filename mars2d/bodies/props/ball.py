@@ -12,9 +12,9 @@ __all__ = ["Ball"]
 
 
 class Ball(Prop):
-    """A disc that rolls freely, as the floor does not hold it: it never stops by itself.
+    """A disc that rolls freely: the floor does not hold it, so it never stops by itself.
 
-    Its `ground_friction` is 0 by default; one of 0.01 is that of rolling.
+    Its `ground_friction` is 0 by default; 0.01 stands for rolling resistance.
     """
 
     diameter: float = number(default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter")

@@ -12,7 +12,7 @@ __all__ = ["Bar"]
 
 
 class Bar(Prop):
-    """A long thin rectangle along its heading."""
+    """A long, thin rectangle along its heading."""
 
     length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="how long it is")
     thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="how thick it is")

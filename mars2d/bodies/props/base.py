@@ -1,4 +1,4 @@
-"""What a prop is: a rigid body without a drive, which lies on the floor."""
+"""The base of props: rigid bodies without a drive that lie on the floor."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from mars2d.geometry.shapes import Shape
 
 __all__ = ["Prop"]
 
-FASTEST = 100.0
-"""At the start, m/s and rad/s; quicker ones need ever more substeps."""
+MAX_SPEED = 100.0
+"""The highest speed at the start, m/s and rad/s; higher ones need ever more substeps."""
 
 
 def _velocity(name: str, value: Any) -> tuple[float, float, float]:
-    expected = f"(vx, vy, omega) in m/s and rad/s, each within +-{FASTEST:g}"
+    expected = f"(vx, vy, omega) in m/s and rad/s, each within +-{MAX_SPEED:g}"
     if not isinstance(value, (tuple, list)) or len(value) not in (2, 3):
         raise wrong(name, value, expected)
     vx, vy, omega = (real(name, item, expected) for item in [*value, 0.0][:3])
-    if max(abs(vx), abs(vy), abs(omega)) > FASTEST:
+    if max(abs(vx), abs(vy), abs(omega)) > MAX_SPEED:
         raise wrong(name, value, expected)
     return vx, vy, omega
 
@@ -40,8 +40,8 @@ def _restitution(name: str, value: Any) -> float | None:
 class Prop(Description):
     """The base of all props: bodies without a drive.
 
-    Its pose is that of its centre of mass. The floor slows it by Coulomb's friction, with the force
-    ground_friction * mass * g.
+    Its pose is the pose of its centre of mass. Coulomb friction with the floor slows it down, with
+    the force ground_friction * mass * g.
     """
 
     pose: tuple[float, float, float] = entry(
@@ -90,7 +90,7 @@ class Prop(Description):
         raise NotImplementedError(f"{type(self).__name__} must say what shape it has")
 
     def joints(self) -> tuple[Joint, ...]:
-        """Return the joints that it brings with it; its `name` is known by then."""
+        """Return the joints that come with it. Its `name` is known by then."""
         return ()
 
     @property
@@ -106,7 +106,7 @@ class Prop(Description):
 
     @property
     def rigid(self) -> Rigid:
-        """The body that it is at the start."""
+        """Its rigid body at the start."""
         kind, name = type(self).__name__, str(self.name)
         shape, inertia, surface = self.shape, self.inertia, self.surface
         return Rigid(kind, name, self.pose, self.velocity, shape, inertia, surface)

@@ -15,7 +15,7 @@ __all__ = ["Gate"]
 
 
 class Gate(Prop):
-    """A bar that turns about a hinge at its end behind, fixed to the world.
+    """A bar on a hinge that is fixed to the world, at the bar's rear end.
 
     The pose is that of its middle. Without stiffness it stays where it was left.
     """

@@ -12,7 +12,7 @@ __all__ = ["Puck"]
 
 
 class Puck(Prop):
-    """A disc that slides and is slowed by the floor, as on a table."""
+    """A disc that slides and is slowed down by the floor, like a puck on a table."""
 
     diameter: float = number(default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter")
     ground_friction = 0.1

@@ -1,4 +1,4 @@
-"""A thing of any shape."""
+"""A solid: a prop of any shape."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from mars2d.geometry.shapes import Shape, known_shape
 __all__ = ["Solid"]
 
 CENTRED = 1e-9
-"""How far off its origin a shape's centre of mass may be, in parts of its size."""
+"""The largest distance from a shape's origin to its centre of mass, in parts of its size."""
 
 
 def _centred(name: str, value: object) -> Shape:
     shape = known_shape(name, value, "Polygon([(0, 0), (0.4, 0), (0.2, 0.3)])")
-    for _ in range(2):  # the first move leaves the rounding of a shape that was far away
+    for _ in range(2):  # after the first move, rounding is left of a shape that was far away
         x, y = shape.centroid
         if hypot(x, y) <= CENTRED * shape.reach:
             break
@@ -25,9 +25,9 @@ def _centred(name: str, value: object) -> Shape:
 
 
 class Solid(Prop):
-    """A thing of any shape: a polygon, concave too, or several shapes in one.
+    """A prop of any shape: a polygon, which may be concave, or several shapes in one.
 
-    Its centre of mass is put at its pose, wherever the shape's own origin lies.
+    Its centre of mass is moved to its pose, wherever the shape's own origin lies.
     """
 
     shape: Shape = entry(check=_centred, kw_only=False, doc="a Polygon, Disc or Compound")

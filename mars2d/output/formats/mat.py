@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.bodies import Holonomic
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
@@ -116,7 +115,7 @@ def _looks(record: Record) -> dict[str, Any]:
         "Stop_time": scenario.stop_time,
         "Workspace": np.array(workspace) if workspace else np.empty((0, 2)),
         "Bounds": np.array([scenario.bounds]),
-        "Non_holonomic": np.array([[not isinstance(drive, Holonomic) for drive in drives]]),
+        "Non_holonomic": np.array([[not drive.holonomic for drive in drives]]),
         "Command_delay": scenario.command_delay,
         "Exp_over": record.finished,
         "Exp_over_msg": _text(record.over_message),

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from math import cos, pi, sin, sqrt
+from math import cos, sin
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.bodies.attached_joint import Tie
-from mars2d.bodies.joints.hinge import Hinge
-from mars2d.bodies.joints.rope import Rope
-from mars2d.bodies.joints.spring import Spring
+from mars2d.bodies.attached_joint import AttachedJoint
 from mars2d.bodies.props.base import Prop
 from mars2d.core.plane import Point
-from mars2d.core.scene import Scene, faded
+from mars2d.core.scene import INK, Scene, faded
+from mars2d.core.usercode import called
 from mars2d.geometry.shapes import Disc, Rim, Shape
 from mars2d.scenario.robot import Robot
 
@@ -24,7 +22,6 @@ __all__ = ["INK", "OBSTACLE", "draw_prop", "draw_robot", "draw_tie", "prop_color
 
 Float = NDArray[np.float64]
 
-INK = "#3d4852"
 OBSTACLE = "#b8c0c8"
 
 NEUTRAL = "#d8cbb3"
@@ -44,12 +41,6 @@ MATERIAL_COLORS = {
     "teflon": "#eceae4",
     "wood": "#d9b384",
 }
-
-ROPE = "#7a5c2e"
-STEEL = "#52606d"
-COILS = 9
-TAUT = 2e-3
-"""A rope is drawn straight where it is shorter than its length by no more than this share of it."""
 
 
 def draw_robot(scene: Scene, robot: Robot, pose: Float, fill: str | None, stroke: str) -> None:
@@ -94,56 +85,15 @@ def prop_edge(color: str) -> str:
     return "#" + "".join(f"{round(0.45 * int(color[k : k + 2], 16)):02x}" for k in (1, 3, 5))
 
 
-def draw_tie(scene: Scene, tie: Tie, poses: Float) -> None:
+def draw_tie(scene: Scene, tie: AttachedJoint, poses: Float) -> None:
     """Draw what ties two bodies, (3, bodies): a rope, rod, spring or hinge."""
     joint = tie.joint
     start = _placed([joint.anchor_a], poses[:, tie.a])[0]
     end = np.array(joint.anchor_b)
     if tie.b >= 0:
         end = _placed([joint.anchor_b], poses[:, tie.b])[0]
-    if isinstance(joint, Hinge):
-        scene.circle(start, 0.0, fill="#ffffff", stroke=INK, width=2.0, pixels=4.0)
-        return
-    apart = float(np.hypot(*(end - start)))
-    if isinstance(joint, Rope):
-        slack = tie.length - apart > TAUT * tie.length
-        points = _wave(start, end, tie.length) if slack else [start, end]
-        scene.line(points, stroke=faded(ROPE, 0.75) if slack else ROPE, width=2.0)
-    elif isinstance(joint, Spring):
-        scene.line(_zigzag(start, end, tie.length), stroke=STEEL, width=1.8)
-    else:
-        scene.line([start, end], stroke="#ffffff", width=6.0)
-        scene.line([start, end], stroke=STEEL, width=4.0)
-    for point in (start, end):
-        scene.circle(point, 0.0, fill=ROPE if isinstance(joint, Rope) else STEEL, pixels=3.0)
-
-
-def _wave(start: Float, end: Float, length: float) -> Float:
-    """Return two periods of a wave that is as long as the rope [m], within a few percent."""
-    apart = float(np.hypot(*(end - start)))
-    height = sqrt(max(length**2 - apart**2, 0.0)) / 8  # of a zigzag; a wave's is a little less
-    height *= 1 - 0.1 * apart / length
-    share = np.linspace(0.0, 1.0, 49)
-    return _beside(start, end, share, height * np.sin(4 * pi * share))
-
-
-def _zigzag(start: Float, end: Float, length: float) -> Float:
-    """Return a spring's coils between two short straight ends."""
-    apart = float(np.hypot(*(end - start)))
-    height = 0.1 * max(length, 0.6)
-    lead = min(0.1 * max(length, apart), 0.2 * apart) / max(apart, 1e-9)
-    coils = lead + (1 - 2 * lead) * (np.arange(2 * COILS) + 0.5) / (2 * COILS)
-    share = np.concatenate([[0.0, lead], coils, [1 - lead, 1.0]])
-    side = np.concatenate([[0.0, 0.0], np.resize([height, -height], 2 * COILS), [0.0, 0.0]])
-    return _beside(start, end, share, side)
-
-
-def _beside(start: Float, end: Float, share: Float, side: Float) -> Float:
-    """Return points (k, 2) at shares of the way from start to end, and metres beside it."""
-    along = end - start
-    apart = float(np.hypot(*along))
-    normal = np.array([-along[1], along[0]]) / apart if apart > 0 else np.array([0.0, 1.0])
-    return np.asarray(start + share[:, None] * along + side[:, None] * normal)
+    with called(f"{type(joint).__name__}.draw", joint.draw):
+        joint.draw(scene, start, end, tie.length)
 
 
 def _draw_shape(

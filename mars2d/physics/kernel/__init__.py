@@ -1,10 +1,10 @@
 """The kernel: the engine's loop in C, for the kind of world that needs it most.
 
-A team of discs among walls spends most of its time between the solver's steps: which robots are
-near something, how long the next substep may be, what touches. `physics.engine` says how that is
-done, and does it for every world; the C files here do the same for this kind of world, with the
-same bits, and much faster. They are compiled when the package is installed. Where that failed, or
-numpy or pymunk are not as the kernel knows them, the plain engine does the work.
+For a team of discs among walls, most of the time is spent between the solver's steps: which robots
+are near something, how long may the next substep be, what touches? `physics.engine` answers that
+for every world. The C files here do the same for this kind of world, with the same bits, and much
+faster. They are compiled when the package is installed. If that failed, or if numpy or pymunk
+differ from what the kernel was written for, the plain engine does the work.
 """
 
 from __future__ import annotations
@@ -29,26 +29,26 @@ __all__ = ["CONTACTS", "EFFORT", "PLACED", "Kernel", "reason_without"]
 Float = NDArray[np.float64]
 
 PLACED, CONTACTS, EFFORT = 1, 2, 4
-"""What the kernel may have left; see ``team.h``."""
+"""The kinds of results that the kernel may have left; see ``team.h``."""
 
 ERRORS = {
     -1: (MemoryError, "no memory for what the kernel keeps of robots that are near each other"),
     -2: (FloatingPointError, "the robots' motion is lost: a number is not finite, or nearly so"),
 }
-"""Why the kernel broke off by itself; see ``team.h``."""
+"""The errors with which the kernel breaks off by itself; see ``team.h``."""
 
 INTERRUPTED = -3
 """What the kernel returns when Python broke it off; see ``team.h``."""
 
 _caught = threading.local()
-"""Holds what broke it off, as `error`: Ctrl-C, or what the handler of another signal raised."""
+"""Holds the exception that broke it off, as `error`: from Ctrl-C or another signal's handler."""
 
 SAMPLE = np.concatenate([np.linspace(-60.0, 60.0, 997), np.geomspace(1e-9, 3.0, 200)])
 """Angles at which the kernel's sines are compared with numpy's."""
 
 
 def reason_without() -> str:
-    """Return why worlds do without the kernel, or nothing if they use it."""
+    """Return why worlds do without the kernel; empty if they use it."""
     if os.environ.get("MARS2D_PLAIN") == "1":
         return "the environment variable MARS2D_PLAIN is 1"
     return _compiled()[1]
@@ -56,7 +56,7 @@ def reason_without() -> str:
 
 @cache
 def _compiled() -> tuple[Any, str]:
-    """Return the compiled module, and why it can't be used; one of both is None or empty."""
+    """Return the compiled module, or None and the reason why it can't be used."""
     try:
         _kernel: Any = import_module("mars2d.physics.kernel._kernel")
     except ModuleNotFoundError:
@@ -75,10 +75,10 @@ def _compiled() -> tuple[Any, str]:
 
 
 def _listen(ffi: Any) -> None:
-    """Let Ctrl-C end a long control step: Python is called now and then, and may raise."""
+    """Let Ctrl-C end a long control step: the kernel calls Python now and then, which may raise."""
 
     def catch(_kind: object, error: BaseException, _trace: object) -> None:
-        """Keep what breaks it off: it is raised after the call."""
+        """Keep the exception: it is raised after the call."""
         _caught.error = error
 
     ffi.def_extern("mars2d_kernel_interrupted", error=1, onerror=catch)(lambda: 0)
@@ -104,7 +104,7 @@ class Kernel:
     """Moves one world's team of discs; it shares all state with the plain engine's parts."""
 
     def __init__(self, arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, float]) -> None:
-        """Take what `Team` in ``team.h`` asks for, by its names there."""
+        """Take the fields of `Team` in ``team.h``, by their names there."""
         module, why = _compiled()
         assert module is not None, why
         self._ffi, self._lib = module.ffi, module.lib

@@ -48,7 +48,7 @@ void remove_joints(Kernel *k, int i)
 }
 
 /* Makes joints, which are in no space now, as if they had not held anything yet; see
-   `Space._clutch`. */
+   `Space._joint_pair`. */
 void make_joints(Kernel *k, int i)
 {
     const Team *t = &k->team;

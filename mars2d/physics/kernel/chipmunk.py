@@ -87,7 +87,7 @@ def offsets() -> dict[str, int]:
 
 
 def changes(ours: Any, engine: Any = ffi, library: Any = lib) -> Iterator[str]:
-    """Yield what the engine no longer has, or has otherwise, of what the kernel uses.
+    """Yield how the engine differs from what the kernel uses of it.
 
     ours, engine: the ffi of the kernel and of the engine; library: the latter's functions.
     """
@@ -112,7 +112,7 @@ def changes(ours: Any, engine: Any = ffi, library: Any = lib) -> Iterator[str]:
 
 
 def alike(ours: Any, theirs: Any) -> bool:
-    """Return whether two types of ours and the engine's are the same but for what they point to."""
+    """Return whether our type and one of the engine are the same but for pointers' targets."""
     if ours.kind != theirs.kind:
         return False
     if ours.kind == "function":

@@ -11,7 +11,7 @@
 /* -- the control step ------------------------------------------------------------------------- */
 
 /* Takes the drives of those off that touch nothing, and aims them at the ends of their arcs; see
-   `Clutches.release` and `Engine._carry`. */
+   `DriveJoints.release` and `Engine._carry`. */
 static void carry(Kernel *k, double duration)
 {
     Team *t = &k->team;

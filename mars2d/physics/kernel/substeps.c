@@ -74,7 +74,7 @@ static double time_to_touch(const Kernel *k)
 
 /* Marks those that slip: what touches or is pulled does, and what its drive can't bring back. Returns
    how long a substep may be for them, at most h. */
-static double time_to_grip(Kernel *k, double h)
+static double longest_contact_step(Kernel *k, double h)
 {
     Team *t = &k->team;
     int any = 0;
@@ -98,7 +98,7 @@ static double time_to_grip(Kernel *k, double h)
     return h;
 }
 
-/* Works out how those that are near move, and how quickly that may turn; see `Clutches.motion`. */
+/* Works out how those that are near move, and how quickly that may turn; see `Driven.motion`. */
 static void set_motion(Kernel *k)
 {
     const Team *t = &k->team;
@@ -113,7 +113,7 @@ static void set_motion(Kernel *k)
 /* Works out how those that are near move, who slips, and how long the next substep may be. */
 static double look_ahead(Kernel *k, double left)
 {
-    double h = time_to_grip(k, left);
+    double h = longest_contact_step(k, left);
     set_motion(k);
     double touch = time_to_touch(k);
     h = MIN(h, touch);

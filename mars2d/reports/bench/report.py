@@ -17,7 +17,7 @@ import numpy as np
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.physics.kernel import reason_without
-from mars2d.physics.versions import versions
+from mars2d.physics.settings import versions
 
 __all__ = ["ALIKE", "FORMAT", "Change", "Figures", "Report", "Row", "load_report"]
 

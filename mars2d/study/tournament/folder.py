@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError
-from mars2d.physics.versions import versions
+from mars2d.physics.settings import versions
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.results import lock
 from mars2d.study.tournament.entrants import law_code

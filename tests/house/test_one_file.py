@@ -1,0 +1,276 @@
+"""A part is one file and one line: by the recipes of CONTRIBUTING, and one of the user's own."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Drive, InputError, Robot, Scenario, Sensor, World
+from mars2d.bodies import Joint, Prop
+from mars2d.bodies.constraints import Constraint, MaxDistance, Pin, SpringDamper
+from mars2d.core.description import number
+from mars2d.geometry import Disc
+from mars2d.sensors import DISTANCE
+
+PACKAGE = Path(mars2d.__file__).parent
+ROOT = Path(__file__).parents[2]
+GUIDE = ROOT / "CONTRIBUTING.md"
+
+RECIPE = re.compile(r"```python\n# (mars2d/\S+?\.py)(?:, in (\w+))?\n(.*?)```", re.S)
+"""A block of code of the guide: the file it belongs to, and the table there, if it is a line."""
+
+
+# -- the recipes of CONTRIBUTING, in a copy of the package ----------------------------------------
+
+
+def follow(recipes: list[tuple[str, str, str]], folder: Path) -> set[str]:
+    """Do as the recipes say in a folder with a copy of the package; return the files touched."""
+    for name, table, code in recipes:
+        file = folder / name
+        if table:
+            imports, _, lines = code.rpartition("\n\n")
+            text = file.read_text(encoding="utf-8").replace(
+                "\nfrom mars2d", f"\n{imports}\nfrom mars2d", 1
+            )
+            changed = re.sub(rf"^({table}\b.*[\[{{(]\n)", rf"\g<1>{lines}", text, flags=re.M)
+            assert changed != text, f"{name} has no {table}"
+        elif file.exists():
+            part = code.rpartition(" ")[2].strip()
+            text = file.read_text(encoding="utf-8")
+            changed = text.replace("\n__all__ = [\n", f'\n{code}\n__all__ = [\n    "{part}",\n')
+            if changed == text:
+                changed = text.replace("\n__all__ = [", f'\n{code}\n__all__ = ["{part}", ')
+            assert changed != text, f"{name} has no __all__"
+        else:
+            changed = code
+        file.write_text(changed, encoding="utf-8")
+    return {name for name, _, _ in recipes}
+
+
+def has_tables(recipes: list[tuple[str, str, str]]) -> bool:
+    """Whether the tables that recipes add lines to are there."""
+    texts = [(PACKAGE.parent / name, table) for name, table, _ in recipes if table]
+    return all(
+        file.exists() and re.search(rf"^{table}\b", file.read_text(encoding="utf-8"), flags=re.M)
+        for file, table in texts
+    )
+
+
+@pytest.fixture(scope="module")
+def extended(tmp_path_factory) -> Path:
+    """A folder with a copy of the package to which all recipes were applied."""
+    folder = tmp_path_factory.mktemp("extended")
+    shutil.copytree(PACKAGE, folder / "mars2d", ignore=shutil.ignore_patterns("__pycache__"))
+    for recipes in sections().values():
+        if has_tables(recipes):
+            follow(recipes, folder)
+    return folder
+
+
+def sections() -> dict[str, list[tuple[str, str, str]]]:
+    """The recipes by the headings they stand under."""
+    found = {}
+    for section in re.split(r"^### ", GUIDE.read_text(encoding="utf-8"), flags=re.M)[1:]:
+        title = section.partition("\n")[0]
+        found[title] = RECIPE.findall(section.partition("\n## ")[0])
+    return found
+
+
+PARTS = {
+    "A sensor": "Compass",
+    "An add-on": "Fence",
+    "A drive": "Crab",
+    "A joint": "Bungee",
+    "A prop": "Brick",
+}
+
+
+def test_a_recipe_touches_two_files_of_code_and_a_page():
+    text = GUIDE.read_text(encoding="utf-8")
+    for title, recipes in sections().items():
+        assert len({name for name, _, _ in recipes}) == 2, title
+        section = text.partition(f"### {title}\n")[2].partition("\n### ")[0]
+        numbered = re.findall(r"^(\d)\. `([^`]+)`", section, flags=re.M)
+        assert [number for number, _ in numbered] == ["1", "2", "3"], title
+        assert [name for _, name in numbered[:2]] == [name for name, _, _ in recipes], title
+
+
+def test_the_command_line_lists_what_the_recipes_add(child, extended):
+    code = "from mars2d.cli.command_line import main; main(['list']); main(['--help'])"
+    listed = child(code, PYTHONPATH=str(extended)).stdout
+    for part in PARTS.values():
+        assert re.search(rf"^\s+{part} ", listed, flags=re.M), part
+    if has_tables(sections()["A verb of the command line"]):
+        assert "Print the digest of a record" in listed
+
+
+RUN = """
+import json, sys
+import mars2d
+from mars2d import Robot, Scenario, World
+from mars2d.addons import Fence
+from mars2d.bodies import Brick, Bungee, Crab
+from mars2d.sensors import Compass
+
+assert mars2d.__file__.startswith(sys.argv[1]), mars2d.__file__
+robot = Robot(drive=Crab(max_force=20.0), sensors=[Compass()])
+bungee = Bungee(a="robot0", b="brick0", stiffness=8.0)
+scenario = Scenario(
+    robots=[robot], props=[Brick(pose=(0, -0.5, 0), ground_friction=0.0)], joints=[bungee],
+    addons=[Fence(length=2.0)], stop_time=3.0,
+)
+record = mars2d.run(scenario, control=lambda world: (0.3, 0.2))
+assert scenario.save("room.toml") == ()
+again = Scenario.from_file("room.toml")
+assert again == scenario, again
+assert mars2d.run(again, control=lambda world: (0.3, 0.2)).digest == record.digest
+for ending in sys.argv[2:]:
+    record.save(f"run.{ending}")
+    loaded = mars2d.load(f"run.{ending}")
+    assert (loaded.digest, loaded.missing, loaded.scenario) == (record.digest, (), scenario)
+record.save_html("run.html")
+drawn = scenario._repr_svg_()
+assert "#d55e00" in drawn, "the bungee is not drawn"
+print(json.dumps([record.sensors["compass"][-1].tolist(), record.prop_pose[-1].ravel().tolist()]))
+"""
+
+
+def test_what_the_recipes_add_runs_and_is_saved_recorded_and_replayed(child, extended, tmp_path):
+    formats = ["npz", "csv"] + ["json"] * has_tables(sections()["A record format"])
+    code = f"import os, sys; os.chdir({str(tmp_path)!r})\n"
+    code += f"sys.argv = ['', {str(extended)!r}, *{formats!r}]\n{RUN}"
+    done = child(code, PYTHONPATH=str(extended))
+    assert done.returncode == 0, done.stderr
+    heading, (x, y, _) = json.loads(done.stdout.splitlines()[-1])
+    assert np.ravel(heading)[0] == pytest.approx(3.0 * 0.2, abs=0.01)
+    assert np.hypot(x, y + 0.5) > 0.05  # it was pulled along
+    assert (tmp_path / "run.html").stat().st_size > 10_000
+
+
+# -- parts of the user's own, in this file --------------------------------------------------------
+
+
+class Sideways(Drive):
+    """A drive of the user's own."""
+
+    def twist(self, command):
+        return np.array([0 * command[0], command[0], command[1]])
+
+
+class Cord(Joint):
+    """A joint of the user's own: a spring that a rope keeps from being overstretched."""
+
+    slack: float = number(default=2.0, above=1, high=100, doc="its longest stretch, in parts of it")
+
+    def constraints(self, apart):
+        return MaxDistance(self.slack * apart), SpringDamper(apart, stiffness=4.0, damping=1.0)
+
+    def draw(self, scene, start, end, length):
+        scene.line([start, end], stroke="#123456")
+
+
+class Echo(Sensor):
+    """A sensor of the user's own."""
+
+    quantities = (DISTANCE,)
+
+    def read(self, robot, world, rng):
+        x, y, theta = robot.pose
+        return world.ray((x, y), theta + np.pi / 2, 5.0, robot.index)
+
+
+class Coin(Prop):
+    """A prop of the user's own."""
+
+    ground_friction = 0.0
+
+    @cached_property
+    def shape(self):
+        return Disc(0.1)
+
+
+def towing(**fields) -> Scenario:
+    robot = Robot(drive=Sideways(max_force=50.0), sensors=[Echo()])
+    fields = {"joints": [Cord(a="robot0", b="coin0")]} | fields
+    coin = Coin(pose=(0, -1, 0))
+    return Scenario(robots=[robot], props=[coin], stop_time=20.0, workspace=None, **fields)
+
+
+@pytest.fixture(scope="module")
+def towed() -> mars2d.Record:
+    return mars2d.run(towing(), control=lambda world: (0.2, 0.0))
+
+
+def test_a_joint_of_ones_own_holds_as_its_constraints_say(towed):
+    apart = towed.pose[:, 1, 0] - towed.prop_pose[:, 1, 0]
+    assert apart[0] == 1.0
+    assert 1.0 < apart.max() < 2.0  # the spring pulls
+    assert apart[-1] == pytest.approx(1.0, abs=0.01)  # all go at one speed at last
+    hauled = mars2d.run(towing(joints=[Cord(a="robot0", b="coin0", slack=1.05)]), control=drive_off)
+    apart = hauled.pose[:, 1, 0] - hauled.prop_pose[:, 1, 0]
+    assert apart.max() < 1.05 + 1e-3  # and the rope holds
+
+
+def drive_off(world: World):
+    return 0.5, 0.0
+
+
+@pytest.mark.parametrize("ending", ["npz", "csv"])
+def test_a_record_says_which_parts_of_ones_own_it_could_not_keep(towed, ending, tmp_path):
+    loaded = mars2d.load(towed.save(tmp_path / f"run.{ending}"))
+    assert loaded.digest == towed.digest
+    lost = {"drive Sideways", "sensor Echo", "joint Cord", "prop Coin"}
+    assert set(loaded.missing) == lost
+    assert set(towing().save(tmp_path / "scenario.toml")) == lost
+
+
+def test_parts_of_ones_own_are_drawn_and_replayed(towed, tmp_path):
+    assert "#123456" in towing()._repr_svg_()
+    assert towed.save_html(tmp_path / "run.html").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("made", "message"),
+    [
+        (lambda apart: None, r"Cord.constraints\(\) = None: expected a list, as"),
+        (lambda apart: (1.0,), r"Cord.constraints\(\)\[0\] = 1.0: expected a Constraint"),
+        (lambda apart: 1 / 0, r"Cord.constraints\(\) raised ZeroDivisionError"),
+        (lambda apart: (MaxDistance(float("nan")),), "MaxDistance.length = nan"),
+        (lambda apart: (Pin(),), "a hinge is one point"),
+        (lambda apart: (MaxDistance(apart / 2),), "expected at least that"),
+        (lambda apart: (SpringDamper(apart, stiffness=1e6),), "they would swing at"),
+    ],
+)
+def test_constraints_that_cannot_hold_are_refused_with_the_reason(made, message, monkeypatch):
+    monkeypatch.setattr(Cord, "constraints", lambda self, apart: made(apart))
+    with pytest.raises(InputError, match=message):
+        towing()
+
+
+def test_a_constraint_of_ones_own_is_refused():
+    with pytest.raises(InputError, match=r"Elbow: the physics knows the constraints of"):
+
+        class Elbow(Constraint):
+            pass
+
+
+def test_a_stick_and_a_file_for_matlab_ask_the_drive():
+    assert Sideways(max_linear_speed=0.4).steered(0.0, 0.5) == (0.2, 0.0)
+    assert not Sideways.holonomic
+
+
+# -- what the documents list ----------------------------------------------------------------------
+
+
+def test_the_index_of_the_sensors_is_made_of_their_pages(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "docs")
+    made = __import__("make_sensors")
+    text = made.INDEX.read_text(encoding="utf-8")
+    assert text == made.with_rows(text), "run: python docs/make_sensors.py"
