@@ -60,6 +60,9 @@ class Drive(Description):
     frame: ClassVar[Literal["robot", "world"]] = "robot"
     """The frame that `twist` gives linear velocities in."""
 
+    holonomic: ClassVar[bool] = False
+    """Whether it can move in any direction at once."""
+
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) within the actuators' limits; here, as they are."""
         return command

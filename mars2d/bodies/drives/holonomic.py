@@ -21,6 +21,7 @@ class Holonomic(Drive):
     """
 
     frame: ClassVar[Literal["robot", "world"]] = "world"
+    holonomic: ClassVar[bool] = True
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:

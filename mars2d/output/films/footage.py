@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
@@ -14,10 +14,19 @@ from mars2d.output.films.cut import Cut
 from mars2d.record.frame import Frame, between
 from mars2d.scenario.scenario import Scenario
 
-if TYPE_CHECKING:
-    from mars2d.world.world import World
+__all__ = ["Filmed", "Footage", "shots"]
 
-__all__ = ["Footage", "shots"]
+
+class Filmed(Protocol):
+    """The members of a `World` that a film needs."""
+
+    @property
+    def iteration(self) -> int:
+        """The number of control steps so far."""
+
+    @property
+    def frame(self) -> Frame:
+        """The instant as it is seen now."""
 
 
 def shots(
@@ -61,7 +70,7 @@ class Footage:
         # Each moment lies between two rows, and both are needed.
         self._wanted = {*rows.tolist(), *(rows + 1).tolist()}
 
-    def __call__(self, world: World) -> None:
+    def __call__(self, world: Filmed) -> None:
         """Take the world's frame, if the film needs it."""
         if world.iteration in self._wanted:
             self.take(world.frame)

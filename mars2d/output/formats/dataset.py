@@ -9,7 +9,7 @@ import numpy as np
 
 from mars2d.core.errors import MissingExtraError
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.units import (
+from mars2d.output.formats.columns import (
     COLUMN_UNITS,
     CONTACT_UNITS,
     MESSAGE_UNITS,

@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 
 from mars2d.core.description import wrong
 from mars2d.core.errors import MissingExtraError, nearest
-from mars2d.output.formats.bodies import INPUTS, Part, parts_of
-from mars2d.output.formats.units import (
+from mars2d.output.formats.columns import (
     COLUMN_UNITS,
     CONTACT_UNITS,
+    INPUTS,
     MESSAGE_UNITS,
     POSE_UNITS,
+    Part,
     command_units,
+    parts_of,
     sensor_units,
 )
 from mars2d.record.message import STATUS

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, Mars2dError
-from mars2d.output.formats.size import check_size
+from mars2d.core.errors import InputError
+from mars2d.output.formats.guard import check_size
 from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE, STATUS
@@ -32,7 +31,6 @@ __all__ = [
     "numbers_of",
     "of_record",
     "of_text",
-    "reading",
     "restored",
     "to_record",
     "with_shapes",
@@ -111,23 +109,6 @@ def names_in(header: Mapping[str, Any]) -> list[str]:
 def names_of_bodies(header: Mapping[str, Any]) -> list[str]:
     """Return those of the names in a file that have a row for each time."""
     return [*COLUMNS, *(f"sensor:{name}" for name in header["sensor_robots"])]
-
-
-@contextmanager
-def reading(path: Path) -> Iterator[None]:
-    """Let whatever goes wrong while a file is read be said in one line that names it."""
-    try:
-        yield
-    except Mars2dError as error:
-        if str(path) in str(error):
-            raise
-        raise InputError(f"{path}: {error}") from error
-    except MemoryError as error:
-        raise InputError(f"{path}: there is not enough memory to read it") from error
-    except OSError as error:
-        raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
-    except Exception as error:  # zip, zlib, numpy, scipy, json, protobuf have their own each
-        raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
 
 
 def check_format(header: Mapping[str, Any]) -> None:

@@ -12,16 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.bodies import Holonomic
 from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError
 from mars2d.output.formats import header as headers
+from mars2d.output.formats.columns import plain_names
+from mars2d.output.formats.guard import in_bytes, reading
 from mars2d.output.formats.mat5 import read_struct
-from mars2d.output.formats.naming import plain_names
-from mars2d.output.formats.size import in_bytes
 from mars2d.record.record import Record
 
-__all__ = ["read", "require", "write"]
+__all__ = ["read", "write"]
 
 NAME = "out_data"
 
@@ -35,10 +34,6 @@ HISTORY = {
 
 INDICES = {"contact:a", "contact:b", "message:sender", "message:receiver", "message:content"}
 """Columns that count something from 0; those below 0, obstacles, are counted from -1 anyway."""
-
-
-def require(path: Path) -> None:
-    """Need nothing: scipy is there."""
 
 
 def write(record: Record, path: Path) -> None:
@@ -64,7 +59,7 @@ def write(record: Record, path: Path) -> None:
 
 def read(path: Path, largest: int) -> Record:
     """Read the record in a file; InputError where there is none, or it is larger than allowed."""
-    with headers.reading(path):
+    with reading(path):
         out = read_struct(path, NAME, largest)
         header = headers.of_text(path, out["Header"], largest)
         places, shapes = _places(header), header["columns"]
@@ -116,7 +111,7 @@ def _looks(record: Record) -> dict[str, Any]:
         "Stop_time": scenario.stop_time,
         "Workspace": np.array(workspace) if workspace else np.empty((0, 2)),
         "Bounds": np.array([scenario.bounds]),
-        "Non_holonomic": np.array([[not isinstance(drive, Holonomic) for drive in drives]]),
+        "Non_holonomic": np.array([[not drive.holonomic for drive in drives]]),
         "Command_delay": scenario.command_delay,
         "Exp_over": record.finished,
         "Exp_over_msg": _text(record.over_message),

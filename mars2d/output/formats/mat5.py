@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from mars2d.core.errors import InputError
-from mars2d.output.formats.size import check_size
+from mars2d.output.formats.guard import check_size
 
 __all__ = ["read_struct"]
 

@@ -12,16 +12,12 @@ from numpy.typing import NDArray
 
 from mars2d.core.atomic import replacing
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.size import check_size
+from mars2d.output.formats.guard import check_size, reading
 from mars2d.record.record import Record
 
-__all__ = ["read", "require", "write"]
+__all__ = ["read", "write"]
 
 HEADER = "header"
-
-
-def require(path: Path) -> None:
-    """Need nothing: numpy is there."""
 
 
 def write(record: Record, path: Path) -> None:
@@ -34,7 +30,7 @@ def write(record: Record, path: Path) -> None:
 
 def read(path: Path, largest: int) -> Record:
     """Read the record in a file; InputError where there is none, or it is larger than allowed."""
-    with headers.reading(path), ZipFile(path) as archive:
+    with reading(path), ZipFile(path) as archive:
         long = archive.getinfo(f"{HEADER}.npy").file_size
         check_size(path, headers.OBJECTS * long, largest)
         header = headers.of_text(path, _array(archive, HEADER).tobytes(), largest)

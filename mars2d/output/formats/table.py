@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 
 from mars2d.core.atomic import replacing
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.bodies import FIRST, LAST, Part, parts_of
-from mars2d.output.formats.size import check_size
+from mars2d.output.formats.columns import KEYS, LAST, Part, parts_of
+from mars2d.output.formats.guard import check_size, reading
 from mars2d.record.record import Record
 
-__all__ = ["read", "require", "write"]
+__all__ = ["read", "write"]
 
 PIECE = 30_000
 """Characters of JSON in a cell: a spreadsheet's holds 32 767."""
@@ -35,10 +35,6 @@ NAN = np.array(np.nan).view(np.uint64) << np.uint64(1)
 """The bits of the usual one, but for its sign."""
 
 Columns = Mapping[str, NDArray[Any]]
-
-
-def require(path: Path) -> None:
-    """Need nothing: Python writes tables itself."""
 
 
 def write(record: Record, path: Path) -> None:
@@ -56,7 +52,7 @@ def write(record: Record, path: Path) -> None:
     names = [str(body.name) for body in record.scenario.bodies]
     with replacing(path) as binary, io.TextIOWrapper(binary, "utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow([*FIRST, *parts, LAST])
+        table.writerow([*KEYS, *parts, LAST])
         for rows in _blocks(len(record), len(names) * len(parts)):
             cells = [_cells(columns, column, rows, len(names)) for column in parts.values()]
             times = chain.from_iterable(
@@ -65,12 +61,12 @@ def write(record: Record, path: Path) -> None:
             bodies = names * (rows.stop - rows.start)
             last = chain(islice(pieces, len(bodies)), repeat(""))
             table.writerows(zip(times, bodies, *cells, last, strict=False))
-        table.writerows([*repeat("", len(FIRST) + len(parts)), piece] for piece in pieces)
+        table.writerows([*repeat("", len(KEYS) + len(parts)), piece] for piece in pieces)
 
 
 def read(path: Path, largest: int) -> Record:
     """Read the record in a file; InputError where there is none, or it is larger than allowed."""
-    with headers.reading(path), path.open(encoding="utf-8-sig", newline="") as file:
+    with reading(path), path.open(encoding="utf-8-sig", newline="") as file:
         size = path.stat().st_size
         check_size(path, size, largest)
         text = "".join(_pieces(csv.reader(file, strict=True)))
@@ -104,7 +100,7 @@ def _pieces(table: Iterator[list[str]]) -> Iterator[str]:
 def _values(header: Mapping[str, Any], table: Iterator[list[str]]) -> dict[str, NDArray[Any]]:
     """Return the columns in a table, and those that are in its header to the last bit."""
     shapes, parts = header["columns"], _parts(header)
-    if next(table) != [*FIRST, *parts, LAST]:
+    if next(table) != [*KEYS, *parts, LAST]:
         raise ValueError("names of columns")
     names = headers.names_of_bodies(header)
     found = {name: np.empty(shapes[name][1], shapes[name][0]) for name in names}
@@ -114,7 +110,7 @@ def _values(header: Mapping[str, Any], table: Iterator[list[str]]) -> dict[str, 
         lines = list(islice(table, count * bodies))
         cells = np.array(lines, dtype=object).reshape(count, bodies, len(parts) + 3)
         found["time"][rows] = cells[:, 0, 0].astype(np.float64)
-        for k, column in enumerate(parts.values(), len(FIRST)):
+        for k, column in enumerate(parts.values(), len(KEYS)):
             for part in column:
                 values = found[part.name][rows][(slice(None), *part.at)]
                 texts = cells[:, list(part.bodies[: values.shape[1]]), k]

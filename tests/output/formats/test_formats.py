@@ -17,7 +17,7 @@ from scipy.io import loadmat, savemat
 
 import mars2d
 from mars2d import InputError
-from mars2d.output.formats.naming import KEYWORDS, LONGEST, plain_names
+from mars2d.output.formats.columns import KEYWORDS, MAX_NAME, plain_names
 from tests.output.formats.records import FORMATS, cut_to, everything, records, refused
 
 each_format = pytest.mark.parametrize("suffix", FORMATS)
@@ -72,7 +72,7 @@ def test_names_for_other_programs_are_plain_and_differ(names):
         assert name.isidentifier()
         assert name[0].isalpha()
         assert name not in KEYWORDS
-        assert len(name) <= LONGEST
+        assert len(name) <= MAX_NAME
 
 
 # -- what is no record ----------------------------------------------------------------------
