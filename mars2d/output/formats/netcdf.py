@@ -103,7 +103,8 @@ class _Once(BufferedReader):
 
     def __init__(self, path: Path) -> None:
         super().__init__(FileIO(path))
-        self._left = path.stat().st_size + 4  # the first bytes are read twice
+        self._size = path.stat().st_size
+        self._left = self._size + 4  # the first bytes are read twice
 
     def read(self, size: int | None = -1) -> bytes:
         """Return the next bytes. Raises ValueError for more than may be left."""
@@ -111,3 +112,9 @@ class _Once(BufferedReader):
             raise ValueError("more than there is")
         self._left -= size
         return super().read(size)
+
+    def seek(self, offset: int, whence: int = 0) -> int:
+        """Go to a place in the file. Raises ValueError for any other."""
+        if not 0 <= offset <= self._size:
+            raise ValueError("a place outside the file")
+        return super().seek(offset, whence)
