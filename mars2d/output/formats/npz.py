@@ -41,13 +41,13 @@ def read(path: Path, largest: int) -> Record:
 
 
 def _array(archive: ZipFile, name: str) -> NDArray[Any]:
-    """Return an array of an archive; ValueError where it isn't as large as it claims to be.
+    """Return an array of an archive. Raises ValueError if it isn't as large as it claims to be.
 
-    numpy would take as much memory as is claimed before it reads.
+    numpy's own reader takes as much memory as is claimed before it reads.
     """
     place = archive.getinfo(f"{name}.npy")
     if place.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-        raise ValueError(name)  # the others take memory as they please
+        raise ValueError(name)  # others decompress without a limit
     with archive.open(place) as file:
         version = np.lib.format.read_magic(file)
         heads = {(1, 0): np.lib.format.read_array_header_1_0,

@@ -203,7 +203,7 @@ class Log:
             self._do(lambda: pack(self.path, self._header, self._begun))
 
     def _do(self, act: Callable[[], None]) -> None:
-        """Do something with the file. Where it fails, close the log and give the error the record."""
+        """Do something with the file. If it fails, close the log and give the error the record."""
         try:
             act()
         except InputError as error:
