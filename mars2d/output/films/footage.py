@@ -1,4 +1,4 @@
-"""What a film is made of: frames of a run, recorded or taken as it happens."""
+"""The frames of a film, from a record or taken while the run goes on."""
 
 from __future__ import annotations
 
@@ -32,24 +32,24 @@ class Filmed(Protocol):
 def shots(
     cut: Cut, sampling_time: float, last: int, frame: Callable[[int], Frame]
 ) -> Iterator[Frame]:
-    """Yield the frames of a film, between the sampling times as well.
+    """Yield the frames of a film, also between the sampling times.
 
-    frame: returns that of a row, from 0 to `last`; it is asked for rows in their order, once each.
+    frame: returns the frame of a row, from 0 to `last`; called once for each row, in order.
     """
     seen: dict[int, Frame] = {}
     for time in cut.moments.tolist():
         row = min(int(time / sampling_time + 1e-9), last)
         rows = (row,) if row == last else (row, row + 1)
-        # The same objects as long as they are seen: what is drawn of them is then kept.
+        # The same objects as long as they are seen, so that painters can keep what they draw.
         seen = {each: seen.get(each) or frame(each) for each in rows}
         on_time = row == last or time - row * sampling_time < 1e-9 * max(1.0, time)
         yield seen[row] if on_time else between(seen[row], seen[row + 1], time)
 
 
 class Footage:
-    """Takes those frames of a run that a film of it needs; add it to the run's watchers.
+    """Takes the frames of a run that a film needs; add it to the run's watchers.
 
-    Live frames hold what add-ons draw, which a record does not.
+    Unlike those of a record, frames of a live run have the drawings of add-ons.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class Footage:
         start: float | None = None,
         end: float | None = None,
     ) -> None:
-        """Take what `Cut.of` takes; the run may end earlier than the scenario lets it."""
+        """Choose the part of the run; see `Cut.of`. The run may end before the part does."""
         self.speed = speed
         self._sampling_time = scenario.sampling_time
         last = scenario.last_iteration * scenario.sampling_time
@@ -76,7 +76,7 @@ class Footage:
             self.take(world.frame)
 
     def take(self, frame: Frame) -> None:
-        """Take a frame, with what the add-ons draw now."""
+        """Take a frame, with the present drawings of the add-ons."""
         if frame.draw_addons is not None:
             scene = Scene()
             frame.draw_addons(scene)
@@ -95,11 +95,11 @@ class Footage:
         yield from shots(cut, self._sampling_time, last.iteration, self._frames.__getitem__)
 
     def count(self, last: Frame) -> int:
-        """Return how many frames the film has."""
+        """Return the number of the film's frames."""
         return self._until(last).count
 
     def _until(self, last: Frame) -> Cut:
-        """Return the part that the run has, which may have ended early."""
+        """Return the part as far as the run got."""
         if last.time < self._cut.start:
             raise InputError(
                 f"a film from {self._cut.start:g} s on: the run ended at {last.time:g} s"
