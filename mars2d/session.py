@@ -74,7 +74,7 @@ def run(
                 _keep(error, error.record, target, log)
             raise
         if target is not None and log is None:
-            from mars2d.output.formats.rescue import save_or_rescue
+            from mars2d.output.formats import save_or_rescue
 
             save_or_rescue(result, target)
     return result
@@ -96,7 +96,7 @@ def _output(record: str | Path) -> tuple[Path, Log | None]:
 
 def _keep(error: BaseException, record: Record, target: Path, log: Log | None) -> None:
     """Save what was recorded until an error, which is the one that counts."""
-    from mars2d.output.formats.rescue import rescued, save_or_rescue
+    from mars2d.output.formats import rescued, save_or_rescue
 
     if log is None:
         try:

@@ -18,7 +18,6 @@ from mars2d.core.interrupt import held_back
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
-from mars2d.output.formats.rescue import rescued, save_or_rescue
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
 from mars2d.world.loop import Interrupted
@@ -144,10 +143,10 @@ def save_record(arguments: argparse.Namespace, record: Record) -> None:
     If the record can't be saved in its place, it is kept elsewhere, and InputError says where.
     """
     target: Path = arguments.record
-    if target.suffix.lower() != formats.STREAMED:
-        save_or_rescue(record, target)
+    if not formats.is_streamed(target):
+        formats.save_or_rescue(record, target)
     elif not target.exists():
-        place = rescued(record, target)
+        place = formats.rescued(record, target)
         kept = "lost" if place is None else f"kept as {place}"
         raise InputError(f"{target}: is not there any more; the record is {kept}")
     for branch in record.branches:

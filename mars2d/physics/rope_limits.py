@@ -22,7 +22,7 @@ from mars2d.bodies.constraints import (
     TurningSpring,
 )
 from mars2d.bodies.rigid import Rigid
-from mars2d.geometry.pair_list import TINY
+from mars2d.core.plane import TINY
 from mars2d.physics.settings import BENT, SWING, TAUT
 
 __all__ = ["RopeLimits"]

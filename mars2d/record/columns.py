@@ -1,4 +1,4 @@
-"""Columns that grow: in memory, or in files that nobody else sees."""
+"""Columns that grow, in memory or in unnamed files."""
 
 from __future__ import annotations
 
@@ -18,87 +18,86 @@ from mars2d.core.errors import InputError
 
 __all__ = ["Column", "DiskError", "Scratch", "Storage", "Texts", "blocks"]
 
-RESERVED = 2**25
-"""How much memory a column takes before it grows, bytes."""
+MAX_RESERVED = 2**25
+"""The most memory that a column takes before it grows, bytes."""
 
 WINDOW = 2**18
 """How much of a column in a file stays in memory after it was written, bytes."""
 
 FIRST, STEP = 2**16, 2**22
-"""By how much a file of a column grows at first, and once it has grown, at least, bytes."""
+"""The least growth of a column's file, at first and when it is large, bytes."""
 
 BLOCK = 2**20
-"""How much is read at once of what may be larger than memory, bytes."""
+"""How much of a column that may be larger than memory is read at once, bytes."""
 
 
 class DiskError(InputError):
-    """What a run records can't be kept any more: the disk is full, or a file is gone."""
+    """A run's record can't be kept any more: the disk is full, or a file is gone."""
 
 
 class Column:
-    """An array that rows are appended to, its capacity doubling.
+    """An array to which rows are appended; its capacity doubles when it is full.
 
-    Rows that were written are not changed again, so a view of them stays as it is.
+    Rows that were written are never changed, so a view of them stays valid.
     """
 
     def __init__(self, shape: tuple[int, ...], dtype: Any, capacity: int) -> None:
         row = max(1, prod(shape) * np.dtype(dtype).itemsize)
-        self._rows = np.zeros((max(1, min(capacity, RESERVED // row)), *shape), dtype=dtype)
+        self._rows = np.zeros((max(1, min(capacity, MAX_RESERVED // row)), *shape), dtype=dtype)
         self.shape, self.dtype = shape, self._rows.dtype
 
     def write(self, row: int, value: Any) -> None:
-        """Write one row, at most the next one."""
+        """Write a row, at most the one after the last."""
         if row >= len(self._rows):
             self._grow(row, row + 1)
         self._rows[row] = value
 
     def write_block(self, row: int, values: NDArray[Any]) -> None:
-        """Write some rows, beginning with at most the next one."""
+        """Write several rows, of which the first is at most the one after the last."""
         end = row + len(values)
         if end > len(self._rows):
             self._grow(row, end)
         self._rows[row:end] = values
 
     def row(self, row: int) -> Any:
-        """Return one row, to be read only."""
+        """Return a row, which must not be changed."""
         return self._rows[row]
 
     def upto(self, count: int) -> NDArray[Any]:
-        """Return the first rows, as a view that can't be written."""
+        """Return the first `count` rows, as a view that can't be written."""
         view = self._rows[:count]
         view.flags.writeable = False
         return view
 
     def _grow(self, filled: int, rows: int) -> None:
-        """Make room for more rows; the first `filled` ones hold something."""
+        """Make room for `rows` rows, and keep the first `filled` ones."""
         grown = np.zeros((2 * rows, *self.shape), dtype=self.dtype)
         grown[:filled] = self._rows[:filled]
         self._rows = grown
 
 
 Storage = Callable[[tuple[int, ...], Any, int], Column]
-"""What makes a column: of the shape of a row, the kind of its numbers, and how many rows."""
+"""Makes a column from the shape of a row, the type of its numbers, and the expected rows."""
 
 
 class Scratch:
-    """Makes columns in files of a folder that have no name and are gone with the process.
+    """Makes columns in unnamed files of a folder, which vanish with the process.
 
-    So what is recorded takes no memory, however much it is. Raises DiskError where there is no
-    room.
+    Such columns take no memory, however long they are. Raises DiskError where there is no room.
     """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
     def __call__(self, shape: tuple[int, ...], dtype: Any, capacity: int) -> Column:
-        """Return a column; one whose rows are empty takes no file."""
+        """Return a column, in memory if its rows are empty."""
         if prod(shape) == 0:
             return Column(shape, dtype, capacity)
         return _FileColumn(self._folder, shape, dtype)
 
 
 class _FileColumn(Column):
-    """A column in a file, which is mapped into memory; only its end stays there."""
+    """A column in a file that is mapped into memory, of which only the end stays there."""
 
     def __init__(self, folder: Path, shape: tuple[int, ...], dtype: Any) -> None:
         self.shape, self.dtype = shape, np.dtype(dtype)
@@ -111,12 +110,12 @@ class _FileColumn(Column):
         if rows * self._row > self._size:
             self._extend(rows * self._row)
         _let_go(self._map)
-        # What is mapped is shown piece by piece, so that this is called after each piece.
+        # The array ends a window further on, so that this is called again after each window.
         end = min(self._size // self._row, rows + WINDOW // self._row)
         self._rows = np.ndarray((end, *self.shape), self.dtype, self._map)
 
     def _extend(self, least: int) -> None:
-        """Map more of the file. Views of what was mapped before show the same file."""
+        """Make the file longer and map it anew. Views of the former map show the same file."""
         from tempfile import TemporaryFile
 
         more = max(FIRST, min(self._size, STEP), self._size // 8)
@@ -137,9 +136,9 @@ class _FileColumn(Column):
 
 
 def _reserve(file: int, start: int, count: int) -> None:
-    """Make a file longer by bytes that the disk really has.
+    """Make a file longer by bytes for which the disk has room.
 
-    Else a full disk would end the process when a page of the mapped file can't be written.
+    Otherwise a full disk ends the process when a page of the mapped file can't be written.
     """
     if hasattr(os, "posix_fallocate"):
         os.posix_fallocate(file, start, count)
@@ -150,13 +149,13 @@ def _reserve(file: int, start: int, count: int) -> None:
 
 
 def _let_go(mapped: mmap.mmap) -> None:
-    """Let pages of a file leave the memory; they are read again when they are looked at."""
+    """Let the pages of a mapped file leave the memory; they are read again when needed."""
     if hasattr(mmap, "MADV_DONTNEED"):
         mapped.madvise(mmap.MADV_DONTNEED)
 
 
 def blocks(column: NDArray[Any]) -> Iterator[NDArray[Any]]:
-    """Yield an array piece by piece; of one that is kept in a file, no more stays in memory."""
+    """Yield an array piece by piece. If it is kept in a file, only a piece stays in memory."""
     mapped: Any = column
     while isinstance(mapped, np.ndarray):
         mapped = mapped.base
@@ -169,7 +168,7 @@ def blocks(column: NDArray[Any]) -> Iterator[NDArray[Any]]:
 
 
 class Texts(Sequence[str]):
-    """Texts one after the other, as bytes of UTF-8; each is made when it is asked for."""
+    """Texts, kept one after the other as bytes of UTF-8; each is decoded when it is asked for."""
 
     def __init__(self, storage: Storage = Column) -> None:
         self._data = storage((), np.uint8, 1024)
@@ -179,7 +178,7 @@ class Texts(Sequence[str]):
 
     @classmethod
     def of(cls, texts: Sequence[str]) -> Texts:
-        """Return texts as such; what is that already stays as it is."""
+        """Return texts as `Texts`, and `Texts` as they are."""
         if isinstance(texts, Texts):
             return texts
         result = cls()
@@ -197,7 +196,7 @@ class Texts(Sequence[str]):
         self._count += 1
 
     def snapshot(self) -> Texts:
-        """Return the texts so far, to which nothing is added any more."""
+        """Return the texts so far; later ones are not added to them."""
         return copy(self)
 
     @property
@@ -207,7 +206,7 @@ class Texts(Sequence[str]):
 
     @property
     def sizes(self) -> NDArray[np.int64]:
-        """How many bytes each text has."""
+        """The number of bytes of each text."""
         return self._sizes.upto(self._count)
 
     def __len__(self) -> int:

@@ -1,4 +1,4 @@
-"""Contacts as data: who touched whom, when, where, how hard, for how long."""
+"""Contacts as data: who touched whom, when, where, how hard, and for how long."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ CONTACT = np.dtype(
         ("ended", "?"),  # whether they had parted by the end of the control step
     ]
 )
-"""One row a pair and control step in which the pair touched."""
+"""A row for each pair and control step in which the pair touched."""
 
 EPISODE = np.dtype(
     [
@@ -43,15 +43,16 @@ EPISODE = np.dtype(
         ("tangential_impulse", "f8"),  # N s, on b
     ]
 )
-"""One row a pair and time that it stayed in touch."""
+"""A row for each time that a pair touched until it parted."""
 
 
 class Solved(NamedTuple):
-    """What the solver found after one substep, a row a contact of two shapes.
+    """The solver's results of one substep, a row for each contact of two shapes.
 
-    bodies: (k, 2), robots and props as 0, 1, ..., obstacles as -1, -2, ... impulse: (k, 2) N s, up
-    to its sign. normal: (k, 2) from the first to the second. on_first, on_second: (k, 2) the points
-    on their surfaces. velocity: (k, 2) m/s of the second's point against the first's, before.
+    bodies: (k, 2), robots and props as 0, 1, ..., obstacles as -1, -2, ... impulse: (k, 2) N s, its
+    sign undefined. normal: (k, 2) from the first body to the second. on_first, on_second: (k, 2) m,
+    the points on their surfaces. velocity: (k, 2) m/s, of the second body's point relative to the
+    first's, before the substep.
     """
 
     bodies: Int
@@ -63,20 +64,20 @@ class Solved(NamedTuple):
 
 
 class ContactLog:
-    """Gathers the contacts of the substeps of a control step, and sums them up by pairs."""
+    """Collects the contacts of a control step's substeps, and adds them up by pairs."""
 
     def __init__(self) -> None:
         """Start without contacts."""
-        self._notes: list[tuple[float, float, bool]] = []  # time, length, whether it goes on
+        self._notes: list[tuple[float, float, bool]] = []  # time, length, whether contacts go on
         self._solved: list[Solved] = []
         self._touching: list[tuple[Int, Int]] = []
-        self._goes_on = True  # whether something touched after the substep before
+        self._goes_on = True  # whether something touched after the last substep
         self._before: set[int] = set()  # the pairs that touched at the last call of `take`
 
     def add(self, time: float, h: float, solved: Solved, touching: tuple[Int, Int]) -> None:
-        """Note what the solver lists after a substep of h seconds, and which pairs do touch.
+        """Add the solver's results after a substep of h seconds, and the pairs that touch.
 
-        touching: bodies (a, b), b negative for obstacles.
+        touching: two arrays of bodies, (a, b); b is negative for obstacles.
         """
         self._notes.append((time, h, self._goes_on))
         self._solved.append(solved)
@@ -84,11 +85,11 @@ class ContactLog:
         self._goes_on = True
 
     def add_nothing(self) -> None:
-        """Note that nothing touches after a substep."""
+        """Add a substep after which nothing touches."""
         self._goes_on = False
 
     def take(self) -> NDArray[np.void]:
-        """Return the contacts since the last call, by time, one row (dtype CONTACT) a pair."""
+        """Return the contacts since the last call, by time: a row (dtype CONTACT) for each pair."""
         notes, solved, touching = self._notes, self._solved, self._touching
         before, ongoing = self._before, self._goes_on
         self._notes, self._solved, self._touching, self._goes_on = [], [], [], True
@@ -99,7 +100,7 @@ class ContactLog:
         bodies, impulse, normal, first, second, velocity = _joined(solved)
         a, b = _ordered(*bodies.T)
         key, substep = _key(a, b), _repeated([len(one.bodies) for one in solved])
-        # Those listed in a substep that touch after it; the others parted shortly before.
+        # Of the contacts in a substep those that touch after it; the others have just parted.
         touched = _repeated([len(one) for one, _ in touching]).tolist()
         touch = set(zip(touched, _key(*_ordered(*_joined(touching))).tolist(), strict=True))
         listed = zip(substep.tolist(), key.tolist(), strict=True)
@@ -110,11 +111,11 @@ class ContactLog:
         normal = np.where(swap, -normal[rows], normal[rows])
         velocity = np.where(swap, -velocity[rows], velocity[rows])
         point = np.where(swap, second[rows], first[rows])
-        # On b, and away from a: the sign that the solver gives depends on the order of the shapes.
+        # On b, and away from a: the solver's sign depends on the order of the shapes.
         away = (impulse * normal).sum(axis=1)
         impulse = np.where(away[:, None] < 0, -impulse, impulse)
-        # The solver lists them in the order of addresses in memory: put them in one that is always
-        # the same, the strongest of a pair and substep first.
+        # The solver lists contacts in the order of addresses in memory. Put them in an order that
+        # is always the same, with the strongest of a pair and substep first.
         strength = np.hypot(impulse[:, 0], impulse[:, 1])
         order = np.lexsort((*normal.T[::-1], *point.T[::-1], -strength, key, substep))
         key, substep, impulse, normal = key[order], substep[order], impulse[order], normal[order]
@@ -136,7 +137,7 @@ class ContactLog:
         result["duration"] = total(who, lengths[stayed])
         fresh, met = ~there[0], velocity[order][row]
         result["began"], result["ended"] = fresh, ~there[-1] | (not ongoing)
-        # What touched before does so from the start of the control step.
+        # Contacts that go on begin at the start of the control step.
         start = np.where(fresh, 0.0, lengths[substep[row]])
         result["time"] = times[substep[row]] - start
         result["speed"] = np.where(fresh, -(met * normal[row]).sum(axis=1), 0.0)
@@ -146,9 +147,9 @@ class ContactLog:
 
 
 def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:
-    """Return what stayed in touch from when to when, one row (dtype EPISODE) an episode.
+    """Return the episodes of contacts, each from touch to parting: a row (dtype EPISODE) each.
 
-    contacts: rows of dtype CONTACT, in the order of time, as ``record.contacts``.
+    contacts: rows of dtype CONTACT, in the order of time, such as ``record.contacts``.
     """
     key = _key(contacts["a"], contacts["b"])
     order = np.lexsort((contacts["time"], key))
@@ -168,11 +169,11 @@ def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:
 
 
 def rows_of(contacts: NDArray[np.void], time: Float, sampling_time: float) -> NDArray[np.intp]:
-    """Return the row of a record that each contact's control step led to, (c,).
+    """Return the row of a record at the end of each contact's control step, (c,).
 
-    contacts: (c,) of dtype CONTACT. time: (T,) seconds, of the rows; of what came after the last
-    one the row is T. What began at the very end of a control step belongs to it; what began before
-    it, and has the time of its start, does too.
+    contacts: (c,) of dtype CONTACT. time: (T,) seconds, of the rows; contacts after the last row
+    get T. A contact that begins at the very end of a control step belongs to it, and so does one
+    that went on from before, whose time is the step's start.
     """
     rounding = 1e-6 * sampling_time
     within = contacts["time"] + np.where(contacts["began"], -rounding, rounding)
@@ -180,26 +181,26 @@ def rows_of(contacts: NDArray[np.void], time: Float, sampling_time: float) -> ND
 
 
 def _ordered(a: Int, b: Int) -> tuple[Int, Int]:
-    """Return pairs with the lower body first, an obstacle last."""
+    """Return pairs with the lower index first, but obstacles second."""
     swap = (a < 0) | ((b >= 0) & (b < a))
     return np.where(swap, b, a), np.where(swap, a, b)
 
 
 def _joined(parts: Sequence[tuple[NDArray[Any], ...]]) -> list[NDArray[Any]]:
-    """Return the columns of several notes in one array each."""
+    """Join the parts of each column."""
     return [np.concatenate(column) for column in zip(*parts, strict=True)]
 
 
 def _repeated(counts: list[int]) -> Int:
-    """Return 0 as often as the first number says, then 1, and so on."""
+    """Return 0 repeated counts[0] times, then 1 repeated counts[1] times, and so on."""
     return np.repeat(np.arange(len(counts)), counts)
 
 
 def _across(vector: Float, normal: Float) -> Float:
-    """Return the parts of vectors (k, 2) along normals turned by +90 degrees."""
+    """Return the components of vectors (k, 2) along normals turned by +90 degrees."""
     return np.asarray(vector[:, 1] * normal[:, 0] - vector[:, 0] * normal[:, 1])
 
 
 def _key(a: Int, b: Int) -> Int:
-    """Return one number a pair (a, b); those of a come in order, then those of b."""
+    """Return a number for each pair, which sorts pairs by a, then by b."""
     return (np.asarray(a, dtype=np.int64) << 32) + np.asarray(b, dtype=np.int64) + (1 << 31)

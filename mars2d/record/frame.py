@@ -1,4 +1,4 @@
-"""One instant of an experiment as it is seen, live or recorded."""
+"""One instant of an experiment, live or recorded, with everything that can be seen of it."""
 
 from __future__ import annotations
 
@@ -38,18 +38,17 @@ def _no_readings(name: str, robot: int) -> None:  # noqa: ARG001
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """What is seen at one instant.
+    """The state of an experiment at one instant, and its past.
 
     pose: (3, n) now. path: (k, 3, n), the poses at all sampling times before, from the start on.
     readings: for each sensor's name the pairs (robot index, reading). sensed: (3, n), the poses at
-    which they were read, where these are others than `pose`. draw_addons: adds the add-ons' shapes
-    to a scene, where they are alive. prop_pose: (3, p). contacts: those of the control step that
-    led here, and effort (n,) of the drives in it. contact_log: returns all contacts so far.
-    prop_path: (k, 3, p), effort_path: (k, n) and command_path: (k, 2, n), as path; they may be left
-    empty. messages: those that were under way in the control step that led here. message_log:
-    returns all so far, and the texts that their field `content` numbers. reading_path: returns what
-    a sensor, by its name, read on a robot at the times of `path`, (k, ...), or None where that is
-    not known.
+    which the sensors were read, if they differ from `pose`. draw_addons: adds the add-ons' shapes
+    to a scene; None if they are unknown. prop_pose: (3, p). contacts: of the control step that led
+    here; effort: (n,), of the drives in it. contact_log: returns all contacts so far. prop_path:
+    (k, 3, p), effort_path: (k, n), and command_path: (k, 2, n), at the times of `path`; they may be
+    empty. messages: under way in the control step that led here. message_log: returns all messages
+    so far, and the texts to which their field `content` refers. reading_path: returns the readings
+    of a sensor, by its name, on a robot at the times of `path`, (k, ...), or None if unknown.
     """
 
     scenario: Scenario
@@ -76,7 +75,7 @@ class Frame:
     def velocity(self) -> Float:
         """The mean velocities (3, n + p) of robots and props: x', y' [m/s], theta' [rad/s].
 
-        Over the control step that led here, as far as it has got; 0 where that is not known.
+        The mean is over the control step that led here, as far as it has got; 0 if unknown.
         """
         velocity = np.zeros((3, self.pose.shape[1] + self.prop_pose.shape[1]))
         dt = self.scenario.sampling_time
@@ -90,10 +89,10 @@ class Frame:
 
 
 def between(first: Frame, second: Frame, time: float) -> Frame:
-    """Return what is seen at a time [s] between two frames: poses linear, all else of the first.
+    """Return the frame at a time [s] between two frames, its poses by linear interpolation.
 
-    Only contacts, efforts and messages are the second's: those of the control step that leads
-    there. A time before or after both is taken as the first's or the second's.
+    Contacts, efforts and messages are the second's, of the control step that leads there; all else
+    is the first's. A time outside is clipped to that of the first or the second.
     """
     span = second.time - first.time
     if span <= 0 or time >= second.time:

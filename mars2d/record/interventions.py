@@ -1,7 +1,7 @@
-"""What was done to a running world from outside: bodies put elsewhere or pulled, parts changed.
+"""Interventions: changes that somebody made to a running world, such as moving or pulling bodies.
 
-Each has its `row`: it was done at that row of the record, before its commands took effect. With
-the commands they make a run again, to the bit.
+Each has its `row` in the record, and was made before the commands of that row took effect. A run
+can be repeated to the bit from its commands and interventions.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Triple = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A body was put at a pose (x, y [m], theta [rad]); it stood still then.
+    """A body was put at a pose (x, y [m], theta [rad]), at rest.
 
     body: its index in `Scenario.bodies`.
     """
@@ -34,11 +34,11 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Pull:
-    """A body was pulled by a spring of limited force, until another word of it.
+    """A body was pulled by a spring of limited force, until the next `Pull` of that body.
 
-    grip: the point of the body that is held, in its own frame [m]. target: where it is pulled to
-    [m]; None: it was let go. force: the most that the spring pulls with [N]. speed: the most at
-    which it draws [m/s].
+    grip: the point of the body that is held [m], in its own frame. target: the point to which it is
+    pulled [m]; None if it was let go. force: the spring's largest force [N]. speed: the largest
+    speed at which it draws [m/s].
     """
 
     row: int
@@ -51,7 +51,7 @@ class Pull:
 
 @dataclass(frozen=True, slots=True)
 class Steer:
-    """A robot was driven by hand from here on, or no more; the commands tell how.
+    """A robot was driven by hand from here on, or no longer; its commands are in the record.
 
     robot: its index.
     """
@@ -63,10 +63,10 @@ class Steer:
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """The scenario was changed: obstacles, workspace, add-ons that only draw, laws.
+    """The scenario was changed: obstacles, workspace, add-ons that only draw, or laws.
 
-    moved: bodies that were put elsewhere with it, by index in `Scenario.bodies`, and their poses.
-    control: the law of the team from then on, which a file does not keep.
+    moved: bodies that were moved at the same time, by index in `Scenario.bodies`, and their poses.
+    control: the law of the team from then on, which files do not keep.
     """
 
     row: int
@@ -86,13 +86,13 @@ def to_plain(intervention: Intervention) -> dict[str, Any]:
 
 
 def of_plain(data: Any) -> Intervention:
-    """Return the intervention that `to_plain` made plain; raises what it may if that is none."""
+    """Return the intervention that `to_plain` made plain. Raises various exceptions if it can't."""
     values = {name: _read(value) for name, value in data.items() if name != "type"}
     return _KINDS[data["type"]](**values)
 
 
 def check(done: Sequence[Intervention], scenario: Scenario, rows: int) -> None:
-    """Raise ValueError for what can't have been done in a run of so many rows, in this order."""
+    """Raise ValueError for interventions that no run of `rows` rows can have, in this order."""
     robots, bodies = len(scenario.robots), len(scenario.bodies)
     before = 0
     for each in done:

@@ -1,4 +1,4 @@
-"""Messages as data: who told whom what, when, and whether it arrived."""
+"""Messages as data: who sent what to whom, when, and whether it arrived."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 STATUS = ("on its way", "delivered", "lost", "out of reach", "over the bandwidth")
-"""What became of a message, by the number in the field `status`."""
+"""The states of a message, by the number in the field `status`."""
 
 ON_ITS_WAY, DELIVERED, LOST, OUT_OF_REACH, OVER_BANDWIDTH = range(len(STATUS))
 
@@ -41,13 +41,13 @@ MESSAGE = np.dtype(
         ("status", "u1"),  # index of a word of STATUS
     ]
 )
-"""One row a message and receiver."""
+"""A row for each message and receiver."""
 
-MOST_BYTES = 65_536
-"""The largest content."""
+MAX_BYTES = 65_536
+"""The largest content, as JSON."""
 
-DEEPEST = 32
-"""How deep lists and dicts may lie in each other."""
+MAX_DEPTH = 32
+"""How deep lists and dicts may be nested."""
 
 ALLOWED = (
     "a message holds None, True and False, numbers, text, arrays of these, and lists, tuples and "
@@ -56,10 +56,10 @@ ALLOWED = (
 
 
 class Message(NamedTuple):
-    """A message as its receiver has it.
+    """A message as its receiver gets it.
 
-    sender: the index of the robot that sent it, and name its name. time: when it was sent, s.
-    content: a copy of what was sent, of the receiver's own; arrays and tuples arrive as lists.
+    sender: the index of the robot that sent it; name: its name. time: when it was sent, s. content:
+    the receiver's own copy of the content; arrays and tuples arrive as lists.
     """
 
     sender: int
@@ -69,10 +69,10 @@ class Message(NamedTuple):
 
 
 def as_text(content: Any) -> str:
-    """Return a message's content as it is recorded and measured: as compact JSON.
+    """Return a message's content as compact JSON, which is recorded and whose length is its size.
 
-    NaN and infinities are written ``NaN``, ``Infinity`` and ``-Infinity``, as Python's json reads
-    them. Raises LawError for whatever can't be recorded, and for more than `MOST_BYTES`.
+    NaN and infinities are written ``NaN``, ``Infinity`` and ``-Infinity``, which Python's json can
+    read. Raises LawError for content that can't be recorded, or of more than `MAX_BYTES`.
 
     >>> as_text({"goal": (1.5, 2), "free": True})
     '{"goal":[1.5,2],"free":true}'
@@ -85,15 +85,15 @@ def as_text(content: Any) -> str:
         raise _unfit("content", content, "half a character, which no file can hold") from None
     except ValueError:
         raise _unfit("content", content, "a whole number of too many digits") from None
-    if size > MOST_BYTES:
-        raise _unfit("content", content, f"{size} bytes, of at most {MOST_BYTES}")
+    if size > MAX_BYTES:
+        raise _unfit("content", content, f"{size} bytes, of at most {MAX_BYTES}")
     return text
 
 
 def _plain(value: Any, where: str, within: tuple[Any, ...]) -> Any:
     """Return a content, or the part of it at `where`, as None, bools, numbers, text, lists, dicts.
 
-    within: the lists and dicts that it lies in.
+    within: the lists and dicts around it.
     """
     if isinstance(value, np.generic):
         value = float(value) if isinstance(value, np.floating) else value.item()
@@ -108,8 +108,8 @@ def _plain(value: Any, where: str, within: tuple[Any, ...]) -> Any:
         raise _unfit(where, value, ALLOWED)
     if any(value is outer for outer in within):
         raise _unfit(where, value, "it holds itself")
-    if len(within) == DEEPEST:
-        raise _unfit(where, value, f"more than {DEEPEST} lists and dicts in each other")
+    if len(within) == MAX_DEPTH:
+        raise _unfit(where, value, f"more than {MAX_DEPTH} lists and dicts in each other")
     within = (*within, value)
     if not isinstance(value, dict):
         return [_plain(item, f"{where}[{i}]", within) for i, item in enumerate(value)]
@@ -124,7 +124,7 @@ def _unfit(where: str, value: Any, why: str) -> LawError:
 
 
 def as_of(messages: NDArray[np.void], time: float) -> NDArray[np.void]:
-    """Return a copy of messages (m,) with the `status` that they have at a time, s."""
+    """Return a copy of messages (m,) with their `status` at a time, s."""
     result = messages.copy()
     sent = messages["status"] <= DELIVERED
     arrived = messages["arrival"] <= time  # never for nan
@@ -138,8 +138,8 @@ def in_flight(
 ) -> NDArray[np.void]:
     """Return the messages that were under way in the control step that led to a time, s.
 
-    messages: (m,), by time sent. delay: s, for how long they are under way at most. Those that
-    never arrive are in it in the step in which they were sent.
+    messages: (m,), by time sent. delay: the longest time that a message is under way, s. Messages
+    that never arrive are under way in the step in which they were sent.
     """
     rounding = 1e-6 * sampling_time
     oldest = time - max(delay, sampling_time) - sampling_time

@@ -1,4 +1,4 @@
-"""What happened: the columns of a run over time, and how they are kept."""
+"""The record of a run: its columns over time, its contacts and messages."""
 
 from __future__ import annotations
 
@@ -34,7 +34,10 @@ __all__ = ["COLUMNS", "Record", "load"]
 Float = NDArray[np.float64]
 
 COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
-"""The columns that each record has, one row a control step."""
+"""The columns of every record, with a row for each control step."""
+
+LOAD_LIMIT = 2**31
+"""The most data that `load` reads by default, bytes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,14 +48,14 @@ class Record:
     ``time``, after saturation; it takes effect at command_time (T,). prop_pose: (T, 3, p). effort:
     (T, n), the largest share of its bounds that a drive used in the control step before. sensors:
     for each sensor's name an array (T, m, ...) of readings, of the m robots in
-    ``sensor_robots[name]``. contacts: one row a pair and control step, with the fields of
-    `mars2d.record.CONTACT`. messages: one row a message and receiver, with the fields of
-    `mars2d.record.MESSAGE`; contents: the JSON texts of what was sent, which their field `content`
-    numbers. over_message: why the run ended. finished: False when an error or Ctrl-C ended it, or
-    while it is not over. drawn: what the add-ons drew at its end, which a file does not keep.
-    missing: parts of the user's own that a file did not hold. interventions: what was done to the
-    world from outside, in order; `scenario` is what it was at the start. branches: what was run in
-    a window and left for this, which is kept in files of its own.
+    ``sensor_robots[name]``. contacts: a row for each pair and control step, with the fields of
+    `mars2d.record.CONTACT`. messages: a row for each message and receiver, with the fields of
+    `mars2d.record.MESSAGE`; contents: the texts that were sent, as JSON, to which their field
+    `content` refers. over_message: why the run ended. finished: False if an error or Ctrl-C ended
+    the run, or while it goes on. drawn: the add-ons' drawing at the end, which files do not keep.
+    missing: the user's own parts that a file could not hold. interventions: changes that were made
+    to the world from outside, in order; `scenario` is the one at the start. branches: runs in a
+    window that were left for this one, which are kept in files of their own.
     """
 
     scenario: Scenario
@@ -103,19 +106,19 @@ class Record:
 
     @property
     def collisions(self) -> int:
-        """How many times two bodies came to touch."""
+        """How many times two bodies began to touch."""
         return sum(int(block["began"].sum()) for block in blocks(self.contacts))
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """Return all columns as plain arrays, under the names that they have in a file.
+        """Return all columns as plain arrays, by their names in files.
 
-        Those of sensors, contacts and messages are ``sensor:NAME``, ``contact:FIELD`` and
-        ``message:FIELD``; the texts of messages are ``contents`` (UTF-8, one after the other) and
-        ``content_sizes`` (bytes of each).
+        The names for sensors, contacts and messages are ``sensor:NAME``, ``contact:FIELD`` and
+        ``message:FIELD``. The texts of messages are in ``contents`` (UTF-8, one after the other)
+        and ``content_sizes`` (the bytes of each).
         """
         columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in COLUMNS}
         columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
-        # Field by field, since a structured array holds undefined bytes between its fields.
+        # Field by field, since a structured array has undefined bytes between its fields.
         columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
         if self.contents:
             columns |= {f"message:{name}": self.messages[name] for name in MESSAGE.names or ()}
@@ -124,7 +127,7 @@ class Record:
         return columns
 
     def frame(self, row: int) -> Frame:
-        """Return what was seen at row `row`, negative ones counting from the end."""
+        """Return the frame of row `row`; negative numbers count from the end."""
         row = range(len(self))[row]
         last = row == len(self) - 1
         readings = {
@@ -153,18 +156,18 @@ class Record:
         )
 
     def scenario_at(self, row: int) -> Scenario:
-        """Return the scenario as it was at row `row`, after what was changed there."""
+        """Return the scenario at row `row`, with the changes made at that row."""
         k = bisect_right(self.changes, row, key=lambda change: change.row)
         return self.changes[k - 1].scenario if k else self.scenario
 
     @cached_property
     def changes(self) -> tuple[Change, ...]:
-        """Those of the interventions that changed the scenario, in order."""
+        """The interventions that changed the scenario, in order."""
         return tuple(each for each in self.interventions if isinstance(each, Change))
 
     @cached_property
     def contact_rows(self) -> NDArray[np.intp]:
-        """The row that each contact's control step led to, (c,), see `rows_of`."""
+        """The row at the end of each contact's control step, (c,); see `rows_of`."""
         return rows_of(self.contacts, self.time, self.scenario.sampling_time)
 
     def _contacts_before(self, row: int) -> NDArray[np.void]:
@@ -178,7 +181,7 @@ class Record:
         return in_flight(self.messages, time, dt, self._longest_flight)
 
     def _readings_before(self, row: int, name: str, robot: int) -> NDArray[Any] | None:
-        """Return what a sensor read on a robot before a row, (row, ...), if it is recorded."""
+        """Return a sensor's readings on a robot before a row, (row, ...); None if not recorded."""
         robots = self.sensor_robots.get(name, ())
         return self.sensors[name][:row, robots.index(robot)] if robot in robots else None
 
@@ -187,7 +190,7 @@ class Record:
         flight = self.messages["arrival"] - self.messages["time"]
         return float(np.nanmax(flight, initial=0.0))
 
-    # -- what people look at ------------------------------------------------------------------
+    # -- for people ---------------------------------------------------------------------------
 
     def plot(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
         """Draw the paths: initial poses hollow, final poses filled, obstacles and grid.
@@ -268,7 +271,7 @@ class Record:
 
         return record_svg(self)
 
-    # -- what programs read -------------------------------------------------------------------
+    # -- for programs -------------------------------------------------------------------------
 
     def to_frame(self, table: str = "bodies") -> DataFrame:
         """Return a table of pandas: "bodies", "contacts" or "messages"; see `formats.frame`."""
@@ -294,11 +297,11 @@ class Record:
         return formats.save(self, path)
 
 
-def load(path: str | Path, largest: float = 2**31) -> Record:
+def load(path: str | Path, largest: float = LOAD_LIMIT) -> Record:
     """Read a record that `Record.save` wrote, or the log of a run, whole or broken off.
 
     largest: the most data that are read, bytes; a file that holds or claims more is refused before
-    memory is taken. Raises InputError for that, and for anything else that is not such a file.
+    memory is taken. Raises InputError for such files, and for files that are no record.
     """
     from mars2d.output import formats
 
@@ -306,7 +309,7 @@ def load(path: str | Path, largest: float = 2**31) -> Record:
 
 
 def _unwritable(array: NDArray[Any]) -> NDArray[Any]:
-    """Return a view that can't be written: a digest holds for what it was made of."""
+    """Return a view that can't be written, so that the digest stays true."""
     view = array.view()
     view.flags.writeable = False
     return view

@@ -1,4 +1,4 @@
-"""The record while it grows: columns written in place, row by row."""
+"""The record of a run that goes on, written row by row."""
 
 from __future__ import annotations
 
@@ -26,24 +26,24 @@ Float = NDArray[np.float64]
 
 
 class History:
-    """What has been recorded so far, as views: time (k,), pose (k, 3, n), command (k, 2, n)."""
+    """The record so far, as views: time (k,), pose (k, 3, n), command (k, 2, n) and so on."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
 
     @property
     def time(self) -> Float:
-        """Times of the rows, (k,) seconds."""
+        """The times of the rows, (k,) seconds."""
         return self._recorder.column("time")
 
     @property
     def pose(self) -> Float:
-        """Poses, (k, 3, n)."""
+        """The poses of the robots, (k, 3, n)."""
         return self._recorder.column("pose")
 
     @property
     def command(self) -> Float:
-        """Commands issued, (k, 2, n)."""
+        """The commands issued, (k, 2, n)."""
         return self._recorder.column("command")
 
     @property
@@ -53,7 +53,7 @@ class History:
 
     @property
     def prop_pose(self) -> Float:
-        """Poses of the props, (k, 3, p)."""
+        """The poses of the props, (k, 3, p)."""
         return self._recorder.column("prop_pose")
 
     @property
@@ -68,8 +68,8 @@ class History:
 class Recorder:
     """Writes the rows of one run.
 
-    scenario: what it was at the start. rows: how many there are. sensor_robots: the robots that
-    carry each sensor that is recorded.
+    scenario: the one at the start. rows: how many there are. sensor_robots: the robots that carry
+    each sensor that is recorded.
     """
 
     def __init__(
@@ -78,10 +78,10 @@ class Recorder:
         storage: Storage = Column,
         versions: Callable[[], Mapping[str, str]] = dict,
     ) -> None:
-        """Take the scenario, which says how many robots and sensors there are.
+        """Make the columns for the robots and sensors of a scenario.
 
-        storage: makes the columns, in memory or in files. versions: returns the versions of the
-        software that the numbers depend on, for the record.
+        storage: makes columns, in memory or in files. versions: returns the versions of the
+        software on which the numbers depend, for the record.
         """
         self.versions = versions
         n, props = len(scenario.robots), len(scenario.props)
@@ -118,13 +118,13 @@ class Recorder:
         readings: Mapping[str, Sequence[Any] | NDArray[Any]],
         **columns: Float | float,
     ) -> None:
-        """Write one row: the world at `time`. columns: the rows of the other columns, by name."""
+        """Write a row: the world at `time`. columns: the rows of the other columns, by name."""
         row = self.rows
         self._columns["time"].write(row, time)
         for name, value in columns.items():
             self._columns[name].write(row, value)
         for name, values in readings.items():
-            with called(f"sensor {name!r}", self._reads[name]):  # which is at fault, if one is
+            with called(f"sensor {name!r}", self._reads[name]):  # whom to blame for an error
                 self._write_readings(row, name, values)
         self.rows += 1
 
@@ -154,9 +154,9 @@ class Recorder:
         return self._contacts.upto(self._contact_count)
 
     def write_messages(self, text: str, rows: NDArray[np.void]) -> None:
-        """Write one content that was sent, and its rows (k,) of MESSAGE, one a receiver.
+        """Write a content that was sent, and its rows (k,) of MESSAGE, one for each receiver.
 
-        Which content it is, their field `content`, is filled in here.
+        The rows' field `content` is set here.
         """
         rows["content"] = len(self._contents)
         self._contents.append(text)
@@ -171,27 +171,27 @@ class Recorder:
         return in_flight(messages, time, self.scenario.sampling_time, self._longest_flight)
 
     def messages(self) -> tuple[NDArray[np.void], Sequence[str]]:
-        """Return all messages so far, and the texts that their field `content` numbers."""
+        """Return all messages so far, and the texts to which their field `content` refers."""
         return self._messages.upto(self._message_count), self._contents
 
     def readings(self, rows: int, name: str, robot: int) -> NDArray[Any] | None:
-        """Return what a sensor has read on a robot, (rows, ...), if that is recorded."""
+        """Return a sensor's readings on a robot, (rows, ...); None if they are not recorded."""
         column, robots = self._sensors.get(name), self.sensor_robots.get(name, ())
         if column is None or robot not in robots:
             return None
         return column.upto(rows)[:, robots.index(robot)]
 
     def sensors(self) -> dict[str, NDArray[Any]]:
-        """Return the readings so far by the sensors' names, as `Record.sensors`."""
+        """Return the readings so far by the names of sensors; see `Record.sensors`."""
         return {name: column.upto(self.rows) for name, column in self._sensors.items()}
 
     @property
     def counts(self) -> tuple[int, int, int, int]:
-        """How many rows, contacts, messages and contents there are."""
+        """The numbers of rows, contacts, messages and contents."""
         return self.rows, self._contact_count, self._message_count, len(self._contents)
 
     def row(self, row: int) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Return one row of all columns by their names, and of all sensors by theirs."""
+        """Return a row of all columns by name, and of all sensors by name."""
         return (
             {name: column.row(row) for name, column in self._columns.items()},
             {name: column.row(row) for name, column in self._sensors.items()},
@@ -210,7 +210,7 @@ class Recorder:
         drawn: Scene,
         interventions: Sequence[Intervention] = (),
     ) -> Record:
-        """Return the record so far; what is written later does not change it."""
+        """Return the record so far; later rows do not change it."""
         now = float(self.column("time")[-1]) if self.rows else 0.0
         return Record(
             scenario=self.scenario,
@@ -235,10 +235,10 @@ class Recorder:
         )
 
     def _messages_as_of(self, now: float) -> NDArray[np.void]:
-        """Return a copy of all messages, with the status that they have at a time, s."""
+        """Return a copy of all messages, with their status at a time, s."""
         try:
             return self._copied_messages(self._storage, now)
-        except DiskError:  # which has ended the run: what was recorded must not be lost by it
+        except DiskError:  # has ended the run, whose record must not be lost
             return self._copied_messages(Column, now)
 
     def _copied_messages(self, storage: Storage, now: float) -> NDArray[np.void]:

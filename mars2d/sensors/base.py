@@ -332,6 +332,11 @@ class Sensor(Stateful):
 
     # -- when it measures --------------------------------------------------------------------
 
+    @property
+    def scan_angles(self) -> Float | None:
+        """The bearings (k,) of the beams [rad] of a laser scan; None if a reading is none."""
+        return None
+
     def period(self, sampling_time: float) -> int:
         """Return how many control steps lie between two measurements."""
         return 1 if self.rate is None else round(1 / (self.rate * sampling_time))

@@ -44,6 +44,11 @@ class RangeFinder(Scanner):
         """The bearings of the beams (beams,): radians from the sensor's heading."""
         return beam_angles(self.beams, self.field_of_view)
 
+    @property
+    def scan_angles(self) -> Float:
+        """The bearings of the beams: a reading is a laser scan."""
+        return self.angles
+
     def read_all(
         self,
         robots: Sequence[RobotView],

@@ -241,7 +241,7 @@ def test_in_python_the_record_is_in_the_error_and_kept_elsewhere(disk, here) -> 
 
 def test_where_there_is_no_room_anywhere_the_error_says_so(disk, here, monkeypatch) -> None:
     fill(disk)
-    monkeypatch.setattr("mars2d.output.formats.rescue._folders", lambda: iter([disk]))
+    monkeypatch.setattr("mars2d.output.formats._folders", lambda: iter([disk]))
     with pytest.raises(InputError, match="and nowhere else either") as caught:
         mars2d.run("law.py", record=disk / "run.npz")
     assert len(caught.value.record) == 1201

@@ -295,7 +295,7 @@ def test_ctrl_c_while_a_row_is_logged_comes_when_it_is_written(tmp_path, child) 
         "import mars2d, os, signal, sys, numpy as np\n"
         "from mars2d import Scenario, World\n"
         "from mars2d.output.formats.mcap import Log\n"
-        "from mars2d.output.formats.mcap.tape import Tape\n"
+        "from mars2d.output.formats.mcap.writing import Tape\n"
         "begin = Tape.begin\n"
         "def slowly(self, *args):\n"
         "    os.kill(os.getpid(), signal.SIGINT)\n"

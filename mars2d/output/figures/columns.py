@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.core.quantity import Quantity
-from mars2d.output.formats.units import POSE_UNITS
+from mars2d.output.formats.columns import POSE_UNITS
 from mars2d.record.interventions import Change, Place
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Which part of a run a film shows, and at which moments."""
+"""The part of a run that a film shows, and the moments of its frames."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from mars2d.core.errors import InputError
 
 __all__ = ["Cut"]
 
-LONGEST = 100_000
-"""The most frames of a film: over an hour."""
+MAX_FRAMES = 100_000
+"""The most frames of a film: more than an hour."""
 
 
 @dataclass(frozen=True)
 class Cut:
-    """The part of a run that a film shows: from start to end [s], a frame each `step` seconds.
+    """The part of a run that a film shows: from start to end [s], a frame every `step` seconds.
 
-    The last frame is the end, whenever the one before was.
+    The last frame is the end, however soon it follows the one before.
     """
 
     start: float
@@ -38,10 +38,10 @@ class Cut:
         end: float | None = None,
         what: str = "the experiment",
     ) -> Self:
-        """Return the part of `what`, which goes from 0 to `last` seconds; by default all of it.
+        """Return a part of `what`, which goes from 0 to `last` seconds; by default all of it.
 
-        speed: simulated seconds a second of the film. fps: frames a second of the film. Raises
-        InputError for a part that is not there, or that makes a film of more than `LONGEST` frames.
+        speed: simulated seconds per second of the film. fps: frames per second of the film. Raises
+        InputError for a part that does not exist, or that has more than `MAX_FRAMES` frames.
         """
         for name, value in (("speed", speed), ("fps", fps)):
             if real(name, value, "a number > 0") <= 0:
@@ -57,17 +57,17 @@ class Cut:
                 f"a film from {first:g} to {stop:g} s: expected an end after its start"
             )
         cut = cls(first, min(stop, last), speed / fps)
-        if not (cut.end - cut.start) / cut.step <= LONGEST:
+        if not (cut.end - cut.start) / cut.step <= MAX_FRAMES:
             raise InputError(
                 f"a film of {cut.end - cut.start:g} s at {speed:g} times real time would have "
                 f"{(cut.end - cut.start) / cut.step:.3g} frames: expected a speed, or a part, that "
-                f"makes at most {LONGEST:,}"
+                f"makes at most {MAX_FRAMES:,}"
             )
         return cut
 
     @property
     def count(self) -> int:
-        """How many frames there are."""
+        """The number of frames."""
         return int((self.end - self.start) / self.step + 1e-9) + 2
 
     @property

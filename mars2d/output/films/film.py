@@ -1,4 +1,4 @@
-"""Films: frames as an animated GIF or an MP4, without a display."""
+"""Films of frames, as an animated GIF or an MP4, without a display."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ __all__ = [
 
 SUFFIXES = (".gif", ".mp4")
 
-SMALLEST, LARGEST = (64, 64), (3840, 2160)
-"""The sizes of films, pixels."""
+MIN_SIZE, MAX_SIZE = (64, 64), (3840, 2160)
+"""The limits of a film's size, pixels."""
 
-SLOWEST = 0.1
-QUICKEST = {".gif": 50, ".mp4": 240}
-"""The fewest and the most frames a second."""
+MIN_FPS = 0.1
+MAX_FPS = {".gif": 50, ".mp4": 240}
+"""The limits of frames per second."""
 
 
 def film_record(
@@ -59,14 +59,14 @@ def film_record(
 ) -> Path:
     """Make a film of a record, .gif or .mp4, and return its path.
 
-    speed: simulated seconds a second of the film; frames between sampling times are interpolated.
-    size: pixels, 64 x 64 to 3840 x 2160, for .mp4 both even. fps: frames a second, at most 50 in a
-    GIF. start, end: seconds, the part of the run that is shown, by default all. progress: called
+    speed: simulated seconds per second of the film; frames between sampling times are interpolated.
+    size: pixels, 64 x 64 to 3840 x 2160, for .mp4 both even. fps: frames per second, at most 50 in
+    a GIF. start, end: seconds, the part of the run that is shown, by default all. progress: called
     with the number of frames written so far, of `cut_of(...).count`. The file appears under its
     name when it is complete.
 
-    Raises InputError for what can't be filmed and where it can't be written, MissingExtraError when
-    .mp4 is asked for and PyAV isn't installed, or without pygame.
+    Raises InputError for arguments that make no film and where it can't be written,
+    MissingExtraError for .mp4 without PyAV, and without pygame.
     """
     check_film(path, size, fps)
     from mars2d.output.films.footage import shots
@@ -91,15 +91,18 @@ def cut_of(
 
 
 def check_film(path: str | os.PathLike[str], size: tuple[int, int], fps: float = 25) -> None:
-    """Refuse a film that can't be made, before anything is run or drawn for it."""
+    """Refuse a film that can't be made, before anything is run or drawn for it.
+
+    Raises InputError and MissingExtraError as `film_record`.
+    """
     suffix = _suffix(Path(path))
     _check_fps(fps, suffix)
-    expected = "(width, height) in pixels, {} x {} to {} x {}".format(*SMALLEST, *LARGEST)
+    expected = "(width, height) in pixels, {} x {} to {} x {}".format(*MIN_SIZE, *MAX_SIZE)
     if not (
         isinstance(size, (tuple, list))
         and len(size) == 2
         and all(isinstance(side, int) and not isinstance(side, bool) for side in size)
-        and all(a <= b <= c for a, b, c in zip(SMALLEST, size, LARGEST, strict=True))
+        and all(a <= b <= c for a, b, c in zip(MIN_SIZE, size, MAX_SIZE, strict=True))
     ):
         raise wrong("size", size, expected)
     width, height = size
@@ -112,7 +115,7 @@ def check_film(path: str | os.PathLike[str], size: tuple[int, int], fps: float =
 
 
 def size_of(text: str) -> tuple[int, int]:
-    """Return the size that a text as "1280x720" says; `check_film` says whether it will do."""
+    """Return the size in a text such as "1280x720"; `check_film` checks it."""
     width, cross, height = text.strip().lower().partition("x")
     if not (cross and width.strip().isdecimal() and height.strip().isdecimal()):
         raise InputError(f"size = {text!r}: expected width and height in pixels, as 1280x720")
@@ -120,11 +123,12 @@ def size_of(text: str) -> tuple[int, int]:
 
 
 def film_rows(times: ArrayLike, speed: float = 1.0, fps: float = 25) -> NDArray[np.intp]:
-    """Return which rows of a record become the frames of a film, (f,).
+    """Return the rows of a record that become the frames of a film, (f,).
 
-    times: (T,) seconds, rising. speed: simulated seconds a second of the film, > 0. fps: frames a
-    second. The film lasts (times[-1] - times[0]) / speed seconds, to the nearest frame; its first
-    frame is the first row, its last frame the last. Each frame shows the newest row at its time.
+    times: (T,) seconds, rising. speed: simulated seconds per second of the film, > 0. fps: frames
+    per second. The film lasts (times[-1] - times[0]) / speed seconds, to the nearest frame; its
+    first frame is the first row, its last frame the last. Each frame shows the newest row at its
+    time.
 
     >>> film_rows([0, 1, 2, 3, 4], speed=2, fps=2).tolist()
     [0, 1, 2, 4]
@@ -155,12 +159,12 @@ def save_film(
 ) -> None:
     """Draw frames as the window draws them, and write them as .gif or .mp4.
 
-    fps: frames a second, at most 50 in a GIF. size: pixels; for .mp4 made even. status: what stands
-    beside the time, as "10x". progress: called with the number of frames written so far. The file
-    appears under its name when it is complete.
+    fps: frames per second, at most 50 in a GIF. size: pixels; made even for .mp4. status: the text
+    beside the time, for example "10x". progress: called with the number of frames written so far.
+    The file appears under its name when it is complete.
 
-    Raises InputError for another suffix or where it can't be written, MissingExtraError when .mp4
-    is asked for and PyAV isn't installed.
+    Raises InputError for another suffix or where it can't be written, MissingExtraError for .mp4
+    without PyAV.
     """
     if Path(path).suffix.lower() == ".mp4":
         size = (size[0] + size[0] % 2, size[1] + size[1] % 2)
@@ -173,8 +177,8 @@ def save_pictures(
 ) -> None:
     """Write pictures, all of one size, as .gif or .mp4; for .mp4 both sides must be even.
 
-    Each is taken when the one before is written, so all may be drawn on the same surface. Raises
-    InputError and MissingExtraError as `save_film`.
+    Each picture is asked for when the one before is written, so all may be drawn on one surface.
+    Raises InputError and MissingExtraError as `save_film`.
     """
     target = Path(path)
     suffix = _suffix(target)
@@ -196,11 +200,11 @@ def _suffix(target: Path) -> str:
 
 def _check_fps(fps: float, suffix: str) -> None:
     _check_rate("fps", fps)
-    if fps > QUICKEST[suffix]:
+    if fps > MAX_FPS[suffix]:
         more = ", more a GIF can't show" if suffix == ".gif" else " in an MP4"
-        raise InputError(f"fps = {fps:g}: expected at most {QUICKEST[suffix]}{more}")
-    if fps < SLOWEST:
-        raise InputError(f"fps = {fps:g}: expected at least {SLOWEST}")
+        raise InputError(f"fps = {fps:g}: expected at most {MAX_FPS[suffix]}{more}")
+    if fps < MIN_FPS:
+        raise InputError(f"fps = {fps:g}: expected at least {MIN_FPS}")
 
 
 def _check_rate(name: str, value: object) -> None:

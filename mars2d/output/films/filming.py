@@ -1,4 +1,4 @@
-"""Filming what a screen shows, while it is shown: a thread writes, the screen goes on."""
+"""Filming a screen while it is shown: a thread writes the film, and the screen goes on."""
 
 from __future__ import annotations
 
@@ -22,48 +22,48 @@ __all__ = ["FPS", "Filming", "film_suffix"]
 
 FPS = 25
 
-WAITING = 4
-"""Pictures that may wait to be written; while they do, others are left out."""
+MAX_WAITING = 4
+"""How many pictures may wait to be written; while so many do, new ones are left out."""
 
-LONGEST_GAP = 2.0
-"""For so many seconds at most a film shows the same while no picture comes."""
+MAX_STILL = 2.0
+"""For how many seconds a film stands still at most, while no picture comes."""
 
 
 def film_suffix() -> str:
-    """Return how films end here: .mp4 if PyAV is installed, else .gif."""
+    """Return the suffix of films on this machine: .mp4 if PyAV is installed, else .gif."""
     return ".mp4" if importlib.util.find_spec("av") is not None else ".gif"
 
 
 class _Shot(NamedTuple):
-    """A picture, and how many frames after the one before it is seen."""
+    """A picture, and the number of frames from the picture before to it."""
 
     picture: pygame.Surface
     after: int
 
 
 class Filming:
-    """A film of pictures as they come, at FPS frames a second of the clock.
+    """A film of pictures as they come, at FPS frames per second of the clock.
 
-    Give each picture that is shown to `take`, and call `stop` at the end. The film has the size of
-    the first picture; others are scaled into it. What the film holds until then can be seen if the
-    program is killed. `take` copies a picture where a frame is due, and does nothing else.
+    Pass each picture that is shown to `take`, and call `stop` at the end. The film has the size of
+    the first picture; others are scaled into it. If the program is killed, the film so far can be
+    played. `take` only copies a picture when a frame is due.
     """
 
     def __init__(self, path: Path, clock: Callable[[], float] = time.perf_counter) -> None:
-        """Begin a film: .mp4, or .gif. Raises InputError where it can't be written.
+        """Begin a film, .mp4 or .gif. Raises InputError where it can't be written.
 
-        clock: seconds. Raises MissingExtraError where PyAV is needed and isn't installed.
+        clock: returns seconds. Raises MissingExtraError for .mp4 without PyAV.
         """
         if path.suffix == ".mp4":
-            require_av(path)  # loads it as well, so that pictures need not wait for it
+            require_av(path)  # imports it as well, so that pictures need not wait
         self.path = path
         self.frames = 0
         self._clock = clock
         self._start: float | None = None
-        self._shots: queue.Queue[_Shot | None] = queue.Queue(WAITING)
+        self._shots: queue.Queue[_Shot | None] = queue.Queue(MAX_WAITING)
         self._problem: str | None = None
         try:
-            self._file = path.open("w+b", buffering=0)  # so that all is in it at any time
+            self._file = path.open("w+b", buffering=0)  # so that nothing is lost
         except OSError as error:
             raise InputError(f"{path}: can't be written, {error.strerror or error}") from None
         self._thread = threading.Thread(target=self._write, name="filming", daemon=True)
@@ -71,11 +71,11 @@ class Filming:
 
     @property
     def seconds(self) -> float:
-        """How long the film is until now."""
+        """The length of the film so far, seconds."""
         return self.frames / FPS
 
     def take(self, picture: pygame.Surface) -> None:
-        """Take a picture that is shown now. Raises InputError if the film can't be written on."""
+        """Take the picture that is shown now. Raises InputError if the film can't be written."""
         now = self._clock()
         if self._start is None:
             self._start = now
@@ -83,9 +83,9 @@ class Filming:
         self._check()
         if due < 1 or self._shots.full():
             return
-        if due > LONGEST_GAP * FPS:
-            self._start += due / FPS - LONGEST_GAP
-            due = int(LONGEST_GAP * FPS)
+        if due > MAX_STILL * FPS:
+            self._start += due / FPS - MAX_STILL
+            due = int(MAX_STILL * FPS)
         self._shots.put(_Shot(picture.copy(), due))
         self.frames += due
 
@@ -136,7 +136,7 @@ class Filming:
 
 
 def _fit(picture: pygame.Surface, film: pygame.Surface) -> None:
-    """Draw a picture on a film's frame, as large as it can be seen whole, in the middle."""
+    """Draw a picture in the middle of a film's frame, as large as fits."""
     import pygame
 
     width, height = film.get_size()

@@ -1,10 +1,10 @@
-"""What a film is made of: frames of a run, recorded or taken as it happens."""
+"""The frames of a film, from a record or taken while the run goes on."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
@@ -14,33 +14,42 @@ from mars2d.output.films.cut import Cut
 from mars2d.record.frame import Frame, between
 from mars2d.scenario.scenario import Scenario
 
-if TYPE_CHECKING:
-    from mars2d.world.world import World
+__all__ = ["Filmed", "Footage", "shots"]
 
-__all__ = ["Footage", "shots"]
+
+class Filmed(Protocol):
+    """The members of a `World` that a film needs."""
+
+    @property
+    def iteration(self) -> int:
+        """The number of control steps so far."""
+
+    @property
+    def frame(self) -> Frame:
+        """The instant as it is seen now."""
 
 
 def shots(
     cut: Cut, sampling_time: float, last: int, frame: Callable[[int], Frame]
 ) -> Iterator[Frame]:
-    """Yield the frames of a film, between the sampling times as well.
+    """Yield the frames of a film, also between the sampling times.
 
-    frame: returns that of a row, from 0 to `last`; it is asked for rows in their order, once each.
+    frame: returns the frame of a row, from 0 to `last`; called once for each row, in order.
     """
     seen: dict[int, Frame] = {}
     for time in cut.moments.tolist():
         row = min(int(time / sampling_time + 1e-9), last)
         rows = (row,) if row == last else (row, row + 1)
-        # The same objects as long as they are seen: what is drawn of them is then kept.
+        # The same objects as long as they are seen, so that painters can keep what they draw.
         seen = {each: seen.get(each) or frame(each) for each in rows}
         on_time = row == last or time - row * sampling_time < 1e-9 * max(1.0, time)
         yield seen[row] if on_time else between(seen[row], seen[row + 1], time)
 
 
 class Footage:
-    """Takes those frames of a run that a film of it needs; add it to the run's watchers.
+    """Takes the frames of a run that a film needs; add it to the run's watchers.
 
-    Live frames hold what add-ons draw, which a record does not.
+    Unlike those of a record, frames of a live run have the drawings of add-ons.
     """
 
     def __init__(
@@ -51,7 +60,7 @@ class Footage:
         start: float | None = None,
         end: float | None = None,
     ) -> None:
-        """Take what `Cut.of` takes; the run may end earlier than the scenario lets it."""
+        """Choose the part of the run; see `Cut.of`. The run may end before the part does."""
         self.speed = speed
         self._sampling_time = scenario.sampling_time
         last = scenario.last_iteration * scenario.sampling_time
@@ -61,13 +70,13 @@ class Footage:
         # Each moment lies between two rows, and both are needed.
         self._wanted = {*rows.tolist(), *(rows + 1).tolist()}
 
-    def __call__(self, world: World) -> None:
+    def __call__(self, world: Filmed) -> None:
         """Take the world's frame, if the film needs it."""
         if world.iteration in self._wanted:
             self.take(world.frame)
 
     def take(self, frame: Frame) -> None:
-        """Take a frame, with what the add-ons draw now."""
+        """Take a frame, with the present drawings of the add-ons."""
         if frame.draw_addons is not None:
             scene = Scene()
             frame.draw_addons(scene)
@@ -86,11 +95,11 @@ class Footage:
         yield from shots(cut, self._sampling_time, last.iteration, self._frames.__getitem__)
 
     def count(self, last: Frame) -> int:
-        """Return how many frames the film has."""
+        """Return the number of the film's frames."""
         return self._until(last).count
 
     def _until(self, last: Frame) -> Cut:
-        """Return the part that the run has, which may have ended early."""
+        """Return the part as far as the run got."""
         if last.time < self._cut.start:
             raise InputError(
                 f"a film from {self._cut.start:g} s on: the run ended at {last.time:g} s"

@@ -1,4 +1,8 @@
-"""Animated GIFs: one palette for all frames, and of each frame only what has changed."""
+"""Animated GIFs: one palette for all frames, and of each frame only the part that has changed.
+
+Pillow compresses the parts. Its own writer of animations keeps all frames in memory until the end,
+and makes films of robots 4 to 13 times as large.
+"""
 
 from __future__ import annotations
 
@@ -14,19 +18,19 @@ if TYPE_CHECKING:
 __all__ = ["write_gif"]
 
 Rgb = NDArray[np.uint32]
-"""Pixels as 0xrrggbb; what the highest byte holds does not matter."""
+"""Pixels as 0x..rrggbb; the highest byte is ignored."""
 Entries = NDArray[np.uint8]
 """Pixels as entries of the palette."""
 Corner = tuple[int, int]
 
 CLEAR = 255
-"""The palette's entry for "as before"."""
+"""The palette's entry for a pixel that stays as it was."""
 
 
 def write_gif(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) -> int:
-    """Write pictures as an animated GIF and return how many there were.
+    """Write pictures as an animated GIF and return their number.
 
-    Frames that differ in nothing prolong the one before. `file` is left open.
+    A picture that is equal to the one before prolongs its frame. `file` stays open.
     """
     written = shown = 0  # hundredths of a second
     canvas: _Canvas | None = None
@@ -52,7 +56,7 @@ def write_gif(file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float) ->
 
 
 def _write_head(file: BinaryIO, palette: Entries, size: tuple[int, int]) -> None:
-    """Write the header: size, the palette of 256 colours, and that the film repeats for ever."""
+    """Write the header: size, a palette of 256 colours, and that the film repeats for ever."""
     colors = palette.tobytes().ljust(768, b"\0")
     sides = size[0].to_bytes(2, "little") + size[1].to_bytes(2, "little")
     file.write(b"GIF89a" + sides + b"\xf7\x00\x00" + colors)
@@ -60,7 +64,7 @@ def _write_head(file: BinaryIO, palette: Entries, size: tuple[int, int]) -> None
 
 
 def _write_frame(file: BinaryIO, entries: Entries, corner: Corner, pause: int) -> None:
-    """Write a part of the picture, and for how many hundredths of a second it is seen."""
+    """Write a part of the picture, which is seen for `pause` hundredths of a second."""
     from PIL import GifImagePlugin, Image
 
     image = Image.frombuffer("P", entries.shape[::-1], entries)
@@ -71,20 +75,20 @@ def _write_frame(file: BinaryIO, entries: Entries, corner: Corner, pause: int) -
 
 
 class _Canvas:
-    """What is seen of a film so far, which tells what the next picture changes."""
+    """The picture that is seen so far, to be compared with the next one."""
 
     def __init__(self, palette: _Palette, size: tuple[int, int]) -> None:
-        """Start with nothing seen; size: pixels."""
+        """Start without a picture; size: pixels."""
         self._palette = palette
         self._width, height = size
         self._pixels: Rgb | None = None
         self._entries = np.full(self._width * height, CLEAR, dtype=np.uint8)
 
     def change(self, picture: pygame.Surface) -> tuple[Entries, Corner] | None:
-        """Return the smallest part that a picture changes and its corner; None for nothing.
+        """Return the smallest part that a picture changes and its corner; None without a change.
 
-        The part is (height, width), with `CLEAR` wherever nothing changes: long runs of one value,
-        which compress to almost nothing.
+        The part is (height, width), with `CLEAR` where nothing changes: long runs of one value
+        compress to almost nothing.
         """
         pixels = _pixels(picture)
         if self._pixels is None:
@@ -107,21 +111,21 @@ class _Canvas:
 
 
 class _Palette:
-    """The colours of a GIF (k, 3), k < 256, and which of them is nearest to any other.
+    """The colours of a GIF (k, 3), k < 256, and the nearest of them to any other colour.
 
-    That is looked up for six bits a channel, once. The palette's own colours match themselves, so
-    that white stays white.
+    The nearest is looked up once for each colour of six bits a channel. The palette's own colours
+    match themselves, so that white stays white.
     """
 
     def __init__(self, colors: Entries) -> None:
-        """Start with the palette's own colours looked up."""
+        """Enter the palette's own colours."""
         from scipy.spatial import cKDTree
 
         self.colors = colors
         self._nearest = cKDTree(colors)
         self._found = np.full(1 << 18, CLEAR, dtype=np.uint8)
         red, green, blue = colors.astype(int).T >> 2
-        backwards = np.arange(len(colors))[::-1]  # of two with one code, the first
+        backwards = np.arange(len(colors))[::-1]  # of two with one code, the first counts
         self._found[(red << 12 | green << 6 | blue)[backwards]] = backwards
 
     def entries(self, pixels: Rgb) -> Entries:
@@ -142,8 +146,8 @@ def _colors(surface: pygame.Surface) -> Entries:
     """Return a palette (k, 3), k < 256: the first picture's colours and their tints.
 
     Robots move over white, obstacles and each other, so shades between each strong colour and its
-    surroundings are added to what the first picture shows; then those of the banner at the end, and
-    a few from everywhere for what add-ons may bring.
+    surroundings are added to the colours of the first picture; then the colours of the banner at
+    the end, and a few from the whole range for add-ons.
     """
     import pygame
     from PIL import Image
@@ -164,7 +168,7 @@ def _colors(surface: pygame.Surface) -> Entries:
         ink = tuple(bytes.fromhex(banner[1:]))
         wanted += [_mixed(ink, (255, 255, 255), share) for share in (1.0, 0.8, 0.6, 0.4, 0.2)]
     wanted += [(r, g, b) for r in (0, 128, 255) for g in (0, 128, 255) for b in (0, 128, 255)]
-    # Every other pixel tells as much, and is counted several times as fast.
+    # Every other pixel is enough, and counted several times as fast.
     width, height = surface.get_size()
     picture = Image.frombytes("RGB", (width, height), pygame.image.tobytes(surface, "RGB"))
     picture = picture.resize((width // 2, height // 2), Image.Resampling.NEAREST)
@@ -172,13 +176,13 @@ def _colors(surface: pygame.Surface) -> Entries:
     rest = reduced.getpalette() or []
     wanted += [tuple(rest[k : k + 3]) for k in range(0, len(rest), 3)]
     cells: dict[tuple[int, ...], tuple[int, ...]] = {}
-    for color in wanted:  # of colours that can hardly be told apart, the first
+    for color in wanted:  # of colours that look alike, only the first
         cells.setdefault(tuple(c // 6 for c in color), color)
     return np.array(list(cells.values())[:CLEAR], dtype=np.uint8)
 
 
 def _pixels(surface: pygame.Surface) -> Rgb:
-    """Return a surface's own pixels, row by row; it is locked for as long as they are used."""
+    """Return a surface's own pixels, row by row; it is locked while they are in use."""
     import pygame
 
     pixels: Rgb = pygame.surfarray.pixels2d(surface).ravel(order="F")

@@ -1,4 +1,4 @@
-"""Video in MP4: a picture is encoded while others are converted and drawn."""
+"""Video in MP4: one picture is encoded while others are converted and drawn."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ __all__ = ["require_av", "rewrapped", "write_mp4"]
 Pixels = NDArray[np.uint32]
 
 ENCODERS = ("libx264", "libopenh264", "mpeg4")
-"""What may be in a build of FFmpeg, the best first."""
+"""Encoders that a build of FFmpeg may have, the best first."""
 
 IN_PIECES = "frag_keyframe+empty_moov+default_base_moof"
 
-OLDEST = 17
-"""The first version of PyAV that does what is needed here."""
+MIN_AV = 17
+"""The first version of PyAV that has everything needed here."""
 
 BT709 = 1
-"""The number of the colours of HD video, in its own standard."""
+"""FFmpeg's number for the colours of HD video."""
 
 PLACES = 3
-"""Pictures at work: one is encoded, one converted, and one copied as soon as it is drawn."""
+"""Pictures in memory: one is encoded, one converted, and one copied as soon as it is drawn."""
 
-PIECE = 1.0
-"""How long a piece is, seconds."""
+PIECE_SECONDS = 1.0
+"""The length of a piece."""
 
 
 def require_av(target: Path) -> None:
@@ -48,20 +48,20 @@ def require_av(target: Path) -> None:
         import av
     except ImportError:
         raise MissingExtraError(f"{target}: films in MP4 need PyAV: {install}") from None
-    if int(av.__version__.partition(".")[0]) < OLDEST:
+    if int(av.__version__.partition(".")[0]) < MIN_AV:
         raise MissingExtraError(
-            f"{target}: films in MP4 need PyAV {OLDEST} or newer, not {av.__version__}: {install}"
+            f"{target}: films in MP4 need PyAV {MIN_AV} or newer, not {av.__version__}: {install}"
         )
 
 
 def write_mp4(
     file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float, *, in_pieces: bool = False
 ) -> int:
-    """Write H.264 video, or the next best that this build of FFmpeg has; return its frames.
+    """Write H.264 video, or the next best of this build of FFmpeg; return the number of frames.
 
-    in_pieces: so that what is written can be seen at any time, a second or two late; `rewrapped`
-    then makes the common kind of file of it. PyAV leaves the interpreter alone while it converts
-    and encodes, so a thread of its own does each of these.
+    in_pieces: write a file that can be played at any time, a second or two late; afterwards
+    `rewrapped` makes a common file of it. PyAV releases the interpreter while it converts and
+    encodes, so each of these has its own thread.
     """
     import av
 
@@ -94,10 +94,10 @@ def write_mp4(
 
 
 def rewrapped(path: Path) -> None:
-    """Turn a film that was written in pieces into one that begins with its index, in its place."""
+    """Replace a film that was written in pieces by one that begins with its index."""
     import av
 
-    # Where it fails, as on a full disk, what is there can be seen as well.
+    # If this fails, for example on a full disk, the film in pieces can be played as well.
     with (
         suppress(OSError, ValueError),
         atomic_write(path) as file,
@@ -113,9 +113,9 @@ def rewrapped(path: Path) -> None:
 
 
 class _Quiet:
-    """A file that keeps its first error for later, as that of a full disk.
+    """A file that keeps its first error for later, for example that of a full disk.
 
-    PyAV writes again when it closes a film, and prints whatever is raised then.
+    PyAV writes again when it closes a film, and prints the errors that are raised then.
     """
 
     def __init__(self, file: BinaryIO) -> None:
@@ -126,11 +126,11 @@ class _Quiet:
         return getattr(self._file, name)
 
     def write(self, data: bytes) -> int:
-        """Write bytes, unless that failed before."""
+        """Write bytes, unless writing has failed before."""
         return self._tried(lambda: self._file.write(data), len(data))
 
     def seek(self, offset: int, whence: int = 0) -> int:
-        """Go to a place, unless writing failed before."""
+        """Go to a place, unless writing has failed before."""
         return self._tried(lambda: self._file.seek(offset, whence), offset)
 
     def _tried(self, act: Callable[[], int], otherwise: int) -> int:
@@ -142,13 +142,13 @@ class _Quiet:
         return otherwise
 
     def check(self) -> None:
-        """Raise the error that was kept, if there is one."""
+        """Raise the error that was kept, if any."""
         if self._error is not None:
             raise self._error
 
     @contextmanager
     def checked(self) -> Iterator[_Quiet]:
-        """Raise the error that was kept at the end, too."""
+        """Raise the error that was kept, if any, at the end of the block."""
         yield self
         self.check()
 
@@ -164,14 +164,14 @@ class _Encoder:
 
         self._container, self._stream = container, _video_stream(container, size, fps)
         if in_pieces:
-            self._stream.gop_size = round(fps * PIECE)
-            self._stream.max_b_frames = 0  # they would make a film of pieces begin late
+            self._stream.gop_size = round(fps * PIECE_SECONDS)
+            self._stream.max_b_frames = 0  # with them a film in pieces begins late
         self._reformatter = VideoReformatter()
         self._sound = True  # unless encoding has failed
         self._memory = np.empty((PLACES, size[1], size[0]), dtype=np.uint32)
 
     def copied(self, picture: pygame.Surface, place: int) -> Pixels:
-        """Return a picture's pixels (height, width), kept at one of the places."""
+        """Return a picture's pixels (height, width), copied to one of the places in memory."""
         import pygame
 
         pixels: Pixels = self._memory[place]
@@ -179,7 +179,7 @@ class _Encoder:
         return pixels
 
     def converted(self, pixels: Pixels) -> Any:
-        """Return a picture in the colours of a video; its pixels may be written to afterwards."""
+        """Return a picture in a video's colours; afterwards its pixels may be overwritten."""
         import av
         from av.video.reformatter import ColorRange, Colorspace
 
@@ -193,9 +193,9 @@ class _Encoder:
         )
 
     def encode(self, frame: Future[Any]) -> None:
-        """Encode a picture once it is converted; after a failure, none.
+        """Encode a picture once it is converted; do nothing after a failure.
 
-        FFmpeg ends the process if it is asked to go on with a file whose beginning has failed.
+        FFmpeg ends the process if it is told to continue a file whose beginning has failed.
         """
         if self._sound:
             self._sound = False
@@ -203,7 +203,7 @@ class _Encoder:
             self._sound = True
 
     def finish(self) -> None:
-        """Encode what still waits for pictures to come."""
+        """Encode the pictures that still wait for later ones."""
         self._container.mux(self._stream.encode(None))
 
 
@@ -218,7 +218,7 @@ def _video_stream(container: Any, size: tuple[int, int], fps: float) -> Any:
     context.colorspace = context.color_primaries = context.color_trc = BT709
     context.color_range = 1  # of video: black is 16, white 235
     if known[0] == "libx264":
-        # A fixed quality needs no look at pictures to come: as true as crf 22, a third quicker.
+        # A fixed quality needs no look at later pictures: as good as crf 22, a third quicker.
         stream.options = {"qp": "20", "preset": "ultrafast"}
     else:
         stream.bit_rate = 8_000_000

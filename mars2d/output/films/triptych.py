@@ -1,4 +1,4 @@
-"""A comparison as a film: three panels side by side, and below them the drift as it grows."""
+"""A comparison as a film: three panels side by side, and below them the growing drift."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ __all__ = ["Reel", "Triptych", "save_triptych"]
 
 Float = NDArray[np.float64]
 
-TITLE = 74.0
+TITLE_HEIGHT = 74.0
 """The height of the title above a panel, points."""
 
-LOWEST_PLOT = 0.3
-"""The share of the picture's height that the drift has at least."""
+MIN_PLOT_SHARE = 0.3
+"""The least share of the picture's height for the drift."""
 
 
 Reel = tuple[Footage, Frame]
@@ -52,9 +52,9 @@ def save_triptych(
 ) -> None:
     """Write the film of a comparison as .gif or .mp4; a run that ended earlier stands still.
 
-    reels: the frames of each run, by its physics, all of one speed and taken at `fps`. size:
-    pixels, even for .mp4. progress: called with the number of frames written so far. Raises
-    InputError where the film can't be written, MissingExtraError when .mp4 needs PyAV.
+    reels: the frames of each run, by its physics, all of the same speed and `fps`. size: pixels,
+    even for .mp4. progress: called with the number of frames written so far. Raises InputError
+    where the film can't be written, MissingExtraError for .mp4 without PyAV.
     """
     save_pictures(_pictures(comparison, reels, size, progress), path, fps)
 
@@ -79,9 +79,9 @@ def _pictures(
 
 
 class Triptych:
-    """Paints one instant of the three runs after another, keeping what does not change.
+    """Paints the three runs, one instant after another, and keeps the parts that do not change.
 
-    size: pixels. status: what the chip beside the time says, as "10x".
+    size: pixels. status: the text beside the time, for example "10x".
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class Triptych:
         self._painter.ui = self._layout.ui
         self._status = Status(status) if status else None
         ui, width = self._layout.ui, size[0]
-        top = self._layout.header.bottom + round(TITLE * ui)
+        top = self._layout.header.bottom + round(TITLE_HEIGHT * ui)
         high = self._plot_height(size[1] - top)
         edges = [round(k * width / 3) for k in range(4)]
         self._panels = [
@@ -109,11 +109,11 @@ class Triptych:
         self._plot = _Plot(comparison, pygame.Rect(0, top + high, width, size[1] - top - high), ui)
 
     def _plot_height(self, room: int) -> int:
-        """Return how high the panels are: as the view wants it, with room left for the drift."""
+        """Return the panels' height: by the view's proportions, with room left for the drift."""
         ui, view = self._layout.ui, self.comparison.view
         across = self.size[0] / 3 - 64 * ui
         wanted = across * view.height / view.width + 36 * ui
-        return round(min(max(wanted, 0.15 * room), room - LOWEST_PLOT * self.size[1]))
+        return round(min(max(wanted, 0.15 * room), room - MIN_PLOT_SHARE * self.size[1]))
 
     def paint(self, frames: list[Frame], surface: pygame.Surface | None = None) -> pygame.Surface:
         """Return the picture of an instant, given the frame of each run then."""
@@ -135,12 +135,12 @@ class _Panel:
         self.mode, self.plot = mode, plot
         self._painter = painter
         self._stage = Stage(painter)
-        self._camera = PIXELS  # until it is told where to look
+        self._camera = PIXELS  # until `look_at` is called
         began = record.contacts["began"]
         self._collisions = np.sort(record.contacts["time"][began])
 
     def look_at(self, comparison: Comparison, size: tuple[int, int]) -> None:
-        """Choose the camera that shows what all panels show."""
+        """Set the camera, which is the same for all panels."""
         ui, view, plot = self._painter.ui, comparison.view, self.plot
         margins = (
             plot.left + 44 * ui, plot.top + 6 * ui,
@@ -157,7 +157,7 @@ class _Panel:
         title = fonts.render(self.mode, 21 * ui, COLORS[self.mode], bold=True)
         done = fonts.render(counted(count, "collision"), 17 * ui, theme.ink)
         left, right = self.plot.left + round(44 * ui), self.plot.right - round(20 * ui)
-        level = self.plot.top - round(TITLE * ui)
+        level = self.plot.top - round(TITLE_HEIGHT * ui)
         surface.blit(title, title.get_rect(midleft=(left, level + round(20 * ui))))
         surface.blit(done, done.get_rect(midright=(right, level + round(21 * ui))))
         text, color = MEANINGS[self.mode], theme.muted
@@ -169,7 +169,7 @@ class _Panel:
 
 
 class _Plot:
-    """The drift on the rectangle `place`: the curves drawn once, and shown as far as time is."""
+    """The drift on the rectangle `place`: the curves are drawn once, and shown up to the time."""
 
     def __init__(self, comparison: Comparison, place: pygame.Rect, ui: float) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -198,7 +198,7 @@ class _Plot:
         self._colors = [color for color in colors for _ in range(2)]
 
     def _in_pixels(self, points: Float) -> Float:
-        """Return points (T, 2) that count upwards from the figure's corner as the surface's."""
+        """Return points (T, 2), which count up from the figure's corner, on the surface."""
         return np.column_stack([self.place.left + points[:, 0], self.place.bottom - points[:, 1]])
 
     def paint(self, surface: pygame.Surface, time: float, painter: Painter) -> None:
@@ -222,7 +222,7 @@ class _Plot:
 
 
 def _drawn(canvas: Any) -> pygame.Surface:
-    """Return what is on a canvas of matplotlib as a surface."""
+    """Return the picture on a canvas of matplotlib as a surface."""
     canvas.draw()
     width, height = canvas.get_width_height()
     return pygame.image.frombuffer(bytes(canvas.buffer_rgba()), (width, height), "RGBA")

@@ -1,29 +1,60 @@
-"""Records as files: one module a format, each reading what it writes, to the last bit."""
+"""Records as files: one module a format, each of which reads what it writes, to the last bit."""
 
 from __future__ import annotations
 
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mars2d.core.errors import InputError, likely, shown
-from mars2d.output.formats.header import reading
-from mars2d.output.formats.size import LARGEST, check_limit
+from mars2d.output.formats.guard import check_limit, reading
 from mars2d.record.record import Record
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
-__all__ = ["STREAMED", "SUFFIXES", "load", "log_to", "require", "save"]
+__all__ = [
+    "FORMATS",
+    "SUFFIXES",
+    "Format",
+    "is_streamed",
+    "load",
+    "log_to",
+    "require",
+    "rescued",
+    "save",
+    "save_or_rescue",
+]
 
-_MODULES = {".npz": "npz", ".mat": "mat", ".csv": "table", ".nc": "netcdf", ".mcap": "mcap"}
 
-SUFFIXES = tuple(_MODULES)
-"""How the names of records may end."""
+class Format(NamedTuple):
+    """A format of records, as far as it is known before its module is imported.
 
-STREAMED = ".mcap"
-"""How that of a record ends which is written while the run goes on."""
+    module: in this folder. It has ``write(record, path)`` and ``read(path, largest)``; if the
+    format has an `extra`, also ``require(path)``, which raises MissingExtraError where a library is
+    missing; if it is `streamed`, also a class ``Log``. extra: the extra of MARS2D that installs
+    those libraries. streamed: whether it can be written while the run goes on.
+    """
+
+    module: str
+    extra: str = ""
+    streamed: bool = False
+
+
+FORMATS = {
+    ".npz": Format("npz"),
+    ".mat": Format("mat"),
+    ".csv": Format("table"),
+    ".nc": Format("netcdf", extra="data"),
+    ".mcap": Format("mcap", extra="log", streamed=True),
+}
+"""The formats by the endings of files."""
+
+SUFFIXES = tuple(FORMATS)
 
 
 def save(record: Record, path: str | Path) -> Path:
@@ -33,7 +64,7 @@ def save(record: Record, path: str | Path) -> Path:
     return target
 
 
-def load(path: str | Path, largest: float = LARGEST) -> Record:
+def load(path: str | Path, largest: float) -> Record:
     """Read a record in the format that the path's ending names; see `mars2d.load`."""
     source = _path(path)
     limit = check_limit(largest)
@@ -43,28 +74,35 @@ def load(path: str | Path, largest: float = LARGEST) -> Record:
         if not source.exists():
             beside = [str(p) for p in source.parent.glob("*") if p.suffix.lower() in SUFFIXES]
             raise InputError(f"{source}: there is no such file{likely(source, beside)}")
-        if not source.is_file():  # but a pipe, say, which may never end
+        if not source.is_file():  # a pipe, for example, may never end
             raise InputError(f"{source}: not a file; expected a record, as run.npz")
     module = _module(source)
     record: Record = module.read(source, limit)
     return record
 
 
+def is_streamed(path: Path) -> bool:
+    """Return whether the path's ending names a format that is written while the run goes on."""
+    format_ = FORMATS.get(path.suffix.lower())
+    return format_ is not None and format_.streamed
+
+
 def log_to(path: Path | None) -> Log | None:
-    """Return what writes a record while the run goes on, if that is what the path's ending says.
+    """Return a log that writes to the path while the run goes on; None for other formats.
 
     Raises InputError where it can't be written, MissingExtraError where a library is missing.
     """
-    if path is None or path.suffix.lower() != STREAMED:
+    if path is None or not is_streamed(path):
         return None
-    from mars2d.output.formats.mcap import Log
-
-    return Log(path)
+    log: Log = _module(path).Log(path)
+    return log
 
 
 def require(path: Path) -> None:
-    """Raise MissingExtraError where a library is missing that a format needs."""
-    _module(path).require(path)
+    """Raise MissingExtraError where a library is missing that the path's format needs."""
+    module = _module(path)
+    if FORMATS[path.suffix.lower()].extra:
+        module.require(path)
 
 
 def _path(path: str | Path) -> Path:
@@ -73,9 +111,55 @@ def _path(path: str | Path) -> Path:
     return Path(path)
 
 
-def _module(path: Path) -> ModuleType:
-    name = _MODULES.get(path.suffix.lower())
-    if name is None:
+def _module(path: Path) -> Any:
+    format_ = FORMATS.get(path.suffix.lower())
+    if format_ is None:
         known = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
         raise InputError(f"{path}: expected a record: a name that ends in {known}")
-    return import_module(f"mars2d.output.formats.{name}")
+    return import_module(f"mars2d.output.formats.{format_.module}")
+
+
+# -- records that can't be saved where they should be -----------------------------------------
+
+
+def save_or_rescue(record: Record, path: Path) -> None:
+    """Save a record; where that fails, keep it elsewhere.
+
+    Raises InputError, which says why it failed and where the record is now. The error's `record` is
+    the record.
+    """
+    try:
+        save(record, path)
+    except InputError as error:
+        place = rescued(record, path)
+        kept = "and nowhere else either" if place is None else f"the record is kept as {place}"
+        failure = InputError(f"{error}; {kept}")
+        failure.record = record
+        raise failure from error
+
+
+def rescued(record: Record, path: Path) -> Path | None:
+    """Save a record under a new name where there is room, and return that name; None if nowhere.
+
+    path: where it should have been saved. The new file is an .npz, which can hold every record.
+    """
+    for folder in _folders():
+        with suppress(OSError, InputError):
+            file, name = tempfile.mkstemp(".npz", f"{path.stem}_", folder)
+            os.close(file)
+            place = Path(name)
+            try:
+                return save(record, place)
+            except BaseException:
+                place.unlink(missing_ok=True)
+                raise
+    return None
+
+
+def _folders() -> Iterator[Path]:
+    """Yield folders that may have room: for temporary files, the home folder, in memory."""
+    with suppress(OSError):  # no folder for temporary files can be written
+        yield Path(tempfile.gettempdir())
+    with suppress(RuntimeError):  # the user has no home folder
+        yield Path.home()
+    yield Path("/dev/shm")

@@ -1,4 +1,4 @@
-"""A dataset of xarray: all columns with named axes and units."""
+"""Datasets of xarray: all columns of a record, with named axes and units."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from mars2d.core.errors import MissingExtraError
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.units import (
+from mars2d.output.formats.columns import (
     COLUMN_UNITS,
     CONTACT_UNITS,
     MESSAGE_UNITS,
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["HEADER", "named_dataset", "to_xarray", "variable_of"]
 
 HEADER = "mars2d"
-"""The attribute that holds what is beside the columns, as JSON."""
+"""The attribute that holds a record's header, as JSON."""
 
 LONG_NAMES = {
     "pose": "poses of the robots: x, y, heading",
@@ -60,7 +60,7 @@ def to_xarray(record: Record) -> Dataset:
 
 
 def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
-    """Return what `to_xarray` does, with other names for sensors."""
+    """Return the dataset of `to_xarray`, with other names for sensors."""
     try:
         import xarray as xr
     except ImportError:
@@ -99,7 +99,7 @@ def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
 
 
 def variable_of(column: str, sensors: Mapping[str, str]) -> str:
-    """Return the name of the variable of a column: ``sensor_scan`` of ``sensor:scan``."""
+    """Return the name of a column's variable: ``sensor_scan`` for ``sensor:scan``."""
     family, _, name = column.partition(":")
     return f"sensor_{sensors[name]}" if family == "sensor" else column.replace(":", "_")
 

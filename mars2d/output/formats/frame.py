@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 
 from mars2d.core.description import wrong
 from mars2d.core.errors import MissingExtraError, nearest
-from mars2d.output.formats.bodies import INPUTS, Part, parts_of
-from mars2d.output.formats.units import (
+from mars2d.output.formats.columns import (
     COLUMN_UNITS,
     CONTACT_UNITS,
+    INPUTS,
     MESSAGE_UNITS,
     POSE_UNITS,
+    Part,
     command_units,
+    parts_of,
     sensor_units,
 )
 from mars2d.record.message import STATUS
@@ -30,12 +32,12 @@ __all__ = ["to_frame"]
 def to_frame(record: Record, table: str = "bodies") -> DataFrame:
     """Return a table of a record; ``frame.attrs["units"]`` has the units of its columns.
 
-    "bodies": indexed by time and body, robots first, then props; what a body does not have is
-    missing, as the command of a prop. A reading that is an array has a column for each value, as
-    ``scan_0``. "contacts": as `Record.contacts`, with the names of both bodies, obstacles' as
-    ``obstacle 0`` or ``wall``. "messages": as `Record.messages`, with the names of both robots, the
-    text and the status in words. Raises InputError for another table, MissingExtraError without
-    pandas.
+    "bodies": indexed by time and body, robots first, then props. Values that a body does not have
+    are missing, for example the command of a prop. A reading that is an array has a column for each
+    value, for example ``scan_0``. "contacts": the rows of `Record.contacts`, with the names of both
+    bodies; those of obstacles are ``obstacle 0`` or ``wall``. "messages": the rows of
+    `Record.messages`, with the names of both robots, the text, and the status in words. Raises
+    InputError for another table, MissingExtraError without pandas.
     """
     tables = {"bodies": _bodies, "contacts": _contacts, "messages": _messages}
     if not isinstance(table, str) or table not in tables:
@@ -72,7 +74,7 @@ def _bodies(record: Record) -> tuple[DataFrame, dict[str, str]]:
 
 
 def _column(columns: dict[str, NDArray[Any]], parts: list[Part], bodies: int) -> Any:
-    """Return a column of the table, (T x bodies,): numbers or flags, some of them missing."""
+    """Return a column of the table, (T x bodies,): numbers or flags, some may be missing."""
     import pandas as pd
 
     values = [columns[part.name][(slice(None), *part.at)] for part in parts]

@@ -1,10 +1,9 @@
-"""What a file of a record holds beside its columns, and how both become a record again."""
+"""The header of a record's file, which holds all that is not in columns; and records from both."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, Mars2dError
-from mars2d.output.formats.size import check_size
+from mars2d.core.errors import InputError
+from mars2d.output.formats.guard import check_size
 from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE, STATUS
@@ -32,7 +31,6 @@ __all__ = [
     "numbers_of",
     "of_record",
     "of_text",
-    "reading",
     "restored",
     "to_record",
     "with_shapes",
@@ -41,20 +39,20 @@ __all__ = [
 Columns = Mapping[str, NDArray[Any]]
 
 FORMAT = 3
-"""The version of what files hold; files of another one are refused."""
+"""The version of the contents of files. Files of another version are refused."""
 
 OBJECTS = 16
-"""How many bytes one of JSON may take when it is read: what is small in a file may be much."""
+"""How many bytes of memory one byte of JSON may take when it is read."""
 
 TEXTS = ("contents", "content_sizes")
-"""The columns that are texts: formats that have text keep them with the header."""
+"""The columns that are texts. Formats for text and numbers keep them with the header."""
 
 KINDS = frozenset(np.dtype(kind).str for kind in (np.float64, np.bool_, np.int32, np.uint8))
-"""The kinds of numbers in all other columns."""
+"""The types of numbers in all other columns."""
 
 
 def of_record(record: Record) -> dict[str, Any]:
-    """Return all of a record that is not in its columns, as dicts, lists, text and numbers."""
+    """Return everything in a record but its columns, as dicts, lists, text and numbers."""
     return {
         "format": FORMAT,
         "scenario": serialize.from_description(record.scenario),
@@ -71,28 +69,29 @@ def of_record(record: Record) -> dict[str, Any]:
 
 
 def numbers_of(record: Record) -> dict[str, NDArray[Any]]:
-    """Return all columns of a record but those that are texts."""
+    """Return all columns of a record except those that are texts."""
     return {name: column for name, column in record.columns().items() if name not in TEXTS}
 
 
 def with_shapes(record: Record) -> dict[str, Any]:
-    """Return what `of_record` does, for a format in which columns lose their kinds or shapes.
+    """Return the header for a format in which columns lose their types or shapes.
 
-    ``columns`` has both of each, ``contents`` the texts of messages.
+    In addition to `of_record`, ``columns`` has the type and shape of each column, and ``contents``
+    the texts of messages.
     """
     kept = {name: [each.dtype.str, each.shape] for name, each in numbers_of(record).items()}
     return of_record(record) | {"columns": kept, "contents": list(record.contents)}
 
 
 def as_text(header: Mapping[str, Any]) -> str:
-    """Return a header as a line of JSON, in ASCII."""
+    """Return a header as one line of JSON, in ASCII."""
     return json.dumps(header)
 
 
 def of_text(path: Path, text: str | bytes, largest: int) -> dict[str, Any]:
-    """Return the header in a file's JSON; InputError where it is too large, or of another format.
+    """Return the header in a file's JSON; InputError where it is too large, or of another version.
 
-    Raises whatever comes up where it is no header at all.
+    Raises various exceptions where it is no header at all.
     """
     check_size(path, OBJECTS * len(text), largest)
     header: dict[str, Any] = json.loads(text)
@@ -109,31 +108,14 @@ def names_in(header: Mapping[str, Any]) -> list[str]:
 
 
 def names_of_bodies(header: Mapping[str, Any]) -> list[str]:
-    """Return those of the names in a file that have a row for each time."""
+    """Return the names of the columns in a file that have a row for each time."""
     return [*COLUMNS, *(f"sensor:{name}" for name in header["sensor_robots"])]
 
 
-@contextmanager
-def reading(path: Path) -> Iterator[None]:
-    """Let whatever goes wrong while a file is read be said in one line that names it."""
-    try:
-        yield
-    except Mars2dError as error:
-        if str(path) in str(error):
-            raise
-        raise InputError(f"{path}: {error}") from error
-    except MemoryError as error:
-        raise InputError(f"{path}: there is not enough memory to read it") from error
-    except OSError as error:
-        raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
-    except Exception as error:  # zip, zlib, numpy, scipy, json, protobuf have their own each
-        raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
-
-
 def check_format(header: Mapping[str, Any]) -> None:
-    """Refuse a file of another format than this one's; the InputError says which version wrote it.
+    """Raise InputError for a file of another version, which says which MARS2D wrote it.
 
-    Raises whatever comes up where this is no header at all.
+    Raises various exceptions where this is no header at all.
     """
     made = header["versions"].get("mars2d", "?")
     if type(header["format"]) is not int:
@@ -145,10 +127,10 @@ def check_format(header: Mapping[str, Any]) -> None:
 
 
 def restored(header: Mapping[str, Any], columns: Columns) -> Record:
-    """Put a record together from columns that lost their kinds or shapes, by `with_shapes`.
+    """Put a record together from columns that lost their types or shapes; see `with_shapes`.
 
-    columns: those of `numbers_of`, their values in order; one without values may be missing.
-    Raises what `to_record` does.
+    columns: the values of each column of `numbers_of`, in order; a column without values may be
+    missing. Raises the exceptions of `to_record`.
     """
     whole = {}
     for name in names_in(header):
@@ -157,7 +139,7 @@ def restored(header: Mapping[str, Any], columns: Columns) -> Record:
             if kind not in KINDS or min(shape) < 0:
                 raise ValueError(name)
             values = columns.get(name, np.empty(0)).reshape(shape)
-            with np.errstate(invalid="ignore"):  # a number that is none, where a file is damaged
+            with np.errstate(invalid="ignore"):  # from NaN to whole numbers, in a damaged file
                 whole[name] = values.astype(kind, copy=False)
     texts = [text.encode() for text in header["contents"]]
     whole["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
@@ -166,11 +148,11 @@ def restored(header: Mapping[str, Any], columns: Columns) -> Record:
 
 
 def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False) -> Record:
-    """Put a record together from what a file held.
+    """Put a record together from the header and the columns of a file.
 
     columns: those of `names_in`, as `Record.columns` gives them. torn: whether the file breaks off,
-    so that it states no digest. Raises InputError where they do not have the digest that the header
-    states, and whatever comes up where this is no record.
+    so that it states no digest. Raises InputError where the columns do not have the digest that the
+    header states, and various exceptions where this is no record.
     """
     talked = header["messages"]
     scenario, missing = serialize.to_scenario(header["scenario"])
@@ -204,7 +186,7 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
 
 
 def _rows(dtype: np.dtype[Any], family: str, columns: Columns) -> NDArray[np.void]:
-    """Return the contacts or messages that a file held, field by field."""
+    """Return the contacts or messages whose fields a file holds one by one."""
     names = dtype.names or ()
     rows = np.zeros(len(columns[f"{family}:{names[0]}"]), dtype=dtype)
     for name in names:
@@ -224,7 +206,7 @@ def _contents(columns: Columns) -> tuple[str, ...]:
 
 
 def _check_kinds(header: Mapping[str, Any]) -> None:
-    """Raise ValueError where the header's single values are not what they should be."""
+    """Raise ValueError where a value in the header is of a wrong type or out of range."""
     kinds = {"seed": int, "over_message": str, "finished": bool, "filename": str}
     for name, kind in kinds.items():
         if type(header[name]) is not kind:
@@ -233,13 +215,13 @@ def _check_kinds(header: Mapping[str, Any]) -> None:
     if not 0 <= header["seed"] < 2**63 or not known:
         raise ValueError("seed, versions")
     words = [header[name] for name in ("over_message", "filename", "versions", "sensor_robots")]
-    json.dumps(words, ensure_ascii=False).encode()  # half a character is no text
+    json.dumps(words, ensure_ascii=False).encode()  # fails for half a character
 
 
 def _check(record: Record) -> None:
-    """Raise ValueError where the columns don't fit together: shapes, kinds, indices, not a number.
+    """Raise ValueError for wrong shapes, types or indices, and for numbers that are not finite.
 
-    A window or a figure would fail on them later, and say less.
+    Later a window or a figure would fail on them, with a less helpful message.
     """
     rows, n, props = len(record.time), len(record.scenario.robots), len(record.scenario.props)
     shapes = [(rows,), (rows, 3, n), (rows, 2, n), (rows,), (rows, 3, props), (rows, n)]

@@ -1,6 +1,6 @@
-"""``.mat``: one struct for Matlab and Octave, `out_data`, as the MARS paper names things.
+"""``.mat``: one struct for Matlab and Octave, `out_data`, with the names of the MARS paper.
 
-All numbers are doubles there, flags are logical, and what has an index is counted from 1.
+All numbers are doubles, flags are logical, and indices count from 1.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
+from mars2d.output.formats.columns import plain_names
+from mars2d.output.formats.guard import in_bytes, reading
 from mars2d.output.formats.mat5 import read_struct
-from mars2d.output.formats.naming import plain_names
-from mars2d.output.formats.size import in_bytes
 from mars2d.record.record import Record
 
-__all__ = ["read", "require", "write"]
+__all__ = ["read", "write"]
 
 NAME = "out_data"
 
-MOST = 2**31 - 2**20
-"""Matlab and Octave open structs of up to 2 GB, with what is said of them in the header."""
+MAX_SIZE = 2**31 - 2**20
+"""The most data in a file, bytes: Matlab and Octave open structs of up to 2 GB, header included."""
 
 HISTORY = {
     "time": "Time", "pose": "Pose", "command": "Command", "command_time": "Command_time",
@@ -33,11 +33,7 @@ HISTORY = {
 }  # fmt: skip
 
 INDICES = {"contact:a", "contact:b", "message:sender", "message:receiver", "message:content"}
-"""Columns that count something from 0; those below 0, obstacles, are counted from -1 anyway."""
-
-
-def require(path: Path) -> None:
-    """Need nothing: scipy is there."""
+"""Columns of indices from 0 on. Obstacles, whose indices are negative, count from -1 anyway."""
 
 
 def write(record: Record, path: Path) -> None:
@@ -46,7 +42,7 @@ def write(record: Record, path: Path) -> None:
 
     columns = headers.numbers_of(record)
     size = sum(8 * column.size for column in columns.values())
-    if size > MOST:
+    if size > MAX_SIZE:
         raise InputError(
             f"{path}: can't be written: {in_bytes(size)} are more than Matlab reads from a .mat, "
             "2 GB: save it as .npz"
@@ -57,13 +53,13 @@ def write(record: Record, path: Path) -> None:
     out |= {"Digest": record.digest, "Header": headers.as_text(header)}
     with atomic_write(path) as file:
         into: Any = file
-        # Names longer than 31 characters, to which the default holds, are Matlab's since 2000.
+        # By default names have at most 31 characters, as in Matlab before 2000.
         savemat(into, {NAME: out}, do_compression=True, long_field_names=True, oned_as="column")
 
 
 def read(path: Path, largest: int) -> Record:
     """Read the record in a file; InputError where there is none, or it is larger than allowed."""
-    with headers.reading(path):
+    with reading(path):
         out = read_struct(path, NAME, largest)
         header = headers.of_text(path, out["Header"], largest)
         places, shapes = _places(header), header["columns"]
@@ -75,7 +71,7 @@ def read(path: Path, largest: int) -> Record:
 
 
 def _places(header: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
-    """Return for each column in which struct it is, and in which field there."""
+    """Return for each column the struct that holds it, and the field."""
     sensors = plain_names(header["sensor_robots"])
     places = {}
     for name in headers.names_in(header):
@@ -95,7 +91,7 @@ def _for_matlab(name: str, column: NDArray[Any]) -> NDArray[Any]:
 
 
 def _of_matlab(name: str, values: NDArray[Any], shape: list[int]) -> NDArray[Any]:
-    """Return a column in its own shape: Matlab has two axes at least, and drops last ones of 1."""
+    """Return a column in its own shape: Matlab has at least two axes, and drops last axes of 1."""
     if name in INDICES:
         values = values.astype(np.float64)
         values = values - (values > 0)
@@ -103,7 +99,7 @@ def _of_matlab(name: str, values: NDArray[Any], shape: list[int]) -> NDArray[Any
 
 
 def _looks(record: Record) -> dict[str, Any]:
-    """Return what Table 1 of the paper has beside the history, and whose names they are."""
+    """Return the fields of Table 1 of the paper except the history, and the names of all bodies."""
     scenario, robots = record.scenario, record.scenario.robots
     drives = [robot.drive for robot in robots]
     animation, workspace = scenario.animation, scenario.workspace
@@ -160,8 +156,8 @@ def _cell(texts: Iterable[str]) -> NDArray[Any]:
 
 
 def _text(text: str) -> str:
-    """Return a text with as many characters as it has bytes, by blanks at its end.
+    """Return a text with blanks at its end, so that it has as many characters as it had bytes.
 
-    Octave reads as many bytes as a text is said to have characters, and would cut off the rest.
+    Octave reads as many bytes as a text has characters, and would cut off the rest.
     """
     return text + " " * (len(text.encode()) - len(text))

@@ -1,6 +1,8 @@
-"""MAT-files of level 5, as Matlab and Octave write them by ``save -v7``: read within limits.
+"""MAT-files of level 5, which Matlab and Octave write by ``save -v7``: read within limits.
 
-Nothing is taken for granted of what a file claims: arrays are views of bytes that are there.
+scipy's reader takes as much memory as a file claims to need: 8 GB for a cell array in 256 bytes.
+Here arrays are views of bytes that are there.
+
 Source: MAT-File Format (The MathWorks, R2015b), chapter 1.
 """
 
@@ -16,38 +18,38 @@ from typing import Any
 import numpy as np
 
 from mars2d.core.errors import InputError
-from mars2d.output.formats.size import check_size
+from mars2d.output.formats.guard import check_size
 
 __all__ = ["read_struct"]
 
-HEAD = 128
-"""How long the head of a file is, bytes: a sentence, the version, the order of bytes."""
+HEAD_SIZE = 128
+"""The length of a file's head, bytes: a sentence, the version, the byte order."""
 
 MATRIX, COMPRESSED = 14, 15
 
 STRUCT, CHAR, NUMBERS = 2, 4, range(6, 16)
-"""Classes of arrays; cells, objects, sparse ones and functions are passed over."""
+"""The classes of arrays that are read; cells, objects, sparse arrays and functions are not."""
 
 COMPLEX = 0x08
 
 KINDS = {1: "<i1", 2: "<u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 9: "<f8",
          12: "<i8", 13: "<u8"}  # fmt: skip
-"""How numbers are stored, which may be shorter than what the array's class says."""
+"""The types in which numbers are stored, which may be shorter than the array's class."""
 
 ENCODINGS = {4: "utf-16-le", 17: "utf-16-le", 18: "utf-32-le"}
-"""Those of texts; all others are UTF-8."""
+"""The encodings of texts by their type; all others are UTF-8."""
 
 
 def read_struct(path: Path, name: str, largest: int) -> dict[str, Any]:
     """Return the struct of a name in a file: arrays, text and structs by the names of its fields.
 
-    What it can't hold a number or text of is None. Raises InputError for other formats of Matlab's
-    and Octave's and for more than `largest` bytes, and whatever comes up in a damaged file.
+    Fields of other classes are None. Raises InputError for other formats of Matlab and Octave and
+    for more than `largest` bytes, and various exceptions for a damaged file.
     """
     check_size(path, path.stat().st_size, largest)
     content = memoryview(path.read_bytes())
-    _check_head(bytes(content[:HEAD]))
-    at = HEAD
+    _check_head(bytes(content[:HEAD_SIZE]))
+    at = HEAD_SIZE
     while at < len(content):
         kind, data, at = _element(content, at, padded=False)
         if kind == COMPRESSED:
@@ -68,7 +70,7 @@ def _check_head(head: bytes) -> None:
 
 
 def _expanded(path: Path, data: memoryview, largest: int) -> tuple[int, memoryview]:
-    """Return the element in a compressed one; it has the size that it states, or is refused."""
+    """Return the element in a compressed one. Raises ValueError if its size isn't as stated."""
     stream = zlib.decompressobj()
     kind, size = struct.unpack("<II", stream.decompress(data, 8))
     check_size(path, size, largest)
@@ -79,9 +81,9 @@ def _expanded(path: Path, data: memoryview, largest: int) -> tuple[int, memoryvi
 
 
 def _element(data: memoryview, at: int, padded: bool = True) -> tuple[int, memoryview, int]:
-    """Return the kind of the element at a place, its bytes, and where the next one is."""
+    """Return the kind of the element at a place, its bytes, and the place of the next one."""
     (kind,) = struct.unpack_from("<I", data, at)
-    if kind >> 16:  # a small one: its size is there, too
+    if kind >> 16:  # a small element: the upper half is its size
         kind, size, start, end = kind & 0xFFFF, kind >> 16, at + 4, at + 8
     else:
         (size,) = struct.unpack_from("<I", data, at + 4)
@@ -101,7 +103,7 @@ def _elements(data: memoryview) -> Iterator[tuple[int, memoryview]]:
 
 
 def _array(data: memoryview) -> tuple[str, Any]:
-    """Return the name and the value of an array; None if it is of a class that records lack."""
+    """Return the name and the value of an array; the value is None if its class is not read."""
     if not len(data):
         return "", np.empty((0, 0))
     parts = _elements(data)

@@ -12,16 +12,12 @@ from numpy.typing import NDArray
 
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.size import check_size
+from mars2d.output.formats.guard import check_size, reading
 from mars2d.record.record import Record
 
-__all__ = ["read", "require", "write"]
+__all__ = ["read", "write"]
 
 HEADER = "header"
-
-
-def require(path: Path) -> None:
-    """Need nothing: numpy is there."""
 
 
 def write(record: Record, path: Path) -> None:
@@ -34,7 +30,7 @@ def write(record: Record, path: Path) -> None:
 
 def read(path: Path, largest: int) -> Record:
     """Read the record in a file; InputError where there is none, or it is larger than allowed."""
-    with headers.reading(path), ZipFile(path) as archive:
+    with reading(path), ZipFile(path) as archive:
         long = archive.getinfo(f"{HEADER}.npy").file_size
         check_size(path, headers.OBJECTS * long, largest)
         header = headers.of_text(path, _array(archive, HEADER).tobytes(), largest)
@@ -45,13 +41,13 @@ def read(path: Path, largest: int) -> Record:
 
 
 def _array(archive: ZipFile, name: str) -> NDArray[Any]:
-    """Return an array of an archive; ValueError where it isn't as large as it claims to be.
+    """Return an array of an archive. Raises ValueError if it isn't as large as it claims to be.
 
-    numpy would take as much memory as is claimed before it reads.
+    numpy's own reader takes as much memory as is claimed before it reads.
     """
     place = archive.getinfo(f"{name}.npy")
     if place.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-        raise ValueError(name)  # the others take memory as they please
+        raise ValueError(name)  # others decompress without a limit
     with archive.open(place) as file:
         version = np.lib.format.read_magic(file)
         heads = {(1, 0): np.lib.format.read_array_header_1_0,

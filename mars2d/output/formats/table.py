@@ -1,6 +1,6 @@
-"""``.csv``: one long table, a row for each time and body, that any program opens.
+"""``.csv``: one long table with a row for each time and body, which any program opens.
 
-Its last column, `record`, holds all that is not in the others, as JSON in pieces.
+Its last column, `record`, holds everything that is not in the others, as pieces of JSON.
 """
 
 from __future__ import annotations
@@ -19,26 +19,22 @@ from numpy.typing import NDArray
 
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.bodies import FIRST, LAST, Part, parts_of
-from mars2d.output.formats.size import check_size
+from mars2d.output.formats.columns import KEYS, LAST, Part, parts_of
+from mars2d.output.formats.guard import check_size, reading
 from mars2d.record.record import Record
 
-__all__ = ["read", "require", "write"]
+__all__ = ["read", "write"]
 
-PIECE = 30_000
-"""Characters of JSON in a cell: a spreadsheet's holds 32 767."""
+PIECE_LENGTH = 30_000
+"""The characters of JSON in a cell; a cell of a spreadsheet holds 32 767."""
 
-BLOCK = 50_000
-"""How many cells of the table are made at once, or few more."""
+BLOCK_CELLS = 50_000
+"""How many cells of the table are made at once, approximately."""
 
 NAN = np.array(np.nan).view(np.uint64) << np.uint64(1)
-"""The bits of the usual one, but for its sign."""
+"""The bits of numpy's NaN without its sign."""
 
 Columns = Mapping[str, NDArray[Any]]
-
-
-def require(path: Path) -> None:
-    """Need nothing: Python writes tables itself."""
 
 
 def write(record: Record, path: Path) -> None:
@@ -52,11 +48,11 @@ def write(record: Record, path: Path) -> None:
         if name not in in_table or not _as_text_says_all(column)
     }
     text = headers.as_text(header)
-    pieces = (text[i : i + PIECE] for i in range(0, len(text), PIECE))
+    pieces = (text[i : i + PIECE_LENGTH] for i in range(0, len(text), PIECE_LENGTH))
     names = [str(body.name) for body in record.scenario.bodies]
     with atomic_write(path) as binary, io.TextIOWrapper(binary, "utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow([*FIRST, *parts, LAST])
+        table.writerow([*KEYS, *parts, LAST])
         for rows in _blocks(len(record), len(names) * len(parts)):
             cells = [_cells(columns, column, rows, len(names)) for column in parts.values()]
             times = chain.from_iterable(
@@ -65,12 +61,12 @@ def write(record: Record, path: Path) -> None:
             bodies = names * (rows.stop - rows.start)
             last = chain(islice(pieces, len(bodies)), repeat(""))
             table.writerows(zip(times, bodies, *cells, last, strict=False))
-        table.writerows([*repeat("", len(FIRST) + len(parts)), piece] for piece in pieces)
+        table.writerows([*repeat("", len(KEYS) + len(parts)), piece] for piece in pieces)
 
 
 def read(path: Path, largest: int) -> Record:
     """Read the record in a file; InputError where there is none, or it is larger than allowed."""
-    with headers.reading(path), path.open(encoding="utf-8-sig", newline="") as file:
+    with reading(path), path.open(encoding="utf-8-sig", newline="") as file:
         size = path.stat().st_size
         check_size(path, size, largest)
         text = "".join(_pieces(csv.reader(file, strict=True)))
@@ -81,9 +77,9 @@ def read(path: Path, largest: int) -> Record:
 
 
 def _claimed(header: Mapping[str, Any], size: int) -> int:
-    """Return how many values a table is said to hold; ValueError if its file is too small for it.
+    """Return how many values a table claims to hold. Raises ValueError if its file is too small.
 
-    Each value takes a byte at least, and each column some of the first line.
+    Each value takes at least a byte, and each column at least a byte of the first line.
     """
     kept = [header["columns"][name] for name in headers.names_of_bodies(header)]
     values: int = sum(prod(shape) for _, shape in kept)
@@ -102,9 +98,9 @@ def _pieces(table: Iterator[list[str]]) -> Iterator[str]:
 
 
 def _values(header: Mapping[str, Any], table: Iterator[list[str]]) -> dict[str, NDArray[Any]]:
-    """Return the columns in a table, and those that are in its header to the last bit."""
+    """Return the columns in a table, and those in its header, which are there to the last bit."""
     shapes, parts = header["columns"], _parts(header)
-    if next(table) != [*FIRST, *parts, LAST]:
+    if next(table) != [*KEYS, *parts, LAST]:
         raise ValueError("names of columns")
     names = headers.names_of_bodies(header)
     found = {name: np.empty(shapes[name][1], shapes[name][0]) for name in names}
@@ -114,7 +110,7 @@ def _values(header: Mapping[str, Any], table: Iterator[list[str]]) -> dict[str, 
         lines = list(islice(table, count * bodies))
         cells = np.array(lines, dtype=object).reshape(count, bodies, len(parts) + 3)
         found["time"][rows] = cells[:, 0, 0].astype(np.float64)
-        for k, column in enumerate(parts.values(), len(FIRST)):
+        for k, column in enumerate(parts.values(), len(KEYS)):
             for part in column:
                 values = found[part.name][rows][(slice(None), *part.at)]
                 texts = cells[:, list(part.bodies[: values.shape[1]]), k]
@@ -134,13 +130,13 @@ def _parts(header: Mapping[str, Any]) -> dict[str, list[Part]]:
 
 
 def _blocks(rows: int, width: int) -> Iterator[slice]:
-    """Yield slices that divide rows of so many cells into blocks."""
-    step = max(1, BLOCK // max(1, width))
+    """Yield slices that divide rows into blocks. width: the cells of a row."""
+    step = max(1, BLOCK_CELLS // max(1, width))
     return (slice(start, min(start + step, rows)) for start in range(0, rows, step))
 
 
 def _cells(columns: Columns, parts: list[Part], rows: slice, bodies: int) -> list[Any]:
-    """Return a column of the table as it is written, in some of the record's rows."""
+    """Return the cells of a column of the table, for some of the record's rows."""
     cells = np.full((rows.stop - rows.start, bodies), "", dtype=object)
     for part in parts:
         values = columns[part.name][rows][(slice(None), *part.at)]
@@ -149,7 +145,7 @@ def _cells(columns: Columns, parts: list[Part], rows: slice, bodies: int) -> lis
 
 
 def _written(values: NDArray[Any]) -> NDArray[Any]:
-    """Return values as objects that csv writes in full, and as R and pandas read them."""
+    """Return values as objects that csv writes in full, and that R and pandas understand."""
     if values.dtype == np.bool_:
         return values.astype(np.int64).astype(object)
     written = values.astype(object)
@@ -162,7 +158,7 @@ def _written(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _as_text_says_all(values: NDArray[Any]) -> bool:
-    """Return whether all that is not a number is so in one of the two ways that have a text."""
+    """Return whether every NaN has the usual bits: a text can't tell others apart."""
     if values.dtype == np.bool_:
         return True
     bits = values[np.isnan(values)].view(np.uint64)

@@ -323,3 +323,20 @@ def test_a_netcdf_whose_variables_share_their_values_is_refused(tmp_path, said):
 def test_netcdf_4_is_refused_in_words(tmp_path):
     (tmp_path / "other.nc").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
     refused(tmp_path / "other.nc", "netCDF 4 .HDF5.; expected netCDF 3: 'nccopy -k nc6' makes it")
+
+
+@pytest.mark.parametrize(
+    "name", ["fp", "use_mmap", "mode", "variables", "dimensions", "_dims", "_attributes", "close"]
+)
+def test_an_attribute_of_a_netcdf_stays_apart_from_those_of_its_reader(name, tmp_path, capfd):
+    attribute = _text(name) + struct.pack(">II", 2, 0)
+    (tmp_path / "bomb.nc").write_bytes(_netcdf([4], ["pose"], attribute) + bytes(100))
+    refused(tmp_path / "bomb.nc", "not a record of MARS2D, or damaged")
+    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.parametrize("start", [-1, -(2**63), 2**63 - 1, 10**6])
+def test_a_variable_of_a_netcdf_that_lies_elsewhere_is_refused(start, tmp_path):
+    content = _netcdf([4], ["pose"])
+    (tmp_path / "bomb.nc").write_bytes(content[:-8] + struct.pack(">q", start) + bytes(100))
+    refused(tmp_path / "bomb.nc", "not a record of MARS2D, or damaged")

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -17,10 +18,21 @@ from scipy.io import loadmat, savemat
 
 import mars2d
 from mars2d import InputError
-from mars2d.output.formats.naming import KEYWORDS, LONGEST, plain_names
+from mars2d.output import formats
+from mars2d.output.formats.columns import KEYWORDS, MAX_NAME, plain_names
 from tests.output.formats.records import FORMATS, cut_to, everything, records, refused
 
 each_format = pytest.mark.parametrize("suffix", FORMATS)
+
+
+@pytest.mark.parametrize("suffix", formats.SUFFIXES)
+def test_a_formats_module_has_what_its_line_in_the_table_says(suffix):
+    format_ = formats.FORMATS[suffix]
+    module = import_module(f"mars2d.output.formats.{format_.module}")
+    assert callable(module.read)
+    assert callable(module.write)
+    assert hasattr(module, "require") == bool(format_.extra)
+    assert hasattr(module, "Log") == format_.streamed == formats.is_streamed(Path(f"run{suffix}"))
 
 
 # -- what is saved comes back ---------------------------------------------------------------
@@ -72,7 +84,7 @@ def test_names_for_other_programs_are_plain_and_differ(names):
         assert name.isidentifier()
         assert name[0].isalpha()
         assert name not in KEYWORDS
-        assert len(name) <= LONGEST
+        assert len(name) <= MAX_NAME
 
 
 # -- what is no record ----------------------------------------------------------------------

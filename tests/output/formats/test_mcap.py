@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import hashlib
 import os
 import random
 import signal
@@ -22,9 +23,11 @@ import mars2d
 from mars2d import InputError, LawError, Record, Robot, Scenario, World
 from mars2d.output.formats.mcap import Log
 from mars2d.output.formats.mcap.reading import BROKEN_OFF
-from mars2d.output.formats.mcap.row import decoded, schema
+from mars2d.output.formats.mcap.row import Row, decoded, encoded, schema
 from mars2d.output.formats.mcap.scanning import scan
 from mars2d.record.columns import DiskError
+from mars2d.record.contact import CONTACT
+from mars2d.record.message import MESSAGE
 from mars2d.scenario import serialize
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import simulate
@@ -186,6 +189,39 @@ def test_a_row_is_a_message_that_protocol_buffers_can_read(tmp_path) -> None:
         assert list(row.pose) == record.pose[k].ravel().tolist()
     talked = [kind.FromString(row) for row in mine]
     assert [text for row in talked for text in row.contents] == list(record.contents)
+
+
+def row_with_everything() -> Row:
+    """A row of fixed bits: no props, flags, numbers that are none, a contact and a message."""
+    contacts, messages = np.zeros(1, CONTACT), np.zeros(1, MESSAGE)
+    contacts["b"], contacts["point"], contacts["began"] = -7, (0.1, 0.2), True
+    messages["arrival"], messages["status"] = np.nan, 4
+    readings = {"scan": np.array([[0.5, np.inf]]), "größe": np.array([[True, False]]),
+                "none": np.zeros((1, 0))}  # fmt: skip
+    return Row(
+        0, 0.0, 0.1, np.array([[1.0], [2.0], [-0.0]]), np.array([[0.3], [0.4]]), np.zeros((3, 0)),
+        np.array([0.25]), readings, contacts, messages, ["", "🤖"], ["{}"],
+    )  # fmt: skip
+
+
+def test_a_row_is_stored_in_the_bytes_in_which_the_first_logs_have_it() -> None:
+    row = row_with_everything()
+    data = encoded(row)
+    assert hashlib.sha256(data).hexdigest() == (
+        "c39522a234f33612df2d2c7d59b441193c582dc7b6f2c8c03669fb11b8f6477e"
+    )
+    assert hashlib.sha256(schema()).hexdigest() == (
+        "ee987c37cda90fc30a042836b6fc01cd53e483163e39bbdee36f3d4e958f10fe"
+    )
+    again = decoded(data)
+    for name in ("pose", "command", "prop_pose", "effort", "contacts", "messages"):
+        assert getattr(again, name).tobytes() == getattr(row, name).tobytes()
+    for name, values in row.readings.items():
+        found = again.readings[name]
+        assert (found.tobytes(), found.shape, found.dtype) == (
+            values.tobytes(), values.shape, values.dtype,
+        )  # fmt: skip
+    assert (again.contents, again.changes) == (row.contents, row.changes)
 
 
 def _is_row(data: bytes) -> bool:

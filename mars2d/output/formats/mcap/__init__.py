@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from mars2d.output.formats.mcap.log import Log
-from mars2d.output.formats.mcap.packing import write
 from mars2d.output.formats.mcap.reading import read
-from mars2d.output.formats.mcap.tape import require
+from mars2d.output.formats.mcap.writing import require, write
 
 __all__ = ["Log", "read", "require", "write"]

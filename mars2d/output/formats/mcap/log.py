@@ -1,12 +1,14 @@
-"""A run written down while it goes on, tick by tick, so that nothing of it can be lost."""
+"""A run that is written down while it goes on, step by step, so that nothing of it can be lost."""
 
 from __future__ import annotations
 
+import os
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from time import monotonic
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -14,34 +16,66 @@ from mars2d.core.errors import InputError
 from mars2d.core.interrupt import noted_interrupts, unbroken
 from mars2d.core.scene import Scene
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.mcap.cutting import changes_at, cut
-from mars2d.output.formats.mcap.file import File
-from mars2d.output.formats.mcap.packing import pack
-from mars2d.output.formats.mcap.row import Row
-from mars2d.output.formats.mcap.tape import Tape, require
-from mars2d.output.formats.mcap.topics import nanoseconds
+from mars2d.output.formats.mcap.foxglove import nanoseconds
+from mars2d.output.formats.mcap.row import Row, changes_at, cut
+from mars2d.output.formats.mcap.scanning import MESSAGE as OPCODE
+from mars2d.output.formats.mcap.writing import Tape, pack, require
 from mars2d.record.columns import DiskError, Scratch
 from mars2d.record.contact import CONTACT
-from mars2d.record.message import MESSAGE as MESSAGES
+from mars2d.record.interventions import Intervention
+from mars2d.record.message import MESSAGE
 from mars2d.record.record import Record
 from mars2d.record.recorder import Recorder
 from mars2d.scenario.scenario import Scenario
 
-if TYPE_CHECKING:
-    from mars2d.world.world import World
+__all__ = ["Log", "Logged"]
 
-__all__ = ["Log"]
+HEAD = struct.Struct("<BQHIQQ")
+"""How the operation of a message begins: its kind and length, channel, sequence, two times."""
 
-MESSAGE = struct.Struct("<BQHIQQ")
-"""How a message begins in MCAP: operation, length, channel, sequence, two times."""
+LENGTH_FROM = 9
+"""The length of an operation counts the bytes after its kind and the length itself."""
 
-NO_CONTACTS, NO_MESSAGES = np.empty(0, dtype=CONTACT), np.empty(0, dtype=MESSAGES)
+NO_CONTACTS, NO_MESSAGES = np.empty(0, dtype=CONTACT), np.empty(0, dtype=MESSAGE)
 
-OPCODE, HEAD = 5, MESSAGE.size - 9
+CHECK_EVERY = 1.0
+"""The seconds between two checks that the file still has its name."""
+
+
+class _Hands(Protocol):
+    @property
+    def log(self) -> Sequence[Intervention]:
+        """What was done to the world from outside."""
+
+
+class Logged(Protocol):
+    """The members of a `World` that a log reads."""
+
+    filename: str
+
+    @property
+    def recorder(self) -> Recorder:
+        """What writes the rows."""
+
+    @property
+    def record(self) -> Record:
+        """The record so far."""
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario as it is now."""
+
+    @property
+    def seed(self) -> int:
+        """The seed of the run."""
+
+    @property
+    def hands(self) -> _Hands:
+        """The operator."""
 
 
 class Log:
-    """Writes what a world records to an MCAP file, each control step when it is done.
+    """Writes the record of a world to an MCAP file, each control step when it is done.
 
     >>> with Log("run.mcap") as log:  # doctest: +SKIP
     ...     world = World(scenario, control, storage=log.storage)
@@ -49,12 +83,12 @@ class Log:
     ...         world.step()
     ...         log.follow(world)
 
-    Where the process is killed, the file has all steps that were followed. At the end it is packed:
-    compressed, and with an index. storage: keeps the columns of a world beside the file, so that a
-    long run takes no memory.
+    If the process is killed, the file has all steps that were followed. At the end it is packed:
+    compressed, and with an index. storage: keeps the columns of a world in files beside the log, so
+    that a long run takes no memory.
 
-    Raises DiskError, whose `record` has all that was recorded, where the file can't be written any
-    more: it stays readable up to the last whole step.
+    Raises DiskError where the file can't be written any more; the error's `record` has all that was
+    recorded, and the file can be read up to the last whole step.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -68,8 +102,8 @@ class Log:
         if not self.path.parent.is_dir():
             raise InputError(f"{self.path}: there is no folder {self.path.parent}")
         self.storage = Scratch(self.path.parent)
-        self._file = File(self.path)
-        # Of what it has no index for, a writer remembers nothing.
+        self._file = _File(self.path)
+        # Without indices the writer keeps nothing in memory.
         writer: Any = Writer(
             self._file,  # type: ignore[arg-type]
             index_types=IndexType.NONE,
@@ -80,21 +114,20 @@ class Log:
             repeat_schemas=False,
         )
         self._writer, self._tape = writer, Tape(writer)
-        self._world: World | None = None
-        self._counts = 0, 0, 0, 0  # of rows, contacts, messages and contents that are written
-        self._begun: list[int] = []  # the row at which each world was begun that was followed
+        self._world: Logged | None = None
+        self._counts = 0, 0, 0, 0  # of the rows, contacts, messages and contents in the file
+        self._begun: list[int] = []  # the first row of each world that was followed
         self._open = True
 
-    def follow(self, world: World, same: int = 0) -> None:
-        """Write what a world has recorded since it was called last.
+    def follow(self, world: Logged, same: int = 0) -> None:
+        """Write the rows that a world has recorded since the last call. Raises DiskError.
 
-        same: of another world than before, how many rows are the same: it goes on from there.
-        Raises DiskError.
+        same: if this is another world than before, how many of its rows are the same as that one's.
         """
         with unbroken:
             self._follow(world, same)
 
-    def _follow(self, world: World, same: int = 0) -> None:
+    def _follow(self, world: Logged, same: int = 0) -> None:
         if not self._open:
             raise DiskError(f"{self.path}: this log is closed")
         other = world is not self._world
@@ -110,8 +143,8 @@ class Log:
         self._counts = recorder.counts
         self._do(self._file.take)
 
-    def _begin(self, world: World, same: int) -> None:
-        """Go on with another world."""
+    def _begin(self, world: Logged, same: int) -> None:
+        """Continue with another world, of which the first `same` rows are written already."""
         self._world, recorder = world, world.recorder
         start = min(same, recorder.rows)
         self._counts = start, 0, 0, 0
@@ -123,8 +156,8 @@ class Log:
         self._header = headers.of_record(empty) | {"sensor_robots": robots}
         self._tape.begin(self._header, recorder.scenario, robots, start)
 
-    def _next(self, world: World) -> Row:
-        """Return the one row that is new."""
+    def _next(self, world: Logged) -> Row:
+        """Return the row after the last one that was written."""
         recorder = world.recorder
         k, contacts, messages, contents = self._counts
         columns, readings = recorder.row(k)
@@ -145,17 +178,18 @@ class Log:
         ns, number = nanoseconds(row.time), row.row & 0xFFFFFFFF
         parts: list[bytes] = []
         for channel, data in self._tape.messages(row, scenario):
-            parts += (MESSAGE.pack(OPCODE, HEAD + len(data), channel, number, ns, ns), data)
+            length = HEAD.size - LENGTH_FROM + len(data)
+            parts += (HEAD.pack(OPCODE, length, channel, number, ns, ns), data)
         self._file.write(b"".join(parts))
 
     def close(self, record: Record | None = None) -> None:
-        """Write how the run ended, and pack the file. Raises DiskError where that can't be.
+        """Write how the run ended, and pack the file. Raises DiskError where that fails.
 
-        record: that of the world, where it tells more of the end than the world does.
+        record: of the world, if it tells more of the end than the world does.
         """
         if not self._open:
             return
-        with unbroken:  # but packing may take long, and what is not packed is complete
+        with unbroken:  # but packing may take long, and a log that is not packed is complete
             try:
                 if self._world is not None:
                     self._follow(self._world)
@@ -169,7 +203,7 @@ class Log:
             self._do(lambda: pack(self.path, self._header, self._begun))
 
     def _do(self, act: Callable[[], None]) -> None:
-        """Do something with the file; an error has what was recorded, and nothing more is done."""
+        """Do something with the file. If it fails, close the log and give the error the record."""
         try:
             act()
         except InputError as error:
@@ -197,3 +231,73 @@ class Log:
             self.close()
         finally:
             self._interrupts.__exit__()
+
+
+class _File:
+    """A file that collects what is written to it, and hands it to the system when told to.
+
+    What the system has is kept when the process is killed. Raises DiskError where the file can't be
+    written, or where somebody has moved or deleted it; what was there before is kept.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        flags = os.O_RDWR | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
+        try:
+            self._file = os.open(path, flags, 0o666)
+        except OSError as error:
+            raise self._error(error) from error
+        self._pending = bytearray()
+        self._taken = 0
+        self._broken = False
+        self._checked = monotonic()
+
+    def write(self, data: bytes) -> int:
+        """Keep bytes until `take` is called."""
+        self._pending += data
+        return len(data)
+
+    def tell(self) -> int:
+        """Return the number of bytes that were written."""
+        return self._taken + len(self._pending)
+
+    def take(self) -> None:
+        """Hand over all that was written since the last call, or nothing of it."""
+        if monotonic() - self._checked > CHECK_EVERY:
+            self.check()
+        try:
+            if self._broken:  # by Ctrl-C, after a part was written
+                os.lseek(self._file, self._taken, os.SEEK_SET)
+            self._broken = True
+            rest = memoryview(self._pending)
+            while rest:
+                rest = rest[os.write(self._file, rest) :]
+        except OSError as error:
+            self._drop()
+            raise self._error(error) from error
+        self._taken += len(self._pending)
+        self._pending = bytearray()
+        self._broken = False
+
+    def check(self) -> None:
+        """Raise DiskError if the file is no longer there under its name."""
+        self._checked = monotonic()
+        try:
+            there = os.path.samestat(self._path.stat(), os.fstat(self._file))
+        except OSError:
+            there = False
+        if not there:
+            self._pending = bytearray()
+            raise DiskError(f"{self._path}: it was deleted or moved while it was written")
+
+    def close(self) -> None:
+        """Close the file as it is, without what was not handed over."""
+        os.close(self._file)
+
+    def _drop(self) -> None:
+        """Forget what could not be written whole."""
+        self._pending = bytearray()
+        os.ftruncate(self._file, self._taken)
+
+    def _error(self, error: OSError) -> DiskError:
+        return DiskError(f"{self._path}: can't be written: {error.strerror or error}")

@@ -1,4 +1,4 @@
-"""Records read from logs, whole or broken off, and from whatever else has the ending of one."""
+"""Records read from logs, whole or broken off, and from other files that end in .mcap."""
 
 from __future__ import annotations
 
@@ -13,10 +13,19 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.output.formats import header as headers
+from mars2d.output.formats.guard import reading
 from mars2d.output.formats.mcap.row import Row, decoded
-from mars2d.output.formats.mcap.scanning import CHANNEL, MAGIC, MESSAGE, METADATA, Torn, scan
-from mars2d.output.formats.mcap.tape import BEGIN, END, TOPIC
-from mars2d.output.formats.mcap.wording import metadata, text
+from mars2d.output.formats.mcap.scanning import (
+    CHANNEL,
+    MAGIC,
+    MESSAGE,
+    MESSAGE_HEAD,
+    METADATA,
+    Torn,
+    parsed,
+    scan,
+)
+from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE as MESSAGES
 from mars2d.record.message import as_of
@@ -25,7 +34,7 @@ from mars2d.record.record import Record
 __all__ = ["BROKEN_OFF", "read"]
 
 BROKEN_OFF = "The log breaks off here: the run was killed, or still goes on"
-"""What a record says of its end that the log does not tell."""
+"""The `over_message` of a record whose log does not tell how the run ended."""
 
 SIZES = {"pose": 3, "command": 2, "prop_pose": 3, "effort": 1}
 """How many numbers a body has in each column."""
@@ -34,27 +43,29 @@ SIZES = {"pose": 3, "command": 2, "prop_pose": 3, "effort": 1}
 def read(path: Path, largest: int) -> Record:
     """Read the record in a file; InputError where there is none, or it is larger than allowed.
 
-    A log that breaks off anywhere has all rows up to there; it is told by `Record.over_message`.
+    A log that breaks off anywhere has all rows up to there; its `Record.over_message` says so.
     """
-    with headers.reading(path), path.open("rb") as file:
+    require(path)
+    with reading(path), path.open("rb") as file:
         rows, header, end, count = _Rows(), None, None, 0
         channels: set[int] = set()
         try:
-            for kind, data in scan(path, file, largest, channels):
+            for operation in scan(path, file, largest, channels):
+                kind, data = operation
                 if kind == MESSAGE:
-                    rows.add(decoded(data[22:]))
+                    rows.add(decoded(data[MESSAGE_HEAD.size :]))
                 elif kind == CHANNEL:
-                    (channel,) = struct.unpack_from("<H", data)
-                    if text(data, 4)[0] == TOPIC:
-                        channels.add(channel)
+                    channel = parsed(operation)
+                    if channel.topic == TOPIC:
+                        channels.add(channel.id)
                 elif kind == METADATA:
-                    name, told = metadata(data)
-                    if name == BEGIN:
-                        header = json.loads(told["header"])
+                    told = parsed(operation)
+                    if told.name == BEGIN:
+                        header = json.loads(told.metadata["header"])
                         headers.check_format(header)
-                        rows.cut(int(told["row"]))
-                    elif name == END:
-                        end, count = json.loads(told["end"]), int(told["rows"])
+                        rows.cut(int(told.metadata["row"]))
+                    elif told.name == END:
+                        end, count = json.loads(told.metadata["end"]), int(told.metadata["rows"])
         except Torn:
             if len(rows) < count:
                 end = None
@@ -64,7 +75,7 @@ def read(path: Path, largest: int) -> Record:
 
 
 def _why_nothing(path: Path, channels: set[int]) -> str:
-    """Return why a file holds no run. channels: those for rows that it has."""
+    """Return why a file holds no run. channels: those for rows in the file."""
     if path.stat().st_size < len(MAGIC):
         return "empty: the run was killed before it began"
     if channels:
@@ -82,7 +93,7 @@ class _Rows:
         self._contacts, self._messages = bytearray(), bytearray()
         self._contents: list[str] = []
         self._changes: list[tuple[int, str]] = []
-        # What rows have any number of, and where those of each row end.
+        # Lists of which a row has any number of items, each with the ends of all rows' items.
         lists: list[Any] = [self._contacts, self._messages, self._contents]
         self._lists = [(array("q"), things) for things in lists]
 
@@ -90,7 +101,7 @@ class _Rows:
         return self._count
 
     def add(self, row: Row) -> None:
-        """Add a row; one that was there already, and all after it, were left for this one."""
+        """Add a row. If there is one of its number already, it replaces that and all later ones."""
         if row.row != self._count:
             self.cut(row.row)
         for name in ("time", "command_time"):
@@ -137,7 +148,10 @@ class _Rows:
         self._count = count
 
     def record(self, header: dict[str, Any], end: dict[str, Any] | None) -> Record:
-        """Return the record; raises what `headers.to_record` does. end: as the log tells it."""
+        """Return the record. Raises the exceptions of `headers.to_record`.
+
+        end: how the run ended, None where the log does not tell.
+        """
         changes = [json.loads(text) for _, text in self._changes]
         robots = header["sensor_robots"]
         whole = header | {
@@ -158,8 +172,8 @@ class _Rows:
             bodies = props if name == "prop_pose" else robots
             shape = (n, bodies) if numbers == 1 else (n, numbers, bodies)
             columns[name] = columns[name].reshape(shape)
-        for name, (reading, dtype, data) in self._sensors.items():
-            columns[f"sensor:{name}"] = np.frombuffer(data, dtype).reshape(n, *reading)
+        for name, (reading_shape, dtype, data) in self._sensors.items():
+            columns[f"sensor:{name}"] = np.frombuffer(data, dtype).reshape(n, *reading_shape)
         contacts = np.frombuffer(self._contacts, CONTACT)
         columns |= {f"contact:{name}": contacts[name] for name in CONTACT.names or ()}
         now = columns["time"][-1] if n else 0.0

@@ -1,41 +1,33 @@
-"""The message in which a row of a record is kept, exactly, with all that happened in its step."""
+"""The rows of a record as messages of Protocol Buffers, each with all that happened in its step."""
 
 from __future__ import annotations
 
+import json
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.output.formats.mcap.wire import block, fields, packed, unpacked, varint
+from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
+from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE
+from mars2d.record.record import Record
 
-__all__ = ["Row", "decoded", "encoded", "schema"]
+__all__ = ["Row", "changes_at", "cut", "decoded", "encoded", "schema", "with_arrays_as_bytes"]
 
 Float = NDArray[np.float64]
-
-NAMES = ("row", "time", "command_time", "pose", "command", "prop_pose", "effort", "readings",
-         "contacts", "messages", "contents", "changes")  # fmt: skip
-"""The fields of a row, numbered from 1 on."""
-
-ROW, TIME, COMMAND_TIME, POSE, COMMAND, PROP_POSE, EFFORT, READINGS, CONTACTS, MESSAGES, \
-    CONTENTS, CHANGES = range(1, len(NAMES) + 1)  # fmt: skip
-CRC = 15
-SENSOR, SHAPE, NUMBERS, FLAGS = range(1, 5)
-
-TAIL = 5
-"""The bytes of the last field, the check sum of all before it."""
 
 
 class Row(NamedTuple):
     """A row of a record, with the contacts and messages of the control step that began there.
 
-    The numbers of `pose`, `command` and `prop_pose` come quantity by quantity. contents: the texts
-    that no row before had. changes: the interventions at this row, as JSON.
+    pose: (3, n); command: (2, n); prop_pose: (3, p). readings: by the names of sensors. contents:
+    the texts that no earlier row has. changes: the interventions at this row, as JSON.
     """
 
     row: int
@@ -52,92 +44,104 @@ class Row(NamedTuple):
     changes: Sequence[str]
 
 
-def encoded(row: Row) -> bytes:
-    """Return a row as a message of Protocol Buffers, see `schema`."""
-    parts = [
-        bytes([ROW << 3]),
-        varint(row.row),
-        struct.pack("<BdBd", TIME << 3 | 1, row.time, COMMAND_TIME << 3 | 1, row.command_time),
-        packed(POSE, row.pose),
-        packed(COMMAND, row.command),
-        packed(PROP_POSE, row.prop_pose),
-        packed(EFFORT, row.effort),
-    ]
-    parts += [block(READINGS, _readings(name, values)) for name, values in row.readings.items()]
-    if len(row.contacts):
-        parts.append(block(CONTACTS, _table(row.contacts)))
-    if len(row.messages):
-        parts.append(block(MESSAGES, _table(row.messages)))
-    parts += [block(CONTENTS, text.encode()) for text in row.contents]
-    parts += [block(CHANGES, text.encode()) for text in row.changes]
-    data = b"".join(parts)
-    return data + struct.pack("<BI", CRC << 3 | 5, crc32(data))
+# -- a record cut into rows -------------------------------------------------------------------
 
 
-def _readings(name: str, values: NDArray[Any]) -> bytes:
-    numbers = FLAGS if values.dtype.kind == "b" else NUMBERS
-    shape = np.array(values.shape, dtype=np.uint32)
-    return block(SENSOR, name.encode()) + packed(SHAPE, shape) + packed(numbers, values)
+def cut(record: Record, start: int = 0) -> Iterator[Row]:
+    """Yield the rows of a record from `start` on."""
+    contacts = _ends(record.contact_rows - 1, len(record))
+    rounding = 1e-6 * record.scenario.sampling_time
+    sent = np.searchsorted(record.time, record.messages["time"] + rounding, side="left") - 1
+    messages = _ends(sent, len(record))
+    # A text comes with the first message that has it; messages are in the order of their texts.
+    contents = np.zeros(len(record) + 1, dtype=int)
+    last = np.maximum.accumulate(np.concatenate([[-1], record.messages["content"]]))
+    contents[1:] = 1 + last[messages[1:]]
+    contents[-1] = len(record.contents)
+    for k in range(start, len(record)):
+        yield Row(
+            row=k,
+            time=float(record.time[k]),
+            command_time=float(record.command_time[k]),
+            pose=record.pose[k],
+            command=record.command[k],
+            prop_pose=record.prop_pose[k],
+            effort=record.effort[k],
+            readings={name: values[k] for name, values in record.sensors.items()},
+            contacts=record.contacts[contacts[k] : contacts[k + 1]],
+            messages=record.messages[messages[k] : messages[k + 1]],
+            contents=record.contents[contents[k] : contents[k + 1]],
+            changes=changes_at(record.interventions, k),
+        )
 
 
-def _table(rows: NDArray[np.void]) -> bytes:
-    """Return rows of a structured array field by field."""
-    return b"".join(packed(i, rows[name]) for i, name in enumerate(rows.dtype.names or (), start=1))
+def changes_at(done: Sequence[Intervention], row: int) -> list[str]:
+    """Return the interventions at a row, as texts of JSON."""
+    found = []
+    for each in reversed(done):
+        if each.row < row:
+            break
+        if each.row == row:
+            found.append(json.dumps(interventions.to_plain(each)))
+    return found[::-1]
 
 
-def decoded(data: bytes) -> Row:
-    """Return the row of a message; raises what it may, such as ValueError, where that is none.
+def _ends(rows: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """Return where each row's entries begin in a list of entries, (count + 1,).
 
-    Its arrays are flat, but for the readings.
+    rows: of the entries, (m,), almost in order. The entries of row k go from item k of the result
+    to item k + 1. The last row has all later entries.
     """
-    body = memoryview(data)[:-TAIL]
-    if data[-TAIL:] != struct.pack("<BI", CRC << 3 | 5, crc32(body)):
-        raise ValueError("check sum of a row")
-    double = np.dtype(float)
-    found: dict[int, Any] = {CONTACTS: np.empty(0, CONTACT), MESSAGES: np.empty(0, MESSAGE)}
-    found |= {READINGS: {}, CONTENTS: [], CHANGES: []}
-    for field, value in fields(body):
-        if field == ROW:
-            found[field] = value
-            continue
-        assert isinstance(value, memoryview)
-        if field in (TIME, COMMAND_TIME):
-            (found[field],) = struct.unpack("<d", value)
-        elif field == READINGS:
-            name, values = _as_readings(value)
-            found[field][name] = values
-        elif field == CONTACTS:
-            found[field] = _as_table(value, CONTACT)
-        elif field == MESSAGES:
-            found[field] = _as_table(value, MESSAGE)
-        elif field in (CONTENTS, CHANGES):
-            found[field].append(str(value, "utf-8"))
-        else:
-            found[field] = unpacked(value, double)
-    return Row(*(found[field] for field in range(1, len(NAMES) + 1)))
+    rows = np.maximum.accumulate(np.clip(rows, 0, None), dtype=np.intp)
+    ends = np.searchsorted(rows, np.arange(count + 1), side="left")
+    ends[-1] = len(rows)
+    return ends
 
 
-def _as_readings(data: memoryview) -> tuple[str, NDArray[Any]]:
-    found = dict(fields(data))
-    numbers = FLAGS if FLAGS in found else NUMBERS
-    values = unpacked(_bytes(found[numbers]), np.dtype(bool if numbers == FLAGS else float))
-    shape = unpacked(_bytes(found[SHAPE]), np.dtype(np.uint32))
-    return str(_bytes(found[SENSOR]), "utf-8"), values.reshape(shape.tolist())
+# -- rows as messages -------------------------------------------------------------------------
+
+KINDS = {"f": ("double", "<f8"), "i": ("sfixed32", "<i4"), "u": ("fixed32", "<u4"),
+         "b": ("bool", "?")}  # fmt: skip
+"""How arrays are stored, by the kinds of their numbers: as messages call it, and as numpy does."""
 
 
-def _as_table(data: memoryview, dtype: np.dtype[Any]) -> NDArray[np.void]:
-    found = dict(fields(data))
-    names = dtype.names or ()
-    rows = np.zeros(len(_bytes(found[1])) // 8, dtype=dtype)  # both begin with a time
-    for i, name in enumerate(names, start=1):
-        rows[name] = unpacked(_bytes(found[i]), rows[name].dtype).reshape(rows[name].shape)
-    return rows
+def _fields_of(dtype: np.dtype[Any]) -> dict[str, str]:
+    """Return the fields of a message that holds the rows of a structured array."""
+    return {name: f"{KINDS[dtype[name].base.kind][0]}[]" for name in dtype.names or ()}
 
 
-def _bytes(value: memoryview | int) -> memoryview:
-    if isinstance(value, int):
-        raise ValueError("a number where bytes were expected")  # noqa: TRY004
-    return value
+FIELDS = {
+    "Row": {
+        "row": "uint64",
+        "time": "double",
+        "command_time": "double",
+        "pose": "double[]",
+        "command": "double[]",
+        "prop_pose": "double[]",
+        "effort": "double[]",
+        "readings": "Readings[]",
+        "contacts": "Contacts",
+        "messages": "Messages",
+        "contents": "string[]",
+        "changes": "string[]",
+        "crc": "fixed32",
+    },
+    "Readings": {
+        "sensor": "string",
+        "shape": "fixed32[]",
+        "numbers": "double[]",
+        "flags": "bool[]",
+    },
+    "Contacts": _fields_of(CONTACT),
+    "Messages": _fields_of(MESSAGE),
+}
+"""The fields of all messages, numbered from 1 on; [] marks arrays."""
+
+CRC = struct.Struct("<BI")
+"""How a row ends: the tag of its field `crc`, and the check sum of all bytes before it."""
+
+CRC_NUMBER = 15
+CRC_TAG = CRC_NUMBER << 3 | 5  # a fixed32
 
 
 def schema() -> bytes:
@@ -147,36 +151,125 @@ def schema() -> bytes:
 
     files = FileDescriptorSet()
     file = files.file.add(name="mars2d/row.proto", package="mars2d", syntax="proto3")
-    kinds = {"f": Field.TYPE_DOUBLE, "i": Field.TYPE_SFIXED32, "u": Field.TYPE_FIXED32,
-             "b": Field.TYPE_BOOL}  # fmt: skip
-    row = file.message_type.add(name="Row")
-    special: dict[str, dict[str, Any]] = {
-        "row": {"type": Field.TYPE_UINT64},
-        "time": {"type": Field.TYPE_DOUBLE},
-        "command_time": {"type": Field.TYPE_DOUBLE},
-        "readings": _many(Field, type_name=".mars2d.Readings"),
-        "contacts": {"type": Field.TYPE_MESSAGE, "type_name": ".mars2d.Contacts"},
-        "messages": {"type": Field.TYPE_MESSAGE, "type_name": ".mars2d.Messages"},
-        "contents": _many(Field, type=Field.TYPE_STRING),
-        "changes": _many(Field, type=Field.TYPE_STRING),
-    }
-    numbers = _many(Field, type=Field.TYPE_DOUBLE)
-    for number, name in enumerate(NAMES, start=1):
-        row.field.add(name=name, number=number, **{"label": 1, **special.get(name, numbers)})
-    row.field.add(name="crc", number=CRC, type=Field.TYPE_FIXED32, label=1)
-    readings = file.message_type.add(name="Readings")
-    readings.field.add(name="sensor", number=SENSOR, type=Field.TYPE_STRING, label=1)
-    readings.field.add(name="shape", number=SHAPE, **_many(Field, type=Field.TYPE_FIXED32))
-    readings.field.add(name="numbers", number=NUMBERS, **numbers)
-    readings.field.add(name="flags", number=FLAGS, **_many(Field, type=Field.TYPE_BOOL))
-    for title, dtype in (("Contacts", CONTACT), ("Messages", MESSAGE)):
-        table = file.message_type.add(name=title)
-        for number, name in enumerate(dtype.names or (), start=1):
-            kind = kinds[dtype[name].base.kind]
-            table.field.add(name=name, number=number, **_many(Field, type=kind))
+    for title, fields in FIELDS.items():
+        message = file.message_type.add(name=title)
+        for number, (name, kind) in enumerate(fields.items(), start=1):
+            field = message.field.add(name=name, number=CRC_NUMBER if name == "crc" else number)
+            field.label = Field.LABEL_REPEATED if kind.endswith("[]") else Field.LABEL_OPTIONAL
+            one = kind.removesuffix("[]")
+            if one in FIELDS:
+                field.type, field.type_name = Field.TYPE_MESSAGE, f".mars2d.{one}"
+            else:
+                field.type = Field.Type.Value(f"TYPE_{one.upper()}")
     return bytes(files.SerializeToString())
 
 
-def _many(field: Any, **options: Any) -> dict[str, Any]:
-    """Return the options of a repeated field."""
-    return {"type": field.TYPE_MESSAGE, **options, "label": field.LABEL_REPEATED}
+def with_arrays_as_bytes(schema: bytes, name: str) -> Any:
+    """Return the class of a message of a schema, in which each array of numbers is one of bytes.
+
+    Both are stored alike, so numpy's arrays are written and read as they are: none of their numbers
+    is changed, nor becomes an object of Python. schema: a FileDescriptorSet whose last file has the
+    message. A field that is set is stored even if it is empty or 0.
+    """
+    from google.protobuf.descriptor_pb2 import FileDescriptorSet
+    from google.protobuf.descriptor_pool import DescriptorPool
+    from google.protobuf.message_factory import GetMessageClass
+
+    files = FileDescriptorSet.FromString(schema).file
+    files[-1].syntax = "proto2"
+    for message in files[-1].message_type:
+        for field in message.field:
+            array = field.label == field.LABEL_REPEATED
+            if array and field.type not in (field.TYPE_MESSAGE, field.TYPE_STRING):
+                field.type, field.label = field.TYPE_BYTES, field.LABEL_OPTIONAL
+    pool = DescriptorPool()
+    for file in files:
+        pool.Add(file)
+    return GetMessageClass(pool.FindMessageTypeByName(name))
+
+
+@cache
+def _message_class() -> Any:
+    return with_arrays_as_bytes(schema(), "mars2d.Row")
+
+
+def encoded(row: Row) -> bytes:
+    """Return a row as a message, see `schema`."""
+    message = _message_class()(
+        row=row.row,
+        time=row.time,
+        command_time=row.command_time,
+        pose=_stored(row.pose),
+        command=_stored(row.command),
+        prop_pose=_stored(row.prop_pose),
+        effort=_stored(row.effort),
+        contents=row.contents,
+        changes=row.changes,
+    )
+    for sensor, values in row.readings.items():
+        readings = message.readings.add(sensor=sensor, shape=_stored(np.array(values.shape, "<u4")))
+        if values.dtype.kind == "b":
+            readings.flags = _stored(values)
+        else:
+            readings.numbers = _stored(values)
+    for table, rows in ((message.contacts, row.contacts), (message.messages, row.messages)):
+        if len(rows):
+            for name in rows.dtype.names or ():
+                setattr(table, name, _stored(rows[name]))
+    data: bytes = message.SerializeToString()
+    return data + CRC.pack(CRC_TAG, crc32(data))
+
+
+def decoded(data: bytes) -> Row:
+    """Return the row in a message; its arrays are flat, but for the readings.
+
+    Raises various exceptions, such as ValueError, where there is none.
+    """
+    body = data[: -CRC.size]
+    if data[-CRC.size :] != CRC.pack(CRC_TAG, crc32(body)):
+        raise ValueError("check sum of a row")
+    message = _message_class().FromString(body)
+    double = np.dtype(float)
+    return Row(
+        row=message.row,
+        time=message.time,
+        command_time=message.command_time,
+        pose=_restored(message.pose, double),
+        command=_restored(message.command, double),
+        prop_pose=_restored(message.prop_pose, double),
+        effort=_restored(message.effort, double),
+        readings={each.sensor: _readings(each) for each in message.readings},
+        contacts=_table(message, "contacts", CONTACT),
+        messages=_table(message, "messages", MESSAGE),
+        contents=list(message.contents),
+        changes=list(message.changes),
+    )
+
+
+def _stored(values: NDArray[Any]) -> bytes:
+    """Return an array's bytes as messages store them."""
+    return values.astype(KINDS[values.dtype.kind][1], copy=False).tobytes()
+
+
+def _restored(data: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Return the array (k,) of a kind whose bytes `_stored` has made."""
+    return np.frombuffer(data, KINDS[dtype.kind][1]).astype(dtype, copy=False)
+
+
+def _readings(message: Any) -> NDArray[Any]:
+    shape = _restored(message.shape, np.dtype(np.uint32)).tolist()
+    if message.HasField("flags"):
+        return _restored(message.flags, np.dtype(bool)).reshape(shape)
+    return _restored(message.numbers, np.dtype(float)).reshape(shape)
+
+
+def _table(message: Any, field: str, dtype: np.dtype[Any]) -> NDArray[np.void]:
+    """Return the structured array in a field that holds its columns one by one."""
+    if not message.HasField(field):
+        return np.zeros(0, dtype=dtype)
+    table = getattr(message, field)
+    rows = np.zeros(len(table.time) // 8, dtype=dtype)
+    for name in dtype.names or ():
+        values = rows[name]
+        values[...] = _restored(getattr(table, name), values.dtype).reshape(values.shape)
+    return rows

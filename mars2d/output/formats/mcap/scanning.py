@@ -1,35 +1,50 @@
-"""The operations in an MCAP file, read one after the other, as far as it goes.
+"""The operations in an MCAP file, read one after the other up to where the file breaks off.
 
-Nothing that the file claims of its sizes is believed: memory is taken for what is there.
-Source: MCAP Format Specification, version 0.
+The library's own readers take as much memory as a file claims, and stop at a chunk that is cut off.
+Here memory is taken for bytes that are there. Source: MCAP Format Specification, version 0.
 """
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Iterator
+from io import BytesIO
 from pathlib import Path
 from typing import IO, Any, NamedTuple, Protocol
 from zlib import crc32
 
 from mars2d.core.errors import InputError, MissingExtraError
-from mars2d.output.formats.size import check_size
+from mars2d.output.formats.guard import check_size
 
-__all__ = ["CHANNEL", "MAGIC", "MESSAGE", "METADATA", "SCHEMA", "Operation", "Torn", "scan"]
+__all__ = [
+    "CHANNEL",
+    "MAGIC",
+    "MESSAGE",
+    "MESSAGE_HEAD",
+    "METADATA",
+    "SCHEMA",
+    "Operation",
+    "Torn",
+    "parsed",
+    "scan",
+]
 
 MAGIC = b"\x89MCAP0\r\n"
 
 SCHEMA, CHANNEL, MESSAGE, CHUNK, METADATA, DATA_END = 3, 4, 5, 6, 12, 15
 
-PIECE = 2**16
-"""How much is read at once of what is only passed over, bytes."""
+MESSAGE_HEAD = struct.Struct("<HIQQ")
+"""How a message begins: channel, sequence, two times."""
+
+SKIP_SIZE = 2**16
+"""How much is read at once of a part that is passed over, bytes."""
 
 SHARE = 16
-"""How many times as large what chunks hold may be as what is read of it: the rest is Foxglove's."""
+"""How many times as large as the data that are read all chunks may be: the rest is Foxglove's."""
 
 
 class Torn(Exception):  # noqa: N818
-    """The file ends in the middle of something."""
+    """The file breaks off."""
 
 
 class Operation(NamedTuple):
@@ -39,13 +54,30 @@ class Operation(NamedTuple):
     data: bytes
 
 
+def parsed(operation: Operation) -> Any:
+    """Return a schema, a channel or metadata as the record of the library `mcap`."""
+    from mcap import records
+    from mcap.data_stream import ReadDataStream
+
+    stream = ReadDataStream(BytesIO(operation.data))
+    kinds: dict[int, Any] = {
+        SCHEMA: records.Schema,
+        CHANNEL: records.Channel,
+        METADATA: records.Metadata,
+    }
+    return kinds[operation.kind].read(stream)
+
+
 class _Source(Protocol):
     def read(self, size: int, /) -> bytes:
         """Return some bytes, fewer at the end."""
 
 
 class _Reader:
-    """Reads exactly; what is not there is Torn."""
+    """Reads just as many bytes as asked for, or raises Torn.
+
+    left: how many bytes there should be. crc: the check sum of those that were read.
+    """
 
     def __init__(self, source: _Source, left: int) -> None:
         self._source, self.left = source, left
@@ -68,7 +100,7 @@ class _Reader:
 
     def skip(self, size: int) -> None:
         while size:
-            size -= len(self.read(min(size, PIECE)))
+            size -= len(self.read(min(size, SKIP_SIZE)))
 
 
 def scan(
@@ -76,9 +108,9 @@ def scan(
 ) -> Iterator[Operation]:
     """Yield the operations up to the end of the data: schemas, channels, messages, metadata.
 
-    largest: the most data that are read, bytes. channels: those of which messages are wanted, which
-    may be added to as they are found; None for all. Raises Torn where the file breaks off,
-    InputError where it holds too much, ValueError where it is damaged.
+    largest: the most data that are read, bytes. channels: whose messages are yielded, by default
+    all; the caller may add to them meanwhile. Raises Torn where the file breaks off, InputError
+    where it holds too much, ValueError where it is damaged.
     """
     size = path.stat().st_size
     reader = _Reader(file, size)
@@ -92,7 +124,7 @@ def scan(
 
 
 class _Budget:
-    """Adds up what is read."""
+    """Adds up how much is read, and refuses more than allowed."""
 
     def __init__(self, path: Path, largest: int) -> None:
         self._path, self._largest = path, largest

@@ -1,0 +1,64 @@
+"""Reading files that may be damaged, hostile or huge: limits of size, and one-line errors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from mars2d.core.description import real, wrong
+from mars2d.core.errors import InputError, Mars2dError
+
+__all__ = ["MAX_LIMIT", "check_limit", "check_size", "in_bytes", "reading"]
+
+MAX_LIMIT = 2**62
+"""The highest limit of data that can be asked for, bytes."""
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Turn every error that is raised while a file is read into one line that names the file."""
+    try:
+        yield
+    except Mars2dError as error:
+        if str(path) in str(error):
+            raise
+        raise InputError(f"{path}: {error}") from error
+    except MemoryError as error:
+        raise InputError(f"{path}: there is not enough memory to read it") from error
+    except OSError as error:
+        raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
+    except Exception as error:  # zip, zlib, numpy, scipy, json and protobuf raise their own
+        raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
+
+
+def check_limit(largest: float) -> int:
+    """Return a limit in whole bytes. Raises InputError where it is none."""
+    if not 1 <= real("largest", largest, "a number of bytes") <= MAX_LIMIT:
+        raise wrong("largest", largest, "a number of bytes, from 1 on")
+    return int(largest)
+
+
+def check_size(path: Path, size: int, largest: int) -> None:
+    """Raise InputError for a file whose data are, or claim to be, larger than the limit."""
+    if size > largest:
+        enough = 10 ** max(0, len(str(size)) - 2)
+        enough *= -(-size // enough)  # rounded up to two digits
+        raise InputError(
+            f"{path}: holds, or claims to hold, {in_bytes(size)} of data, more than the "
+            f"{in_bytes(largest)} that are read unless asked for: "
+            f'mars2d.load("{path.name}", largest={enough:.2g})'
+        )
+
+
+def in_bytes(size: float) -> str:
+    """Return a number of bytes with a unit, for example ``3.2 MB``.
+
+    >>> in_bytes(3_210_000)
+    '3.2 MB'
+    """
+    for unit in ("bytes", "kB", "MB", "GB", "TB"):
+        if size < 1000 or unit == "TB":
+            break
+        size /= 1000
+    return f"{size:,.0f} {unit}" if unit == "bytes" or size >= 100 else f"{size:.2g} {unit}"

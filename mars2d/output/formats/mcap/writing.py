@@ -1,0 +1,194 @@
+"""What an MCAP file holds of a run, and whole files: compressed in chunks, with an index."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import accumulate
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+
+from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.files import atomic_write
+from mars2d.output.formats import header as headers
+from mars2d.output.formats.guard import MAX_LIMIT
+from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
+from mars2d.output.formats.mcap.row import Row, cut, encoded, schema
+from mars2d.output.formats.mcap.scanning import (
+    CHANNEL,
+    MESSAGE,
+    MESSAGE_HEAD,
+    METADATA,
+    SCHEMA,
+    parsed,
+    scan,
+)
+from mars2d.record.columns import DiskError
+from mars2d.record.message import as_of
+from mars2d.record.record import Record
+from mars2d.scenario.scenario import Scenario
+
+if TYPE_CHECKING:
+    from mcap.writer import Writer
+
+__all__ = ["BEGIN", "END", "TOPIC", "Tape", "pack", "require", "write"]
+
+TOPIC = "/mars2d/row"
+"""The topic of the rows."""
+
+BEGIN, END = "mars2d", "mars2d end"
+"""The names of the metadata before the first row, and after the last."""
+
+CHUNK_SIZE = 2**20
+"""How much is compressed in one piece, bytes."""
+
+LATEST = 2**64 / 1e9 - 1
+"""The latest time in an MCAP file, seconds: it counts nanoseconds in 64 bits."""
+
+NEVER = 2**64
+"""A row that no run gets to."""
+
+
+def require(path: Path) -> None:
+    """Raise MissingExtraError where a library is missing that a log needs."""
+    try:
+        import foxglove_schemas_protobuf  # noqa: F401
+        import google.protobuf  # noqa: F401
+        import mcap  # noqa: F401
+    except ImportError:
+        raise MissingExtraError(f'{path}: a log needs mcap: pip install "mars2d[log]"') from None
+
+
+class Tape:
+    """Writes a run with a writer of MCAP: how it began, its rows, how it ended.
+
+    A run begins with metadata that hold the header of its record. Each row is one message, which
+    has all that the record needs; Foxglove's messages repeat the parts that it shows. The metadata
+    at the end have the digest.
+    """
+
+    def __init__(self, writer: Writer) -> None:
+        self._writer = writer
+        self._channels: dict[str, int] = {}
+        self._schemas: dict[str, int] = {}
+        writer.start(profile="", library="mars2d")
+        self._row = self._channel(TOPIC, "mars2d.Row", schema)
+
+    def begin(
+        self,
+        header: Mapping[str, Any],
+        scenario: Scenario,
+        sensor_robots: Mapping[str, tuple[int, ...]],
+        row: int = 0,
+    ) -> None:
+        """Write the header of the rows from `row` on; they replace such rows that were before."""
+        self._writer.add_metadata(BEGIN, {"header": headers.as_text(header), "row": str(row)})
+        self._topics = Topics(scenario, sensor_robots, self._foxglove)
+
+    def messages(self, row: Row, scenario: Scenario) -> Iterator[tuple[int, bytes]]:
+        """Yield the channel and the bytes of each message of a row.
+
+        scenario: as it is at that row.
+        """
+        yield from self._topics.messages(row, scenario)
+        yield self._row, encoded(row)
+
+    def end(self, record: Record) -> None:
+        """Write how the run ended."""
+        header = headers.of_record(record)
+        told = {name: header[name] for name in ("over_message", "finished", "digest")}
+        self._writer.add_metadata(END, {"end": headers.as_text(told), "rows": str(len(record))})
+
+    def _channel(self, topic: str, name: str, schema: Any) -> int:
+        if topic not in self._channels:
+            if name not in self._schemas:
+                added = self._writer.register_schema(name, "protobuf", schema())
+                self._schemas[name] = added
+            number = self._writer.register_channel(topic, "protobuf", self._schemas[name])
+            self._channels[topic] = number
+        return self._channels[topic]
+
+    def _foxglove(self, topic: str, kind: Any) -> int:
+        return self._channel(topic, kind.DESCRIPTOR.full_name, lambda: schema_of(kind))
+
+
+def write(record: Record, path: Path) -> None:
+    """Write a record to a file. Raises InputError where it can't be written.
+
+    A record that no run gives is refused, too, for example half of one: it could not be read again.
+    """
+    require(path)
+    _check_whole(record, path)
+    header = headers.of_record(record)
+    if len(record):
+        header["interventions"] = []  # they come with their rows
+    with atomic_write(path) as file:
+        writer = _writer(file)
+        tape = Tape(writer)
+        tape.begin(header, record.scenario, record.sensor_robots)
+        for row in cut(record):
+            ns = nanoseconds(row.time)
+            for channel, data in tape.messages(row, record.scenario_at(row.row)):
+                writer.add_message(channel, ns, data, ns, row.row & 0xFFFFFFFF)
+        tape.end(record)
+        writer.finish()
+
+
+def _check_whole(record: Record, path: Path) -> None:
+    """Refuse a record whose times, or whose messages' status at the end, are of no run."""
+    rows = len(record)
+    start, end = (float(record.time[0]), float(record.time[-1])) if rows else (0.0, 0.0)
+    then = as_of(record.messages, end)
+    same = np.array_equal(then["status"], record.messages["status"])
+    nothing = len(record.contacts) == len(record.messages) == 0
+    done = all(each.row < rows for each in record.interventions)
+    if not (same and start >= 0 and end <= LATEST and (nothing if rows == 0 else done)):
+        raise InputError(
+            f"{path}: can't be written: a log is of a whole run, and this record is not, as if "
+            "rows had been cut off: save it as .npz"
+        )
+
+
+def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int]) -> None:
+    """Replace a log that was written step by step by a file that is quick to open.
+
+    header: of the run that it ends with. begun: the rows at which it went on with other worlds;
+    rows that they replaced are left out. Raises DiskError, and leaves the file as it is.
+    """
+    # Each world's rows count up to the first row at which a later world began.
+    ends = [*accumulate([NEVER, *begun[:0:-1]], min)][::-1]
+    world = -1
+    try:
+        with path.open("rb") as source, atomic_write(path) as file:
+            writer = _writer(file)
+            writer.start(profile="", library="mars2d")
+            for operation in scan(path, source, MAX_LIMIT):
+                kind, data = operation
+                if kind == MESSAGE:
+                    channel, row, time, _ = MESSAGE_HEAD.unpack_from(data)
+                    if row < ends[world]:
+                        writer.add_message(channel, time, data[MESSAGE_HEAD.size :], time, row)
+                elif kind == SCHEMA:
+                    told = parsed(operation)
+                    writer.register_schema(told.name, told.encoding, told.data)
+                elif kind == CHANNEL:
+                    told = parsed(operation)
+                    writer.register_channel(told.topic, told.message_encoding, told.schema_id)
+                elif kind == METADATA:
+                    told = parsed(operation)
+                    world += told.name == BEGIN
+                    if told.name != BEGIN:
+                        writer.add_metadata(told.name, told.metadata)
+                    elif world == 0:
+                        writer.add_metadata(BEGIN, {"header": headers.as_text(header), "row": "0"})
+            writer.finish()
+    except (OSError, MemoryError, InputError) as error:
+        reason = error.__cause__ or error
+        raise DiskError(f"{path}: complete, but it can't be packed: {reason}") from error
+
+
+def _writer(file: IO[bytes]) -> Any:
+    from mcap.writer import Writer
+
+    return Writer(file, chunk_size=CHUNK_SIZE)
