@@ -53,6 +53,9 @@ class Addon(Live):
         default=1.0, check=surface_restitution,
         doc="of its obstacles, a number or a material's name; a contact has the product of both",
     )  # fmt: skip
+    carries_messages: ClassVar[bool] = False
+    """Whether robots talk over it: the inspector then shows their inboxes."""
+
     rng: ClassVar[np.random.Generator]
     """Its own random stream, on the copy that a world works on."""
 
@@ -79,6 +82,10 @@ class Addon(Live):
     def beacons(self) -> Mapping[str, Point]:
         """Return where beacons are now, by name, for the sensor Beacon; here, none."""
         return {}
+
+    def named_points(self, frame: Frame) -> list[tuple[str, Point]]:  # noqa: ARG002
+        """Return points with their names, which the window shows under the pointer; here, none."""
+        return []
 
     def ground(self, point: Point) -> Color | None:  # noqa: ARG002
         """Return the colour of the floor at a point, red, green and blue from 0 to 1.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from mars2d.addons.base import Addon
 from mars2d.addons.gilbert_elliott import Burst
 from mars2d.core.checks import instance
@@ -29,6 +31,8 @@ class Communication(Addon):
 
     As it is by default, the channel is perfect and draws no random numbers.
     """
+
+    carries_messages: ClassVar[bool] = True
 
     range: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,

@@ -16,7 +16,7 @@ from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment, examples
 from mars2d.scenario.options import parse_setting
 from mars2d.scenario.prediction import Prediction, table
-from mars2d.window.preferences import Preferences
+from mars2d.window.display import Preferences
 from mars2d.world.loop import simulate
 from mars2d.world.teleop import robot_of
 from mars2d.world.world import Watcher, World

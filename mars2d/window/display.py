@@ -1,4 +1,4 @@
-"""Is there a screen?"""
+"""The display: whether there is one, how a window is opened on it, and how that looks."""
 
 from __future__ import annotations
 
@@ -10,15 +10,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from mars2d.core.description import Description, flag, number
 from mars2d.core.errors import InputError
+from mars2d.core.scene import PALETTE, Scene
 from mars2d.output.raster import has_pygame
 
 if TYPE_CHECKING:
     import pygame
 
+    from mars2d.output.raster.painter import Painter
+
 __all__ = [
     "NO_DISPLAY",
     "PICTURES_A_SECOND",
+    "Preferences",
     "be_quick",
     "display_available",
     "open_display",
@@ -39,6 +44,13 @@ PICTURES_A_SECOND = 60
 """How often a window is drawn."""
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
 """A key that is held repeats after so many milliseconds, and then each so many."""
+
+
+class Preferences(Description):
+    """How a window looks at first, whatever the experiment; keys change it."""
+
+    dark: bool = flag(default=False, doc="for a dark room, else for a projector in daylight")
+    text: float = number(default=1.0, low=0.5, high=4, doc="factor on the size of text and lines")
 
 
 def display_available() -> bool:
@@ -113,17 +125,17 @@ def started_display() -> Iterator[None]:
             lost.close()
 
 
-def open_window(size: tuple[int, int], icon: pygame.Surface) -> pygame.Surface:
-    """Return the surface of a new window of `size` pixels, where keys that are held repeat.
+def open_window(size: tuple[int, int], painter: Painter) -> pygame.Surface:
+    """Open a window of `size` pixels, in which held keys repeat, and return its surface.
 
-    Raises InputError where it can't be opened.
+    painter: draws the window's icon. Raises InputError if the window can't be opened.
     """
     import pygame
 
     from mars2d.window import lost
 
     lost.check()
-    pygame.display.set_icon(icon)
+    pygame.display.set_icon(_icon(painter))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)  # desktops may choose another size
@@ -132,6 +144,20 @@ def open_window(size: tuple[int, int], icon: pygame.Surface) -> pygame.Surface:
         raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
     lost.watch()
     pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
+    return surface
+
+
+def _icon(painter: Painter) -> pygame.Surface:
+    """Return the icon of MARS2D's windows: a robot, seen from above."""
+    import pygame
+
+    from mars2d.output.raster.camera import Camera
+
+    scene = Scene()
+    scene.circle((0, 0), 1.0, fill=PALETTE[0], stroke="#ffffff", width=2.0)
+    scene.line([(0, 0), (1, 0)], stroke="#ffffff", width=7.0)
+    surface = pygame.Surface((64, 64), pygame.SRCALPHA, 32)
+    painter.paint(surface, scene.shapes, Camera(29.0, 32.0, 32.0), shaded=False)
     return surface
 
 

@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 
-from mars2d.addons.communication import Communication
-from mars2d.bodies.drives.base import Drive, Wheeled
+from mars2d.bodies.drives.base import Drive
 from mars2d.core.quantity import UNKNOWN
 from mars2d.core.registry import snake_case
 from mars2d.output.layers.bodies import prop_colors
@@ -175,7 +174,7 @@ class Inspector:
             )
         for plot in sensor_plots(frame, body):
             yield plot.sensor.key, self._sensor(plot)
-        if body < n and any(isinstance(addon, Communication) for addon in frame.scenario.addons):
+        if body < n and any(addon.carries_messages for addon in frame.scenario.addons):
             heard = [
                 f"{sender}, {frame.time - sent:.1f} s ago: {rounded(text)}"
                 for sender, sent, text in inbox(frame, body)
@@ -345,9 +344,10 @@ def state_of(frame: Frame, body: int) -> list[Row]:
     if len(frame.command_path):
         command = frame.command_path[-1][:, body]
     rows: list[Row] = [("pose", pose), ("command", command_words(drive, command)), ("moves", moves)]
-    if isinstance(drive, Wheeled):
-        left, right = drive.actuators(command[:, None])[:, 0].tolist()
-        rows.append(("wheels", [("left", _number(left)), ("right", _number(right, "m/s"))]))
+    if drive.wheel_names is not None:
+        speeds = drive.actuators(command[:, None])[:, 0].tolist()
+        pairs = zip(drive.wheel_names, speeds, ("", "m/s"), strict=True)
+        rows.append(("wheels", [(name, _number(speed, unit)) for name, speed, unit in pairs]))
     return rows
 
 

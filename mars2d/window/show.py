@@ -11,7 +11,7 @@ from mars2d.core.interrupt import noted_interrupts
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.preferences import Preferences
+from mars2d.window.display import Preferences
 from mars2d.window.source import Playback
 from mars2d.world.loop import Interrupted
 from mars2d.world.timeline import Timeline

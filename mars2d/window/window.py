@@ -25,21 +25,24 @@ from mars2d.record.frame import Frame
 from mars2d.window import keys
 from mars2d.window.desktop import desktop_scale, opening_size
 from mars2d.window.director import Director
-from mars2d.window.display import PICTURES_A_SECOND, open_window, show_drawn, started_display
+from mars2d.window.display import (
+    PICTURES_A_SECOND,
+    Preferences,
+    open_window,
+    show_drawn,
+    started_display,
+)
 from mars2d.window.editor import Editor
 from mars2d.window.ghosts import Marks, ghosts
-from mars2d.window.hand import CLICK, Hand
+from mars2d.window.grab import CLICK, Grab
 from mars2d.window.help import Help
-from mars2d.window.icon import icon
 from mars2d.window.inspector import Inspector
-from mars2d.window.keeper import Keeper
 from mars2d.window.mouse import Mouse
-from mars2d.window.notes import Notes, Progress, draw_progress
-from mars2d.window.outcome import Outcome
+from mars2d.window.notes import Ending, Notes, Progress, draw_progress
+from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.player import SPEEDS, Player
-from mars2d.window.preferences import Preferences
 from mars2d.window.reload import Reload
-from mars2d.window.selection import body_at, next_body, selection_mark, sensed_by
+from mars2d.window.saving import Saver
 from mars2d.window.slider import SpeedSlider
 from mars2d.window.source import Source
 from mars2d.window.timebar import TimeBar, TimeState
@@ -92,14 +95,14 @@ class Window:
         self.text, self.scale = preferences.text, 1.0
         self.notes = Notes()
         self.director = Director(self.player, self.notes, self._show_way_back)
-        self.hand = Hand(self.director.change, partial(self.notes.say, kind="warning"))
-        self.keeper = Keeper(self.notes, _stem(source))
+        self.grab = Grab(self.director.change, partial(self.notes.say, kind="warning"))
+        self.saver = Saver(self.notes, _stem(source))
         self.editor: Editor | None = None
         timeline = self.director.timeline
         self._marks = None if timeline is None else Marks(timeline)
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
-        self._outcome = Outcome(self.player)
+        self._ending = Ending(self.player)
         self._cast = _cast(source)
         self._number = 0  # typed before a key
         self._open = False
@@ -110,9 +113,9 @@ class Window:
         self._inspected = pygame.Rect(0, 0, 0, 0)  # where the inspector was drawn
         self._time_bar, self._slider = TimeBar(), SpeedSlider(SPEEDS)
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
-        grips = [(self._time_bar.hit, self._scrub), (self._slider.hit, self._choose_speed)]
+        handles = [(self._time_bar.hit, self._scrub), (self._slider.hit, self._choose_speed)]
         self._mouse = Mouse(
-            self.player, self.viewpoint, self.hand, grips, self._is_picture, self._select_at
+            self.player, self.viewpoint, self.grab, handles, self._is_picture, self._select_at
         )
         self._actions: dict[str, Callable[[], None]] = {
             "pause": self.player.pause_or_resume,
@@ -135,7 +138,7 @@ class Window:
             "drive": self._drive_or_not,
             "edit": self._open_editor,
             "picture": self._keep_picture,
-            "film": self.keeper.film_or_not,
+            "film": self.saver.film_or_not,
             "python": self._keep_python,
             "help": self.help.turn,
             "leave": self._leave,
@@ -162,13 +165,13 @@ class Window:
                 self.scale = desktop_scale()
                 self._loop(self._show())
             finally:
-                self.keeper.close()
+                self.saver.close()
         if self.player.error is not None:
             raise self.player.error
 
     def _show(self) -> pygame.Surface:
         pygame.display.set_caption(self.title)
-        screen = open_window(opening_size(self.size, self.scale), icon(self._painter))
+        screen = open_window(opening_size(self.size, self.scale), self._painter)
         self._open = True
         return screen
 
@@ -184,8 +187,8 @@ class Window:
             start = time.perf_counter()
             screen = pygame.display.get_surface() or screen
             self.draw(screen)
-            self.keeper.film(screen, self.layout.plot, self._painter)
-            if self.keeper.filming and self.editor is None:  # what is said is not in the film
+            self.saver.film(screen, self.layout.plot, self._painter)
+            if self.saver.filming and self.editor is None:  # what is said is not in the film
                 self.notes.draw(screen, self.layout.plot, self._painter, time.monotonic())
             show_drawn()
             self.player.drawing = time.perf_counter() - start
@@ -199,7 +202,7 @@ class Window:
             return
         self._read_again()
         self.director.steer(seconds)
-        self.hand.tick(self.player.frame, self.camera, self.player.playing)
+        self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.player.pass_time(seconds)
         self.viewpoint.step(self.player.frame, seconds)
 
@@ -223,8 +226,8 @@ class Window:
             return
         self._cast, self.selected, self.viewpoint.following = cast, None, None
         self.director.driver.release()
-        self.hand.cancel()
-        self.hand.leave()
+        self.grab.cancel()
+        self.grab.leave()
 
     def _use_rest(self, seconds: float) -> None:
         """Use the time that is left of a picture to prepare for going back."""
@@ -245,12 +248,12 @@ class Window:
             self._draw(surface, replace(self.layers, **dict.fromkeys(THEIRS, False)), notes=notes)
 
     def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
-        banner = self._outcome.banner()
-        frame = self.hand.shown(self.player.frame)
+        banner = self._ending.banner()
+        frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
-        self._painter.ui, self.hand.click = layout.ui, CLICK * layout.ui
+        self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
         self.viewpoint.arrange(layout, frame.scenario)
-        marks = self.hand.marks(frame, self.camera, named=self.layers.names)
+        marks = self.grab.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
@@ -266,7 +269,7 @@ class Window:
             hurried=self.viewpoint.hurried,
         )
         self._inspect(surface, frame)
-        if notes and not self.keeper.filming:
+        if notes and not self.saver.filming:
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
@@ -397,21 +400,21 @@ class Window:
 
     def _select_at(self, point: Point) -> None:
         """Select what lies at a point [m] of the picture, or nothing."""
-        slack = self.hand.click / self.camera.scale
+        slack = self.grab.click / self.camera.scale
         self.selected = body_at(self.player.frame, point, slack)
 
     # -- what keys do ---------------------------------------------------------------------------
 
     def _restart(self) -> None:
         """Start anew, with the file as it is now."""
-        self.hand.cancel()
+        self.grab.cancel()
         self.notes.clear()
         self.player.restart()
         self._meet()
 
     def _other_branch(self) -> None:
         """Look at another branch; what is pulled or carried is let go of in this one."""
-        self.hand.cancel()
+        self.grab.cancel()
         self.director.other_branch()
 
     def _toggle(self, layer: str) -> None:
@@ -444,8 +447,8 @@ class Window:
             return  # what was typed is forgotten
         if self.help.is_open:
             self.help.close()
-        elif self.hand.busy:
-            self.hand.cancel()
+        elif self.grab.busy:
+            self.grab.cancel()
         elif self.director.driver.robot is not None:
             self.director.let_go()
         elif self.selected is not None:
@@ -461,12 +464,12 @@ class Window:
         """Save what is seen, without the notes over it."""
         surface = pygame.Surface(self.layout.size, 0, 32)
         self.draw(surface, notes=False)
-        self.keeper.picture(surface)
+        self.saver.picture(surface)
 
     def _keep_python(self) -> None:
         """Save the scenario as it is seen as a Python file."""
         timeline = self.director.timeline
-        self.keeper.python(
+        self.saver.python(
             self.director.scenario_now(), None if timeline is None else timeline.world.control
         )
 

@@ -17,14 +17,14 @@ from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, keys
+from mars2d.window.editor.chrome import Prompt
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
 from mars2d.window.editor.gestures import spanned
 from mars2d.window.editor.history import History
-from mars2d.window.editor.prompt import Prompt
+from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.sketch import Sketch
-from mars2d.window.editor.target import item_at, items_within
 from mars2d.window.editor.verdict import judge
 from mars2d.window.viewpoint import Viewpoint
 

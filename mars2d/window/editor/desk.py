@@ -8,8 +8,9 @@ from math import floor, hypot, log10
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point, grid_step
 from mars2d.output.raster.camera import Camera
-from mars2d.window.editor.draft import Draft, Item, Motion, tidy
+from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.history import History
+from mars2d.window.editor.item import Item, Motion, tidy
 from mars2d.window.viewpoint import Viewpoint
 
 __all__ = ["Desk", "Gesture"]

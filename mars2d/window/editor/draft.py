@@ -7,8 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import count
-from math import atan2, cos, sin
-from typing import Any, Literal, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -26,58 +25,12 @@ from mars2d.core.registry import snake_case
 from mars2d.record.frame import Frame
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
+from mars2d.window.editor.item import FIELDS, Item, Kind, Motion
 
-__all__ = ["Draft", "Item", "Motion"]
-
-Kind = Literal["robot", "prop", "outline", "wall", "waypoint", "beacon", "workspace"]
-
-FIELDS: dict[Kind, str] = {
-    "robot": "robots", "prop": "props", "outline": "outlines", "wall": "walls",
-    "waypoint": "routes", "beacon": "beacons",
-}  # fmt: skip
+__all__ = ["Draft", "flaw"]
 
 BLANK: Outline = Scenario.__dataclass_fields__["workspace"].default
 """What is seen of a draft that holds nothing, metres."""
-
-
-class Item(NamedTuple):
-    """One thing of a draft: its kind, its number there, and of a waypoint its place on the route.
-
-    The route of robot k has the number k.
-    """
-
-    kind: Kind
-    number: int = 0
-    part: int = 0
-
-
-class Motion(NamedTuple):
-    """A turn by `angle` [rad] about the point `about`, then a shift by `by` [m]."""
-
-    angle: float = 0.0
-    about: Point = (0.0, 0.0)
-    by: Point = (0.0, 0.0)
-
-    def point(self, point: Point) -> Point:
-        """Return where a point comes to."""
-        if not self.angle:
-            return tidy(point[0] + self.by[0]), tidy(point[1] + self.by[1])
-        (x, y), c, s = self.about, cos(self.angle), sin(self.angle)
-        dx, dy = point[0] - x, point[1] - y
-        return tidy(x + c * dx - s * dy + self.by[0]), tidy(y + s * dx + c * dy + self.by[1])
-
-    def pose(self, pose: tuple[float, float, float]) -> tuple[float, float, float]:
-        """Return what a pose becomes, its heading in (-pi, pi] if it turns."""
-        heading = pose[2]
-        if self.angle:
-            turned = heading + self.angle
-            heading = tidy(atan2(sin(turned), cos(turned)))
-        return (*self.point(pose[:2]), heading)
-
-
-def tidy(value: float) -> float:
-    """Return a length or angle without the last digits, which are those of rounding."""
-    return round(value, 9) + 0.0
 
 
 @dataclass(frozen=True)

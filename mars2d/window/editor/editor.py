@@ -23,20 +23,24 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.scenario.changes import check_same
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.boundary import Boundary
-from mars2d.window.editor.chrome import Button, Header, draw_footer, draw_plate, draw_prompt
+from mars2d.window.editor.chrome import (
+    Button,
+    Header,
+    Prompt,
+    draw_footer,
+    draw_plate,
+    draw_prompt,
+)
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.keys import action_of, chord, groups
-from mars2d.window.editor.marks import draw_culprits, draw_selected
-from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall
+from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall, Workspace
 from mars2d.window.editor.placing import PlaceBall, PlaceBeacon, PlaceBox, PlaceRobot, PlaceWaypoint
-from mars2d.window.editor.prompt import Prompt
-from mars2d.window.editor.readout import described
+from mars2d.window.editor.readout import described, minus
 from mars2d.window.editor.select import Select
-from mars2d.window.editor.sketch import Sketch
-from mars2d.window.editor.tool import Tool, minus
+from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_selected
+from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.toolbar import WIDTH, Toolbar
 from mars2d.window.editor.verdict import Judge
 from mars2d.window.help import Help
@@ -54,7 +58,7 @@ TOOLS: dict[str, type[Tool]] = {
     "rectangle": DrawRectangle,
     "waypoint": PlaceWaypoint,
     "beacon": PlaceBeacon,
-    "workspace": Boundary,
+    "workspace": Workspace,
 }
 NUDGES = {"left": (-1, 0), "right": (1, 0), "up": (0, 1), "down": (0, -1)}
 LAYERS = Layers(trails=False, sensors=False, messages=False)

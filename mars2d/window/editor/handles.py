@@ -1,4 +1,4 @@
-"""The handles of what is selected: corners, the dots between them, a ring that turns."""
+"""The handles of the selection: corners, the dots between them, a ring that turns it."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from itertools import pairwise
 from math import atan2, cos, hypot, pi, sin
 from typing import Literal
 
-from mars2d.bodies.props.box import Box
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.core.scene import Scene
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Draft, Item
+from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.item import Item
 
 __all__ = [
     "MARK",
@@ -20,25 +20,25 @@ __all__ = [
     "Handle",
     "Ring",
     "angle_of",
-    "box_corners",
     "draw_handles",
     "handle_at",
     "handles",
     "ring_of",
+    "size_corners",
 ]
 
 REACH = 9.0
-"""So many points beside its middle a handle is hit."""
+"""The radius in which a handle is hit, points."""
 
 MARK, PAPER = LIGHT.selected, LIGHT.paper
 
-SMALLEST, LARGEST = 30.0, 150.0
-"""Of the ring that turns: its radius on the screen, points."""
+MIN_RING, MAX_RING = 30.0, 150.0
+"""The radius of the ring on the screen, points."""
 
 
 @dataclass(frozen=True)
 class Handle:
-    """Something to be dragged; `number`: that of a corner, or of the corner before a dot."""
+    """A handle at a point [m]; number: the index of its corner, or of the corner before a dot."""
 
     kind: Literal["corner", "dot", "size", "turn"]
     number: int
@@ -47,7 +47,7 @@ class Handle:
 
 @dataclass(frozen=True)
 class Ring:
-    """The ring round what is selected, in metres; `heading`: where its handle sits, radians."""
+    """The ring round the selection, metres; heading: the direction of its handle, radians."""
 
     center: Point
     radius: float
@@ -55,13 +55,13 @@ class Ring:
 
     @property
     def handle(self) -> Point:
-        """Where its handle lies."""
+        """The position of its handle."""
         x, y = self.center
         return x + self.radius * cos(self.heading), y + self.radius * sin(self.heading)
 
 
 def ring_of(desk: Desk) -> Ring | None:
-    """Return the ring; None if there is nothing to turn."""
+    """Return the ring, None if the selection can't be turned."""
     draft = desk.draft
     items = [item for item in desk.selection if item.kind != "workspace"]
     pose = None if desk.only is None else draft.pose(desk.only)
@@ -74,12 +74,12 @@ def ring_of(desk: Desk) -> Ring | None:
     heading = pi / 2
     if pose is not None:
         center, heading, radius = pose[:2], pose[2], max(xmax - xmin, ymax - ymin) / 2
-    low, high = desk.metres(SMALLEST), desk.metres(LARGEST)
+    low, high = desk.metres(MIN_RING), desk.metres(MAX_RING)
     return Ring(center, min(max(radius + desk.metres(16.0), low), high), heading)
 
 
 def handles(desk: Desk) -> list[Handle]:
-    """Return all handles of the selection, the uppermost last."""
+    """Return the handles of the selection, the uppermost last."""
     found = []
     ring, item = ring_of(desk), desk.only
     if ring is not None:
@@ -90,12 +90,12 @@ def handles(desk: Desk) -> list[Handle]:
     if corners is not None:
         found += [Handle("dot", k, point) for k, point in _dots(desk, item, corners)]
         found += [Handle("corner", k, point) for k, point in enumerate(corners)]
-    found += [Handle("size", k, point) for k, point in enumerate(box_corners(desk.draft, item))]
+    found += [Handle("size", k, point) for k, point in enumerate(size_corners(desk.draft, item))]
     return found
 
 
 def _dots(desk: Desk, item: Item, corners: Outline) -> list[tuple[int, Point]]:
-    """Return the middles of the edges that are long enough on the screen for a dot."""
+    """Return the middles of the edges that are long enough for a dot."""
     edges = edges_of(corners)
     if item.kind == "wall":
         edges = list(pairwise(corners))
@@ -106,16 +106,16 @@ def _dots(desk: Desk, item: Item, corners: Outline) -> list[tuple[int, Point]]:
     ]
 
 
-def box_corners(draft: Draft, item: Item) -> list[Point]:
-    """Return the corners of a Box, counter-clockwise from behind on the right; else none."""
+def size_corners(draft: Draft, item: Item) -> list[Point]:
+    """Return a rectangular prop's corners, counter-clockwise from the right rear; else none."""
     body = draft.body(item)
-    if item.kind != "prop" or body is None or not isinstance(draft.props[item.number], Box):
+    if item.kind != "prop" or body is None or draft.props[item.number].side_lengths is None:
         return []
     return [body.to_world(point) for point in body.shape.rims[0].points]
 
 
 def handle_at(desk: Desk, point: Point) -> Handle | None:
-    """Return the handle at a point [m]."""
+    """Return the uppermost handle at a point [m]."""
     hit = (h for h in reversed(handles(desk)) if desk.near(point, h.point, REACH))
     return next(hit, None)
 

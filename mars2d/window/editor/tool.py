@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from math import degrees, hypot
 from typing import ClassVar
 
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
 from mars2d.window.editor.desk import Desk, Gesture
-from mars2d.window.editor.draft import Item
-from mars2d.window.editor.handles import angle_of
+from mars2d.window.editor.item import Item
 
-__all__ = ["Maker", "Making", "Tool", "minus", "sides", "stretch"]
+__all__ = ["Maker", "Making", "Tool"]
 
 CLICK = 5.0
 """A press of the mouse that moves by less, in points, is a click."""
@@ -91,20 +89,3 @@ class Maker(Tool):
         """Take it away again."""
         busy, self.gesture, self.pressed = self.gesture is not None, None, None
         return self.desk.drop() or busy
-
-
-def stretch(a: Point, b: Point) -> str:
-    """Return how long an edge is, and where it points."""
-    length = hypot(b[0] - a[0], b[1] - a[1])
-    turn = round(degrees(angle_of(a, b)), 1) + 0.0
-    return minus(f"{length:.4g} m   {turn:g}°") if length else ""
-
-
-def sides(length: float, width: float) -> str:
-    """Return how long and wide a rectangle is."""
-    return f"{length:.4g} m x {width:.4g} m"
-
-
-def minus(text: str) -> str:
-    """Return a text of numbers with true minus signs."""
-    return text.replace("-", "\N{MINUS SIGN}")

@@ -15,8 +15,9 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Outline, outside_polygon
 from mars2d.scenario import starts
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.draft import Draft, Item, flaw
-from mars2d.window.editor.target import inside
+from mars2d.window.editor.draft import Draft, flaw
+from mars2d.window.editor.item import Item
+from mars2d.window.editor.picking import inside
 
 __all__ = ["Fault", "Judge", "Verdict", "judge"]
 
