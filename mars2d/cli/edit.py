@@ -55,7 +55,7 @@ def execute(arguments: argparse.Namespace) -> None:
     try:
         EditorWindow(editor, preferences=preferences_of(arguments)).run()
     except BaseException:  # Ctrl-C, a display that goes away, a fault: nobody can be asked
-        kept = editor.rescue()
+        kept = editor.dialogs.rescue()
         if kept is not None:
             print(f"mars2d: what was drawn and not saved is in {kept}", file=sys.stderr)
         raise

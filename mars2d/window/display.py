@@ -38,12 +38,14 @@ NO_DISPLAY = (
 )
 
 NOT_REAL = ("dummy", "offscreen", "evdev", "disk")
+"""SDL's video drivers without a screen."""
 ATTEMPTS = 3
+"""How often to try to start the display."""
 
 PICTURES_A_SECOND = 60
 """How often a window is drawn."""
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
-"""A key that is held repeats after so many milliseconds, and then each so many."""
+"""The time until a held key repeats, and between repeats, milliseconds."""
 
 
 class Preferences(Description):
@@ -54,7 +56,7 @@ class Preferences(Description):
 
 
 def display_available() -> bool:
-    """Return whether a window could be opened that a person sees."""
+    """Return whether a window can be opened on a real screen."""
     wanted = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER") or ""
     if wanted.lower() in NOT_REAL:
         return False
@@ -68,7 +70,7 @@ def display_available() -> bool:
         return True
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         return False
-    # The variable may name a screen that is gone, as after a lost ssh connection: try.
+    # The variable may name a screen that is gone, for example after a lost ssh connection: try.
     try:
         open_display()
     except InputError:
@@ -78,7 +80,7 @@ def display_available() -> bool:
 
 
 def open_display() -> None:
-    """Start pygame's display. Raises InputError where there is none that a person sees."""
+    """Start pygame's display. Raises InputError without a real screen."""
     import pygame
 
     from mars2d.window import lost
@@ -95,7 +97,7 @@ def open_display() -> None:
         try:
             pygame.display.init()
         except pygame.error:
-            # A bare X server starts anew when its last window has closed, and is deaf meanwhile.
+            # A bare X server resets when its last window closes, and refuses connections meanwhile.
             if attempt + 1 < ATTEMPTS and os.environ.get("DISPLAY"):
                 time.sleep(0.1)
             continue
@@ -108,9 +110,9 @@ def open_display() -> None:
 
 @contextmanager
 def started_display() -> Iterator[None]:
-    """Have pygame's display started meanwhile; end it then, unless it was there before.
+    """Start pygame's display, and end it afterwards unless it was started before.
 
-    Raises InputError where there is none that a person sees.
+    Raises InputError without a real screen.
     """
     import pygame
 
@@ -162,7 +164,7 @@ def _icon(painter: Painter) -> pygame.Surface:
 
 
 def show_drawn() -> None:
-    """Put what was drawn on the screen. Raises DisplayError where that has gone away."""
+    """Put the drawn picture on the screen. Raises DisplayError if the display is lost."""
     import pygame
 
     from mars2d.window import lost
@@ -172,8 +174,8 @@ def show_drawn() -> None:
 
 
 def be_quick() -> None:
-    """Ask for pictures to go to the screen as they are; to be called before the display starts.
+    """Ask SDL to copy pictures to the screen without OpenGL; call it before the display starts.
 
-    SDL would hand them to OpenGL, which takes ten times as long where that is done in software.
+    OpenGL in software takes ten times as long.
     """
     os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")

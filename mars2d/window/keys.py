@@ -1,4 +1,4 @@
-"""The keys of the window: one table for what they do and for the page of help."""
+"""The keys of the run window: one table for commands and for the help."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ __all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "action_of"]
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """One command: the keys that give it, as pygame names them, and its line of help.
+    """A command, the keys that give it, by pygame's names, and its line of help.
 
-    labels: as on the keyboard. repeats: holding the key repeats it.
+    labels: as on the keyboard. repeats: whether a held key repeats the command.
     """
 
     action: str
@@ -80,22 +80,23 @@ MOUSE = (
 )
 
 GROUPS: Mapping[str, Sequence[Key]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}
-"""All of them, as the page of help shows them."""
+"""All keys, in the groups of the help."""
 
 MODIFIERS = frozenset(
     f"{side} {key}" for side in ("left", "right") for key in ("shift", "ctrl", "alt", "meta", "gui")
 ) | {"caps lock", "numlock", "scroll lock", "alt gr", "menu", "print screen", ""}
-"""Keys that are held or switched for other keys' sake, and do nothing by themselves."""
+"""Keys that only modify other keys."""
 
 _BY_NAME = {name: key for key in KEYS for name in key.names}
 _STEP = next(key for key in KEYS if key.action == "step")
 
 
 def action_of(name: str, character: str, *, manual: bool) -> Key | None:
-    """Return the command that a key gives, or None.
+    """Return the command of a key, or None.
 
-    name: pygame's name of the key. character: what it types, which tells a + on any keyboard.
-    manual: MARS's manual mode, where every key that is no other command does one step.
+    name: pygame's name of the key. character: the text that it types, which identifies + on every
+    keyboard. manual: whether the window is in MARS's manual mode, in which each key without another
+    command does one step.
     """
     key = (_BY_NAME.get(character) if character in "+-" else None) or _BY_NAME.get(name)
     if not manual or name in MODIFIERS or character.isdigit():

@@ -76,7 +76,7 @@ class Finder:
 def body_at(frame: Frame, point: tuple[float, float], slack: float) -> int | None:
     """Return the body at a point, or None; robots lie above props.
 
-    Bodies are indices of `Scenario.bodies`. slack: how far beside its edge one is still hit, metres.
+    Bodies are indices of `Scenario.bodies`. slack: how far beside its edge one is hit, metres.
     """
     poses = np.hstack([frame.pose, frame.prop_pose])
     n = frame.pose.shape[1]

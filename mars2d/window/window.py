@@ -353,7 +353,7 @@ class Window:
             pass
         elif self.editor is not None:
             self.editor.handle(event)
-            if self.editor.done:
+            if self.editor.dialogs.done:
                 self._close_editor(self.editor)
         elif event.type == pygame.KEYDOWN:
             self._press(event.key, event.unicode)
@@ -504,8 +504,8 @@ class Window:
         """Go on with what was drawn, if it is to be."""
         self.editor, self.text = None, editor.text
         self._held.clear()
-        if editor.outcome is not None:
-            self.director.apply(editor.outcome)
+        if editor.dialogs.outcome is not None:
+            self.director.apply(editor.dialogs.outcome)
             self._meet()
 
     def _show_way_back(self, share: float) -> bool:

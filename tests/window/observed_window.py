@@ -104,7 +104,7 @@ def editor_of(editor):
         "outlines": desk.draft.outlines,
         "selection": desk.selection,
         "corners": len(getattr(editor.tool, "corners", ())),
-        "prompt": None if editor.prompt is None else editor.prompt.label,
+        "prompt": None if editor.dialogs.prompt is None else editor.dialogs.prompt.label,
         "fault": editor.judge.verdict.text,
         "notice": desk.notice,
         "camera": [desk.camera.scale, desk.camera.x, desk.camera.y],

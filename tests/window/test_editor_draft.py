@@ -217,7 +217,7 @@ def test_history_goes_back_and_forth_and_merges_nudges():
     assert not history.changed
     assert [history.redo() for _ in range(4)] == [True, True, True, False]
     assert history.draft is drafts[-1]
-    history.keep()
+    history.mark_saved()
     assert not history.changed
     for _ in range(3):
         moved = history.draft.moved([Item("robot", 0)], Motion(by=(0.0, 0.1)))
@@ -425,6 +425,6 @@ def test_no_sequence_of_events_breaks_it(seed, tmp_path, monkeypatch):
         if step % 15 == 0:
             editor.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=chance.choice([-1, 1])))
             editor.draw(surface)
-        editor.done, editor.outcome = False, None
+        editor.dialogs.done, editor.dialogs.outcome = False, None
     judged = editor.judge.of(editor.desk.draft)
     assert (judged.scenario is None) == bool(judged.faults)

@@ -211,7 +211,7 @@ def test_laws_go_on_where_a_wall_is_drawn_in_the_past(desk):
     desk.press("e")
     drawn = desk.window.director.scenario_now()
     wall = Map(walls=[[(2, 1), (2, 1.5)]])
-    desk.window.editor.outcome = Outcome(drawn.replace(addons=[*drawn.addons, wall]), "now")
+    desk.window.editor.dialogs.outcome = Outcome(drawn.replace(addons=[*drawn.addons, wall]), "now")
     desk.window._close_editor(desk.window.editor)
     assert desk.where == (20, 20, 1)
     desk.press("space")

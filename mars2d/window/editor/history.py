@@ -1,4 +1,4 @@
-"""What can be undone and done again."""
+"""The history of a draft: undo and redo."""
 
 from __future__ import annotations
 
@@ -6,38 +6,37 @@ from mars2d.window.editor.draft import Draft
 
 __all__ = ["History"]
 
-MOST = 500
-"""So many drafts are kept."""
+MAX_DRAFTS = 500
 
 
 class History:
-    """Drafts one after the other, and the place among them."""
+    """A list of drafts, and the index of the present one."""
 
     def __init__(self, draft: Draft) -> None:
-        """Start with one draft, which is as it is kept elsewhere."""
+        """Start with a draft that counts as saved."""
         self._drafts = [draft]
         self._place = 0
         self._tag = ""
-        self._kept: Draft | None = draft
+        self._saved: Draft | None = draft
 
     @property
     def draft(self) -> Draft:
-        """The draft of now."""
+        """The present draft."""
         return self._drafts[self._place]
 
     @property
     def changed(self) -> bool:
-        """Whether it differs from what is kept elsewhere."""
-        return self.draft is not self._kept and self.draft != self._kept
+        """Whether the present draft differs from the saved one."""
+        return self.draft is not self._saved and self.draft != self._saved
 
     def put(self, draft: Draft, tag: str = "") -> None:
-        """Go on with a draft. Changes with the same tag, one after the other, are undone as one."""
+        """Continue with a draft. Consecutive changes with the same tag are undone as one."""
         if draft == self.draft:
             return
         merges = bool(tag) and tag == self._tag and self._place + 1 == len(self._drafts)
         end = self._place if merges else self._place + 1
         self._drafts[end:] = [draft]
-        del self._drafts[:-MOST]
+        del self._drafts[:-MAX_DRAFTS]
         self._place, self._tag = len(self._drafts) - 1, tag
 
     @property
@@ -47,15 +46,15 @@ class History:
 
     @property
     def can_redo(self) -> bool:
-        """Whether there is anything to do again."""
+        """Whether there is anything to redo."""
         return self._place + 1 < len(self._drafts)
 
     def undo(self) -> bool:
-        """Go one back; return whether there was anything to undo."""
+        """Undo a change; return whether there was one."""
         return self._go(self._place - 1)
 
     def redo(self) -> bool:
-        """Go one on again; return whether there was anything to do again."""
+        """Redo a change; return whether there was one."""
         return self._go(self._place + 1)
 
     def _go(self, place: int) -> bool:
@@ -65,10 +64,10 @@ class History:
         self._place = place
         return True
 
-    def keep(self) -> None:
-        """Take note that the draft of now is kept elsewhere."""
-        self._kept, self._tag = self.draft, ""
+    def mark_saved(self) -> None:
+        """Count the present draft as saved."""
+        self._saved, self._tag = self.draft, ""
 
-    def lose(self) -> None:
-        """Take note that nothing is kept elsewhere."""
-        self._kept = None
+    def mark_unsaved(self) -> None:
+        """Count no draft as saved."""
+        self._saved = None

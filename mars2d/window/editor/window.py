@@ -54,7 +54,7 @@ class EditorWindow:
 
     def _loop(self) -> None:
         clock, editor = pygame.time.Clock(), self.editor
-        while not editor.done:
+        while not editor.dialogs.done:
             pygame.display.set_caption(f"{editor.title} - MARS2D")
             surface = pygame.display.get_surface()
             assert surface is not None
@@ -66,7 +66,7 @@ class EditorWindow:
                     self._quit()
                 else:
                     editor.handle(event)
-            if editor.to_run is not None:
+            if editor.dialogs.to_run is not None:
                 self._play()
 
     def draw(self, surface: pygame.Surface) -> None:
@@ -75,19 +75,19 @@ class EditorWindow:
 
     def _quit(self) -> None:
         """Close the editor; without a question the second time."""
-        asked = self.editor.prompt is not None
+        asked = self.editor.dialogs.prompt is not None
         if asked:
-            self.editor.done = True
+            self.editor.dialogs.done = True
         else:
-            self.editor.close()
+            self.editor.dialogs.leave()
 
     def _play(self) -> None:
         """Run the file in a window, then open the editor's window again."""
         from mars2d.window.show import show_experiment
 
         editor, surface = self.editor, pygame.display.get_surface()
-        assert editor.to_run is not None
-        path, editor.to_run = editor.to_run, None
+        path, editor.dialogs.to_run = editor.dialogs.to_run, None
+        assert path is not None
         size = self.size if surface is None else surface.get_size()
         try:
             experiment = open_experiment(path)
