@@ -1,9 +1,8 @@
-"""The other branches of a run, drawn as ghosts, and the marks on its time bar."""
+"""The other branches of a run, drawn as ghosts."""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +11,10 @@ from mars2d.core.scene import Anchor, Line, Scene, faded
 from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_colors
 from mars2d.output.layers.forces import bounding_circle
 from mars2d.record.frame import Frame
-from mars2d.window.timebar import MarkKind
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
-__all__ = ["Marks", "ghosts"]
+__all__ = ["ghosts"]
 
 Float = NDArray[np.float64]
 
@@ -35,8 +33,6 @@ MAX_DASHES = 80
 APART = 1e-6
 """Bodies this near to their pose in the present branch are not drawn, metres or radians."""
 NAME_COLOR = "#707070"
-MARK_INTERVAL = 0.25
-"""How often the log of contacts is read for collisions, seconds."""
 
 
 def ghosts(timeline: Timeline, frame: Frame) -> Scene:
@@ -155,48 +151,3 @@ def _dashed(path: Float, dash: float) -> Float:
     ends = np.minimum(starts + dash, along[-1])
     at = np.stack([starts, ends], axis=1)
     return np.stack([np.interp(at, along, path[:, axis]) for axis in (0, 1)], axis=2)
-
-
-class Marks:
-    """The rows of a run with collisions, interventions, branches and errors."""
-
-    def __init__(self, timeline: Timeline) -> None:
-        """Start with nothing read."""
-        self._timeline = timeline
-        self._world: World | None = None
-        self._seen = 0  # rows of the contact log
-        self._next = 0.0
-        self._touched: list[int] = []
-        self._handled: tuple[World | None, int, list[int]] = None, 0, []
-
-    def rows(self) -> Mapping[MarkKind, Sequence[int]]:
-        """Return the rows of each kind in ascending order; collisions may lag by a moment."""
-        timeline, world = self._timeline, self._timeline.world
-        self._look(world, time.monotonic())
-        return {
-            "collision": self._touched,
-            "hand": self._by_hand(world),
-            "branch": sorted({timeline.parted(other) for other in timeline.branches}),
-            "error": [world.iteration] if world.over and not world.finished else [],
-        }
-
-    def _by_hand(self, world: World) -> list[int]:
-        """Return the rows at which a person intervened."""
-        log = world.hands.log
-        if self._handled[:2] != (world, len(log)):
-            self._handled = world, len(log), sorted({each.row for each in log})
-        return self._handled[2]
-
-    def _look(self, world: World, now: float) -> None:
-        """Read the contacts that began since the last reading."""
-        if world is not self._world:
-            self._world, self._seen, self._next, self._touched = world, 0, 0.0, []
-        if now < self._next:
-            return
-        self._next = now + MARK_INTERVAL
-        contacts = world.frame.contact_log()
-        new = contacts[self._seen :]
-        self._seen = len(contacts)
-        steps = new["time"][new["began"]] / world.sampling_time
-        rows = np.ceil(steps - 1e-6).astype(int).tolist()
-        self._touched += sorted(set(rows) - set(self._touched[-1:]))

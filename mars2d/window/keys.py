@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-__all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "action_of"]
+import pygame
+
+__all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "Keyboard", "action_of"]
+
+MAX_NUMBER = 1_000_000
+"""The largest number that can be typed before a command."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,3 +107,47 @@ def action_of(name: str, character: str, *, manual: bool) -> Key | None:
     if not manual or name in MODIFIERS or character.isdigit():
         return key
     return _STEP if key is None or key.action == "pause" else key
+
+
+class Keyboard:
+    """Turns pressed keys into commands; digits make a number for the next command."""
+
+    def __init__(self) -> None:
+        """Start with no key held and nothing typed."""
+        self.number = 0  # typed so far
+        self._held: set[int] = set()
+
+    def press(self, code: int, character: str, *, manual: bool) -> Key | None:
+        """Press a key; return its command, or None.
+
+        code: pygame's code of the key; character, manual: as for `action_of`.
+        """
+        if _is_digit(character):
+            self.number = min(10 * self.number + int(character), MAX_NUMBER)
+            return None
+        key = action_of(pygame.key.name(code), character, manual=manual)
+        held = code in self._held
+        self._held.add(code)
+        return key if key is not None and (key.repeats or not held) else None
+
+    def forget(self, code: int, character: str) -> None:
+        """Forget the typed number after a key, unless it is a digit or only modifies others."""
+        if not _is_digit(character) and pygame.key.name(code) not in MODIFIERS:
+            self.number = 0
+
+    def typed(self, otherwise: int) -> int:
+        """Return the typed number, or another one if none was typed; forget it."""
+        number, self.number = self.number, 0
+        return number or otherwise
+
+    def release(self, code: int) -> None:
+        """Release a key."""
+        self._held.discard(code)
+
+    def clear(self) -> None:
+        """Release all keys."""
+        self._held.clear()
+
+
+def _is_digit(character: str) -> bool:
+    return character.isdigit() and character.isascii()

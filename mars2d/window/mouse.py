@@ -12,7 +12,7 @@ from mars2d.window.grab import Grab
 from mars2d.window.player import Player
 from mars2d.window.viewpoint import Viewpoint, wheel_notches
 
-__all__ = ["Mouse"]
+__all__ = ["Handle", "Mouse", "Pixel"]
 
 Pixel = tuple[int, int]
 Handle = tuple[Callable[[Pixel], bool], Callable[[Pixel], None]]

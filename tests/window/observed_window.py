@@ -51,7 +51,7 @@ def state_of(window):
     player, director = window.player, window.director
     frame, source, timeline = player.frame, player.source, director.timeline
     seen = window.grab.shown(frame)
-    bar, slider = window._time_bar, window._slider
+    bar, slider = window._controls.time_bar, window._controls.slider
     banner = window._ending.banner()
     return {
         "time": round(frame.time, 3),
@@ -92,7 +92,7 @@ def state_of(window):
 
 
 def marks_of(window):
-    return window._time_state().marks
+    return window._controls.time_state().marks
 
 
 def editor_of(editor):

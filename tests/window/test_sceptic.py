@@ -187,7 +187,7 @@ def test_to_scrub_with_a_driving_key_held_changes_nothing(desk):
     desk.press("h")
     desk.down("w")
     desk.play(20)
-    bar = desk.window._time_bar
+    bar = desk.window._controls.time_bar
     desk.grasp((round(bar.x_of(20)), bar._line.centery))
     for row in (15, 12, 9, 6):
         desk.move((round(bar.x_of(row)), bar._line.centery))
