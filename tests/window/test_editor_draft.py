@@ -18,11 +18,10 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, keys
 from mars2d.window.editor.chrome import Prompt
-from mars2d.window.editor.desk import Desk
+from mars2d.window.editor.desk import Desk, History
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
 from mars2d.window.editor.gestures import spanned
-from mars2d.window.editor.history import History
 from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.sketch import Sketch
 from mars2d.window.editor.verdict import judge
