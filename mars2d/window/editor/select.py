@@ -41,7 +41,7 @@ class Handling(Tool):
             self.desk.corner = corner
 
     def cancel(self) -> bool:
-        """Put back what is being dragged."""
+        """Cancel the drag."""
         busy = self.gesture is not None
         self.gesture, self.pressed, self.moved = None, None, False
         return self.desk.drop() or busy
@@ -149,7 +149,7 @@ class Select(Handling):
         self._band = self._clicked = None
 
     def cancel(self) -> bool:
-        """Put back what is being dragged."""
+        """Cancel the drag."""
         band, self._band = self._band, None
         return super().cancel() or band is not None
 
