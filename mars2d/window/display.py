@@ -83,10 +83,10 @@ def open_display() -> None:
     """Start pygame's display. Raises InputError without a real screen."""
     import pygame
 
-    from mars2d.window import lost
+    from mars2d.window import display_loss
     from mars2d.window.desktop import be_sharp
 
-    lost.check()
+    display_loss.check()
     if pygame.display.get_init():
         if pygame.display.get_driver() in NOT_REAL:
             raise InputError(NO_DISPLAY)
@@ -116,7 +116,7 @@ def started_display() -> Iterator[None]:
     """
     import pygame
 
-    from mars2d.window import lost
+    from mars2d.window import display_loss
 
     ours = not pygame.display.get_init()
     open_display()
@@ -124,7 +124,7 @@ def started_display() -> Iterator[None]:
         yield
     finally:
         if ours:
-            lost.close()
+            display_loss.close()
 
 
 def open_window(size: tuple[int, int], painter: Painter) -> pygame.Surface:
@@ -134,9 +134,9 @@ def open_window(size: tuple[int, int], painter: Painter) -> pygame.Surface:
     """
     import pygame
 
-    from mars2d.window import lost
+    from mars2d.window import display_loss
 
-    lost.check()
+    display_loss.check()
     pygame.display.set_icon(_icon(painter))
     try:
         with warnings.catch_warnings():
@@ -144,7 +144,7 @@ def open_window(size: tuple[int, int], painter: Painter) -> pygame.Surface:
             surface = pygame.display.set_mode(size, pygame.RESIZABLE)
     except pygame.error as error:
         raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
-    lost.watch()
+    display_loss.watch()
     pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
     return surface
 
@@ -167,10 +167,10 @@ def show_drawn() -> None:
     """Put the drawn picture on the screen. Raises DisplayError if the display is lost."""
     import pygame
 
-    from mars2d.window import lost
+    from mars2d.window import display_loss
 
     pygame.display.flip()
-    lost.check()
+    display_loss.check()
 
 
 def be_quick() -> None:

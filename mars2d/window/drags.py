@@ -20,7 +20,7 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
 from mars2d.scenario.placement import obstruction
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.meter import holding_force
+from mars2d.window.forcemeter import holding_force
 from mars2d.world.world import World
 
 __all__ = ["Drag", "Move", "Pull", "Turn", "draw_label", "draw_ring", "local_point", "pull_of"]

@@ -15,7 +15,7 @@ from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import hairlines
 from mars2d.record.frame import Float, Frame
-from mars2d.window.meter import Bound, Reading, bound_of, span_of
+from mars2d.window.forcemeter import Bound, Reading, bound_of, span_of
 
 __all__ = ["draw_force"]
 

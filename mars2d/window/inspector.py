@@ -13,8 +13,8 @@ from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.layers.forces import SLIP, SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
+from mars2d.window.forcemeter import Meter
 from mars2d.window.forceplot import draw_force
-from mars2d.window.meter import Meter
 from mars2d.window.readout import (
     MAX_MESSAGES,
     Row,

@@ -18,7 +18,7 @@ from mars2d.output.raster.strokes import hairlines
 from mars2d.output.raster.theme import mixed
 from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
-from mars2d.window.meter import span_of
+from mars2d.window.forcemeter import span_of
 
 __all__ = ["SensorPlot", "plot_of"]
 

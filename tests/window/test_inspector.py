@@ -34,9 +34,9 @@ from mars2d.sensors import (
     Sensor,
     SonarRing,
 )
+from mars2d.window.forcemeter import Meter
 from mars2d.window.forceplot import draw_force
 from mars2d.window.inspector import Inspector, sensor_plots
-from mars2d.window.meter import Meter
 from mars2d.window.readout import contacts_of, inbox, rounded, state_of
 from mars2d.window.sensorplot import history
 from tests.window.circling import Circling
