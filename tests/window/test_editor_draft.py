@@ -21,7 +21,7 @@ from mars2d.window.editor.chrome import Prompt
 from mars2d.window.editor.desk import Desk, History
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
-from mars2d.window.editor.gestures import spanned
+from mars2d.window.editor.handles import spanned
 from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.sketch import Sketch
 from mars2d.window.editor.verdict import judge
@@ -283,6 +283,19 @@ def test_a_box_spans_two_corners_whichever_way(end):
     box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
     assert (box.length, box.width) == (1, 2)
     assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
+
+
+def test_a_rectangular_prop_of_ones_own_is_resized_and_stays_what_it_is():
+    class Crate(Box):
+        pass
+
+    crate = spanned(Crate(height=0.3), (0.0, 0.0), (2.0, 1.0))
+    assert isinstance(crate, Crate)
+    assert crate.height == 0.3
+    assert crate.side_lengths == (2, 1)
+    assert Ball().side_lengths is None
+    with pytest.raises(NotImplementedError, match="Ball is no rectangle"):
+        Ball().with_side_lengths(1, 2)
 
 
 def test_a_prompt_shows_what_is_wrong_and_stays():

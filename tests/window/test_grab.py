@@ -7,7 +7,7 @@ import pygame
 import pytest
 
 from mars2d import InputError, Robot, Scenario, World
-from mars2d.addons import Beacon, Map, Waypoints
+from mars2d.addons import Addon, Beacon, Map, Waypoints
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Circle, Line, Text
@@ -370,8 +370,20 @@ def test_what_a_change_refuses_is_said():
     assert not mouse.busy
 
 
+def test_points_that_an_addon_names_are_shown_under_the_pointer():
+    class Door(Addon):
+        def named_points(self, frame):
+            return [(f"door at {frame.time:g} s", (2.0, 0.5))]
+
+    person = Person(SCENARIO.replace(addons=[*SCENARIO.addons, Door()]))
+    person.move(2.0, 0.5)
+    assert person.grab.over is None
+    assert [text.text for text in person.marks(Text)] == ["door at 0 s"]
+
+
 def test_the_former_name_of_the_class_works_and_warns():
-    with pytest.warns(FutureWarning, match="Hand is mars2d.window.grab.Grab now"):
+    module = pytest.warns(FutureWarning, match="mars2d.window.hand is mars2d.window.grab now")
+    with module, pytest.warns(FutureWarning, match="Hand is mars2d.window.grab.Grab now"):
         from mars2d.window.hand import Hand
     assert Hand is Grab
     assert not hasattr(grab, "Arm")

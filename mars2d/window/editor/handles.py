@@ -1,30 +1,34 @@
-"""The handles of the selection: corners, the dots between them, a ring that turns it."""
+"""The handles of the selection (corners, dots between them, a ring), and what drags of it do."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, degrees, hypot, pi, radians, sin
 from typing import Literal
 
+from mars2d.bodies.props.base import Prop
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.core.scene import Scene
 from mars2d.output.raster.theme import LIGHT
-from mars2d.window.editor.desk import Desk
+from mars2d.window.editor.desk import Desk, Gesture
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.item import Item, Motion, tidy
 
 __all__ = [
     "MARK",
+    "NOTCH",
     "PAPER",
+    "Cornering",
     "Handle",
-    "Ring",
+    "Moving",
+    "Sizing",
+    "Turning",
     "angle_of",
     "draw_handles",
     "handle_at",
-    "handles",
     "ring_of",
-    "size_corners",
+    "spanned",
 ]
 
 REACH = 9.0
@@ -34,6 +38,12 @@ MARK, PAPER = LIGHT.selected, LIGHT.paper
 
 MIN_RING, MAX_RING = 30.0, 150.0
 """The radius of the ring on the screen, points."""
+
+NOTCH = 15.0
+"""The steps of a turn with Shift, degrees."""
+
+MIN_SIDE = 0.01
+"""The shortest side of a rectangle that is drawn, metres."""
 
 
 @dataclass(frozen=True)
@@ -144,3 +154,90 @@ def draw_handles(desk: Desk, scene: Scene) -> None:
 def angle_of(center: Point, point: Point) -> float:
     """Return the direction from one point to another, radians."""
     return atan2(point[1] - center[1], point[0] - center[0])
+
+
+# -- drags ------------------------------------------------------------------------------------
+
+
+class Moving(Gesture):
+    """Moves the selection; the item that was grabbed snaps to the grid."""
+
+    def __init__(self, desk: Desk, grabbed: Item, start: Point) -> None:
+        """Begin where the button was pressed."""
+        self.desk, self.start = desk, start
+        self.draft, self.items = desk.draft, desk.selection
+        self.place = desk.draft.place(grabbed)
+
+    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
+        """Move the selection to the pointer."""
+        (x, y), (ax, ay) = self.place, self.start
+        goal = self.desk.snapped((x + point[0] - ax, y + point[1] - ay))
+        return self.draft.moved(self.items, Motion(by=(goal[0] - x, goal[1] - y)))
+
+
+class Turning(Gesture):
+    """Turns the selection about the middle of its ring, with Shift in notches."""
+
+    def __init__(self, desk: Desk, ring: Ring) -> None:
+        """Begin with the handle where it is."""
+        self.desk, self.ring = desk, ring
+        self.draft, self.items = desk.draft, desk.selection
+        pose = None if desk.only is None else desk.draft.pose(desk.only)
+        self.zero = ring.heading if pose is None else 0.0  # from where notches are counted
+
+    def to(self, point: Point, *, shift: bool) -> Draft:
+        """Turn the handle towards the pointer."""
+        step = NOTCH if shift else 1.0 if self.desk.snaps else 0.1
+        wanted = degrees(angle_of(self.ring.center, point) - self.zero)
+        angle = radians(round(wanted / step) * step) - (self.ring.heading - self.zero)
+        if abs(angle) < 1e-12:
+            return self.draft
+        return self.draft.moved(self.items, Motion(angle, self.ring.center))
+
+
+class Cornering(Gesture):
+    """Moves a corner of an outline, a wall or the workspace; or adds one first."""
+
+    def __init__(self, desk: Desk, item: Item, number: int, *, new: bool = False) -> None:
+        """Begin with a corner; new: add one after it, and move that."""
+        self.desk, self.item = desk, item
+        self.draft = desk.draft
+        corners = list(desk.draft.corners(item) or ())
+        self.number = number + 1 if new else number
+        if new:
+            corners.insert(self.number, corners[number])
+        self.corners = corners
+
+    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
+        """Put the corner at the pointer."""
+        corners = self.corners.copy()
+        corners[self.number] = self.desk.snapped(point)
+        return self.draft.with_corners(self.item, corners)
+
+
+class Sizing(Gesture):
+    """Resizes a rectangular prop by a corner; the opposite corner stays."""
+
+    def __init__(self, desk: Desk, item: Item, number: int) -> None:
+        """Begin with a corner."""
+        self.desk, self.item, self.draft = desk, item, desk.draft
+        self.fixed = size_corners(desk.draft, item)[(number + 2) % 4]
+
+    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
+        """Put the corner at the pointer."""
+        k = self.item.number
+        prop = spanned(self.draft.props[k], self.fixed, self.desk.snapped(point))
+        return self.draft.with_prop(k, prop)
+
+
+def spanned(prop: Prop, a: Point, b: Point) -> Prop:
+    """Return a rectangular prop between two opposite corners, with the same heading."""
+    x, y, theta = prop.pose
+    c, s = cos(theta), sin(theta)
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    along, across = c * dx + s * dy, c * dy - s * dx
+    length, width = (tidy(max(abs(side), MIN_SIDE)) for side in (along, across))
+    along, across = (side / 2 if v >= 0 else -side / 2
+                     for side, v in ((length, along), (width, across)))  # fmt: skip
+    x, y = a[0] + c * along - s * across, a[1] + s * along + c * across
+    return prop.with_side_lengths(length, width).replace(pose=(tidy(x), tidy(y), theta))

@@ -17,8 +17,7 @@ from mars2d.output.layers.bodies import draw_prop, draw_robot
 from mars2d.scenario.robot import Robot
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.gestures import NOTCH, spanned
-from mars2d.window.editor.handles import MARK, angle_of
+from mars2d.window.editor.handles import MARK, NOTCH, angle_of, spanned
 from mars2d.window.editor.item import Item, Motion, tidy
 from mars2d.window.editor.picking import item_at
 from mars2d.window.editor.readout import size_of, turned

@@ -8,8 +8,17 @@ from mars2d.core.errors import InputError
 from mars2d.core.plane import Point, rectangle
 from mars2d.core.scene import Scene, faded
 from mars2d.window.editor.desk import Gesture
-from mars2d.window.editor.gestures import Cornering, Moving, Sizing, Turning
-from mars2d.window.editor.handles import MARK, Handle, draw_handles, handle_at, ring_of
+from mars2d.window.editor.handles import (
+    MARK,
+    Cornering,
+    Handle,
+    Moving,
+    Sizing,
+    Turning,
+    draw_handles,
+    handle_at,
+    ring_of,
+)
 from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.readout import size_of, stretch, turned
