@@ -85,11 +85,18 @@ class History:
 
 
 class Gesture:
-    """The base of drags."""
+    """The base of drags; corner: the index of the corner that it moves, if it moves one."""
+
+    corner: int | None = None
 
     def to(self, point: Point, *, shift: bool) -> Draft:
         """Return the draft with the pointer dragged to a point [m]."""
         raise NotImplementedError
+
+    @property
+    def remark(self) -> str:
+        """A measure to show beside the pointer, for example ``1.50 m   90°``."""
+        return ""
 
 
 class Desk:

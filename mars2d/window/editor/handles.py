@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan2, cos, degrees, hypot, pi, radians, sin
+from math import cos, degrees, hypot, pi, radians, sin
 from typing import Literal
 
 from mars2d.bodies.props.base import Prop
@@ -13,7 +13,8 @@ from mars2d.core.scene import Scene
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.editor.desk import Desk, Gesture
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.item import Item, Motion, tidy
+from mars2d.window.editor.item import Item, Motion, angle_of, tidy
+from mars2d.window.editor.readout import size_of, stretch, turned
 
 __all__ = [
     "MARK",
@@ -24,7 +25,6 @@ __all__ = [
     "Moving",
     "Sizing",
     "Turning",
-    "angle_of",
     "draw_handles",
     "handle_at",
     "ring_of",
@@ -151,11 +151,6 @@ def draw_handles(desk: Desk, scene: Scene) -> None:
             scene.polygon(square, fill=fill, stroke=color, width=2.0)
 
 
-def angle_of(center: Point, point: Point) -> float:
-    """Return the direction from one point to another, radians."""
-    return atan2(point[1] - center[1], point[0] - center[0])
-
-
 # -- drags ------------------------------------------------------------------------------------
 
 
@@ -194,6 +189,11 @@ class Turning(Gesture):
             return self.draft
         return self.draft.moved(self.items, Motion(angle, self.ring.center))
 
+    @property
+    def remark(self) -> str:
+        """The heading of the one item that is selected."""
+        return "" if self.desk.only is None else turned(self.desk.draft, self.desk.only)
+
 
 class Cornering(Gesture):
     """Moves a corner of an outline, a wall or the workspace; or adds one first."""
@@ -203,16 +203,24 @@ class Cornering(Gesture):
         self.desk, self.item = desk, item
         self.draft = desk.draft
         corners = list(desk.draft.corners(item) or ())
-        self.number = number + 1 if new else number
+        self.corner: int = number + 1 if new else number
         if new:
-            corners.insert(self.number, corners[number])
+            corners.insert(self.corner, corners[number])
         self.corners = corners
 
     def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
         """Put the corner at the pointer."""
         corners = self.corners.copy()
-        corners[self.number] = self.desk.snapped(point)
+        corners[self.corner] = self.desk.snapped(point)
         return self.draft.with_corners(self.item, corners)
+
+    @property
+    def remark(self) -> str:
+        """The edges at the corner."""
+        k, corners = self.corner, self.desk.draft.corners(self.item) or ()
+        edges = [(k - 1, k)] if k or self.item.kind != "wall" else []
+        edges += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not edges else []
+        return "   ".join(stretch(corners[a], corners[b]) for a, b in edges)
 
 
 class Sizing(Gesture):
@@ -228,6 +236,11 @@ class Sizing(Gesture):
         k = self.item.number
         prop = spanned(self.draft.props[k], self.fixed, self.desk.snapped(point))
         return self.draft.with_prop(k, prop)
+
+    @property
+    def remark(self) -> str:
+        """The length and width."""
+        return size_of(self.desk.draft, self.item)
 
 
 def spanned(prop: Prop, a: Point, b: Point) -> Prop:

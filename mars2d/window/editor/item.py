@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from mars2d.core.plane import Point
 
-__all__ = ["FIELDS", "Item", "Kind", "Motion", "tidy"]
+__all__ = ["FIELDS", "Item", "Kind", "Motion", "angle_of", "tidy"]
 
 Kind = Literal["robot", "prop", "outline", "wall", "waypoint", "beacon", "workspace"]
 
@@ -57,3 +57,8 @@ class Motion(NamedTuple):
 def tidy(value: float) -> float:
     """Return a length or angle rounded to nine decimals, without errors of rounding."""
     return round(value, 9) + 0.0
+
+
+def angle_of(center: Point, point: Point) -> float:
+    """Return the direction from one point to another, radians."""
+    return atan2(point[1] - center[1], point[0] - center[0])

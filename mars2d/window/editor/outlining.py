@@ -145,7 +145,9 @@ class DrawPolygon(Chain):
 
 
 class Rectangle(Making):
-    """A drag from corner to corner; the base of those that make a rectangle."""
+    """A drag from corner to corner that makes an obstacle; min_side: points."""
+
+    min_side: ClassVar[float] = 0.0
 
     def __init__(self, desk: Desk, start: Point) -> None:
         """Begin with a corner."""
@@ -154,7 +156,7 @@ class Rectangle(Making):
     def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
         """Put the opposite corner at the pointer."""
         (ax, ay), (bx, by) = self.start, self.desk.snapped(point)
-        if ax == bx or ay == by:
+        if min(abs(ax - bx), abs(ay - by)) <= self.desk.metres(self.min_side):
             self.item = None
             return self.draft
         draft, self.item = self.made(rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)))
@@ -165,7 +167,7 @@ class Rectangle(Making):
         return self.draft.with_outline(ring)
 
     @property
-    def size(self) -> str:
+    def remark(self) -> str:
         """The length and width, "" if there is no rectangle yet."""
         ring = None if self.item is None else self.desk.draft.corners(self.item)
         if not ring:
@@ -190,11 +192,6 @@ class DrawRectangle(Maker):
         if self.gesture is not None:
             self.desk.drag(self.gesture, point, shift=shift)
 
-    @property
-    def remark(self) -> str:
-        """The size."""
-        return "" if self.gesture is None else self.gesture.size
-
     def draw(self, scene: Scene) -> None:
         """Draw the place of the first corner."""
         if self.pointer is not None and self.gesture is None:
@@ -203,7 +200,9 @@ class DrawRectangle(Maker):
 
 
 class WorkspaceRectangle(Rectangle):
-    """A drag that makes the workspace."""
+    """A drag from corner to corner that makes the workspace."""
+
+    min_side: ClassVar[float] = 2.0
 
     def made(self, ring: Outline) -> tuple[Draft, Item]:
         """Return the draft with the rectangle as its workspace."""
@@ -245,12 +244,7 @@ class Workspace(Handling):
         self.take(handle, point)
 
     def release(self, point: Point, *, shift: bool) -> None:
-        """End the drag; a rectangle that is too small is dropped."""
-        ring = self.desk.draft.workspace
-        if isinstance(self.gesture, WorkspaceRectangle) and ring is not None:
-            (ax, ay), (bx, by) = ring[0], ring[2]
-            if min(abs(ax - bx), abs(ay - by)) < self.desk.metres(2.0):
-                self.desk.drop()
+        """End the drag."""
         super().release(point, shift=shift)
         self._hold()
 
@@ -258,10 +252,3 @@ class Workspace(Handling):
         """Draw the handles."""
         self._hold()
         super().draw(scene)
-
-    @property
-    def remark(self) -> str:
-        """The size of a new rectangle, or the edges at the dragged corner."""
-        if isinstance(self.gesture, WorkspaceRectangle):
-            return self.gesture.size
-        return super().remark

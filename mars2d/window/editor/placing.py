@@ -17,8 +17,8 @@ from mars2d.output.layers.bodies import draw_prop, draw_robot
 from mars2d.scenario.robot import Robot
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.handles import MARK, NOTCH, angle_of, spanned
-from mars2d.window.editor.item import Item, Motion, tidy
+from mars2d.window.editor.handles import MARK, NOTCH, spanned
+from mars2d.window.editor.item import Item, Motion, angle_of, tidy
 from mars2d.window.editor.picking import item_at
 from mars2d.window.editor.readout import size_of, turned
 from mars2d.window.editor.tool import Maker, Making

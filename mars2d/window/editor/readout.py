@@ -9,8 +9,7 @@ from mars2d.core.errors import counted
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.handles import angle_of
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.item import Item, angle_of
 
 __all__ = ["described", "minus", "sides", "size_of", "stretch", "turned"]
 

@@ -7,7 +7,6 @@ from typing import ClassVar
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point, rectangle
 from mars2d.core.scene import Scene, faded
-from mars2d.window.editor.desk import Gesture
 from mars2d.window.editor.handles import (
     MARK,
     Cornering,
@@ -21,7 +20,6 @@ from mars2d.window.editor.handles import (
 )
 from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.picking import item_at, items_within
-from mars2d.window.editor.readout import size_of, stretch, turned
 from mars2d.window.editor.tool import Tool
 
 __all__ = ["Handling", "Select"]
@@ -31,7 +29,6 @@ class Handling(Tool):
     """The base of tools that drag handles."""
 
     puts: ClassVar[bool] = False
-    gesture: Gesture | None = None
     moved = False
 
     def move(self, point: Point, *, shift: bool) -> None:
@@ -43,7 +40,7 @@ class Handling(Tool):
 
     def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """End the drag, and keep what it has made."""
-        corner = self.gesture.number if isinstance(self.gesture, Cornering) else None
+        corner = None if self.gesture is None else self.gesture.corner
         self.gesture, self.pressed, self.moved = None, None, False
         self.desk.settle()
         if corner is not None and self.desk.only is not None:
@@ -69,7 +66,7 @@ class Handling(Tool):
             if new:
                 self.moved = True  # a mere click on a dot adds the corner, too
                 desk.drag(self.gesture, handle.point, shift=False)
-            desk.corner = self.gesture.number
+            desk.corner = self.gesture.corner
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put the selection at a point: its corner, a body's pose, or an outline's first corner."""
@@ -91,22 +88,6 @@ class Handling(Tool):
     def draw(self, scene: Scene) -> None:
         """Draw the handles."""
         draw_handles(self.desk, scene)
-
-    @property
-    def remark(self) -> str:
-        """The size or heading of the dragged item."""
-        item, gesture = self.desk.only, self.gesture
-        if isinstance(gesture, Turning):
-            return "" if item is None else turned(self.desk.draft, item)
-        if isinstance(gesture, Sizing) and item is not None:
-            return size_of(self.desk.draft, item)
-        corners = None if item is None else self.desk.draft.corners(item)
-        if isinstance(gesture, Cornering) and corners is not None and item is not None:
-            k = gesture.number
-            edges = [(k - 1, k)] if k or item.kind != "wall" else []
-            edges += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not edges else []
-            return "   ".join(stretch(corners[a], corners[b]) for a, b in edges)
-        return ""
 
 
 class Select(Handling):

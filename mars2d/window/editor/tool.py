@@ -23,6 +23,7 @@ class Tool:
 
     hint: ClassVar[str] = ""
     puts: ClassVar[bool] = True
+    gesture: Gesture | None = None
 
     def __init__(self, desk: Desk) -> None:
         """Start with nothing pressed."""
@@ -59,8 +60,8 @@ class Tool:
 
     @property
     def remark(self) -> str:
-        """A measure to show beside the pointer, for example ``1.50 m   90°``."""
-        return ""
+        """A measure to show beside the pointer."""
+        return "" if self.gesture is None else self.gesture.remark
 
     def dragged(self, point: Point) -> bool:
         """Return whether the pointer has moved since the button was pressed."""
