@@ -162,7 +162,7 @@ class Desk:
         """Redo the last change that was undone."""
         self.drop()
         if not self.history.redo():
-            self.say("there is nothing to do again")
+            self.say("there is nothing to redo")
         self._forget()
 
     # -- the selection ----------------------------------------------------------------------------

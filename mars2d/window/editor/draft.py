@@ -309,23 +309,20 @@ class Draft:
     def without(self, items: Collection[Item]) -> Self:
         """Return the draft without items; a robot's route goes with it."""
         gone = set(items)
-        gone |= {
-            Item("waypoint", i.number, k) for i in gone if i.kind == "robot" for k in range(999)
-        }
+
+        def left(kind: Kind) -> tuple[Any, ...]:
+            listed = enumerate(getattr(self, FIELDS[kind]))
+            return tuple(value for i, value in listed if Item(kind, i) not in gone)
+
         routes = tuple(
             tuple(p for k, p in enumerate(route) if Item("waypoint", i, k) not in gone)
             for i, route in enumerate(self.routes)
+            if Item("robot", i) not in gone
         )
-        left: dict[str, Any] = {
-            field: tuple(
-                value
-                for i, value in enumerate(routes if kind == "waypoint" else getattr(self, field))
-                if Item("robot" if kind == "waypoint" else kind, i) not in gone
-            )
-            for kind, field in FIELDS.items()
-        }
+        plain: tuple[Kind, ...] = ("robot", "prop", "outline", "wall", "beacon")
+        kept: dict[str, Any] = {FIELDS[kind]: left(kind) for kind in plain}
         workspace = None if Item("workspace") in gone else self.workspace
-        return replace(self, workspace=workspace, **left)
+        return replace(self, workspace=workspace, routes=routes, **kept)
 
     def copied(self, items: Collection[Item], motion: Motion) -> tuple[Self, list[Item]]:
         """Return the draft with moved copies of items, and the copies."""

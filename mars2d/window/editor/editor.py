@@ -268,9 +268,9 @@ class Editor:
 
     def _ask_pose(self) -> None:
         if not (self.desk.selection or self.tool.puts):
-            self.desk.say("select something first, or choose a tool that puts things", warns=True)
+            self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
-        label, hint = "x y [degrees] =", "as 1.5 2 90   Enter takes it   Esc cancels"
+        label, hint = "x y [degrees] =", "for example 1.5 2 90   Enter applies it   Esc cancels"
         self.dialogs.prompt = Prompt(label, hint, {"return": self._put}, field=True)
 
     def _put(self, text: str) -> None:

@@ -69,7 +69,7 @@ GROUPS = (
     ("Tools", TOOLS),
     ("Change", EDIT),
     ("Look", VIEW),
-    ("Keep", (*FILE, *RUN)),
+    ("File", (*FILE, *RUN)),
     ("In a paused run", LIVE),
     ("Mouse", MOUSE),
 )
@@ -77,8 +77,8 @@ GROUPS = (
 
 def groups(*, live: bool) -> tuple[tuple[str, tuple[Key, ...]], ...]:
     """Return the groups of the help; live: whether a paused run is edited."""
-    keep = ("Keep", (*LIVE, *FILE) if live else (*FILE, *RUN))
-    return (("Tools", TOOLS), ("Change", EDIT), ("Look", VIEW), keep, ("Mouse", MOUSE))
+    file = ("File", (*LIVE, *FILE) if live else (*FILE, *RUN))
+    return (("Tools", TOOLS), ("Change", EDIT), ("Look", VIEW), file, ("Mouse", MOUSE))
 
 
 _COMMON = {name: key for group in (TOOLS, EDIT, VIEW, FILE) for key in group for name in key.names}

@@ -92,7 +92,7 @@ class Place(Maker):
 class PlaceRobot(Place):
     """Places robots that are like the selected one, or like the last one."""
 
-    hint: ClassVar[str] = "Click puts a robot, a drag turns it; it is like the selected one"
+    hint: ClassVar[str] = "Click places a robot, a drag turns it; it is like the selected one"
 
     def model(self, draft: Draft) -> Robot:
         """Return the robot that the next one is a copy of."""
@@ -141,7 +141,7 @@ class PlaceBox(PlaceProp):
 
     kind: ClassVar[type[Prop]] = Box
 
-    hint: ClassVar[str] = "Click puts a box, a drag gives it its size"
+    hint: ClassVar[str] = "Click places a box, a drag gives it its size"
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
         """Place a box between two corners."""
@@ -156,7 +156,7 @@ class PlaceBall(PlaceProp):
 
     kind: ClassVar[type[Prop]] = Ball
 
-    hint: ClassVar[str] = "Click puts a ball, a drag gives it its size"
+    hint: ClassVar[str] = "Click places a ball, a drag gives it its size"
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
         """Place a ball with its centre at `start`."""
@@ -169,7 +169,7 @@ class PlaceBall(PlaceProp):
 class PlaceBeacon(Place):
     """Places beacons."""
 
-    hint: ClassVar[str] = "Click puts a beacon"
+    hint: ClassVar[str] = "Click places a beacon"
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
         """Place a beacon at the pointer."""
@@ -179,7 +179,7 @@ class PlaceBeacon(Place):
 class PlaceWaypoint(Place):
     """Places waypoints, each at the end of a robot's route."""
 
-    hint: ClassVar[str] = "Click puts a waypoint for the robot in the ring; click another robot"
+    hint: ClassVar[str] = "Click places a waypoint for the robot in the ring; click another robot"
 
     def __init__(self, desk: Desk) -> None:
         """Start with the selected robot, or else the first one."""
@@ -200,7 +200,7 @@ class PlaceWaypoint(Place):
             self._robot = under.number
             self.desk.select([under])
         elif self.robot is None:
-            self.desk.say("waypoints are a robot's: first put one (R)", warns=True)
+            self.desk.say("waypoints belong to a robot: place one first (R)", warns=True)
         else:
             super().press(point, shift=shift)
 
