@@ -1,4 +1,4 @@
-"""What lies under the pointer."""
+"""Which item, edge or corner lies under the pointer."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ import numpy as np
 
 from mars2d.core.plane import Outline, Point, edges_of, inside_polygon
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Item
-from mars2d.window.selection import body_at
+from mars2d.window.editor.item import Item
+from mars2d.window.picking import body_at
 
 __all__ = ["edge_at", "foot_on", "inside", "item_at", "items_within"]
 
 NEAR = 6.0
-"""So many points beside a line or a body still hit it."""
+"""A point this far from a line or body still hits it, points of the screen."""
 
-LAMP = 9.0
-"""The radius on the screen of beacons and waypoints, points."""
+POINT_RADIUS = 9.0
+"""The radius of beacons and waypoints on the screen, points."""
 
 
 def item_at(desk: Desk, point: Point) -> Item | None:
-    """Return the uppermost thing at a point [m], or None; the workspace is none."""
+    """Return the uppermost item at a point [m], or None; the workspace is never returned."""
     draft = desk.draft
     small = [item for item in draft.items() if item.kind in ("waypoint", "beacon")]
     for item in reversed(small):
-        if desk.near(point, draft.place(item), LAMP):
+        if desk.near(point, draft.place(item), POINT_RADIUS):
             return item
     body = body_at(draft.frame(), point, desk.metres(NEAR / 2))
     if body is not None:
@@ -43,7 +43,7 @@ def item_at(desk: Desk, point: Point) -> Item | None:
 
 
 def items_within(desk: Desk, a: Point, b: Point) -> list[Item]:
-    """Return what lies wholly in the rectangle between two corners."""
+    """Return the items that lie wholly in the rectangle between two corners."""
     (left, right), (low, high) = sorted((a[0], b[0])), sorted((a[1], b[1]))
     found = []
     for item in desk.draft.items():
@@ -54,7 +54,7 @@ def items_within(desk: Desk, a: Point, b: Point) -> list[Item]:
 
 
 def edge_at(point: Point, outline: Outline, slack: float) -> int | None:
-    """Return the number of the nearest edge of a closed outline, if it is that near [m]."""
+    """Return the index of a closed outline's nearest edge, None if it is farther than slack [m]."""
     gaps = [
         hypot(point[0] - x, point[1] - y)
         for x, y in (foot_on(point, *edge) for edge in edges_of(outline))
@@ -64,7 +64,7 @@ def edge_at(point: Point, outline: Outline, slack: float) -> int | None:
 
 
 def foot_on(point: Point, a: Point, b: Point) -> Point:
-    """Return the point of an edge from a to b that is nearest to a point."""
+    """Return the point on the edge from a to b that is nearest to a point."""
     ex, ey = b[0] - a[0], b[1] - a[1]
     along = ((point[0] - a[0]) * ex + (point[1] - a[1]) * ey) / max(ex * ex + ey * ey, 1e-18)
     along = min(max(along, 0.0), 1.0)

@@ -2,7 +2,7 @@
 
 from mars2d.core.errors import LawError
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.outcome import Outcome
+from mars2d.window.notes import Ending
 from mars2d.window.player import Player
 from mars2d.world.timeline import Timeline
 from tests.window.circling import Circling
@@ -21,15 +21,15 @@ scenario = Scenario(robots=[Robot(controller=law)], stop_time=1)
 
 def test_nothing_is_said_while_it_goes_on_and_then_that_it_is_over():
     player = Player(Circling(rows=3), "max")
-    outcome = Outcome(player)
-    assert outcome.banner() is None
+    ending = Ending(player)
+    assert ending.banner() is None
     player.step(3)
     player.step(3)
-    banner = outcome.banner()
+    banner = ending.banner()
     assert not banner.error
     assert "R restarts" in banner.hint
     player.back()
-    assert outcome.banner() is None
+    assert ending.banner() is None
 
 
 def test_the_lines_of_an_error_are_those_that_were_run(tmp_path):
@@ -37,19 +37,19 @@ def test_the_lines_of_an_error_are_those_that_were_run(tmp_path):
     file.write_text(LAW)
     player = Player(Timeline(open_experiment(str(file))), "max")
     player.step()
-    outcome = Outcome(player)
-    first = outcome.banner()
+    ending = Ending(player)
+    first = ending.banner()
     assert "no way" in first.text
     assert first.excerpt.lines[first.excerpt.line - first.excerpt.first].strip().startswith("raise")
     file.write_text("# mended\n" * 3 + LAW.replace("no way", "another"))
-    assert outcome.banner() == first
+    assert ending.banner() == first
 
 
 def test_another_error_has_its_own_lines(tmp_path):
     player = Player(Circling(rows=5, fails_at=1), "max")
     player.step(4)
-    outcome = Outcome(player)
-    assert outcome.banner().error
+    ending = Ending(player)
+    assert ending.banner().error
     player.error = LawError("something else")
-    assert outcome.banner().text == "something else"
-    assert outcome.banner().excerpt is None
+    assert ending.banner().text == "something else"
+    assert ending.banner().excerpt is None

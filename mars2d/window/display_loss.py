@@ -1,9 +1,9 @@
-"""A display that is lost while a window is open: its server dies, or the way to it is cut.
+"""Detects that the X display is lost while a window is open: its server or connection has gone.
 
-Xlib then ends the process at once, wherever it is just then, by exit(1): what was recorded would be
-gone. So it is asked to go on, and whoever shows pictures asks `check` after each. Xlib before 1.7
-can't be asked; where windows are not those of an X server, nothing is done here.
-What SDL would do to close its window never ends on a display that is lost: so it is left as it is.
+Xlib would then end the process at once with exit(1), and the recorded run would be lost. This
+module asks Xlib to go on instead; whoever shows pictures calls `check` after each. It needs Xlib
+1.7, and does nothing on other display systems. SDL's own closing of a window never returns on a
+lost display, so the window is left open.
 """
 
 from __future__ import annotations
@@ -21,25 +21,25 @@ from mars2d.core.errors import InputError
 __all__ = ["DisplayError", "check", "close", "watch"]
 
 LIBRARY = "libX11.so.6"
-MOST = 100
-"""SDL counts windows from 1; ours is the only one."""
+MAX_WINDOW = 100
+"""The highest window number that is tried; SDL counts from 1, and ours is the only window."""
 
 _HANDLER = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 _EXIT = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
 
 _watched: set[int] = set()
 _lost: list[int] = []
-"""The displays that are lost; there is no way back to another one in the same process."""
+"""The displays that are lost; the process can't open another one."""
 
 
 class DisplayError(InputError):
-    """The display has gone away on which a window was."""
+    """The display of a window has gone away."""
 
 
 def watch() -> None:
-    """Have it noted when the display is lost that a window is on, in place of ending the process.
+    """Watch the window's display: losing it no longer ends the process.
 
-    Does nothing where there is no X server.
+    Does nothing without an X server.
     """
     if pygame.display.get_driver() != "x11":
         return
@@ -57,9 +57,9 @@ def check() -> None:
 
 
 def close() -> None:
-    """End pygame's display, unless it has gone away; where it does so just then, exit."""
+    """End pygame's display unless it is lost; if it is lost during that, the process exits."""
     if pygame.display.get_surface() is not None:
-        pygame.event.pump()  # which asks whether it is there
+        pygame.event.pump()  # which finds out whether it is lost
     if _lost:
         return
     while _watched:
@@ -69,9 +69,9 @@ def close() -> None:
 
 @cache
 def _handlers() -> tuple[Any, Any]:
-    """Return what Xlib calls to tell of an error and then to exit; all displays share the first.
+    """Return the handlers that Xlib calls on an error and then to exit.
 
-    They have to stay for as long as the process.
+    All displays share the first. Both must live as long as the process.
     """
     set_handler = ctypes.CDLL(LIBRARY).XSetIOErrorHandler
     set_handler.argtypes, set_handler.restype = [_HANDLER], _HANDLER
@@ -92,16 +92,16 @@ def _handlers() -> tuple[Any, Any]:
 
 
 def _exit_by(display: int, function: Any) -> None:
-    """Have Xlib call a function where it would exit because of a display; None for exit itself."""
+    """Set the function that Xlib calls in place of exiting when a display is lost; None: exit."""
     set_handler = ctypes.CDLL(LIBRARY).XSetIOErrorExitHandler
     set_handler.argtypes, set_handler.restype = [ctypes.c_void_p] * 3, None
     set_handler(display, ctypes.cast(function, ctypes.c_void_p) if function else None, None)
 
 
 class _Info(ctypes.Structure):
-    """SDL_SysWMinfo, of SDL 2: where the X server's window is.
+    """SDL 2's SDL_SysWMinfo, which holds the X server's window.
 
-    `pygame.display.get_wm_info` tells it, too, but may crash: it reads more than SDL has written.
+    `pygame.display.get_wm_info` may crash, because it reads more than SDL has written.
     """
 
     _fields_ = (
@@ -114,10 +114,10 @@ class _Info(ctypes.Structure):
 
 def _display() -> int:
     """Return Xlib's pointer to the display of the window. Raises AttributeError without SDL 2."""
-    sdl = ctypes.CDLL(pygame.display.__file__)  # which finds all that this is linked with
+    sdl = ctypes.CDLL(pygame.display.__file__)  # finds the SDL that it is linked to
     sdl.SDL_GetWindowFromID.restype = ctypes.c_void_p
     sdl.SDL_GetWindowWMInfo.argtypes = [ctypes.c_void_p, ctypes.POINTER(_Info)]
     info = _Info(version=pygame.get_sdl_version())
-    window = next(filter(None, map(sdl.SDL_GetWindowFromID, range(1, MOST))), None)
+    window = next(filter(None, map(sdl.SDL_GetWindowFromID, range(1, MAX_WINDOW))), None)
     sdl.SDL_GetWindowWMInfo(window, info)
     return info.display or 0

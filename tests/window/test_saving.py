@@ -14,7 +14,7 @@ from PIL import Image
 from mars2d import InputError, Robot, Scenario
 from mars2d.output.films.filming import FPS, Filming
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.keep import free_name, keep_picture, keep_python, start_film
+from mars2d.window.saving import free_name, save_picture, save_python, start_film
 from tests.window.person import bare_environment, needs_screen
 
 SIZE = (160, 120)
@@ -71,12 +71,12 @@ def test_names_are_numbered_and_made_at_once(tmp_path):
 
 def test_a_folder_that_cannot_be_written_is_told_in_words(tmp_path):
     with pytest.raises(InputError, match="nowhere: no file can be made here, No such file"):
-        keep_picture(painted("red"), tmp_path / "nowhere", "walk")
+        save_picture(painted("red"), tmp_path / "nowhere", "walk")
 
 
 def test_a_picture_is_kept_beside_others(tmp_path):
     (tmp_path / "walk_1.png").write_text("mine")
-    path = keep_picture(painted("red"), tmp_path, "walk")
+    path = save_picture(painted("red"), tmp_path, "walk")
     assert path == tmp_path / "walk_2.png"
     assert (tmp_path / "walk_1.png").read_text() == "mine"
     with Image.open(path) as picture:
@@ -86,7 +86,7 @@ def test_a_picture_is_kept_beside_others(tmp_path):
 
 def test_a_scenario_is_kept_as_python(tmp_path):
     scenario = Scenario(title="Kept", robots=[Robot(pose=(1, 2, 3))])
-    path, copied = keep_python(scenario, tmp_path, scenario.title)
+    path, copied = save_python(scenario, tmp_path, scenario.title)
     assert (path, copied) == (tmp_path / "kept_1.py", False)  # there is no window
     assert open_experiment(path).scenario == scenario
 
@@ -95,9 +95,9 @@ def test_nothing_stays_where_writing_fails(tmp_path, monkeypatch):
     def fail(*_):
         raise InputError("full")
 
-    monkeypatch.setattr("mars2d.window.keep.save_png", fail)
+    monkeypatch.setattr("mars2d.window.saving.save_png", fail)
     with pytest.raises(InputError, match="full"):
-        keep_picture(painted("red"), tmp_path, "walk")
+        save_picture(painted("red"), tmp_path, "walk")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -105,9 +105,9 @@ def test_nothing_stays_where_writing_fails(tmp_path, monkeypatch):
 def test_a_listing_is_on_the_clipboard_of_a_window(screen, tmp_path):
     code = (
         "import pygame; from pathlib import Path; from mars2d import Scenario\n"
-        "from mars2d.window.keep import keep_python\n"
+        "from mars2d.window.saving import save_python\n"
         "pygame.display.init(); pygame.display.set_mode((80, 60))\n"
-        "path, copied = keep_python(Scenario(title='caf\\u00e9'), Path(), 'kept')\n"
+        "path, copied = save_python(Scenario(title='caf\\u00e9'), Path(), 'kept')\n"
         "print(copied, pygame.scrap.get_text() == path.read_text(encoding='utf-8'))"
     )
     done = subprocess.run(

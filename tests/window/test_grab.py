@@ -7,13 +7,14 @@ import pygame
 import pytest
 
 from mars2d import InputError, Robot, Scenario, World
-from mars2d.addons import Beacon, Map, Waypoints
+from mars2d.addons import Addon, Beacon, Map, Waypoints
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.output.raster.camera import Camera
-from mars2d.window import hand as hand_module
-from mars2d.window.hand import Hand, pull_of
+from mars2d.window import drags, grab
+from mars2d.window.drags import pull_of
+from mars2d.window.grab import Grab
 
 LEFT, RIGHT = pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT
 SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL
@@ -37,7 +38,7 @@ class Person:
     def __init__(self, scenario=SCENARIO, running=False, recording=False):
         self.world, self.running, self.recording = World(scenario), running, recording
         self.said, self.now = [], 0.0
-        self.hand = Hand(self.change, self.said.append, clock=lambda: self.now)
+        self.grab = Grab(self.change, self.said.append, clock=lambda: self.now)
 
     def change(self, act):
         if self.recording:
@@ -50,27 +51,27 @@ class Person:
         return tuple(np.rint(CAMERA.to_pixels([(x, y)])[0]).astype(int).tolist())
 
     def move(self, x, y):
-        self.hand.move(self.world.frame, CAMERA, self.pixel(x, y), self.running)
+        self.grab.move(self.world.frame, CAMERA, self.pixel(x, y), self.running)
 
     def press(self, x, y, button=LEFT, mods=0):
         pixel = self.pixel(x, y)
-        return self.hand.press(self.world.frame, CAMERA, pixel, button, mods, self.running)
+        return self.grab.press(self.world.frame, CAMERA, pixel, button, mods, self.running)
 
     def release(self, x, y):
-        return self.hand.release(self.world.frame, CAMERA, self.pixel(x, y), self.running)
+        return self.grab.release(self.world.frame, CAMERA, self.pixel(x, y), self.running)
 
     def wait(self, steps, camera=CAMERA):
         """Let time pass, with a picture at each step."""
         for _ in range(steps):
-            self.hand.tick(self.world.frame, camera, self.running)
+            self.grab.tick(self.world.frame, camera, self.running)
             self.world.step()
             self.now += 0.1
 
     def shown(self):
-        return self.hand.shown(self.world.frame)
+        return self.grab.shown(self.world.frame)
 
     def marks(self, kind):
-        shapes = self.hand.marks(self.shown(), CAMERA)
+        shapes = self.grab.marks(self.shown(), CAMERA)
         return [shape for shape in shapes if isinstance(shape, kind)]
 
     def words(self):
@@ -95,7 +96,7 @@ class Person:
 def test_it_shows_what_it_is_over_and_its_name(place, over, words):
     person = Person()
     person.move(*place)
-    assert person.hand.over == over
+    assert person.grab.over == over
     assert person.words() == [words]
     assert bool(person.marks(Circle)) == (over is not None)
 
@@ -103,8 +104,8 @@ def test_it_shows_what_it_is_over_and_its_name(place, over, words):
 def test_beside_all_there_is_nothing_to_show():
     person = Person()
     person.move(0.5, 0.5)
-    assert person.hand.over is None
-    assert person.hand.marks(person.world.frame, CAMERA) == []
+    assert person.grab.over is None
+    assert person.grab.marks(person.world.frame, CAMERA) == []
     assert not person.press(0.5, 0.5)
 
 
@@ -112,18 +113,18 @@ def test_what_moves_away_under_a_pointer_at_rest_is_no_longer_shown():
     red = Robot(name="red", controller=lambda robot: (0.5, 0.0))
     person = Person(Scenario(robots=[red]), running=True)
     person.move(0, 0)
-    assert person.hand.over == 0
+    assert person.grab.over == 0
     person.wait(6)
-    assert person.hand.over is None
+    assert person.grab.over is None
 
 
 def test_nothing_is_shown_once_the_pointer_has_left_the_picture():
     person = Person()
     person.move(0, 0)
-    person.hand.leave()
+    person.grab.leave()
     for running in (False, True):
-        person.hand.tick(person.world.frame, CAMERA, running)
-        assert person.hand.over is None
+        person.grab.tick(person.world.frame, CAMERA, running)
+        assert person.grab.over is None
 
 
 # -- clicks ----------------------------------------------------------------------------------
@@ -133,10 +134,10 @@ def test_nothing_is_shown_once_the_pointer_has_left_the_picture():
 def test_a_click_is_left_to_others_and_changes_nothing(running):
     person = Person(running=running)
     assert person.press(0, 0)
-    assert person.hand.busy
+    assert person.grab.busy
     person.move(0.02, 0.0)
     assert not person.release(0.02, 0.0)  # no more than a click
-    assert not person.hand.busy
+    assert not person.grab.busy
     assert person.world.hands.log == []
 
 
@@ -163,7 +164,7 @@ def test_a_drag_pulls_a_robot_to_the_pointer_and_a_line_shows_how_strongly():
     assert person.release(0.0, -1.0)
     assert person.world.hands.pulls == ()
     person.wait(3)
-    assert person.hand.marks(person.world.frame, CAMERA) != []  # it is over the robot
+    assert person.grab.marks(person.world.frame, CAMERA) != []  # it is over the robot
 
 
 def test_it_pulls_to_where_the_pointer_is_though_the_camera_moves():
@@ -214,9 +215,9 @@ def test_once_time_stands_still_it_lets_go():
     person.press(0, 0)
     person.move(0.0, -1.0)
     person.running = False
-    person.hand.tick(person.world.frame, CAMERA, running=False)
+    person.grab.tick(person.world.frame, CAMERA, running=False)
     assert person.world.hands.pulls == ()
-    assert not person.hand.busy
+    assert not person.grab.busy
 
 
 def test_the_pull_wins_against_drives_and_floors_and_stays_bounded():
@@ -240,7 +241,7 @@ def test_where_no_forces_act_it_says_what_to_do_instead_once_a_drag(physics):
     (words,) = person.said
     assert words.startswith("red can't be pulled: with physics =")
     assert "pause, and put it elsewhere" in words
-    assert not person.hand.busy
+    assert not person.grab.busy
     assert person.world.hands.log == []
 
 
@@ -250,7 +251,7 @@ def test_in_a_recording_nothing_is_pulled_and_the_drag_ends():
     person.move(0.0, -0.5)
     person.move(0.0, -0.6)
     assert person.said == ["a recording"]
-    assert not person.hand.busy
+    assert not person.grab.busy
 
 
 # -- while it stands still: putting elsewhere --------------------------------------------------
@@ -275,7 +276,7 @@ def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
     person.now = 1.0
     person.move(0.9, 0.0)
     assert person.words() == ["would overlap blue"]
-    assert hand_module.BAD in {ring.stroke for ring in person.marks(Circle)}
+    assert drags.BAD in {ring.stroke for ring in person.marks(Circle)}
     assert person.release(0.9, 0.0)
     assert person.said == ["red can't be put there: it would overlap blue"]
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
@@ -283,7 +284,7 @@ def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
 
 def test_whether_a_place_is_free_is_not_asked_more_often_than_needed(monkeypatch):
     asked = []
-    monkeypatch.setattr(hand_module, "obstruction", lambda *a: asked.append(a) or "")
+    monkeypatch.setattr(drags, "obstruction", lambda *a: asked.append(a) or "")
     person = Person()
     person.press(0, 0)
     for k in range(20):
@@ -298,7 +299,7 @@ def test_once_time_passes_again_what_was_carried_is_back():
     person.press(0, 0)
     person.move(0, -1)
     person.running = True
-    person.hand.tick(person.world.frame, CAMERA, running=True)
+    person.grab.tick(person.world.frame, CAMERA, running=True)
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
     person.release(0, -1)
     assert person.world.hands.log == []
@@ -336,7 +337,7 @@ def test_a_right_drag_or_one_with_shift_turns_a_body_to_the_pointer(button, mods
 
 
 def test_with_ctrl_it_is_turned_by_fifteen_degrees(monkeypatch):
-    monkeypatch.setattr(hand_module, "_mods", lambda: CTRL)
+    monkeypatch.setattr(grab, "_mods", lambda: CTRL)
     person = Person()
     person.press(0, 0, RIGHT)
     person.move(0.5, 0.3)
@@ -362,8 +363,27 @@ def test_what_a_change_refuses_is_said():
     def refuse(act):
         raise InputError("not now")
 
-    hand, frame = Hand(refuse, said.append), World(SCENARIO).frame
-    hand.press(frame, CAMERA, (300, 200), LEFT, 0, running=True)
-    hand.move(frame, CAMERA, (300, 250), running=True)
+    mouse, frame = Grab(refuse, said.append), World(SCENARIO).frame
+    mouse.press(frame, CAMERA, (300, 200), LEFT, 0, running=True)
+    mouse.move(frame, CAMERA, (300, 250), running=True)
     assert said == ["not now"]
-    assert not hand.busy
+    assert not mouse.busy
+
+
+def test_points_that_an_addon_names_are_shown_under_the_pointer():
+    class Door(Addon):
+        def named_points(self, frame):
+            return [(f"door at {frame.time:g} s", (2.0, 0.5))]
+
+    person = Person(SCENARIO.replace(addons=[*SCENARIO.addons, Door()]))
+    person.move(2.0, 0.5)
+    assert person.grab.over is None
+    assert [text.text for text in person.marks(Text)] == ["door at 0 s"]
+
+
+def test_the_former_name_of_the_class_works_and_warns():
+    module = pytest.warns(FutureWarning, match="mars2d.window.hand is mars2d.window.grab now")
+    with module, pytest.warns(FutureWarning, match="Hand is mars2d.window.grab.Grab now"):
+        from mars2d.window.hand import Hand
+    assert Hand is Grab
+    assert not hasattr(grab, "Arm")

@@ -1,4 +1,4 @@
-"""The force on one body over time, read from the contacts so far."""
+"""The contact force on one body over time, read from the contacts of a run."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from mars2d.record.contact import CONTACT
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Bound", "Meter", "Reading", "bound_of"]
+__all__ = ["Bound", "Meter", "Reading", "bound_of", "holding_force", "span_of"]
 
-STEPS, SECONDS = 100, 5.0
-"""The last so many control steps are read, or seconds if that is more."""
+MIN_STEPS, MIN_SECONDS = 100, 5.0
+"""A reading covers at least this many control steps, and this many seconds."""
 
 
 class Reading(NamedTuple):
-    """The last control steps of one body.
+    """The forces of the last k control steps on one body.
 
-    start: seconds, where the first of them began. force: (k,) newtons, the length of the sum of the
-    mean contact forces on it. effort: (k,) of its drive; None for a prop, or where it is not known.
+    start: when the first of these steps began, seconds. force: (k,), the magnitude of the net mean
+    contact force in each step, newtons. effort: (k,), of the drive; None for a prop, or if unknown.
     """
 
     start: float
@@ -34,32 +34,38 @@ class Reading(NamedTuple):
 
 
 class Bound(NamedTuple):
-    """A force [N] worth comparing with, and whose it is."""
+    """A force [N] to compare a reading with, and its name."""
 
     force: float
     name: str
 
 
 def bound_of(frame: Frame, body: int) -> Bound | None:
-    """Return what a robot's drive can push with, or what the floor holds a prop with."""
-    scenario = frame.scenario
+    """Return the largest force of a robot's drive or of the floor on a prop; None if that is 0."""
+    force = holding_force(frame.scenario, body)
+    if body < len(frame.scenario.robots):
+        return Bound(force, "drive's bound")
+    return Bound(force, "floor's friction") if force > 0 else None
+
+
+def holding_force(scenario: Scenario, body: int) -> float:
+    """Return the largest force with which a drive, or the floor, holds a body, newtons."""
     n = len(scenario.robots)
     if body < n:
-        return Bound(scenario.robots[body].drive.max_force, "drive's bound")
+        return scenario.robots[body].drive.max_force
     prop = scenario.props[body - n]
-    held = prop.ground_friction * prop.inertia.mass * GRAVITY
-    return Bound(held, "floor's friction") if held > 0 else None
+    return prop.ground_friction * prop.inertia.mass * GRAVITY
 
 
 class Meter:
     """Reads the force on a body, once a control step.
 
-    It keeps the contacts of the last control steps, so that step by step the long list of all
-    contacts need not be asked for.
+    It keeps the contacts of the last control steps, so that it need not read the long log of all
+    contacts at each step.
     """
 
     def __init__(self) -> None:
-        """Start with nothing read."""
+        """Start without a reading."""
         self._scenario: Scenario | None = None
         self._steps = -1
         self._body = -1
@@ -67,7 +73,7 @@ class Meter:
         self._reading = Reading(0.0, np.empty(0), None)
 
     def read(self, frame: Frame, body: int) -> Reading:
-        """Return the force on a body until the control step that led to a frame."""
+        """Return the force on a body up to the control step that led to a frame."""
         steps = len(frame.path)
         same = frame.scenario is self._scenario
         if same and (steps, body) == (self._steps, self._body):
@@ -80,7 +86,7 @@ class Meter:
             rows = self._rows
         else:
             rows = frame.contact_log()
-        # In order, but for those of one step.
+        # Rows are in order of their steps, but not within a step.
         self._rows = rows[bisect_left(rows["time"], (first - 0.5) * dt) :]
         self._scenario, self._steps, self._body = frame.scenario, steps, body
         force = _net_force(self._rows, body, first, steps, dt)
@@ -89,14 +95,15 @@ class Meter:
 
 
 def span_of(sampling_time: float) -> float:
-    """Return how many seconds are read."""
-    return max(SECONDS, STEPS * sampling_time)
+    """Return the time that a reading covers, seconds."""
+    return max(MIN_SECONDS, MIN_STEPS * sampling_time)
 
 
 def _net_force(rows: NDArray[np.void], body: int, first: int, last: int, dt: float) -> Float:
-    """Return the net mean force on a body in each control step from first to last, newtons."""
+    """Return the net mean force in each control step from first to last, newtons."""
     mine = rows[(rows["a"] == body) | (rows["b"] == body)]
-    # What began at the very end of a step belongs to it; what began before it has its start's time.
+    # A contact that begins at the end of a step belongs to that step; one that goes on has the
+    # time at which the step starts.
     within = mine["time"] / dt + np.where(mine["began"], -1e-6, 1e-6)
     step = np.ceil(within).astype(int) - 1 - first
     seen = (step >= 0) & (step < last - first)
@@ -107,7 +114,7 @@ def _net_force(rows: NDArray[np.void], body: int, first: int, last: int, dt: flo
 
 
 def _effort(frame: Frame, body: int, first: int) -> Float | None:
-    """Return the efforts of a robot's drive in the control steps from the first one on."""
+    """Return the efforts of a robot's drive from control step `first` on."""
     if body >= len(frame.scenario.robots) or len(frame.effort_path) != len(frame.path):
         return None
     if len(frame.path) == 0:
