@@ -1,4 +1,4 @@
-"""Entrants: the files of laws that take part in a tournament, and in which roles."""
+"""Entrants: the files of the laws that take part in a tournament, by role."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["Files", "entrants", "law_code", "law_files", "names_of"]
 IMPORT = re.compile(rb"(?:^|[;:])\s*(?:from|import)\s+([a-zA-Z0-9_., \t]+)", re.MULTILINE)
 
 Files = str | Path | Sequence[str | Path]
-"""Files of laws, folders or patterns: one, or several."""
+"""One or several files of laws, folders or patterns."""
 
 EXPECTED = "expected files of laws (.py), a folder of them, or a pattern as laws/*.py"
 
@@ -23,9 +23,9 @@ EXPECTED = "expected files of laws (.py), a folder of them, or a pattern as laws
 def law_files(named: str | Path, beside: Path | None = None) -> tuple[Path, ...]:
     """Return the files that a name stands for: absolute paths, each once.
 
-    named: a file, a folder (all its .py files but those that begin with _), a pattern, or several
-    of these with commas between. beside: a folder where relative ones are looked for first, then in
-    the current one. Raises InputError, with the nearest name, where there is no such file.
+    named: a file, a folder (all its .py files except those that begin with _), a pattern, or
+    several of these, separated by commas. beside: a folder that is searched for relative names
+    before the current one. Raises InputError, with the nearest name, if there is no such file.
     """
     parts = [part.strip() for part in str(named).split(",") if part.strip()]
     if not parts:
@@ -54,7 +54,7 @@ def _files(part: str, beside: Path | None) -> list[Path]:
 
 
 def _laws(paths: Iterable[Path]) -> list[Path]:
-    """Return those files that may be laws, in order."""
+    """Return those files that can be laws, sorted."""
     return sorted(
         _plain(path)
         for path in paths
@@ -63,12 +63,12 @@ def _laws(paths: Iterable[Path]) -> list[Path]:
 
 
 def _plain(path: Path) -> Path:
-    """Return a path from the root without `..`: the same one, however it was named."""
+    """Return an absolute path without `..`, which is the same however the file was named."""
     return Path(os.path.normpath(path.absolute()))
 
 
 def _near(part: str, folders: Sequence[Path]) -> str:
-    """Return the nearest name that is there, as the end of a message."""
+    """Return the nearest existing name, as the end of a message."""
     parent = Path(part).parent
     names = {
         str(parent / path.name)
@@ -88,8 +88,8 @@ def entrants(
 ) -> dict[str, tuple[Path, ...]]:
     """Return each role's laws: those given for it, and the players, which play every role.
 
-    beside: see `law_files`. Raises InputError for a role that is not there, for one that nobody
-    plays, and for files that are not there.
+    beside: see `law_files`. Raises InputError for an unknown role, a role without laws, and missing
+    files.
     """
     for role in given:
         if role not in roles:
@@ -115,7 +115,7 @@ def _all_files(named: Files, beside: Path | None) -> list[Path]:
 
 
 def names_of(files: Iterable[str | Path]) -> dict[str, str]:
-    """Return a name for each file of a law: its own, with so many folders that no two are alike.
+    """Return a name for each law's file: its own, preceded by folders where needed to be unique.
 
     >>> names_of(["a/hunt.py", "b/hunt.py", "b/flee.py"])
     {'a/hunt.py': 'a/hunt', 'b/hunt.py': 'b/hunt', 'b/flee.py': 'flee'}
@@ -133,10 +133,9 @@ def names_of(files: Iterable[str | Path]) -> dict[str, str]:
 
 
 def law_code(law: Path) -> dict[Path, bytes]:
-    """Return the contents of a law's file, and of the files beside it that it imports, by path.
+    """Return the contents of a law's file and of the files beside it that it imports, by path.
 
-    Of a folder that is imported all .py files count. They are read, not run: what they import is
-    seen by its name alone.
+    All .py files of an imported folder count. The files are not run; imports are found in the text.
     """
     contents: dict[Path, bytes] = {}
     waiting = [law]

@@ -1,16 +1,16 @@
-"""Schedules: which matches a tournament is made of."""
+"""Schedules: the matches of a tournament, in order."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError, shown
 from mars2d.scenario.experiment import examples, open_experiment
-from mars2d.study.plan import MOST, Plan, seeds_of, settings_of
+from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
 from mars2d.study.tournament.entrants import Files, entrants, names_of
 from mars2d.study.tournament.match import Match, contest_of
 
@@ -21,8 +21,8 @@ __all__ = ["Schedule", "schedule"]
 class Schedule:
     """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
 
-    title, experiment: what is played. roles: of its contest, the first one first. settings: what
-    tells its rounds from one another. files: all that were read for the experiment itself.
+    title, experiment: those of the scenario. roles: those of its contest, in order. settings: the
+    options in which rounds differ. files: those that were read for the experiment itself.
     """
 
     title: str
@@ -43,10 +43,10 @@ def schedule(
     settings: Mapping[str, Any] | None = None,
     stop_time: float | None = None,
 ) -> Schedule:
-    """Return who plays whom: all laws of one role all of the other, from the same seeds.
+    """Return the schedule in which each law of a role plays each of the other, with all seeds.
 
-    The arguments are those of `mars2d.tournament`. No law is read, only the experiment. Raises
-    InputError for what can't be played.
+    The arguments are those of `mars2d.tournament`. Only the experiment is read, and no law. Raises
+    InputError for anything that can't be played.
     """
     if not isinstance(experiment, (str, Path)):
         raise InputError(
@@ -58,7 +58,7 @@ def schedule(
     opened = open_experiment(experiment, rounds[0], seed=plan.seeds[0])
     parts = contest_of(opened.scenario, str(experiment)).roles
     names = tuple(role for role, _ in parts)
-    for options in (probe | always for probe in plan.probes()):  # before a match, not after many
+    for options in (probe | always for probe in plan.probes()):  # before any match, not after many
         scenario = open_experiment(experiment, options, seed=plan.seeds[0]).scenario
         contest = contest_of(scenario, str(experiment))
         contest.teams(scenario)
@@ -71,8 +71,8 @@ def schedule(
     if not pairings:
         raise InputError("there is nobody to play against: a law does not play itself")
     count = len(rounds) * len(pairings) * len(plan.seeds)
-    if count > MOST:
-        raise InputError(f"these are {count:,} matches: {MOST:,} at most")
+    if count > MAX_RUNS:
+        raise InputError(f"these are {count:,} matches: {MAX_RUNS:,} at most")
     named = str(experiment) if str(experiment) in examples() else str(opened.path)
     law_names = names_of(law for laws in taking_part.values() for law in laws)
     matches = tuple(
@@ -99,7 +99,7 @@ def schedule(
 
 
 def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
-    """Refuse settings that would be columns of the table of matches twice."""
+    """Refuse settings whose column would be twice in the table of matches."""
     for name in settings:
         if name == "seed":
             raise InputError("setting 'seed': say how many there are, with --seeds N")
@@ -109,8 +109,8 @@ def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
             )
 
 
-def pairings_of(entrants: Mapping[str, Sequence[Path]]) -> Iterable[dict[str, str]]:
-    """Return each role's law in each pairing: everybody meets everybody, but nobody himself."""
+def pairings_of(entrants: Mapping[str, Sequence[Path]]) -> Iterator[dict[str, str]]:
+    """Yield each role's law in each pairing; a law does not play itself."""
     for laws in itertools.product(*entrants.values()):
         if len({*laws}) == len(laws):
             yield {role: str(law) for role, law in zip(entrants, laws, strict=True)}
