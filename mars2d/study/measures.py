@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["UNITS", "Measure", "measure_named", "measured", "measures"]
+__all__ = ["UNITS", "Measure", "contests_of", "measure_named", "measured", "measures"]
 
 Measure = Callable[["Record"], Any]
 
@@ -91,9 +91,14 @@ def _outcome(measure: str, record: Record) -> Outcome:
     return _contest(measure, record.scenario).outcome(record)
 
 
+def contests_of(scenario: Scenario) -> list[Contest]:
+    """Return a scenario's contests: the add-ons that decide who has won."""
+    return [addon for addon in scenario.addons if isinstance(addon, Contest)]
+
+
 def _contest(measure: str, scenario: Scenario) -> Contest:
     """Return a scenario's contest; raise InputError if it has none or several."""
-    contests = [addon for addon in scenario.addons if isinstance(addon, Contest)]
+    contests = contests_of(scenario)
     if len(contests) != 1:
         found = f"{len(contests)} contests" if contests else "no contest"
         raise InputError(

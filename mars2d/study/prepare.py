@@ -14,7 +14,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mars2d.addons.contest import Contest
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
 from mars2d.scenario.experiment import Experiment, examples
@@ -30,7 +29,7 @@ from mars2d.study.job import (
     name_in,
     probed,
 )
-from mars2d.study.measures import Measure
+from mars2d.study.measures import Measure, contests_of
 from mars2d.study.plan import Plan
 from mars2d.study.table import FIRST, LAST, SEED
 
@@ -140,8 +139,8 @@ def _trouble(point: dict[str, Any], error: Mars2dError) -> str:
 
 
 def _sensible(scenario: Scenario) -> tuple[str, ...]:
-    contests = [addon for addon in scenario.addons if isinstance(addon, Contest)]
-    return (*(["capture_time"] if len(contests) == 1 else []), "end_time", "collisions")
+    capture_time = ["capture_time"] if len(contests_of(scenario)) == 1 else []
+    return (*capture_time, "end_time", "collisions")
 
 
 def _check_columns(plan: Plan, measures: tuple[str | Measure, ...]) -> None:

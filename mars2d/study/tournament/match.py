@@ -14,6 +14,7 @@ from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.limits import Limits, Verdict
+from mars2d.study.measures import contests_of
 from mars2d.world.loop import simulate
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def contest_of(scenario: Scenario, name: str) -> Contest:
 
     name: the experiment's name in messages.
     """
-    contests = [addon for addon in scenario.addons if isinstance(addon, Contest)]
+    contests = contests_of(scenario)
     if len(contests) != 1:
         found = "has none" if not contests else f"has {len(contests)}"
         raise InputError(
