@@ -20,7 +20,7 @@ from mars2d.study.results import Results, another
 from mars2d.study.table import Result, Table, save_table
 from mars2d.study.work import Failure, each_done, worker_count
 
-__all__ = ["StudyInterrupted", "duration", "run_study"]
+__all__ = ["CountingBar", "StudyInterrupted", "duration", "run_study"]
 
 
 class StudyInterrupted(KeyboardInterrupt):
@@ -167,7 +167,9 @@ class _Run:
         todo = [job for job in self._jobs() if job.row not in self._rows]
         if not todo:
             return
-        progress = _Bar(len(self._study.plan), self._rows) if show_progress else None
+        failed = sum(bool(result.error) for result in self._rows.values())
+        total, done_before = len(self._study.plan), len(self._rows)
+        progress = CountingBar(total, done_before, failed) if show_progress else None
         try:
             made_by = each_done(run_job, todo, executor, workers)
             with closing(cast("Generator[tuple[int, Result | Failure]]", made_by)) as done:
@@ -176,7 +178,7 @@ class _Run:
                     self._refuse_changed(result)
                     self._rows[result.row] = result
                     if progress is not None:
-                        progress.add(result)
+                        progress.add(failed=bool(result.error))
                     yield result
         finally:
             if progress is not None:
@@ -211,23 +213,23 @@ def _result(job: Job, made: Result | Failure, study: Study) -> Result:
     return Result(job.row, job.options, job.seed, nothing, " ".join(made.error.split()))
 
 
-class _Bar:
+class CountingBar:
     """A progress bar that counts runs and failures, and estimates the time that is left."""
 
-    def __init__(self, total: int, known: dict[int, Result]) -> None:
-        self._bar = Progress(total, "runs")
-        self._total, self._known, self._done = total, len(known), len(known)
-        self._failed = sum(bool(result.error) for result in known.values())
+    def __init__(self, total: int, done: int = 0, failed: int = 0) -> None:
+        """Take the number of all runs, and of those that are done and failed already."""
+        self._bar = Progress(total)
+        self._total, self._before, self._done, self._failed = total, done, done, failed
         self._start = time.monotonic()
 
-    def add(self, result: Result) -> None:
+    def add(self, *, failed: bool = False) -> None:
         """Count one more run."""
         self._done += 1
-        self._failed += bool(result.error)
-        pace = (time.monotonic() - self._start) / (self._done - self._known)
-        failed = f", {self._failed} failed" if self._failed else ""
+        self._failed += failed
+        pace = (time.monotonic() - self._start) / (self._done - self._before)
+        failures = f", {self._failed} failed" if self._failed else ""
         left = duration(pace * (self._total - self._done))
-        self._bar.update(self._done, f"{self._done}/{self._total}{failed}, {left} left")
+        self._bar.update(self._done, f"{self._done}/{self._total}{failures}, {left} left")
 
     def close(self) -> None:
         """Remove the bar from the terminal."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -86,7 +86,7 @@ def addon_findings(
     copies = check_fields(addon, Addon, subject.notes)
     if subject.can_be_called() and copies:
         with deadline or Deadline() as limit:
-            place = functools.partial(subject.placed, sensors)
+            place = partial(subject.placed, sensors)
             done = first_run(place, scenario, control, subject.look, limit, subject.notes)
             if done is not None:
                 # Everything else in the small world is known to be repeatable.
@@ -120,8 +120,7 @@ class _Subject:
     ) -> tuple[Scenario, Callable[[Any], Any] | None]:
         """Return the scenario for the trial, and the law of its team."""
         hooks = [hook for hook in HOOKS if is_own(self.addon, hook, Addon)]
-        methods = {hook: _hook(self, hook) for hook in hooks}
-        witness = with_methods(self.addon, methods)
+        witness = with_methods(self.addon, {hook: partial(self.call, hook) for hook in hooks})
         self._outlines = self._standing(witness)
         if scenario is None:
             return self._somewhere(sensors, witness), shepherd
@@ -266,13 +265,6 @@ class _Subject:
             )
         if not any(shapes != fingerprint([]) for shapes in watched.scenes):
             self.report.hint(f"{self.notes.name}.on_draw drew nothing in the whole trial")
-
-
-def _hook(subject: _Subject, name: str) -> Any:
-    def hook(self: Addon, world: World, *more: Scene) -> None:
-        subject.call(name, self, world, *more)
-
-    return hook
 
 
 def _same_but(one: Run, other: Run, what: set[str]) -> bool:

@@ -272,10 +272,20 @@ def check_finite(scene: Scene, name: str, when: str, report: Report) -> None:
                 return
 
 
-def with_methods(part: Part, methods: dict[str, Any]) -> Part:
-    """Return a copy of a part, of a subclass that has some methods replaced."""
+def with_methods(part: Part, methods: Mapping[str, Callable[..., Any]]) -> Part:
+    """Return a copy of a part, of a subclass in which functions of the part replace methods."""
     kind = type(part)
-    body = {"__module__": kind.__module__, "__doc__": kind.__doc__, **methods}
+    body: dict[str, Any] = {"__module__": kind.__module__, "__doc__": kind.__doc__}
+    body |= {name: _as_method(function) for name, function in methods.items()}
     twin: Part = object.__new__(type(kind.__name__, (kind,), body))
     twin.__dict__.update(vars(part))
     return twin
+
+
+def _as_method(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that is called with the part first, as a bound method would not be."""
+
+    def method(part: Any, *arguments: Any) -> Any:
+        return function(part, *arguments)
+
+    return method

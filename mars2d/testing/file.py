@@ -7,6 +7,7 @@ import dataclasses
 import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from types import ModuleType
 from typing import Any
 
@@ -113,16 +114,13 @@ def _of_class(
 def _trial(name: str, part: Any, experiment: Experiment | None, deadline: Deadline | None) -> Case:
     """Return the trial of a part, in the file's own scenario if there is one."""
     if isinstance(part, Drive):
-        return Case(name, "in a small world", lambda: drive_findings(part, deadline=deadline))
+        return Case(name, "in a small world", partial(drive_findings, part, deadline=deadline))
     findings = sensor_findings if isinstance(part, Sensor) else addon_findings
     if experiment is None:
-        return Case(name, "in a small world", lambda: findings(part, deadline=deadline))
+        return Case(name, "in a small world", partial(findings, part, deadline=deadline))
     scenario, control = experiment.scenario, experiment.control
-    return Case(
-        name,
-        "in its scenario",
-        lambda: findings(part, scenario=scenario, control=control, deadline=deadline),
-    )
+    trial = partial(findings, part, scenario=scenario, control=control, deadline=deadline)
+    return Case(name, "in its scenario", trial)
 
 
 def _of_experiment(experiment: Experiment, deadline: Deadline | None) -> Iterator[Case]:
@@ -134,29 +132,15 @@ def _of_experiment(experiment: Experiment, deadline: Deadline | None) -> Iterato
         if law is not None:
             code = getattr(inspect.unwrap(law), "__code__", law)
             laws.setdefault(code, (law, []))[1].append(str(robot.name))
+    trial = partial(controller_findings, scenario=scenario, deadline=deadline)
     if control is not None:
-        yield Case(
-            f"law {name_of(control)}",
-            "of the team",
-            lambda: controller_findings(control, scenario=scenario, team=True, deadline=deadline),
-        )
+        yield Case(f"law {name_of(control)}", "of the team", partial(trial, control, team=True))
     for law, robots in laws.values():
         yield Case(
             f"law {name_of(law)}",
             f"of {', '.join(robots[:3])}{', ...' if len(robots) > 3 else ''}",
-            _trying(law, scenario, control, deadline),
+            partial(trial, law, control=control, team=False),
         )
-
-
-def _trying(
-    law: Callable[[Any], Any],
-    scenario: Scenario,
-    control: Callable[[Any], Any] | None,
-    deadline: Deadline | None,
-) -> Callable[[], tuple[Finding, ...]]:
-    return lambda: controller_findings(
-        law, scenario=scenario, control=control, team=False, deadline=deadline
-    )
 
 
 def _of_laws(module: ModuleType, sensors: list[Any], deadline: Deadline | None) -> Iterator[Case]:
@@ -167,15 +151,8 @@ def _of_laws(module: ModuleType, sensors: list[Any], deadline: Deadline | None) 
         arguments = list(inspect.signature(function).parameters)
         if name == "control" or (arguments in (["robot"], ["world"]) and not name.startswith("_")):
             where = "of a team" if is_of_a_team(function) else "of a robot"
-            yield Case(
-                f"law {name}", f"{where}, in a small world", _alone(function, sensors, deadline)
-            )
-
-
-def _alone(
-    law: Callable[[Any], Any], sensors: list[Any], deadline: Deadline | None
-) -> Callable[[], tuple[Finding, ...]]:
-    return lambda: controller_findings(law, sensors=sensors, deadline=deadline)
+            trial = partial(controller_findings, function, sensors=sensors, deadline=deadline)
+            yield Case(f"law {name}", f"{where}, in a small world", trial)
 
 
 def _all_that_can_be_made(kinds: list[type[Description]]) -> list[Any]:

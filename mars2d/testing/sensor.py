@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from math import pi
 from typing import Any
 
@@ -126,13 +127,14 @@ class _Subject:
 
     def _witness(self, sensor: Sensor) -> Sensor:
         """Return the sensor with methods that report to this object."""
-        methods: dict[str, Any] = {"read": _reading(self)}
-        for name in ("on_start", "on_step"):
-            if is_own(sensor, name, Sensor):
-                methods[name] = _following(self, name)
-        if is_own(sensor, "shown", Sensor):
-            methods["shown"] = _showing(self)
-        witness = with_methods(sensor, methods)
+        methods: dict[str, Callable[..., Any]] = {
+            "read": self.read,
+            "on_start": partial(self.follow, "on_start"),
+            "on_step": partial(self.follow, "on_step"),
+            "shown": self.show,
+        }
+        own = {name: method for name, method in methods.items() if is_own(sensor, name, Sensor)}
+        witness = with_methods(sensor, own)
         witness.__dict__["recorded"] = True  # so that it is read even if no law asks
         return witness
 
@@ -261,27 +263,6 @@ class _Subject:
             )
         if is_own(self.sensor, "draw", Sensor) and not self._drawn:
             self.report.hint(f"{self.notes.name}.draw drew nothing in the whole trial")
-
-
-def _reading(subject: _Subject) -> Any:
-    def read(self: Sensor, robot: Any, world: Any, rng: np.random.Generator) -> Any:
-        return subject.read(self, robot, world, rng)
-
-    return read
-
-
-def _following(subject: _Subject, method: str) -> Any:
-    def follow(self: Sensor, robot: Any, world: Any, rng: np.random.Generator) -> None:
-        subject.follow(method, self, robot, world, rng)
-
-    return follow
-
-
-def _showing(subject: _Subject) -> Any:
-    def shown(self: Sensor, reading: Any) -> Any:
-        return subject.show(self, reading)
-
-    return shown
 
 
 def _exchanged(

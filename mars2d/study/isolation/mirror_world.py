@@ -89,45 +89,28 @@ class _Streams:
         return np.random.Generator(generator)
 
 
+def _refused(what: str) -> Any:
+    """Return a property that raises LawError: it belongs to the robot's own law."""
+
+    def refuse(view: OtherView) -> NoReturn:
+        place = f"robot.world.robots[{view._index}].{what}"
+        raise LawError(f"{place} is not available: it is another's")
+
+    return property(refuse)
+
+
 class OtherView(RobotView):
     """Another law's robot, as seen by a law that sees the whole world."""
 
     def __init__(self, world: World, index: int) -> None:
         self._world, self._index = world, index
 
-    def _refuse(self, what: str) -> NoReturn:
-        raise LawError(
-            f"robot.world.robots[{self._index}].{what} is not available: it is another's"
-        )
-
-    @property
-    def sense(self) -> NoReturn:  # type: ignore[override]
-        """Refuse: it belongs to the other law."""
-        self._refuse("sense")
-
-    @property
-    def memory(self) -> NoReturn:  # type: ignore[override]
-        """Refuse: it belongs to the other law."""
-        self._refuse("memory")
-
-    @property
-    def rng(self) -> NoReturn:
-        """Refuse: it belongs to the other law."""
-        self._refuse("rng")
-
-    @property
-    def inbox(self) -> NoReturn:
-        """Refuse: it belongs to the other law."""
-        self._refuse("inbox")
-
-    @property
-    def neighbours(self) -> NoReturn:
-        """Refuse: it belongs to the other law."""
-        self._refuse("neighbours")
-
-    def send(self, content: Any, to: Any = None) -> None:  # noqa: ARG002 - as in RobotView
-        """Refuse: only the other law sends its messages."""
-        self._refuse("send")
+    sense = _refused("sense")
+    memory = _refused("memory")
+    rng = _refused("rng")
+    inbox = _refused("inbox")
+    neighbours = _refused("neighbours")
+    send = _refused("send")
 
 
 class MirrorWorld:

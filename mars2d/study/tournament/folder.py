@@ -14,9 +14,8 @@ from mars2d.core.errors import InputError
 from mars2d.physics.settings import versions
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.results import lock
-from mars2d.study.tournament.entrants import law_code
 from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.schedule import Schedule
+from mars2d.study.tournament.schedule import Schedule, law_code
 
 __all__ = ["PLAYED", "Folder", "played_before"]
 

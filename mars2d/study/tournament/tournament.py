@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-import itertools
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import contextmanager, nullcontext
+from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from mars2d.core.interrupt import noted_interrupts
-from mars2d.core.progress import Progress
 from mars2d.study.isolation.limits import Limits
 from mars2d.study.job import WatchedFiles
-from mars2d.study.run import duration
-from mars2d.study.tournament.entrants import Files, law_code
+from mars2d.study.run import CountingBar
 from mars2d.study.tournament.folder import Folder
 from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Match, Played, play
-from mars2d.study.tournament.schedule import Schedule, schedule
+from mars2d.study.tournament.schedule import Files, Schedule, law_code, schedule
 from mars2d.study.work import Failure, each_done, worker_count
 from mars2d.study.workers import leave_if_imported_again
 
@@ -119,17 +115,21 @@ def play_schedule(
         done = [] if folder is None else [*folder.before]
         missing = matches_without(planned.matches, done)
         interrupted = False
-        with _bar(len(missing), show_progress) as advance:
-            try:
-                with noted_interrupts() as check:
-                    for played in play_all(missing, limits, replays, executor, workers):
-                        done.append(played)
-                        if folder is not None:
-                            folder.keep(played)
-                        advance()
-                        check()
-            except KeyboardInterrupt:
-                interrupted = True
+        bar = CountingBar(len(missing)) if show_progress else None
+        try:
+            with noted_interrupts() as check:
+                for played in play_all(missing, limits, replays, executor, workers):
+                    done.append(played)
+                    if folder is not None:
+                        folder.keep(played)
+                    if bar is not None:
+                        bar.add()
+                    check()
+        except KeyboardInterrupt:
+            interrupted = True
+        finally:
+            if bar is not None:
+                bar.close()
     result = Tournament.of(planned, done)
     if out is not None:
         result.save_all(out)
@@ -144,25 +144,6 @@ def matches_without(matches: Iterable[Match], played: Iterable[Played]) -> list[
     """Return the matches that were not played."""
     done = {each.match.number for each in played}
     return [match for match in matches if match.number not in done]
-
-
-@contextmanager
-def _bar(total: int, shown: bool) -> Iterator[Callable[[], None]]:
-    """Show a progress bar; yield a function that counts a match."""
-    if not shown:
-        yield lambda: None
-        return
-    bar, start, numbers = Progress(total), time.monotonic(), itertools.count(1)
-
-    def advance() -> None:
-        done = next(numbers)
-        left = (time.monotonic() - start) / done * (total - done)
-        bar.update(done, f"{done}/{total}, {duration(left)} left")
-
-    try:
-        yield advance
-    finally:
-        bar.close()
 
 
 def play_all(
