@@ -201,8 +201,8 @@ class _Run:
             code = study.codes.setdefault(cells_of(result.options), result.code)
             if code != result.code:
                 raise InputError(
-                    f"row {result.row}: the experiment's files were others where it was run than "
-                    "where other rows of its point were"
+                    f"row {result.row}: the experiment's files differ between the machines that "
+                    "ran the rows of its point"
                 )
 
 

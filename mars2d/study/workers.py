@@ -240,7 +240,7 @@ class _Worker:
         code = self.process.exitcode or 0
         if code >= 0:
             return f"ended with exit code {code}"
-        why = ", perhaps for want of memory" if code == -9 else ""
+        why = ", perhaps for lack of memory" if code == -9 else ""
         return f"was killed by {signal.Signals(-code).name}{why}"
 
 
@@ -313,8 +313,8 @@ class _Crew:
                 )
             if code >= 0 or self._failed_starts == MAX_FAILED_STARTS:
                 raise InputError(
-                    f"a worker process {how} before it had begun, see above: each imports the "
-                    "script that runs the study, which must be a file that can be imported"
+                    f"a worker process {how} before it had begun, see above: each worker imports "
+                    "the script that runs the study, which must be a file that can be imported"
                 )
         self._workers[place] = _Worker()
         return how

@@ -100,8 +100,8 @@ class _Subject:
             if any(one is None or not np.allclose(one[:, 0], every[:, i], rtol=1e-9, atol=1e-12)
                    for i, one in enumerate(alone)):  # fmt: skip
                 self.report.wrong(
-                    f"{self.notes.name}.{method} gives a robot something else among others than "
-                    "alone: each column is a robot's, and must not depend on the others"
+                    f"{self.notes.name}.{method} gives a robot another result among others than "
+                    "alone: each column belongs to a robot, and must not depend on the others"
                 )
         if not self.report.sound:
             return

@@ -207,8 +207,8 @@ class _Subject:
             self._refuse(
                 f"{name} returned {_described(values.shape, kind)} on {robot}{at(time)}, and "
                 f"{_described(*self._first)} before: shape and kind must stay the same, over time "
-                "and on all robots; what is missing is inf for a distance, False for a flag, "
-                "else nan"
+                "and on all robots; a missing value is inf for a distance, False for a flag, "
+                "otherwise nan"
             )
         quantities = self.kind.quantities
         if len(quantities) > 1 and (not values.ndim or values.shape[-1] != len(quantities)):
@@ -253,8 +253,8 @@ class _Subject:
         if "counts" in self._unstable:
             self.report.wrong(
                 f"{self.notes.name}.read gives another reading when it is called twice at the same "
-                "instant: how often it is called depends on the rate, and on what laws ask. What "
-                "goes on with time belongs into on_step, called once a control step"
+                "instant: how often it is called depends on the rate and on the laws. Changes over "
+                "time belong in on_step, which is called once a control step"
             )
         elif "wavers" in self._unstable and self.report.sound:
             self.report.wrong(
@@ -321,7 +321,7 @@ def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> tuple[s
         return (
             None if only else (f"True or False {of}", "expected numbers, or quantities = (FLAG,)")
         )
-    bad, why = np.isinf(values), "what is not there is nan, only a distance is inf"
+    bad, why = np.isinf(values), "a missing value is nan; only a distance is inf"
     if quantity.kind == "distance":
         bad, why = np.isnan(values), "a distance to nothing is inf"
         if not bad.any():

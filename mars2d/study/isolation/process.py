@@ -261,7 +261,7 @@ class LawProcess:
             self._fail("exit", None, f"its process has ended itself, with code {code}")
         else:
             name = signal.Signals(-code).name
-            words = {"SIGSEGV": ", a segmentation fault", "SIGKILL": ", perhaps for want of memory"}
+            words = {"SIGSEGV": ", a segmentation fault", "SIGKILL": ", perhaps for lack of memory"}
             text = f"its process was ended by the signal {name}{words.get(name, '')}"
             self._fail("exit", self._crash_line(), text)
 
