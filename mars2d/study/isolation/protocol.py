@@ -1,7 +1,7 @@
-"""What passes between a match and its laws' processes: frames of bytes.
+"""The protocol between a match and its laws' processes: frames of bytes.
 
-A frame is a head, which says how long its body is and what it holds, and the body. Whatever comes
-from a law is numbers and JSON: reading it runs no code.
+A frame is a head, with the length and kind of its body, and the body. Frames from a law hold only
+numbers and JSON, so that reading them runs no code.
 """
 
 from __future__ import annotations
@@ -35,17 +35,18 @@ HEAD = struct.Struct("<Ic3x")
 """The length of the body in bytes, and its kind."""
 
 BRIEFING, STEP, VELOCITIES = b"b", b"s", b"v"
-"""To a law: all that it is told once, pickled; a control step; the same with velocities."""
+"""To a law: its briefing, pickled; a control step; a control step with velocities."""
 
 READY, COMMANDS, FAULT, LINE, WANTED = b"r", b"c", b"f", b"l", b"w"
-"""From a law: it is loaded; its commands; what went wrong, and the line where it is now, as JSON;
-that velocities are wanted, at this control step and from now on."""
+"""From a law: it is loaded; its commands; a fault, as JSON; the line where it is now, as JSON; a
+request for velocities, at this control step and from now on."""
 
 STEP_HEAD = struct.Struct("<qII")
-"""Of a control step: its iteration, the bytes of its contacts and of its news, after its Layout."""
+"""The head of a control step: its iteration, and the sizes in bytes of its contacts and its news,
+which follow the numbers of its `Layout`."""
 
 ANSWER = struct.Struct("<q")
-"""Of commands: the iteration that they are for; then 2 numbers a robot, then messages as JSON."""
+"""The head of commands: their iteration. Then follow 2 numbers a robot, and messages as JSON."""
 
 
 def framed(kind: bytes, body: bytes) -> bytes:
@@ -54,20 +55,20 @@ def framed(kind: bytes, body: bytes) -> bytes:
 
 
 class Reader:
-    """Frames out of the pieces in which bytes arrive. Raises ValueError for too long a one."""
+    """Assembles frames from the pieces in which bytes arrive."""
 
     def __init__(self, longest: int) -> None:
-        """Take how long a body may be, bytes."""
+        """Take the greatest length of a body, bytes."""
         self._longest = longest
         self._rest = b""
 
     @property
     def empty(self) -> bool:
-        """Whether no frame has come in part."""
+        """Whether no part of a frame is waiting for its rest."""
         return not self._rest
 
     def read(self, piece: bytes) -> Iterator[tuple[bytes, bytes]]:
-        """Yield the kind and body of each frame that this piece makes complete."""
+        """Yield (kind, body) of each frame that a piece completes; ValueError if too long."""
         self._rest = self._rest + piece if self._rest else piece
         while len(self._rest) >= HEAD.size:
             length, kind = HEAD.unpack_from(self._rest)
@@ -81,14 +82,14 @@ class Reader:
 
 
 class Layout:
-    """Where the numbers of a control step lie in a frame's body, as arrays one behind the other.
+    """The layout of a control step's numbers in the body of a frame, as consecutive arrays.
 
-    pose (3, n), command (2, n), effort (n,) of robots, prop_pose (3, p); then, if a law wants them,
-    velocity (3, n), prop_velocity (3, p). What a law may not see is NaN.
+    pose (3, n), command (2, n), effort (n,) of robots, prop_pose (3, p); then, on request, velocity
+    (3, n), prop_velocity (3, p). Numbers that a law may not see are NaN.
     """
 
     def __init__(self, robots: int, props: int) -> None:
-        """Take how many robots and props there are."""
+        """Take the numbers of robots and props."""
         self._parts: dict[str, tuple[int, int, tuple[int, ...]]] = {}
         self._end = STEP_HEAD.size
         self._add("pose", 3, robots)
@@ -96,11 +97,11 @@ class Layout:
         self._add("effort", robots)
         self._add("prop_pose", 3, props)
         self.still = self._end
-        """How long it is without velocities, bytes, from the beginning of the body."""
+        """The length without velocities, bytes, from the beginning of the body."""
         self._add("velocity", 3, robots)
         self._add("prop_velocity", 3, props)
         self.moving = self._end
-        """How long it is with velocities."""
+        """The length with velocities."""
 
     def _add(self, name: str, *shape: int) -> None:
         count = int(np.prod(shape))
@@ -108,6 +109,6 @@ class Layout:
         self._end += 8 * count
 
     def part(self, body: bytes | memoryview, name: str) -> Float:
-        """Return one of the arrays, in place."""
+        """Return one of the arrays, as a view into the body."""
         offset, count, shape = self._parts[name]
         return np.frombuffer(body, float, count, offset).reshape(shape)

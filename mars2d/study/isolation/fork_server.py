@@ -1,8 +1,8 @@
-"""Where the processes of isolated laws come from, and how they end.
+"""Start and end the processes of isolated laws.
 
-On Linux a nursery, one process that has imported all, forks one for each law: that takes
-milliseconds. Elsewhere each law's process starts by itself. `multiprocessing` has no part in it: so
-what it calls a daemon may have such processes, and the caller's own script is not run again.
+On Linux a fork server, one process that has imported everything, forks a process for each law
+within milliseconds. On other systems each law's process is started separately. `multiprocessing` is
+not used, since it would import the caller's script again and forbid its daemons to have children.
 """
 
 from __future__ import annotations
@@ -24,43 +24,42 @@ from collections.abc import Callable
 from typing import NamedTuple, NoReturn
 
 from mars2d.core.errors import InputError
+from mars2d.study import ONE_THREAD
 
 __all__ = ["Ended", "serve", "spawn", "start"]
 
 Sockets = tuple[socket.socket, socket.socket]
 
-ASK = struct.Struct("<cqd")
-"""To the nursery: "f" for fork or "e" for end; a process; how long it may take to end by itself."""
+REQUEST = struct.Struct("<cqd")
+"""To the fork server: "f" for fork or "e" for end; a process; the time it has to end by itself."""
 
-TOLD = struct.Struct("<q?")
-"""From the nursery: a process or -1; or the code that one has ended with, and if it was made to."""
+REPLY = struct.Struct("<q?")
+"""From the fork server: a process or -1; or an exit code, and whether the end was forced."""
 
-CODE = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
-"""What a process begins with that imports what this one would."""
+PREAMBLE = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
+"""The first statements of a new process, which give it this one's import path."""
 
-SETTINGS = {
-    **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
-    "PYTHONHASHSEED": "0",
-}
-"""A law is one thread, since others of numpy's would take memory by the number of cores; and sets
-are in the same order in each run."""
+ENVIRONMENT = {**ONE_THREAD, "PYTHONHASHSEED": "0"}
+"""One thread, since numpy's threads take memory for each core; and sets in the same order in each
+run."""
 
 
 class Ended(NamedTuple):
-    """The code that a process has ended with, -N for a signal N, and whether it was made to."""
+    """The exit code of a process, -N for a signal N, and whether its end was forced."""
 
     code: int
     forced: bool
 
 
 End = Callable[[float], Ended]
-"""Ends a process and all that it has started, after so many seconds that it has for itself."""
+"""Ends a process and all that it has started; it has some seconds to end by itself."""
 
 
 def start(sockets: Sockets) -> End:
-    """Start a law's process with its connections, which are closed here; return what ends it.
+    """Start a law's process, and return the function that ends it.
 
-    sockets: its channel and its output. Raises InputError if none can be started.
+    sockets: its channel and its output, which are closed in this process. Raises InputError if no
+    process can be started.
     """
     try:
         if sys.platform == "linux":
@@ -74,24 +73,24 @@ def start(sockets: Sockets) -> End:
 
 
 def _fork(sockets: Sockets) -> End:
-    """Let the nursery start a process; a new one, if a law has killed it."""
-    nursery = _nursery(os.getpid())
+    """Let the fork server start a process; a new server, if a law has killed it."""
+    server = _server(os.getpid())
     try:
-        process = nursery.fork(sockets)
+        process = server.fork(sockets)
     except ConnectionError:
-        nursery = _nursery(os.getpid())
-        process = nursery.fork(sockets)
-    return functools.partial(nursery.end, process)
+        server = _server(os.getpid())
+        process = server.fork(sockets)
+    return functools.partial(server.end, process)
 
 
 def spawn(sockets: Sockets) -> End:
-    """Start a law's process by itself, as `start` does where there is no nursery."""
+    """Start a law's process without a fork server."""
     windows = sys.platform == "win32"
     process = subprocess.Popen(
-        _command("from mars2d.study.isolation.nursery import stand; stand()"),
+        _command("from mars2d.study.isolation.fork_server import run_alone; run_alone()"),
         stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
-        env=os.environ | SETTINGS,
+        env=os.environ | ENVIRONMENT,
         pass_fds=() if windows else [each.fileno() for each in sockets],
         start_new_session=not windows,
     )
@@ -117,8 +116,8 @@ def _shared(connection: socket.socket, process: int) -> str:
     return share(process).hex()
 
 
-def stand() -> NoReturn:
-    """Be a law's process that was started by itself."""
+def run_alone() -> NoReturn:
+    """Run as a law's process that was started without a fork server."""
     from mars2d.study.isolation import host
 
     given = json.load(sys.stdin)
@@ -130,11 +129,11 @@ def stand() -> NoReturn:
 
 
 def _command(code: str, *arguments: str) -> list[str]:
-    return [sys.executable, "-P", "-c", CODE + code, json.dumps(sys.path), *arguments]
+    return [sys.executable, "-P", "-c", PREAMBLE + code, json.dumps(sys.path), *arguments]
 
 
 def _kill(process: int, alone: Callable[[], None]) -> None:
-    """Kill a process and its group, where there are groups."""
+    """Kill a process and, on systems that have them, its process group."""
     if hasattr(os, "killpg"):
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(process, signal.SIGKILL)
@@ -142,20 +141,20 @@ def _kill(process: int, alone: Callable[[], None]) -> None:
         alone()
 
 
-class Nursery:
-    """A process that forks the processes of laws; it ends them all when this process ends."""
+class ForkServer:
+    """A process that forks the laws' processes, and ends them all when this process ends."""
 
     def __init__(self) -> None:
         self._line, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(
                 _command(
-                    "from mars2d.study.isolation.nursery import serve; serve(int(sys.argv[2]))",
+                    "from mars2d.study.isolation.fork_server import serve; serve(int(sys.argv[2]))",
                     str(theirs.fileno()),
                 ),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
-                env=os.environ | SETTINGS,
+                env=os.environ | ENVIRONMENT,
                 pass_fds=[theirs.fileno()],
                 start_new_session=True,
             )
@@ -164,9 +163,9 @@ class Nursery:
         atexit.register(self.close)
 
     def fork(self, sockets: Sockets) -> int:
-        """Return the number of a new process that has these connections."""
+        """Return the id of a new process that has these connections."""
         descriptors = [each.fileno() for each in sockets]
-        process, _ = self._ask(ASK.pack(b"f", 0, 0.0), descriptors)
+        process, _ = self._ask(REQUEST.pack(b"f", 0, 0.0), descriptors)
         if process < 0:
             raise OSError("there are too many processes, or too little memory")
         return process
@@ -174,8 +173,8 @@ class Nursery:
     def end(self, process: int, grace: float) -> Ended:
         """End a process and its group."""
         try:
-            return Ended(*self._ask(ASK.pack(b"e", process, grace), []))
-        except OSError:  # the nursery is gone
+            return Ended(*self._ask(REQUEST.pack(b"e", process, grace), []))
+        except OSError:  # the fork server is gone
             _kill(process, lambda: os.kill(process, signal.SIGKILL))
             return Ended(-signal.SIGKILL, forced=True)
 
@@ -183,9 +182,9 @@ class Nursery:
         with self._asking:
             try:
                 socket.send_fds(self._line, [question], descriptors)
-                told = self._line.recv(TOLD.size, socket.MSG_WAITALL)
-                if len(told) == TOLD.size:
-                    process, flag = TOLD.unpack(told)
+                told = self._line.recv(REPLY.size, socket.MSG_WAITALL)
+                if len(told) == REPLY.size:
+                    process, flag = REPLY.unpack(told)
                     return process, flag
             except BaseException:  # Ctrl-C between question and answer
                 self.close()
@@ -194,38 +193,38 @@ class Nursery:
             raise ConnectionError("the process that starts them has ended")
 
     def close(self) -> None:
-        """End the nursery, and with it all processes that it has started."""
+        """End the fork server, and with it all processes that it has started."""
         self.closed = True
         self._line.close()
         self._process.wait()
         atexit.unregister(self.close)
 
 
-_nurseries: dict[int, Nursery] = {}
+_servers: dict[int, ForkServer] = {}
 _choosing = threading.Lock()
 
 
-def _nursery(process: int) -> Nursery:
-    """Return the nursery of this process, not that of one that it was forked from."""
+def _server(process: int) -> ForkServer:
+    """Return the fork server of this process, not that of a process it was forked from."""
     with _choosing:
-        if process not in _nurseries or _nurseries[process].closed:
-            _nurseries[process] = Nursery()
-        return _nurseries[process]
+        if process not in _servers or _servers[process].closed:
+            _servers[process] = ForkServer()
+        return _servers[process]
 
 
 def serve(descriptor: int) -> None:
-    """Be the nursery: fork and end processes as they are asked for, until nobody can ask."""
+    """Run as the fork server: fork and end processes on request, until the connection closes."""
     from mars2d.study.isolation import host
 
     line = socket.socket(fileno=descriptor)
-    gc.freeze()  # so that what is shared stays so
+    gc.freeze()  # so that forked processes keep sharing memory
     living: set[int] = set()
     try:
         while True:
-            question, descriptors, _, _ = socket.recv_fds(line, ASK.size, 2)
-            if len(question) < ASK.size:
+            question, descriptors, _, _ = socket.recv_fds(line, REQUEST.size, 2)
+            if len(question) < REQUEST.size:
                 return
-            what, process, grace = ASK.unpack(question)
+            what, process, grace = REQUEST.unpack(question)
             if what == b"f":
                 process = _forked(
                     line, [socket.socket(fileno=each) for each in descriptors], host.main
@@ -235,7 +234,7 @@ def serve(descriptor: int) -> None:
             else:
                 living.discard(process)
                 told = _ended(process, grace)
-            line.sendall(TOLD.pack(*told))
+            line.sendall(REPLY.pack(*told))
     finally:
         for process in living - {-1}:
             _ended(process, 0.0)
@@ -244,7 +243,7 @@ def serve(descriptor: int) -> None:
 def _forked(
     line: socket.socket, sockets: list[socket.socket], main: Callable[..., NoReturn]
 ) -> int:
-    """Return the number of a new process that runs `main`; -1 if there can't be one."""
+    """Return the id of a new process that runs `main`; -1 if none can be started."""
     try:
         process = os.fork()
     except OSError:
@@ -262,7 +261,7 @@ def _forked(
 
 
 def _ended(process: int, grace: float) -> Ended:
-    """End a process and its group, after so many seconds that it has for itself."""
+    """End a process and its group; it has `grace` seconds to end by itself."""
     until = time.monotonic() + grace
     gone = _is_gone(process)
     while not gone and time.monotonic() < until:
@@ -274,5 +273,5 @@ def _ended(process: int, grace: float) -> Ended:
 
 
 def _is_gone(process: int) -> bool:
-    """Return whether a process has ended; its number stays taken all the same."""
+    """Return whether a process has ended, without releasing its id."""
     return os.waitid(os.P_PID, process, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None

@@ -1,34 +1,140 @@
-"""What the robots of a role may see of a world at a control step, as the bytes of a frame."""
+"""The observations of an isolated law: the part of a scenario and of a world that it may see.
+
+A law's process gets a `Briefing` once, and then a frame at each control step. Neither holds
+anything that the law's robots may not see.
+"""
 
 from __future__ import annotations
 
+import os
 import pickle
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.addons.communication import Communication
 from mars2d.core.errors import LawError
+from mars2d.core.plane import Outline
+from mars2d.core.streams import stream
 from mars2d.record.message import Message
-from mars2d.study.isolation.briefing import Briefing
-from mars2d.study.isolation.frames import HEAD, STEP, STEP_HEAD, VELOCITIES, Layout
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.serialize import without_code
+from mars2d.study.isolation.limits import Limits
+from mars2d.study.isolation.protocol import HEAD, STEP, STEP_HEAD, VELOCITIES, Layout
 
 if TYPE_CHECKING:
     from mars2d.world.world import World
 
-__all__ = ["News", "Sight"]
+__all__ = ["Briefing", "Cast", "News", "Observer", "brief"]
 
 Mask = NDArray[np.bool_]
 
-KNOWN = ("builtins", "numpy", "mars2d")
-"""The packages whose objects a law's process knows as well."""
+SHARED_PACKAGES = ("builtins", "numpy", "mars2d")
+"""The packages whose objects a law's process can unpickle."""
+
+
+# -- once ------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Cast:
+    """The part of a scenario for laws that do not see the whole world.
+
+    robots: the law's own, without their starting poses; of the others, only the names.
+    """
+
+    robots: tuple[Robot, ...]
+    sampling_time: float
+    props: tuple[Any, ...] = ()
+
+
+@dataclass(frozen=True)
+class Briefing:
+    """The message that a law's process gets once.
+
+    robots: the indices of the law's robots. sees: the sight of each of them. scenario: without
+    code, or the visible part of it. obstacles: their outlines, if the whole world is seen. streams:
+    the state of each robot's random stream. sensors: each robot's, by name. talks: whether the
+    robots can send messages. folder: the current one. chance: the seed of Python's and numpy's
+    shared generators, so that a match can be repeated.
+    """
+
+    file: Path
+    robots: tuple[int, ...]
+    sees: tuple[str, ...]
+    scenario: Scenario | Cast
+    obstacles: tuple[Outline, ...]
+    streams: tuple[Mapping[str, Any], ...]
+    sensors: tuple[tuple[str, ...], ...]
+    talks: bool
+    limits: Limits
+    folder: str
+    chance: int
+
+
+def brief(
+    scenario: Scenario, laws: Mapping[str, tuple[Path, Sequence[int]]], seed: int, limits: Limits
+) -> dict[str, Briefing]:
+    """Return the briefing of each role; `laws` holds its file and the indices of its robots.
+
+    A briefing holds only what the law may see. The seed is not part of it.
+    """
+    lawless = [robot.replace(controller=None) for robot in scenario.robots]
+    bare, _ = without_code(scenario.replace(robots=lawless))
+    return {
+        role: _briefing(scenario, bare, file, robots, stream(seed, f"law of {role}"), seed, limits)
+        for role, (file, robots) in laws.items()
+    }
+
+
+def _briefing(
+    scenario: Scenario,
+    bare: Scenario,
+    file: Path,
+    robots: Sequence[int],
+    chance: np.random.Generator,
+    seed: int,
+    limits: Limits,
+) -> Briefing:
+    mine = [scenario.robots[i] for i in robots]
+    whole = any(robot.sees == "full" for robot in mine)
+    names = [f"robot {robot.name}" for robot in mine]
+    return Briefing(
+        file=file,
+        robots=tuple(robots),
+        sees=tuple(robot.sees for robot in mine),
+        scenario=bare if whole else _cast(bare, robots),
+        obstacles=tuple(each.outline for each in scenario.surfaces) if whole else (),
+        streams=tuple(dict(stream(seed, name).bit_generator.state) for name in names),
+        sensors=tuple(tuple(sensor.key for sensor in robot.sensors) for robot in mine),
+        talks=any(isinstance(addon, Communication) for addon in scenario.addons),
+        limits=limits,
+        folder=os.getcwd(),  # noqa: PTH109 - as text
+        chance=int(chance.integers(2**32)),
+    )
+
+
+def _cast(bare: Scenario, robots: Sequence[int]) -> Cast:
+    somewhere = (0.0, 0.0, 0.0)
+    known = [
+        robot.replace(pose=somewhere) if i in robots else Robot(name=robot.name)
+        for i, robot in enumerate(bare.robots)
+    ]
+    return Cast(tuple(known), bare.sampling_time)
+
+
+# -- at each control step --------------------------------------------------------------------------
 
 
 class News(NamedTuple):
-    """What is not the same in size at each control step, by the robots' indices.
+    """The observations of varying size at a control step, by the robots' indices.
 
-    neighbours and readings are those that have changed; inbox are the messages that have arrived.
+    neighbours, readings: those that have changed. inbox: messages that have arrived.
     """
 
     neighbours: Mapping[int, tuple[int, ...]]
@@ -36,14 +142,14 @@ class News(NamedTuple):
     inbox: Mapping[int, tuple[Message, ...]]
 
 
-class Sight:
-    """Makes the frames for the law of one role; only what it may see is in them.
+class Observer:
+    """Makes the frames for the law of one role, from what it may see of a world.
 
-    velocities: whether they are in them, which takes time to work out.
+    velocities: whether frames include them; they take time to compute.
     """
 
     def __init__(self, briefing: Briefing, robots: int, props: int) -> None:
-        """Take what its process was told, and how many robots and props there are in all."""
+        """Take the law's briefing, and the numbers of all robots and props."""
         self._briefing = briefing
         self._whole = "full" in briefing.sees
         self._layout = Layout(robots, props)
@@ -54,8 +160,10 @@ class Sight:
         for part in self._parts.values():
             part.fill(np.nan)
         seeing = list(zip(briefing.robots, briefing.sees, strict=True))
-        self._posed = [i for i, sees in seeing if sees != "sensors"]  # who know their own pose
-        self._heading = {i for i, sees in seeing if sees == "partial"}  # and others' headings
+        self._posed = [i for i, sees in seeing if sees != "sensors"]  # these see their own pose
+        self._heading = {
+            i for i, sees in seeing if sees == "partial"
+        }  # and their neighbours' headings
         self._mine = self._mask(3, briefing.robots)
         self._moving = self._mask(3, self._posed)
         self._placed = self._moving
@@ -65,19 +173,19 @@ class Sight:
         self.velocities = False
 
     def _mask(self, rows: int, robots: Iterable[int]) -> Mask:
-        """Return which numbers (rows, n) are those of some robots, or of all if all is seen."""
+        """Return a mask (rows, n) of some robots' columns, or of all if the whole world is seen."""
         mask = np.full((rows, len(self._parts["effort"])), self._whole)
         mask[:, [*robots]] = True
         return mask
 
     def frame(self, world: World) -> bytes | memoryview:
-        """Return the frame of the present control step. Raises what a sensor raises that is read.
+        """Return the frame of the current control step; the next call may overwrite it.
 
-        It may be written over by the next one.
+        Errors of sensors that are read pass through.
         """
         changed = self._changed_neighbours(world)
         if changed and not self._whole:
-            self._look_again()
+            self._update_masks()
         self._fill(world)
         readings = self._changed_readings(world) if self._senses else {}
         inbox = self._inbox(world) if self._briefing.talks else {}
@@ -86,7 +194,7 @@ class Sight:
         return self._framed(world, b"")
 
     def again(self, world: World) -> bytes | memoryview:
-        """Return the frame of the same control step again, without what it is told for once."""
+        """Return the frame of the same control step again, without its `News`."""
         self._fill(world)
         return self._framed(world, b"")
 
@@ -111,8 +219,8 @@ class Sight:
             if self.velocities:
                 parts["prop_velocity"][...] = world.prop_velocity
 
-    def _look_again(self) -> None:
-        """See others, whose neighbours have changed; forget those that are seen no more."""
+    def _update_masks(self) -> None:
+        """Update which robots are seen after neighbours changed, and clear the poses of others."""
         placed, headed = {*self._posed}, {*self._posed}
         for robot in self._posed:
             placed.update(self._neighbours[robot])
@@ -143,7 +251,7 @@ class Sight:
                 if kept and self._readings.get((robot, name)) is reading:
                     continue
                 self._readings[robot, name] = reading
-                changed.setdefault(robot, {})[name] = _known(name, reading)
+                changed.setdefault(robot, {})[name] = _transferable(name, reading)
         return changed
 
     def _inbox(self, world: World) -> dict[int, tuple[Message, ...]]:
@@ -159,8 +267,8 @@ class Sight:
         return rows.tobytes()
 
 
-def _known(name: str, reading: Any) -> Any:
-    """Return a reading, if a law's process can make something of it. Raises LawError if not."""
+def _transferable(name: str, reading: Any) -> Any:
+    """Return a reading if a law's process can unpickle it; raise LawError if not."""
     kind = type(reading)
     parts: Iterable[Any] = ()
     if kind in (list, tuple):
@@ -168,9 +276,9 @@ def _known(name: str, reading: Any) -> Any:
     elif kind is dict:
         parts = (*reading, *reading.values())
     for part in parts:
-        _known(name, part)
+        _transferable(name, part)
     foreign = reading.dtype.hasobject if isinstance(reading, np.ndarray) else callable(reading)
-    if kind.__module__.partition(".")[0] in KNOWN and not foreign:
+    if kind.__module__.partition(".")[0] in SHARED_PACKAGES and not foreign:
         return reading
     raise LawError(
         f"sensor {name!r} reads a {kind.__name__}, which can't be handed to a law in another "

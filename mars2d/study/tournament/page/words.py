@@ -1,26 +1,83 @@
-"""What was played: the lines under the title of a tournament's page."""
+"""Words on a tournament's page: its facts, and text that may come from anybody.
+
+Names of files, messages and everything that a law prints must not break the page, so they are
+cleaned and escaped here.
+"""
 
 from __future__ import annotations
 
+import html
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import compress
+from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mars2d.core.errors import counted
-from mars2d.study.tournament.page.text import escaped
+from mars2d.study.tournament.league import Tournament
+from mars2d.study.tournament.match import Match
 
-if TYPE_CHECKING:
-    from mars2d.study.tournament.match import Match
-    from mars2d.study.tournament.tournament import Tournament
+__all__ = [
+    "DASH",
+    "clean",
+    "escaped",
+    "facts",
+    "laws_of",
+    "named",
+    "round_of",
+    "rounds_of",
+    "time_cell",
+]
 
-__all__ = ["facts", "laws_of", "round_of", "rounds_of"]
+DASH = "\N{EN DASH}"
+"""Shown in place of missing values."""
+
+UNFIT = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
+"""Characters that a page can't hold or show: control characters and lone surrogates."""
+
+
+def clean(text: object) -> str:
+    r"""Return text with a replacement character for each one that a page can't show.
+
+    >>> clean("a\x00b\r\n")
+    'a\ufffdb\n'
+    """
+    return UNFIT.sub("\ufffd", str(text).replace("\r\n", "\n"))
+
+
+def escaped(text: object) -> str:
+    """Return text that a page shows as it is, also inside quoted attributes.
+
+    >>> escaped("<script>")
+    '&lt;script&gt;'
+    """
+    return html.escape(clean(text))
+
+
+def named(name: object) -> str:
+    """Return a name as an element with a writing direction of its own."""
+    return f"<bdi>{escaped(name)}</bdi>"
+
+
+def time_cell(value: float | None, digits: int) -> str:
+    """Return a table cell with a time in seconds, or with a dash if there is none.
+
+    >>> time_cell(2.5, 1)
+    '<td data-value="2.5">2.5 s</td>'
+    """
+    if value is None or not isfinite(value):
+        return f"<td>{DASH}</td>"
+    return f'<td data-value="{value:.9g}">{value:.{digits}f} s</td>'
+
+
+# -- facts -----------------------------------------------------------------------------------------
 
 
 def facts(tournament: Tournament, kept: int) -> str:
-    """Return what was played, as terms and what they are.
+    """Return the facts about a tournament as a list of terms and descriptions.
 
-    kept: of how many matches, from the first, the page has replays.
+    kept: how many matches, from the first, have replays on the page.
     """
     matches = tournament.matches
     rounds, always = rounds_of(tournament), _always(tournament)
@@ -49,7 +106,7 @@ def facts(tournament: Tournament, kept: int) -> str:
 
 
 def laws_of(tournament: Tournament, *roles: str) -> tuple[str, ...]:
-    """Return the laws that play one of these roles, best first."""
+    """Return the laws that play any of these roles, best first."""
     playing = {played.match.laws[role] for played in tournament.matches for role in roles}
     ranked = dict.fromkeys(standing.law for standing in tournament.standings)
     return tuple(law for law in ranked if law in playing)
@@ -61,18 +118,18 @@ def rounds_of(tournament: Tournament) -> tuple[str, ...]:
 
 
 def round_of(tournament: Tournament, match: Match) -> str:
-    """Return what the round of a match is called, by the settings that rounds differ in."""
+    """Return the name of a match's round: the settings in which rounds differ."""
     return _said({name: match.options.get(name) for name in tournament.settings})
 
 
 def _always(tournament: Tournament) -> str:
-    """Return the options that all rounds have."""
+    """Return the options that all rounds share."""
     options = tournament.matches[0].match.options if tournament.matches else {}
     return _said({name: options[name] for name in options if name not in tournament.settings})
 
 
 def _said(options: Mapping[str, Any]) -> str:
-    r"""Return options in words, each on one line.
+    r"""Return options as text, without line breaks inside of one.
 
     >>> _said({"mu": 0.9, "n": 2})
     'mu\xa0=\xa00.9, n\xa0=\xa02'
@@ -81,7 +138,7 @@ def _said(options: Mapping[str, Any]) -> str:
 
 
 def _laws(tournament: Tournament) -> str:
-    """Return how many laws play each role."""
+    """Say how many laws play each role."""
     groups = [laws_of(tournament, role) for role in tournament.roles]
     if set(groups[0]) == set(groups[1]):
         return f"{len(groups[0])}, each as {' and as '.join(tournament.roles)}"
@@ -90,7 +147,7 @@ def _laws(tournament: Tournament) -> str:
 
 
 def _numbers(values: Iterable[int]) -> str:
-    """Return whole numbers in words, those without a gap by the first and the last.
+    """Return whole numbers as text; consecutive ones are given by the first and the last.
 
     >>> _numbers([3, 1, 2, 7, 1])
     '1 to 3, 7'

@@ -1,4 +1,4 @@
-"""The world as an isolated law sees it: what it may see of it, at the present control step."""
+"""The world as an isolated law sees it, at the current control step."""
 
 from __future__ import annotations
 
@@ -15,16 +15,15 @@ from mars2d.core.plane import Outline
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import Message, as_text
 from mars2d.scenario.scenario import Scenario
-from mars2d.study.isolation.briefing import Briefing, Cast
-from mars2d.study.isolation.frames import STEP, STEP_HEAD, Layout
-from mars2d.study.isolation.sight import News
+from mars2d.study.isolation.observation import Briefing, Cast, News
+from mars2d.study.isolation.protocol import STEP, STEP_HEAD, Layout
 from mars2d.world.channel import Channel
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView
 
 if TYPE_CHECKING:
     from mars2d.world.world import World
 
-__all__ = ["Letters", "Mirror"]
+__all__ = ["Mailbox", "MirrorWorld"]
 
 Float = NDArray[np.float64]
 
@@ -42,18 +41,17 @@ REFUSED = {
         "",
     ),
 }  # fmt: skip
-"""What a World has and a Mirror has not, with what there is in its place."""
-
+"""The attributes of a World that a MirrorWorld lacks, with the substitute if there is one."""
 
 NO_NEWS = News({}, {}, {})
 NO_CONTACTS = np.empty(0, dtype=CONTACT)
 
 
-class Letters(Channel):
-    """Keeps the messages that an isolated law's robots send and get, for the true channel."""
+class Mailbox(Channel):
+    """The channel of an isolated law: it keeps messages to and from its robots."""
 
     def __init__(self, names: Sequence[str], limit: int) -> None:
-        """Take the names of all robots, and how many bytes may be sent in one control step."""
+        """Take the names of all robots, and the most bytes that may be sent in a control step."""
         self._names = [*names]
         self._indices = {name: i for i, name in enumerate(names)}
         self._limit, self._size = limit, 0
@@ -61,11 +59,11 @@ class Letters(Channel):
         self.arrived: Mapping[int, tuple[Message, ...]] = {}
 
     def inbox(self, robot: int) -> tuple[Message, ...]:
-        """Return the messages that have arrived for a robot at the present control step."""
+        """Return the messages that have arrived for a robot at the current control step."""
         return self.arrived.get(robot, ())
 
     def send(self, sender: int, content: Any, to: Any) -> None:
-        """Take a message of a robot. Raises LawError as the true channel does."""
+        """Keep a message from a robot. Raises LawError as the world's channel does."""
         text = as_text(content)
         receivers = None if to is None else self._receivers(sender, to).tolist()
         self._size += 100 + len(text) + 8 * len(receivers or ())
@@ -74,13 +72,13 @@ class Letters(Channel):
         self._outbox.append((sender, text, receivers))
 
     def taken(self) -> bytes:
-        """Return what was sent as JSON, [[sender, content as JSON, receivers], ...], or nothing."""
+        """Return and forget sent messages, [[sender, content, receivers], ...] as JSON, or b''."""
         sent, self._outbox, self._size = self._outbox, [], 0
         return json.dumps(sent).encode() if sent else b""
 
 
 class _Streams:
-    """The random streams of robots: their states were worked out where the seed is known."""
+    """The random streams of robots, from states that the match computed from its seed."""
 
     def __init__(self, states: Mapping[str, Mapping[str, Any]]) -> None:
         self._states = states
@@ -91,58 +89,40 @@ class _Streams:
         return np.random.Generator(generator)
 
 
+def _refused(what: str) -> Any:
+    """Return a property that raises LawError: it belongs to the robot's own law."""
+
+    def refuse(view: OtherView) -> NoReturn:
+        place = f"robot.world.robots[{view._index}].{what}"
+        raise LawError(f"{place} is not available: it is another's")
+
+    return property(refuse)
+
+
 class OtherView(RobotView):
-    """A robot of another law, as one sees it that sees the whole world."""
+    """Another law's robot, as seen by a law that sees the whole world."""
 
     def __init__(self, world: World, index: int) -> None:
         self._world, self._index = world, index
 
-    def _refuse(self, what: str) -> NoReturn:
-        raise LawError(
-            f"robot.world.robots[{self._index}].{what} is not available: it is another's"
-        )
-
-    @property
-    def sense(self) -> NoReturn:  # type: ignore[override]
-        """Refuse: it is the other's."""
-        self._refuse("sense")
-
-    @property
-    def memory(self) -> NoReturn:  # type: ignore[override]
-        """Refuse: it is the other's."""
-        self._refuse("memory")
-
-    @property
-    def rng(self) -> NoReturn:
-        """Refuse: it is the other's."""
-        self._refuse("rng")
-
-    @property
-    def inbox(self) -> NoReturn:
-        """Refuse: it is the other's."""
-        self._refuse("inbox")
-
-    @property
-    def neighbours(self) -> NoReturn:
-        """Refuse: it is the other's."""
-        self._refuse("neighbours")
-
-    def send(self, content: Any, to: Any = None) -> None:  # noqa: ARG002 - as the other's
-        """Refuse: only the other may speak for itself."""
-        self._refuse("send")
+    sense = _refused("sense")
+    memory = _refused("memory")
+    rng = _refused("rng")
+    inbox = _refused("inbox")
+    neighbours = _refused("neighbours")
+    send = _refused("send")
 
 
-class Mirror:
-    """What a law in a process of its own is shown of a World, under the same names.
+class MirrorWorld:
+    """Stands in for the World in an isolated law's process: the visible part, by the same names.
 
-    robots: views of all, if the whole world is seen, else of its own at their indices. mine: the
-    views that the law is called with.
+    robots: views of all robots. mine: the views with which the law is called.
     """
 
     def __init__(self, briefing: Briefing, velocities: Callable[[], tuple[bytes, bytes]]) -> None:
-        """Take what was told; nothing is seen before the first `show`.
+        """Take the briefing; there are no observations before the first `show`.
 
-        velocities: asks for the frame of the present control step with velocities.
+        velocities: requests the frame of the current control step with velocities.
         """
         self._ask_velocities = velocities
         self.scenario: Scenario | Cast = briefing.scenario
@@ -151,10 +131,10 @@ class Mirror:
         described = briefing.scenario.robots
         props = len(briefing.scenario.props)
         self._layout = Layout(len(described), props)
-        self._letters: Letters | None = None
+        self._mailbox: Mailbox | None = None
         if briefing.talks:
             limit = int(briefing.limits.output * 1e6)
-            self._letters = Letters([str(robot.name) for robot in described], limit)
+            self._mailbox = Mailbox([str(robot.name) for robot in described], limit)
         self._neighbours: dict[int, Sequence[int]] = {}
         world = cast("World", self)
         names = [str(described[i].name) for i in briefing.robots]
@@ -176,7 +156,7 @@ class Mirror:
         self.props = tuple(PropView(world, i) for i in range(props))
 
     def show(self, kind: bytes, body: bytes) -> None:
-        """Take what is seen at a control step from its frame."""
+        """Take the observations of a control step from its frame."""
         self.iteration, contacts, more = STEP_HEAD.unpack_from(body)
         self._seen: dict[str, Float] = {}
         self._body, self._with_velocities = body, kind != STEP
@@ -195,8 +175,8 @@ class Mirror:
                 if isinstance(reading, np.ndarray):
                     reading.setflags(write=False)
                 vars(self._minds[robot].sense)[name] = reading
-        if self._letters is not None:
-            self._letters.arrived = news.inbox
+        if self._mailbox is not None:
+            self._mailbox.arrived = news.inbox
 
     def _part(self, name: str) -> Float:
         if name not in self._seen:
@@ -210,8 +190,8 @@ class Mirror:
         return self._part(name)
 
     def taken_letters(self) -> bytes:
-        """Return the messages that were sent since the last call, see `Letters.taken`."""
-        return b"" if self._letters is None else self._letters.taken()
+        """Return the messages sent since the last call; see `Mailbox.taken`."""
+        return b"" if self._mailbox is None else self._mailbox.taken()
 
     def __getattr__(self, name: str) -> NoReturn:
         if name in REFUSED:
@@ -220,7 +200,7 @@ class Mirror:
         known = [item for item in dir(self) if not item.startswith("_")]
         raise UnknownNameError(f"a world has no {name!r}{nearest(name, known, most=30)}")
 
-    # -- what views and laws ask, as of a World --------------------------------------------------
+    # -- the interface of World ------------------------------------------------------------------
 
     @property
     def time(self) -> float:
@@ -259,19 +239,19 @@ class Mirror:
 
     @property
     def effort(self) -> Float:
-        """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1."""
+        """The share of its bounds that each drive used in the last step, (n,), 0 to 1."""
         return self._part("effort")
 
     @property
     def geometric_center(self) -> Float:
-        """The geometric centres (2, n) [m]: `Robot.center_offset` behind those of rotation."""
+        """The geometric centres (2, n) [m], `Robot.center_offset` behind those of rotation."""
         offset = np.array([robot.center_offset for robot in self.scenario.robots])
         x, y, theta = self.pose
         return np.array([x - offset * np.cos(theta), y - offset * np.sin(theta)])
 
     @property
     def command(self) -> Float:
-        """The last command (2, n) that was issued, after saturation; zeros at first. Read only."""
+        """The last command (2, n) after saturation; zeros at first. Read only."""
         return self._part("command")
 
     @property
@@ -290,12 +270,12 @@ class Mirror:
         return cast("Scenario", self.scenario).bounds
 
     def neighbour_indices(self, robot: int) -> Sequence[int]:
-        """Return whom ``Scenario.neighbours`` makes neighbours of one of its robots now."""
+        """Return the current neighbours of one of the law's robots, by ``Scenario.neighbours``."""
         return self._neighbours[robot]
 
     @property
-    def channel(self) -> Letters:
-        """What carries the robots' messages. Raises LawError if they have nothing to talk by."""
-        if self._letters is None:
+    def channel(self) -> Mailbox:
+        """The robots' channel. Raises LawError if the scenario has no Communication."""
+        if self._mailbox is None:
             raise LawError("robots can't talk: add Communication() to Scenario.addons")
-        return self._letters
+        return self._mailbox
