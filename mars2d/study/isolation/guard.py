@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Self, cast
 
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.streams import check_seed
@@ -16,8 +16,8 @@ from mars2d.study.isolation.briefing import brief
 from mars2d.study.isolation.ears import Ears
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.isolation.process import LawProcess
+from mars2d.world.simulation import Simulation
 from mars2d.world.views import RobotView
-from mars2d.world.world import World
 
 __all__ = ["Guard", "Limits", "Verdict"]
 
@@ -61,7 +61,7 @@ class Guard:
         self.verdicts: dict[str, Verdict] = {}
         self._processes: dict[str, LawProcess] = {}
         self._ears: Ears | None = None
-        self._world: World | None = None
+        self._world: Simulation | None = None
         self._iteration = -1
 
     @property
@@ -108,7 +108,7 @@ class Guard:
 
     def _asking(self, robot: int) -> Callable[[RobotView], tuple[float, float]]:
         def control(view: RobotView) -> tuple[float, float]:
-            world = view._world
+            world = cast("Simulation", view._world)
             if world.iteration != self._iteration or world is not self._world:
                 self._ask_all(world)
             process = self._processes[self._drivers[robot]]
@@ -119,7 +119,7 @@ class Guard:
 
         return control
 
-    def _ask_all(self, world: World) -> None:
+    def _ask_all(self, world: Simulation) -> None:
         """Ask all laws for their commands of this control step; they think side by side."""
         if self._ears is None:
             raise InputError("the laws' processes do not run: use the Guard in a with statement")

@@ -22,7 +22,7 @@ from mars2d.world.channel import Channel
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView
 
 if TYPE_CHECKING:
-    from mars2d.world.world import World
+    from mars2d.world.interfaces import Seen
 
 __all__ = ["Letters", "Mirror"]
 
@@ -94,7 +94,7 @@ class _Streams:
 class OtherView(RobotView):
     """A robot of another law, as one sees it that sees the whole world."""
 
-    def __init__(self, world: World, index: int) -> None:
+    def __init__(self, world: Seen, index: int) -> None:
         self._world, self._index = world, index
 
     def _refuse(self, what: str) -> NoReturn:
@@ -156,12 +156,12 @@ class Mirror:
             limit = int(briefing.limits.output * 1e6)
             self._letters = Letters([str(robot.name) for robot in described], limit)
         self._neighbours: dict[int, Sequence[int]] = {}
-        world = cast("World", self)
+        world: Seen = self
         names = [str(described[i].name) for i in briefing.robots]
         keys = [f"robot {name}" for name in names]
-        streams = cast("World", _Streams(dict(zip(keys, briefing.streams, strict=True))))
+        stream = _Streams(dict(zip(keys, briefing.streams, strict=True))).stream
         self._minds = {
-            i: Mind(streams, name) for i, name in zip(briefing.robots, names, strict=True)
+            i: Mind(name, stream) for i, name in zip(briefing.robots, names, strict=True)
         }
         for mind, sensors in zip(self._minds.values(), briefing.sensors, strict=True):
             mind.sense._names.extend(sensors)
@@ -221,6 +221,11 @@ class Mirror:
         raise UnknownNameError(f"a world has no {name!r}{nearest(name, known, most=30)}")
 
     # -- what views and laws ask, as of a World --------------------------------------------------
+
+    @property
+    def view(self) -> Mirror:
+        """Itself: it is all that a law may see."""
+        return self
 
     @property
     def time(self) -> float:

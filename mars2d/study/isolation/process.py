@@ -36,7 +36,7 @@ from mars2d.study.isolation.sight import Sight
 from mars2d.world.laws import LARGEST
 
 if TYPE_CHECKING:
-    from mars2d.world.world import World
+    from mars2d.world.simulation import Simulation
 
 __all__ = ["Fault", "LawProcess"]
 
@@ -83,7 +83,7 @@ class LawProcess:
         self.asked, self._since, self._allowed = False, 0.0, 0.0
         self._used = 0.0  # s, of its clock
         self._late = ""  # the line where it was when it took long
-        self._world: World | None = None
+        self._world: Simulation | None = None
         self._iteration = -1
         self._commands: Sequence[float] = ()
         self._places = {robot: 2 * k for k, robot in enumerate(briefing.robots)}
@@ -102,7 +102,7 @@ class LawProcess:
         """Tell it all that it is told once; its answer is that it has loaded its file."""
         self._ask(framed(BRIEFING, pickle.dumps(self._briefing)), self._limits.start)
 
-    def look(self, world: World) -> bytes | memoryview:
+    def look(self, world: Simulation) -> bytes | memoryview:
         """Return what it is to be told of a control step, for `tell`."""
         self._world, self._iteration = world, world.iteration
         return self._sight.frame(world)
@@ -200,7 +200,7 @@ class LawProcess:
         if self._used > self._limits.match:
             self._too_long()
 
-    def command(self, world: World, robot: int) -> tuple[float, float]:
+    def command(self, world: Simulation, robot: int) -> tuple[float, float]:
         """Return the command of one of its robots, whose messages go their way.
 
         There is a fault afterwards where these are no messages: its process has checked what its
