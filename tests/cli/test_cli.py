@@ -3,7 +3,6 @@
 import functools
 import json
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +14,7 @@ import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli import verbs
 from tests.forking import Nursery
+from tests.processes import PATIENCE, bare_environment, wait_until, x_server
 
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
 
@@ -27,12 +27,11 @@ def nursery():
 
 def mars(*arguments, cwd, **environment):
     """Run the command line without a display and return the finished process."""
-    env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     process = nursery().fork(
-        "mars2d.cli.command_line", [*map(str, arguments)], env | environment, cwd
+        "mars2d.cli.command_line", [*map(str, arguments)], bare_environment(**environment), cwd
     )
     out, errors = process.communicate()
-    return subprocess.CompletedProcess(arguments, process.wait(120), out, errors)
+    return subprocess.CompletedProcess(arguments, process.wait(PATIENCE), out, errors)
 
 
 def test_demo_without_a_name_lists_the_examples(tmp_path):
@@ -302,7 +301,6 @@ def test_what_was_recorded_before_a_law_failed_is_kept(tmp_path):
 
 def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
     import signal
-    import time
 
     (tmp_path / "long.py").write_text(
         HEAD + "scenario = Scenario(stop_time=1e6)\n"
@@ -315,11 +313,9 @@ def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
         cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
     )  # fmt: skip
     try:
-        while not (tmp_path / "going").exists():
-            assert process.poll() is None
-            time.sleep(0.05)
+        wait_until((tmp_path / "going").exists, process)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=PATIENCE)
     finally:
         process.kill()  # whatever went wrong, nothing goes on for ever
     assert process.returncode == 130, errors
@@ -605,19 +601,8 @@ def test_a_demo_prints_its_checks_below_where_its_pictures_are(tmp_path):
 @pytest.fixture
 def display():
     """The name of an X server of its own."""
-    if shutil.which("Xvfb") is None:
-        pytest.skip("Xvfb is not installed")
-    read, write = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-noreset"],
-        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        number = pipe.readline().strip()
-    yield f":{number}"
-    server.terminate()
-    server.wait(10)
+    with x_server() as (name, _):
+        yield name
 
 
 @pytest.mark.parametrize(("closes", "made"), [("on_stop", 3), ("on_step", 0)])

@@ -8,7 +8,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -24,6 +23,7 @@ from mars2d.study.tournament.folder import PLAYED, Folder, played_before
 from mars2d.study.tournament.playing import play_all
 from mars2d.study.tournament.schedule import schedule
 from mars2d.study.tournament.tournament import LIMITS
+from tests.processes import PATIENCE, wait_until
 
 CHASE = """
 import numpy as np
@@ -283,13 +283,9 @@ def test_after_ctrl_c_what_was_played_is_there_and_the_same_command_goes_on(even
         cwd=evening.folder,
     )  # fmt: skip
     kept = tmp_path / "out" / PLAYED
-    deadline = time.monotonic() + 60
-    while not (kept.exists() and kept.read_bytes().count(b"\n") > 2):
-        assert time.monotonic() < deadline
-        assert process.poll() is None, process.communicate()
-        time.sleep(0.05)
+    wait_until(lambda: kept.exists() and kept.read_bytes().count(b"\n") > 2, process)
     os.killpg(process.pid, signal.SIGINT)
-    printed, said = process.communicate(timeout=60)
+    printed, said = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130, said
     rows = (tmp_path / "out" / "matches.csv").read_text().splitlines()
     assert said.endswith(f"mars2d: {len(rows) - 1} of 200 matches are in {tmp_path / 'out'}; the same command goes on\n")  # fmt: skip  # noqa: E501

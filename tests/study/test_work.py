@@ -19,6 +19,7 @@ import pytest
 from mars2d.core.errors import InputError
 from mars2d.study import work, workers
 from mars2d.study.work import Failure, each_done, worker_count
+from tests.processes import PATIENCE, wait_until
 
 TASKS = '''
 """What the workers of these tests do."""
@@ -118,15 +119,8 @@ def running(pid: int) -> bool:
     return True
 
 
-def until(condition, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.01)
-
-
 def pid_in(file) -> int:
-    until(lambda: file.exists() and file.read_text())
+    wait_until(lambda: file.exists() and file.read_text())
     return int(file.read_text())
 
 
@@ -230,9 +224,9 @@ def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):
         os.killpg(parent.pid, number)  # as a terminal does: to all of them
     else:
         parent.kill()
-    out, err = parent.communicate(timeout=20)
+    out, err = parent.communicate(timeout=PATIENCE)
     assert (out, err) == ("interrupted\n" if number == signal.SIGINT else "", "")
-    until(lambda: not any(map(running, pids)))
+    wait_until(lambda: not any(map(running, pids)))
 
 
 @pytest.mark.parametrize(
@@ -256,7 +250,7 @@ def test_a_script_that_its_workers_cannot_import_is_told_so_once(tmp_path, scrip
         "print(list(each_done(abs, [1, -2, 3], workers=1)))\n"
     )
     done = subprocess.run(
-        [sys.executable, str(path)], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, str(path)], capture_output=True, text=True, timeout=PATIENCE, check=False
     )
     assert said in done.stderr.splitlines()[-1]
     assert (done.returncode, done.stdout, done.stderr.count("Traceback")) == (1, "", 1)

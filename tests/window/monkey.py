@@ -35,6 +35,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from tests.processes import x_server
+
 ROOT = Path(__file__).parents[2]
 HIDDEN = ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER")
 SCREEN = 1000, 700
@@ -329,21 +331,7 @@ def _parts(values: list[int], count: int) -> Iterator[list[int]]:
 def screens(count: int) -> Iterator[list[str]]:
     """Start X servers on free displays; yield their names."""
     with contextlib.ExitStack() as stack:
-        names = []
-        for _ in range(count):
-            read, write = os.pipe()
-            size = f"{SCREEN[0]}x{SCREEN[1]}x24"
-            server = subprocess.Popen(
-                ["Xvfb", "-displayfd", str(write), "-screen", "0", size, "-noreset"],
-                pass_fds=[write],
-                stderr=subprocess.DEVNULL,
-            )
-            stack.callback(server.wait)
-            stack.callback(server.terminate)
-            os.close(write)
-            with os.fdopen(read) as pipe:
-                names.append(f":{pipe.readline().strip()}")
-        yield names
+        yield [stack.enter_context(x_server(*SCREEN))[0] for _ in range(count)]
 
 
 def prepare(folder: Path) -> None:

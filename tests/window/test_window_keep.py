@@ -10,7 +10,8 @@ from PIL import Image, ImageGrab
 
 from mars2d.record.record import load
 from mars2d.scenario.experiment import open_experiment
-from tests.window.person import ROOT, bare_environment, differing, needs_screen
+from tests.processes import PATIENCE, bare_environment, wait_until
+from tests.window.person import ROOT, differing, needs_screen
 
 pytestmark = needs_screen
 
@@ -111,15 +112,8 @@ class Command:
             [sys.executable, "-m", "mars2d", *map(str, arguments)], env=self.environment,
             cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         )  # fmt: skip
-        self.wait_for(lambda: self.look().any())
+        wait_until(lambda: self.look().any(), self.process)
         time.sleep(0.2)  # until the window has the keyboard
-
-    def wait_for(self, condition, seconds=20):
-        end = time.monotonic() + seconds
-        while not condition():
-            assert time.monotonic() < end, "it has not happened"
-            assert self.process.poll() is None, self.process.communicate()
-            time.sleep(0.05)
 
     def look(self):
         return np.asarray(ImageGrab.grab((0, 0, 900, 600), xdisplay=self.environment["DISPLAY"]))
@@ -131,7 +125,7 @@ class Command:
     def leave(self, *keys):
         """Press keys that close the window; return what was printed."""
         self.press(*keys)
-        out, errors = self.process.communicate(timeout=20)
+        out, errors = self.process.communicate(timeout=PATIENCE)
         assert self.process.returncode == 0, errors
         return out + errors
 
@@ -156,7 +150,7 @@ def test_run_lets_a_person_drive_and_keeps_what_was_run(command, room, folder):
     )
     assert seen.look()[100:500].mean() < 100  # dark
     seen.press("p")
-    seen.wait_for((folder / "room_1.png").exists)
+    wait_until((folder / "room_1.png").exists, seen.process)
     seen.press("space")
     time.sleep(0.3)
     subprocess.run(

@@ -96,17 +96,17 @@ def test_the_way_does_not_depend_on_the_sampling_time_by_more_than_a_slice():
 
 def test_a_long_control_step_takes_no_more_than_a_moment():
     scenario = Scenario(robots=[ROBOT], sampling_time=10.0)
-    start = time.perf_counter()
+    start = time.process_time()
     _, path = pulled(scenario, 0, (2.0, 0.0), steps=3)
-    assert time.perf_counter() - start < 3.0
+    assert time.process_time() - start < 3.0
     assert abs(path[-1, 0] - 2.0) < 0.01
 
 
 def test_the_strongest_and_quickest_pull_neither_hangs_nor_goes_through_walls():
     scenario = Scenario(robots=[ROBOT.replace(mass=0.1)], addons=[WALL], on_exit="ignore")
-    start = time.perf_counter()
+    start = time.process_time()
     _, path = pulled(scenario, 0, (900.0, 0.0), steps=20, force=1e6, speed=100.0)
-    assert time.perf_counter() - start < 5.0
+    assert time.process_time() - start < 5.0
     assert path[:, 0].max() <= 0.85 + scenario.max_overlap
 
 
@@ -195,7 +195,7 @@ def test_nobody_escapes_from_a_crowd_that_one_is_pulled_through(seeds):
     for seed in seeds:
         scenario, targets = crowd(seed)
         world = World(scenario)
-        start = time.perf_counter()
+        start = time.process_time()
         for x, y in targets:
             world.hands.pull(7, (0.05, 0.1), (x, y), force=40.0, speed=5.0)
             world.step()
@@ -204,7 +204,7 @@ def test_nobody_escapes_from_a_crowd_that_one_is_pulled_through(seeds):
             place = world.position[0] + 1j * world.position[1]
             gaps = abs(place[:, None] - place) + 9 * np.eye(20)
             assert gaps.min() >= 0.3 - scenario.max_overlap, f"seed {seed}"
-        assert time.perf_counter() - start < 8.0
+        assert time.process_time() - start < 8.0
 
 
 def test_what_is_tied_by_a_rope_is_pulled_no_farther_than_that():
