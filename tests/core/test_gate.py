@@ -73,7 +73,7 @@ def outcomes(child, cases: list[str], flags: tuple[str, ...] = (), definitions: 
         PRELUDE + definitions + f"\nfor case in {cases!r}:\n"
         '    print(json.dumps([case, attempt(case)]), flush=True)\nprint(\'["end", ""]\')'
     )
-    result = child(code, *flags, timeout=50)
+    result = child(code, *flags)
     found = dict(json.loads(line) for line in result.stdout.splitlines())
     assert result.returncode == 0, (result.returncode, [*found][-1:], result.stderr[-500:])
     assert found.pop("end") == ""

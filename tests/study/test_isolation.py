@@ -546,7 +546,7 @@ def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_p
     assert "\n" not in verdict.text
     assert guard.verdicts == {}  # nobody else is to blame
     assert record.over_message == f"Error: {error}"
-    assert took < 15.0
+    assert took < 60.0
     again, *_ = played(scenario.replace(stop_time=0.2), {"good": (good, [1])})
     assert again.finished
     cells = fault, f"`{verdict.kind}`", "no verdict", "kept, says why", "played"

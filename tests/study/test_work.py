@@ -191,7 +191,7 @@ def test_workers_that_are_busy_are_ended_promptly_and_what_they_hold_is_tidied_u
     pids = [pid_in(tidy), pid_in(stubborn)]
     start = time.monotonic()
     done.close()
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < 60
     assert not any(map(running, pids))
     assert tidy.with_suffix(".tidy").exists() or sys.platform == "win32"
 

@@ -913,7 +913,7 @@ def spin(*_):
 def test_what_never_ends_is_broken_off_with_its_line(findings, part):
     start = time.monotonic()
     found = findings(part(), deadline=Deadline(0.5))
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < 60
     assert seen(found, "wrong", "did not come to an end within 0.5 s") or seen(
         found, "wrong", "has the arguments"
     )
@@ -929,15 +929,15 @@ def test_the_line_that_does_not_end_is_named():
 
 
 def test_a_deadline_ends_with_its_block_and_can_be_used_again():
-    limit = Deadline(0.2)
+    limit = Deadline(0.6)
     for _ in range(2):
         with pytest.raises(Late), limit:
             spin()
     with limit:
-        for _ in range(6):
+        for _ in range(8):
             time.sleep(0.1)
             limit.alive()
-    time.sleep(0.5)  # nothing is raised once it is left
+    time.sleep(0.8)  # nothing is raised once it is left
 
 
 # -- what belongs to MARS2D -------------------------------------------------------------------
@@ -1243,7 +1243,7 @@ def test_a_check_ends_whatever_the_file_does(child, tmp_path, loop, place):
         "deadline.GRACE = 0.5; check.LOADING = 0.5; check.PATIENCE = 0.5;"
         f"from mars2d.cli.command_line import main; sys.exit(main(['check', {str(tmp_path / 'own.py')!r}]))"
     )
-    done = child(code, timeout=50)
+    done = child(code)
     assert done.returncode == 2, done.stderr
     assert "come to an end" in done.stderr
     line = 6 if place == "law" else 5

@@ -340,7 +340,8 @@ def test_two_windows_one_after_the_other(open_window):
     window.until(lambda s: s["row"] == 2)
     window.press("Escape")
     window.until(lambda s: s.get("row") == 0)
-    time.sleep(0.2)
+    window.settle()
+    time.sleep(0.2)  # until it has the keyboard
     window.press("space")
     window.until(lambda s: s["row"] == 1)
     window.press("Escape")

@@ -164,5 +164,5 @@ def test_run_lets_a_person_drive_and_keeps_what_was_run(command, room, folder):
     assert record.pose[-1, 0, 0] > -1.95  # red, by its law
     replayed = command(folder, "replay", "out.npz", "--speed", "max")
     replayed.press("End", "p", "Home")
-    replayed.wait_for((folder / "a_room_1.png").exists)
+    wait_until((folder / "a_room_1.png").exists, replayed.process)
     replayed.leave("Escape")

@@ -207,7 +207,7 @@ def test_where_a_law_fails_its_line_is_shown_and_the_past_can_be_looked_at(open_
     window.until(lambda s: s["banner"] is not None)
     window.press("r", "space")
     window.until(lambda s: s["newest"] < 10)
-    window.until(lambda s: s["status"] == "stopped", 15)
+    window.until(lambda s: s["status"] == "stopped")
     window.press("Escape")
     window.until(lambda s: "raised" in s)
     assert "I am lost" in window.state["raised"]

@@ -191,7 +191,7 @@ def test_a_record_keeps_the_walls_not_the_file(folder):
 def mars(*words):
     return subprocess.run(
         [sys.executable, "-m", "mars2d", *words],
-        capture_output=True, text=True, check=False, timeout=60,
+        capture_output=True, text=True, check=False, timeout=120,
     )  # fmt: skip
 
 
