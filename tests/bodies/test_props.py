@@ -146,6 +146,7 @@ def threshold(robots, prop: Prop, low: float, high: float) -> float:
     return (low + high) / 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("force", "prop", "x"),
     [
@@ -162,6 +163,7 @@ def test_a_prop_moves_up_to_the_friction_that_the_force_overcomes(force, prop, x
     assert threshold([robot], prop, 0.8 * mu, 1.3 * mu) == pytest.approx(mu, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [2, 3])
 def test_the_forces_of_several_robots_on_one_box_add_up(count):
     robots = [

@@ -34,6 +34,7 @@ def mars(*arguments, cwd, **environment):
     return subprocess.CompletedProcess(arguments, process.wait(PATIENCE), out, errors)
 
 
+@pytest.mark.slow
 def test_demo_without_a_name_lists_the_examples(tmp_path):
     done = mars("demo", cwd=tmp_path)
     assert done.returncode == 0
@@ -41,6 +42,7 @@ def test_demo_without_a_name_lists_the_examples(tmp_path):
         assert name in done.stdout
 
 
+@pytest.mark.slow
 def test_demo_without_a_display_makes_a_picture_and_a_film_and_says_where(tmp_path):
     from PIL import Image
 
@@ -70,6 +72,7 @@ def test_run_prints_its_outcome_as_one_line_of_json(tmp_path):
     assert outcome["wall_s"] > 0
 
 
+@pytest.mark.slow
 def test_run_saves_record_figure_and_film(tmp_path):
     done = mars(
         "run", "go_to_point", "--headless", "--stop-time", 2, "--record", "a.npz",
@@ -143,6 +146,7 @@ def test_check_says_where_a_record_departs(tmp_path, capsys):
     assert "departs at row 30, at 3 s: follower1 is off by 0.25 m" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_check_describes_an_experiment_and_tries_its_laws(tmp_path):
     done = mars("check", "own_sensor_and_addon", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -324,6 +328,7 @@ def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
     assert "Ctrl-C" in record.over_message
 
 
+@pytest.mark.slow
 def test_a_ctrl_c_that_got_lost_within_a_step_ends_the_run_all_the_same(child):
     code = (
         "import os, signal, mars2d\n"
@@ -344,6 +349,7 @@ def test_a_ctrl_c_that_got_lost_within_a_step_ends_the_run_all_the_same(child):
     assert child(code).stdout.split() == ["6", "True"]
 
 
+@pytest.mark.slow
 def test_a_long_run_shows_its_progress_on_a_terminal(tmp_path):
     import pty
 
@@ -442,6 +448,7 @@ def test_an_experiment_may_import_what_lies_beside_it_and_two_do_not_meet(tmp_pa
     assert "helper" not in sys.modules
 
 
+@pytest.mark.slow
 def test_a_laws_error_is_not_hidden_by_what_can_not_be_drawn(tmp_path):
     (tmp_path / "late.py").write_text(
         HEAD
@@ -454,6 +461,7 @@ def test_a_laws_error_is_not_hidden_by_what_can_not_be_drawn(tmp_path):
     assert (tmp_path / "a.png").exists()
 
 
+@pytest.mark.slow
 def test_a_run_without_a_control_step_is_filmed_as_the_one_picture_that_it_is(tmp_path):
     words = ["random_walk", "--headless", "--stop-time", "0", "--video", "still.gif"]
     done = mars("run", *words, cwd=tmp_path)
@@ -469,6 +477,7 @@ def test_a_film_of_too_many_frames_is_refused(tmp_path):
     assert "frames" in done.stderr
 
 
+@pytest.mark.slow
 def test_a_colour_that_is_none_is_refused_where_it_is_drawn(tmp_path):
     (tmp_path / "red.py").write_text(
         HEAD + "class Spot(Addon):\n"
@@ -588,6 +597,7 @@ def test_check_says_whether_an_experiment_has_checks(roll, capsys):
     assert "checks" not in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_a_demo_prints_its_checks_below_where_its_pictures_are(tmp_path):
     done = mars("demo", "push_box", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -605,6 +615,7 @@ def display():
         yield name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("closes", "made"), [("on_stop", 3), ("on_step", 0)])
 def test_checks_are_made_once_a_window_closes_if_the_run_came_to_its_end(
     roll, tmp_path, display, closes, made

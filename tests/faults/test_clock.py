@@ -13,7 +13,7 @@ import pytest
 
 import mars2d
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="LD_PRELOAD")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="LD_PRELOAD")]
 
 JUMPING = """
 #define _GNU_SOURCE

@@ -13,6 +13,8 @@ from mars2d.scenario.experiment import open_experiment
 from tests.processes import PATIENCE, bare_environment, wait_until, x_server
 from tests.window.person import ROOM, needs_screen
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 GONE = "mars2d: the display has gone away that the window was on\n"
 

@@ -19,7 +19,10 @@ from mars2d.output.formats import SUFFIXES
 from tests.faults.commands import Command, Ended, Forking, started
 from tests.processes import PATIENCE
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="processes are looked for in /proc")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform != "linux", reason="processes are looked for in /proc"),
+]
 pytest.importorskip("av")
 pytest.importorskip("mcap")
 pytest.importorskip("pygame")

@@ -13,6 +13,8 @@ from mars2d.core.errors import LawError
 from mars2d.scenario.experiment import examples, open_experiment, open_module
 from mars2d.session import run
 
+pytestmark = pytest.mark.slow
+
 PLAYERS = ("pusher", "flanker", "dodger")
 PURSUERS, EVADERS = ("straight", "ahead", "inside"), ("away", "corners", "round")
 

@@ -7,6 +7,8 @@ import mars2d
 from mars2d.physics.floor import GRAVITY
 from mars2d.scenario.experiment import open_experiment
 
+pytestmark = pytest.mark.slow
+
 NAMES = ["head_on", "push_box", "many_push_one", "wall_slide", "billiards"]
 
 

@@ -9,6 +9,8 @@ import mars2d
 from mars2d.scenario.experiment import open_experiment
 from mars2d.session import run
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = ("braitenberg", "wall_follower", "obstacle_avoidance", "dead_reckoning")
 
 

@@ -13,6 +13,8 @@ from mars2d import Scenario
 from mars2d.geometry.voronoi import Tessellation
 from mars2d.scenario.experiment import examples, open_experiment, open_module
 
+pytestmark = pytest.mark.slow
+
 SQUARE = ((0.0, 0.0), (5.0, 0.0), (5.0, 5.0), (0.0, 5.0))
 
 

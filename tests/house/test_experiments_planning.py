@@ -14,6 +14,8 @@ import mars2d
 from mars2d.addons import Map
 from mars2d.scenario.experiment import examples, open_experiment, open_module
 
+pytestmark = pytest.mark.slow
+
 FLOOR = examples()["path_planning"].with_name("maps") / "department.dxf"
 SOLUTIONS = FLOOR.parents[1] / "solutions"
 

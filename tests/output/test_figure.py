@@ -314,6 +314,7 @@ def test_a_notebook_shows_the_axes_and_their_figure(record):
         assert shown._repr_png_().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_neither_windows_nor_pyplot_are_touched(tmp_path):
     code = """
 import sys, mars2d

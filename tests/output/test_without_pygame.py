@@ -19,6 +19,8 @@ import mars2d
 from mars2d.scenario.experiment import examples
 from tests.processes import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 BLOCKED = """
 import importlib.abc, os, signal, subprocess, sys, threading
 

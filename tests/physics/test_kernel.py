@@ -163,6 +163,7 @@ def restless(seed: int, n: int) -> Law:
     return lambda world: draws[world.iteration // 3 % len(draws)]
 
 
+@pytest.mark.slow
 @given(
     seed=st.integers(0, 2**32),
     n=st.integers(1, 40),

@@ -24,6 +24,8 @@ from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 from tests.processes import bare_environment, wait_until
 
+pytestmark = pytest.mark.slow
+
 FOLDER = Path(__file__).parent / "bustle"
 BUSTLE, SEED = FOLDER / "bustle.py", 3
 

@@ -193,6 +193,7 @@ def check_numbers(folder, seed=0):
     return {made["figure"]: made for made in numbers["figures"]}
 
 
+@pytest.mark.slow
 def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap):
     found = check_page(cheap, [2])
     (made,) = check_numbers(cheap).values()
@@ -411,6 +412,7 @@ def test_a_number_that_is_not_finite_is_null_in_the_json_and_said_on_the_page():
     assert "not a number" in page([figure()], {2: result}, 0)
 
 
+@pytest.mark.slow
 def test_studies_get_the_records_in_order_and_the_seed_with_them(tmp_path):
     seen = []
 
@@ -473,6 +475,7 @@ def is_group(number):
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child there")
 @pytest.mark.parametrize(
     "only", [pytest.param("2,4,7", marks=pytest.mark.soak), "7"]

@@ -130,6 +130,7 @@ def test_names_that_others_have_had_stay(tmp_path):
     assert saved(scenario, tmp_path)[2] == scenario
 
 
+@pytest.mark.slow
 def test_thousands_of_robots_are_written_and_read(tmp_path):
     robots = [Robot(pose=(i % 100, i // 100, 0.1 * i)) for i in range(3000)]
     scenario = Scenario(robots=robots, workspace=None)
@@ -477,6 +478,7 @@ def mutated(chance, text):
     return "\n".join(lines)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "block", [0, *(pytest.param(k, marks=pytest.mark.soak) for k in range(1, 24))]
 )

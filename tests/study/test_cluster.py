@@ -26,6 +26,8 @@ from distributed import Client, LocalCluster
 
 from tests.processes import wait_until
 
+pytestmark = pytest.mark.slow
+
 TASKS = '''
 """What the workers of these tests do."""
 

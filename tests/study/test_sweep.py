@@ -321,6 +321,7 @@ def once_rows(file, count, process):
     return rows()
 
 
+@pytest.mark.slow
 def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(here):
     slow = DRIFT.replace("return gain", "__import__('time').sleep(0.005)\n    return gain")
     (here / "drift.py").write_text(slow)

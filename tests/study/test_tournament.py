@@ -102,6 +102,7 @@ SAME = ("--role", "pursuer=pursuers/loop.py", "pursuers/quick.py", "evader=evade
 """What a shell may have made of patterns."""
 
 
+@pytest.mark.slow
 def test_everybody_meets_everybody_from_the_same_seeds(evening):
     met = [(*m.match.laws.values(), m.match.seed) for m in evening.result.matches]
     assert met == [
@@ -154,6 +155,7 @@ def test_a_match_is_the_run_with_the_same_laws_and_seed(evening):
     assert played.digest != evening.result.matches[-2].digest  # another start
 
 
+@pytest.mark.slow
 def test_the_league_depends_on_no_number_of_workers(evening):
     laws = {"pursuer": evening.folder / "pursuers/quick.py", "evader": evening.folder / "evaders"}
     alone = mars2d.tournament(evening.folder / "chase.py", laws, seeds=SEEDS, workers=1)
@@ -274,6 +276,7 @@ def test_replays_that_are_missing_are_made(evening, tmp_path):
     assert len(Folder(tmp_path, planned, LIMITS, replays=True).before) == 1
 
 
+@pytest.mark.slow
 def test_after_ctrl_c_what_was_played_is_there_and_the_same_command_goes_on(evening, tmp_path):
     words = ["tournament", str(evening.folder / "chase.py"), "--role", "pursuer=pursuers/quick.py"]
     words += ["--role", "evader=evaders/still.py", "--seeds", "200", "--out", str(tmp_path / "out")]
@@ -325,6 +328,7 @@ def test_a_match_that_was_not_played_before_is_played(evening, command):
 # -- rounds, players, matches without a result -----------------------------------------------------
 
 
+@pytest.mark.slow
 def test_players_play_both_roles_in_each_round_and_an_experiment_that_fails_costs_one_match(
     evening, tmp_path
 ):

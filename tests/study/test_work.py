@@ -140,6 +140,7 @@ class Counted(Sequence):
         return ("square", index)
 
 
+@pytest.mark.slow
 def test_each_task_comes_once_whatever_becomes_of_it(do, tmp_path):
     odd = {
         2: ("threads", None),
@@ -209,6 +210,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL], ids=["Ctrl-C", "SIGKILL"])
 def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):

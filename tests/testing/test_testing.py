@@ -89,6 +89,7 @@ class Milestones(Sensor):
         return np.array([self.way, self.way > 0.1])
 
 
+@pytest.mark.slow
 def test_sound_sensors_pass_without_a_finding():
     check_sensor(Whisker())
     assert sensor_findings(Whisker()) == ()
@@ -928,6 +929,7 @@ def test_the_line_that_does_not_end_is_named():
     assert seen(found, "wrong", "test_testing.py, line", "spin_for_ever did not come to an end")
 
 
+@pytest.mark.slow
 def test_a_deadline_ends_with_its_block_and_can_be_used_again():
     limit = Deadline(0.6)
     for _ in range(2):
@@ -1233,6 +1235,7 @@ def test_a_law_that_reads_a_sensor_that_it_is_not_given_does_not_pass():
         check_controller(lambda robot: (robot.sense.sonar, 0.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loop", ["while True: pass", "time.sleep(1000)"])
 @pytest.mark.parametrize("place", ["law", "file"])
 def test_a_check_ends_whatever_the_file_does(child, tmp_path, loop, place):

@@ -35,10 +35,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from tests.processes import x_server
+from tests.processes import bare_environment, x_server
 
 ROOT = Path(__file__).parents[2]
-HIDDEN = ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER")
 SCREEN = 1000, 700
 LOOK = 10.0
 """The seconds between two looks at memory."""
@@ -250,7 +249,7 @@ class Window:
         }
 
     def _open(self) -> None:
-        environment = {key: value for key, value in os.environ.items() if key not in HIDDEN}
+        environment = bare_environment()
         environment |= {"DISPLAY": self.display, "SDL_VIDEO_WINDOW_POS": "0,0"}
         self._process = subprocess.Popen(
             [sys.executable, "-c", AGAIN, *COMMANDS[self.kind]],

@@ -216,6 +216,7 @@ def test_where_nothing_could_be_read_there_is_no_help(size):
     assert helped(size)[2] >= 1
 
 
+@pytest.mark.slow
 def test_groups_of_one_key_and_of_very_many():
     one = [("Group", [Key("go", ("g",), ("G",), "go")])]
     assert helped((1280, 720), groups=one)[1].texts == [

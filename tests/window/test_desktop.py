@@ -107,6 +107,7 @@ def test_a_window_is_as_large_as_its_points_but_fits(monkeypatch, screen, scale,
     assert opening_size((1280, 720), scale) == size
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(missing), reason=f"{', '.join(missing)} not installed")
 def test_a_real_x_server_tells_its_scale():
     with x_server(3000, 2000) as (screen, _):

@@ -101,6 +101,7 @@ def test_after_its_end_a_branch_stays_there_and_says_so():
     assert text == "branch from 10 s, over at 12.5 s"
 
 
+@pytest.mark.slow
 def test_many_robots_and_branches_cost_little():
     timeline = timeline_of(20)
     run_to(timeline, 900)

@@ -216,6 +216,7 @@ def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monke
     assert frames_of(film.stop())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".mp4", pytest.param(".gif", marks=pytest.mark.soak)])
 def test_a_film_of_a_program_that_is_killed_can_be_seen(suffix, tmp_path):
     code = (

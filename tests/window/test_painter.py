@@ -292,6 +292,7 @@ def test_a_picture_is_saved_as_png(tmp_path):
         save_png(surface, tmp_path / "no" / "picture.png")
 
 
+@pytest.mark.slow
 def test_pictures_need_no_display(tmp_path):
     code = (
         "import sys; sys.path.insert(0, '.')\n"

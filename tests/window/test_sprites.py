@@ -143,6 +143,7 @@ def test_what_is_kept_changes_no_pixel(record, situation):
     assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "situation", [nothing, pan, restart, without_paths], ids=lambda situation: situation.__name__
 )

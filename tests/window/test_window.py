@@ -16,10 +16,9 @@ from mars2d.core.errors import InputError
 from mars2d.window import keys
 from mars2d.window.display import display_available
 from mars2d.window.window import Window
-from tests.processes import PATIENCE
+from tests.processes import HIDDEN, PATIENCE
 from tests.window.circling import Circling
 from tests.window.person import (
-    HIDDEN,
     differing,
     has,
     needs_screen,

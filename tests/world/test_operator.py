@@ -493,6 +493,7 @@ def test_a_run_that_hands_were_put_to_is_the_same_again_to_the_bit():
     assert rerun_is_the_same(poked())
 
 
+@pytest.mark.slow
 def test_so_it_is_from_a_file(tmp_path, capsys):
     world = poked()
     world.break_off("enough")
@@ -504,6 +505,7 @@ def test_so_it_is_from_a_file(tmp_path, capsys):
     assert rerun(mars2d.load(tmp_path / "poked.npz")) is None
 
 
+@pytest.mark.slow
 def test_worlds_that_are_stepped_in_turn_do_not_feel_each_other():
     alone = poked().pose
     first = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)]))

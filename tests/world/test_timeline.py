@@ -61,12 +61,20 @@ LONG = {
     "push_box", "wall_follower", "crowd", "tug_of_war", "herding", "head_on", "billiards",
     "corner_game",
 }  # fmt: skip
-"""Examples that take seconds to go back in: `pytest -m soak`."""
+"""Examples that take many seconds to go back in: `pytest -m soak`."""
+
+QUICK = {"go_to_point", "own_sensor_and_addon", "random_walk", "wall_slide"}
 
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=[pytest.mark.soak] if name in LONG else []) for name in examples()],
+    [
+        pytest.param(
+            name,
+            marks=pytest.mark.soak if name in LONG else () if name in QUICK else pytest.mark.slow,
+        )
+        for name in examples()
+    ],
 )
 def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     options = {"stop_time": 4.0} if name in ("random_walk", "flocking") else {}
@@ -170,6 +178,7 @@ def test_memory_of_every_kind_is_rebuilt(memory):
         assert timeline.record.digest == expected.digest
 
 
+@pytest.mark.slow
 def test_worlds_that_wait_change_nothing(memory):
     expected = simulated(memory)
     timeline = Timeline(open_experiment(memory), 3)
@@ -889,6 +898,7 @@ def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path
     assert "another branch, left at 1.45 s, is in" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_boxes_are_where_they_were(written):
     path = written("""
 from mars2d import Robot, Scenario

@@ -195,6 +195,7 @@ def mars(*words):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_check_shows_what_was_read_and_draws_it(folder):
     done = mars("check", "room.wkt", "--set", "unit=cm", "--set", "at=(0,1)", "--figure", "a.png")
     assert done.stderr == ""
@@ -211,6 +212,7 @@ def test_check_shows_what_was_read_and_draws_it(folder):
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_check_names_the_nearest_file_and_how_to_bring_a_dwg(folder):
     said = "mars2d: rom.wkt: there is no such file; did you mean 'room.wkt'?\n"
     assert mars("check", "rom.wkt").stderr == said

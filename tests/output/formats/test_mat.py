@@ -64,6 +64,7 @@ def test_no_column_is_twice_in_the_file(tmp_path):
     )
 
 
+@pytest.mark.slow
 @needs_octave
 def test_octave_opens_it_with_shapes_values_and_texts(tmp_path):
     record = everything()
@@ -105,6 +106,7 @@ disp(header.contents{out_data.Messages.content(1)})
     assert text[7] == record.contents[record.messages["content"][0]]
 
 
+@pytest.mark.slow
 @needs_octave
 @pytest.mark.parametrize("rows", [None, 0, 1])
 def test_what_octave_saves_again_is_still_the_record(rows, tmp_path):
@@ -118,6 +120,7 @@ def test_what_octave_saves_again_is_still_the_record(rows, tmp_path):
         assert again.contents == record.contents
 
 
+@pytest.mark.slow
 @needs_octave
 def test_what_octave_changed_or_saved_otherwise_is_refused(tmp_path):
     everything().save(tmp_path / "run.mat")
@@ -127,6 +130,7 @@ def test_what_octave_changed_or_saved_otherwise_is_refused(tmp_path):
     refused(tmp_path / "own.mat", "a file of Octave's own format; expected one of 'save -v7'")
 
 
+@pytest.mark.slow
 @needs_octave
 def test_the_lines_of_octave_in_the_docs_do_what_they_say(tmp_path, monkeypatch):
     document = ROOT / "docs" / "data.md"
@@ -134,6 +138,8 @@ def test_the_lines_of_octave_in_the_docs_do_what_they_say(tmp_path, monkeypatch)
     reader, every = Reader(document), list(blocks(document))
     reader.python(next(block for block in every if block.language == "python"), "")
     lines = next(block.text for block in every if block.language == "matlab")
+    if octave("disp(numel(available_graphics_toolkits))", tmp_path) == ["0"]:
+        pytest.skip("Octave can't plot: apt-get install gnuplot-nox")
     hidden = "set(0, 'defaultfigurevisible', 'off')\n"
     code = hidden + lines + "\nprintf('%.17g\\n', first), size(get(gca, 'children'))"
     text = "\n".join(octave(code, tmp_path))

@@ -517,6 +517,7 @@ def test_where_nothing_can_be_written_the_run_does_not_begin(tmp_path) -> None:
         mars2d.run(Scenario(), record=tmp_path / "run.mcap")
 
 
+@pytest.mark.slow
 def test_memory_stays_flat_while_a_run_is_logged(tmp_path, child) -> None:
     code = (
         "import sys, mars2d, numpy as np\n"
