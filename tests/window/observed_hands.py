@@ -13,11 +13,7 @@ from mars2d.window.player import LONGEST_GAP
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.window.telling import Teller
-
-
-def ahead(robot):
-    return 0.2, 0.0
-
+from tests.worlds import ahead
 
 SCENARIO = Scenario(
     title="Hands",

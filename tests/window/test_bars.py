@@ -9,14 +9,13 @@ import pytest
 from mars2d.core.usercode import Excerpt
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import FOOTER, TEXT_SIZES, Layout
-from mars2d.output.raster.theme import DARK, LIGHT
+from mars2d.output.raster.theme import LIGHT
 from mars2d.window import keys
 from mars2d.window.help import draw_help
 from mars2d.window.keys import Key
 from tests.window.circling import Circling
-from tests.window.written import Written, painter, pixels
+from tests.window.written import THEMES, Written, painter, pixels
 
-THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
 SIZES = pytest.mark.parametrize(
     "size", [(640, 480), (800, 600), (1280, 720), (1920, 1080), (2560, 1440)]
 )

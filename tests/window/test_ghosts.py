@@ -12,10 +12,7 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.window.ghosts import Marks, ghosts
 from mars2d.window.player import between
 from mars2d.world.timeline import Timeline
-
-
-def straight(robot):
-    return 0.2, 0.0
+from tests.worlds import ahead
 
 
 def run_to(timeline, row):
@@ -24,7 +21,7 @@ def run_to(timeline, row):
     timeline.go(row)
 
 
-def timeline_of(robots=2, law=straight, **changes):
+def timeline_of(robots=2, law=ahead, **changes):
     team = [Robot(controller=law).at(0, 1.5 * i, 0) for i in range(robots)]
     scenario = Scenario(robots=team, sampling_time=0.5, stop_time=500, workspace=None, **changes)
     return Timeline(Experiment(scenario))
