@@ -1,16 +1,20 @@
-"""Other processes in tests: waiting for them, an X server, the environment they get."""
+"""Other processes in tests: command lines, an X server, waiting for what they do."""
 
 from __future__ import annotations
 
+import functools
 import os
 import shutil
 import subprocess
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import pytest
+
+from tests.forking import Nursery
 
 PATIENCE = 120.0
 """Seconds after which a test that waits fails. It only bounds hangs: machines may be busy."""
@@ -35,6 +39,25 @@ def wait_until(condition: Callable[[], Any], process: Any = None) -> Any:
 def bare_environment(**more: str) -> dict[str, str]:
     """Return this environment without a display."""
     return {key: value for key, value in os.environ.items() if key not in HIDDEN} | more
+
+
+@functools.cache
+def _nursery() -> Nursery:
+    """Start the process that command lines are forked from."""
+    return Nursery(dict(os.environ), "mars2d.cli.command_line", "matplotlib.figure")
+
+
+def mars(
+    *arguments: object, cwd: Path | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Run a command line of MARS2D without a display, in a process of its own, to its end."""
+    words = [str(argument) for argument in arguments]
+    folder = Path.cwd() if cwd is None else cwd
+    process = _nursery().fork(
+        "mars2d.cli.command_line", words, bare_environment(**environment), folder
+    )
+    out, errors = process.communicate()
+    return subprocess.CompletedProcess(words, process.wait(PATIENCE), out, errors)
 
 
 @contextmanager

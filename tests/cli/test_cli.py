@@ -1,6 +1,5 @@
 """The command line as a student types it: real processes, their output and exit codes."""
 
-import functools
 import json
 import os
 import subprocess
@@ -13,25 +12,9 @@ import pytest
 import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli import verbs
-from tests.forking import Nursery
-from tests.processes import PATIENCE, bare_environment, wait_until, x_server
+from tests.processes import PATIENCE, mars, wait_until, x_server
 
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
-
-
-@functools.cache
-def nursery():
-    """Start the process that command lines are forked from."""
-    return Nursery(dict(os.environ), "mars2d.cli.command_line", "matplotlib.figure")
-
-
-def mars(*arguments, cwd, **environment):
-    """Run the command line without a display and return the finished process."""
-    process = nursery().fork(
-        "mars2d.cli.command_line", [*map(str, arguments)], bare_environment(**environment), cwd
-    )
-    out, errors = process.communicate()
-    return subprocess.CompletedProcess(arguments, process.wait(PATIENCE), out, errors)
 
 
 @pytest.mark.slow

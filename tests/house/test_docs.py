@@ -178,10 +178,10 @@ class Reader:
 SLOW = {
     "README", "clusters", "commands", "communication", "contact", "figures", "information",
     "own_sensor_and_addon", "sensing", "speed", "studies", "tournaments",
-    "circular_motion", "coverage_circle", "coverage_square", "pursuit_corners", "pursuit_voronoi",
-    "rendezvous",
+    "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "herding",
+    "leader_following", "path_planning", "pursuit_corners", "pursuit_voronoi", "rendezvous",
 }  # fmt: skip
-"""Documents that take more than three seconds."""
+"""Documents that take seconds."""
 
 
 @pytest.mark.parametrize(
@@ -318,6 +318,7 @@ LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi
 """Experiments whose model answers take seconds: `pytest -m soak`."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "page",
     [

@@ -194,6 +194,7 @@ def test_importing_the_package_has_no_side_effects(child, tmp_path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_importing_mars2d_takes_less_than_one_and_a_half_times_numpy_and_pymunk(
     child, tmp_path
 ) -> None:

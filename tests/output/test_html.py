@@ -89,6 +89,7 @@ def test_ten_robots_with_scanners_fit_into_two_megabytes_after_2000_steps(crowde
     assert len(columns["messages:time"]) > 0
 
 
+@pytest.mark.slow
 def test_positions_are_within_micrometres_and_headings_within_a_hundredth_of_a_degree(
     crowded, crowded_page
 ):

@@ -399,6 +399,7 @@ def test_a_robot_never_sees_itself(kind, offset, mount):
 # -- bodies that have moved ---------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
 def test_rays_meet_bodies_where_they_are_at_that_instant(physics):
     rng = np.random.default_rng(7)

@@ -31,7 +31,7 @@ from mars2d.reports.paper.result import Picture, Result
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
-from tests.processes import PATIENCE, wait_until
+from tests.processes import PATIENCE, mars, wait_until
 
 FAILS = """
 from mars2d import Prediction, Scenario
@@ -88,17 +88,9 @@ def paper(tmp_path, monkeypatch, capsys):
 def cheap(tmp_path_factory):
     """The page of Figure 2 alone, made by the command as it is typed."""
     folder = tmp_path_factory.mktemp("cheap") / "out"
-    done = command("paper", folder, "--only", "2")
+    done = mars("paper", folder, "--only", "2")
     assert (done.returncode, done.stderr) == (0, "")
     return folder
-
-
-def command(*arguments, timeout=300):
-    return subprocess.run(
-        [sys.executable, "-m", "mars2d", *map(str, arguments)],
-        capture_output=True, text=True, encoding="utf-8", timeout=timeout, check=False,
-        env=os.environ | {"PYTHONIOENCODING": "utf-8"},
-    )  # fmt: skip
 
 
 # -- a page, as a browser and a screen reader find it -----------------------------------------
@@ -205,6 +197,7 @@ def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap):
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, monkeypatch):
     (made,) = check_numbers(cheap).values()
     words = shlex.split(made["pictures"][0]["command"])
@@ -217,7 +210,7 @@ def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, 
 
 @pytest.mark.soak
 def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
-    done = command("paper", tmp_path / "out")
+    done = mars("paper", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
     folder, every = tmp_path / "out", list(range(2, 10))
     found = check_page(folder, every)
@@ -277,6 +270,7 @@ def test_the_index_of_the_experiments_states_each_ones_setting_and_figure():
 # -- the folder -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_seed_is_that_of_the_runs(paper):
     code, _, _ = paper("out", "--only", "2", "--seed", "7")
     assert code == 0
@@ -522,6 +516,7 @@ def test_formulas_are_set_with_greek_letters_subscripts_and_a_minus(text, html):
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="needs chromium")
 @pytest.mark.parametrize("width", [1280, 400])
 def test_a_browser_shows_the_page_with_its_pictures(cheap, tmp_path, width):

@@ -187,6 +187,7 @@ def predicted(rims, semiaxis, drift, start=0.0):
     return covariance
 
 
+@pytest.mark.slow
 def test_on_a_straight_line_the_covariance_is_that_of_theory():
     drift, b, length, steps = 1e-3, 0.2, 5.0, 100  # so small that the first order is all
     found, truth = estimates([(0.5, 0)] * steps, drift)

@@ -960,6 +960,7 @@ ADDONS_NEED = {
 """What parts of MARS2D's own need."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(members("sensors")))
 def test_the_sensors_of_mars2d_are_sound(name):
     check_sensor(members("sensors")[name](**SENSORS_NEED.get(name, {})))
@@ -983,6 +984,7 @@ LONG = {
 """Examples whose trial takes a second and more: `pytest -m soak`."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [pytest.param(n, marks=[pytest.mark.soak] if n in LONG else []) for n in sorted(examples())],

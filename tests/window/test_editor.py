@@ -16,7 +16,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import keys
-from tests.processes import PATIENCE, bare_environment, wait_until
+from tests.processes import PATIENCE, bare_environment, mars, wait_until
 from tests.window.person import Driver, compare, differing, needs_screen
 
 
@@ -508,11 +508,8 @@ def test_a_room_with_two_robots_is_drawn_saved_and_run(open_editor, tmp_path):
     hands.until(lambda s: len(s["robots"]) == 2 and s["fault"] == "")
     hands.press("ctrl+s", "Return")
     hands.until(lambda s: s["notice"] == "Saved scenario.toml")
-    command = [sys.executable, "-m", "mars2d", "run", "scenario.toml", "--headless"]
-    done = subprocess.run(
-        [*command, "--stop-time", "5", "--json"],
-        cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE, check=False,
-    )  # fmt: skip
+    run = ["run", "scenario.toml", "--headless", "--stop-time", "5", "--json"]
+    done = mars(*run, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["ticks"] == 50
     scenario = open_experiment(tmp_path / "scenario.toml").scenario
@@ -700,9 +697,9 @@ def test_the_command_draws_a_new_file(screen, tmp_path):
     ],
 )
 def test_what_can_not_be_edited_is_said_in_one_line(tmp_path, arguments, words):
-    process = edit(tmp_path, *arguments)
-    _, said = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 2
+    done = mars("edit", *arguments, cwd=tmp_path)
+    said = done.stderr
+    assert done.returncode == 2
     assert words in said
     assert len(said.splitlines()) == 1
 

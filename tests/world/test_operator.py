@@ -225,6 +225,7 @@ def test_a_spring_gives_way_as_far_as_the_hand_is_strong():
     assert path[-1, 0] == pytest.approx(0.5 + 10.0 / 20.0, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(reason_without()), reason="there is no kernel")
 def test_kernel_and_plain_engine_give_the_same_bits():
     code = "from tests.world.test_operator import digest_of_a_crowd\nprint(digest_of_a_crowd())"

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 
 import pytest
 
@@ -12,6 +10,7 @@ import mars2d
 from mars2d import InputError, Scenario
 from mars2d.addons import Map
 from mars2d.scenario.experiment import open_experiment
+from tests.processes import mars
 
 SQUARE = "LINESTRING (0 0, 6 0, 6 4, 0 4, 0 0)"
 
@@ -186,13 +185,6 @@ def test_a_record_keeps_the_walls_not_the_file(folder):
 
 
 # -- the command line --------------------------------------------------------------------------
-
-
-def mars(*words):
-    return subprocess.run(
-        [sys.executable, "-m", "mars2d", *words],
-        capture_output=True, text=True, check=False, timeout=120,
-    )  # fmt: skip
 
 
 @pytest.mark.slow
