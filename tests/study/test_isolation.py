@@ -765,6 +765,7 @@ with Guard(scenario, laws, 1, Limits(tick=100)) as guard:
 @needs_proc
 def test_ctrl_c_ends_the_match_and_its_laws(tmp_path) -> None:
     text = "def control(robot):\n    while True: pass\n"
+    played(pair().replace(stop_time=0.2), {"good": (law(tmp_path, GOOD, "good.py"), [1])})
     before, others = held(), descendants()
     guard = Guard(pair(), {"a": (law(tmp_path, text), [0])}, 1, Limits(tick=100))
 
