@@ -33,7 +33,7 @@ from mutmut.mutation import file_mutation
 TARGETS = ("core/plane.py", "bodies/drives/*.py", "bodies/team.py", "sensors/*.py", "world/loop.py")
 LEFT_OUT = ("sensors/error_model.py", "sensors/sensing.py")
 TESTS = (
-    "geometry/test_plane", "bodies/test_drives", "sensors/test_sensing", "sensors/test_sensors",
+    "core/test_plane", "bodies/test_drives", "sensors/test_sensing", "sensors/test_sensors",
     "sensors/test_sensors_bearing", "sensors/test_sensors_motion", "sensors/test_sensors_rays",
     "addons/test_floor_addon", "world/test_world", "world/test_session", "output/formats/test_mcap",
 )  # fmt: skip
