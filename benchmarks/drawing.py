@@ -56,9 +56,8 @@ from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame
 from mars2d.reports.bench.scenes import Turns, s2
 from mars2d.sensors import RangeFinder
-from mars2d.window.display import be_quick
+from mars2d.window.display import Preferences, be_quick
 from mars2d.window.player import between
-from mars2d.window.preferences import Preferences
 from mars2d.window.window import Window
 
 SIZE = (1280, 720)

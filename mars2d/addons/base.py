@@ -53,6 +53,8 @@ class Addon(Stateful):
     )  # fmt: skip
     only_one: ClassVar[str] = ""
     """Why a scenario has no two of them, as "robots talk over one"; "": it may have several."""
+    carries_messages: ClassVar[bool] = False
+    """Whether robots talk over it: the inspector then shows their inboxes."""
 
     rng: ClassVar[np.random.Generator]
     """Its own random stream, on the copy that a world works on."""
@@ -85,6 +87,10 @@ class Addon(Stateful):
     def beacons(self) -> Mapping[str, Point]:
         """Return where beacons are now, by name, for the sensor Beacon; here, none."""
         return {}
+
+    def named_points(self, frame: Frame) -> list[tuple[str, Point]]:  # noqa: ARG002
+        """Return points with their names, which the window shows under the pointer; here, none."""
+        return []
 
     def ground(self, point: Point) -> Color | None:  # noqa: ARG002
         """Return the colour of the floor at a point, red, green and blue from 0 to 1.

@@ -32,6 +32,7 @@ class Communication(Addon):
 
     only_one = "robots talk over one"
     acts = True
+    carries_messages = True
 
     range: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,

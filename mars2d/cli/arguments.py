@@ -17,7 +17,7 @@ from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.options import parse_setting
 from mars2d.study.work import cluster, worker_count
-from mars2d.window.preferences import Preferences
+from mars2d.window.display import Preferences
 from mars2d.world.teleop import robot_of
 
 __all__ = [

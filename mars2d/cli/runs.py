@@ -12,7 +12,7 @@ from mars2d.core.progress import Progress
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, examples
 from mars2d.scenario.prediction import Prediction, table
-from mars2d.window.preferences import Preferences
+from mars2d.window.display import Preferences
 from mars2d.world.loop import simulate
 from mars2d.world.world import Watcher, World
 

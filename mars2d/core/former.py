@@ -52,11 +52,12 @@ NOW = {
     "view": "window",
     "view.editor": "window.editor",
     "view.ghosts": "window.ghosts",
-    "view.hand": "window.hand",
+    "view.hand": "window.grab",
     "view.inspector": "window.inspector",
     "view.layout": "output.raster.layout",
     "view.painter": "output.raster.painter",
     "view.picture": "output.raster.picture",
+    "window.hand": "window.grab",
 }
 """The documented modules of earlier versions, and their present names."""
 

@@ -1,4 +1,4 @@
-"""Clusters: many machines that do tasks together, by Dask."""
+"""Clusters: many machines that share the tasks, connected by Dask."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from contextlib import contextmanager
 from typing import Any
 
 from mars2d.core.errors import InputError, MissingExtraError
-from mars2d.study.attempt import one_line
+from mars2d.study.workers import reason
 
 __all__ = ["cluster"]
 
-PATIENCE = 5.0
+ANSWER_TIMEOUT = 5.0
 """How long a scheduler may take to answer, seconds."""
 
-ALIKE = ("mars2d", "pymunk", "numpy")
-"""What must be of one version everywhere, so that a run comes to the same wherever it is done."""
+SAME_VERSION = ("mars2d", "pymunk", "numpy")
+"""The packages that must have the same version everywhere, so that runs give the same results."""
 
 LOGGERS = ("distributed", "distributed.client", "tornado.application")
 
 
 @contextmanager
 def cluster(address: str) -> Iterator[Executor]:
-    """Connect to a Dask cluster by the address of its scheduler, as ``tcp://10.0.0.5:8786``.
+    """Connect to a Dask cluster by the address of its scheduler, such as ``tcp://10.0.0.5:8786``.
 
-    Yields an executor for `each_done`. What the cluster runs when this ends is forgotten. Raises
-    MissingExtraError without Dask, InputError where no scheduler answers within `PATIENCE`, and
-    where a worker has another version of Python or of what is in `ALIKE`. Warns if there is no
-    worker yet: tasks wait for one.
+    Yield an executor for `each_done`. Tasks that still run when this ends are forgotten. Raises
+    MissingExtraError without Dask, and InputError if no scheduler answers within `ANSWER_TIMEOUT`,
+    or if a worker has another version of Python or of a package in `SAME_VERSION`. Warns if there
+    is no worker yet: tasks wait for one.
     """
     try:
         from distributed import Client
@@ -41,22 +41,22 @@ def cluster(address: str) -> Iterator[Executor]:
         ) from None
     with _without_log():
         _check_scheduler(address)
-        client = Client(address, timeout=PATIENCE, set_as_default=False)
+        client = Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False)
         try:
-            _check_workers(address, client.get_versions(packages=ALIKE))
+            _check_workers(address, client.get_versions(packages=SAME_VERSION))
             yield client.get_executor(pure=False)
         finally:
-            client.close(timeout=PATIENCE)
+            client.close(timeout=ANSWER_TIMEOUT)
 
 
 def _check_scheduler(address: str) -> None:
-    """Raise InputError unless a scheduler is there."""
+    """Raise InputError unless a scheduler answers."""
     with ThreadPoolExecutor(1) as thread:  # a notebook has an event loop in this one
         try:
             kind = thread.submit(asyncio.run, _kind(address)).result()
         except Exception as error:
             raise InputError(
-                f"{address}: no Dask scheduler answers there ({one_line(error)}): expected its "
+                f"{address}: no Dask scheduler answers there ({reason(error)}): expected its "
                 "address, as tcp://10.0.0.5:8786, which `dask scheduler` prints"
             ) from error
     if kind != "Scheduler":
@@ -64,18 +64,18 @@ def _check_scheduler(address: str) -> None:
 
 
 async def _kind(address: str) -> str:
-    """Return what answers at an address: a Scheduler, a Worker, a Nanny."""
+    """Return the kind of process that answers at an address: Scheduler, Worker or Nanny."""
     from distributed import Security
     from distributed.core import rpc
 
     arguments = Security().get_connection_args("client")
-    async with rpc(address, connection_args=arguments, timeout=PATIENCE) as there:
-        identity = await asyncio.wait_for(there.identity(), PATIENCE)
+    async with rpc(address, connection_args=arguments, timeout=ANSWER_TIMEOUT) as there:
+        identity = await asyncio.wait_for(there.identity(), ANSWER_TIMEOUT)
     return str(identity["type"])
 
 
 def _check_workers(address: str, versions: dict[str, Any]) -> None:
-    """Raise InputError where a worker differs from this process; warn where there is none."""
+    """Raise InputError if a worker differs from this process; warn if there is no worker."""
     here = _compared(versions["client"])
     for worker, found in versions["workers"].items():
         for name, there in _compared(found).items():
@@ -91,12 +91,12 @@ def _check_workers(address: str, versions: dict[str, Any]) -> None:
 def _compared(versions: dict[str, Any]) -> dict[str, str | None]:
     packages = versions["packages"]
     python = ".".join(str(packages["python"]).split(".")[:2])
-    return {"Python": python} | {name: packages[name] for name in ALIKE}
+    return {"Python": python} | {name: packages[name] for name in SAME_VERSION}
 
 
 @contextmanager
 def _without_log() -> Iterator[None]:
-    """Keep from the terminal what Dask tells itself: what matters is raised."""
+    """Keep Dask's log off the terminal: what matters is raised."""
     loggers = [logging.getLogger(name) for name in LOGGERS]
     before = [logger.level for logger in loggers]
     for logger in loggers:

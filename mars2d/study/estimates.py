@@ -1,4 +1,4 @@
-"""Estimates: which means and shares the measures of a table come to."""
+"""Estimates: the means and shares that summarize the measures of a table."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ __all__ = ["Estimate", "estimates"]
 Float = NDArray[np.float64]
 Value = float | str | None
 
-MOST_WORDS = 4
-"""So many words of a measure have a share each; others, seen less often, have one together."""
+MAX_WORDS = 4
+"""How many words of a measure have a share each; the others, less frequent, share one."""
 
 MEASURED = {"capture_time": "caught"}
-"""What is said of runs in which a measure is a number, where there is a word for it."""
+"""The word for runs in which a measure is a number, if there is one."""
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """One number that runs of a point are to tell: the mean of a measure, or a share of the runs.
+    """A number to be estimated from a point's runs: the mean of a measure, or a share of runs.
 
-    label: what it is called. share: whether it is a share of all runs, from 0 to 1. tells: what a
-    run's value counts as; nan if it is left out. some: whether it is the mean of only some of the
-    runs, since others have no number: beside it there is an estimate of their share.
+    label: its name. share: whether it is a share of all runs, from 0 to 1. tells: makes a number of
+    a run's value; nan leaves the run out. some: whether it is the mean of only some runs, since
+    others have no number; then another estimate is the share of those runs.
     """
 
     measure: str
@@ -52,34 +52,34 @@ class Estimate:
     some: bool = False
 
     def values(self, results: Sequence[Result]) -> Float:
-        """Return what runs count as, (k,), without those that failed."""
+        """Return the numbers of the runs that did not fail, (k,)."""
         return np.array(list(self.by_seed(results).values()), dtype=float)
 
     def by_seed(self, results: Sequence[Result]) -> dict[int, float]:
-        """Return what runs count as by their seeds, without those that failed."""
+        """Return the numbers of the runs that did not fail, by seed."""
         return {r.seed: self.tells(r.measures.get(self.measure)) for r in results if not r.error}
 
     def interval(self, values: Float, confidence: float = 0.95) -> Interval:
-        """Return the estimate of values (k,): Student's interval of a mean, Wilson's of a share."""
+        """Estimate from values (k,): Student's interval for a mean, Wilson's for a share."""
         return (shared if self.share else interval)(values, confidence)
 
     def difference(self, a: Float, b: Float, confidence: float = 0.95) -> Interval:
-        """Return by how much `a` is more than `b`, values of the same seeds in turn, (k,) each."""
+        """Return the difference a - b, of values of the same seeds in order, (k,) each."""
         return (paired_shares if self.share else paired)(a, b, confidence)
 
     def apart(self, a: Float, b: Float, confidence: float = 0.95) -> Interval:
-        """Return by how much `a` (k,) is more than `b` (m,), of whatever seeds."""
+        """Return the difference a - b of values (k,) and (m,), whatever their seeds."""
         return (unpaired_shares if self.share else unpaired)(a, b, confidence)
 
 
 def estimates(table: Table, *, both: bool = True) -> list[Estimate]:
-    """Return what the measures of a table come to.
+    """Return the estimates for the measures of a table.
 
-    both: whether of two shares that make up the whole the second is there as well.
+    both: whether to include the second of two shares that add up to 1.
 
-    Numbers have a mean; truths, words, and whether there is a number at all, have shares. A mean of
-    those runs alone that have a number misleads where others have none, such as a time to capture
-    where somebody escaped: so their share follows it.
+    Numbers have a mean; truth values, words and the presence of a number have shares. The mean over
+    only those runs that have a number is misleading by itself (a capture time, if some evaders
+    escaped), so the share of these runs follows it.
     """
     sound = [result for result in table.results if not result.error]
     return [
@@ -96,14 +96,14 @@ def _of(measure: str, values: list[Value], *, both: bool) -> list[Estimate]:
     words = Counter(value for value in values if isinstance(value, str))
     some = len(numbers) < len(values)
     truths = measure not in BUILT_IN and all(isinstance(v, int) and v in (0, 1) for v in numbers)
-    if numbers and truths:  # of those that are built in, none is
+    if numbers and truths:  # no built-in measure is
         found.append(Estimate(measure, f"{measure} = 1", "", True, _number, some))
     elif numbers or not words:
         found.append(Estimate(measure, measure, unit, False, _number, some))
     if (numbers or not words) and some:
         label = MEASURED.get(measure, f"{measure} measured")
         found.append(Estimate(measure, label, "", True, lambda v: float(_is_number(v))))
-    kept = [word for word, _ in words.most_common(MOST_WORDS)]
+    kept = [word for word, _ in words.most_common(MAX_WORDS)]
     found += [_share_of(measure, word, {word}) for word in kept]
     if len(words) > len(kept):
         found.append(_share_of(measure, "any other", {*words} - {*kept}))

@@ -1,4 +1,4 @@
-"""Figures of studies: measures over a setting, each mean with its interval, each run a dot."""
+"""Figures of studies: measures over a setting, with means, intervals and a dot for each run."""
 
 from __future__ import annotations
 
@@ -41,15 +41,15 @@ __all__ = ["plot_study", "save_study_figure"]
 
 Float = NDArray[np.float64]
 
-MOST_DOTS = 400
-"""So many runs a point shows as dots at most; of more, every k-th."""
+MAX_DOTS = 400
+"""How many runs of a point are shown as dots, at most; of more runs, every k-th is shown."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
-SIZE = 0.6
-"""Of a marker, in heights of small text."""
+MARKER_SIZE = 0.6
+"""The size of a marker, in heights of small text."""
 
-HEIGHT = 1.5
+PANEL_HEIGHT = 1.5
 """The height of a panel, in heights of a panel over time."""
 
 
@@ -63,11 +63,11 @@ def plot_study(
 ) -> list[Axes]:
     """Draw the measures of a study over a setting, one panel a mean or share; return the axes.
 
-    Means and shares have their intervals, of `confidence`; each run is a faint dot. The mean of
-    some runs alone, since others have no number, is hollow, and the panel below shows their share.
+    Means and shares have intervals of the given confidence, and each run is a faint dot. A mean of
+    only some runs, because others have no number, is hollow; the panel below shows their share.
     x: the setting along the axis, by default the first with several numbers; each combination of
     the others is a line. axes: one for each panel, row by row; by default those of a new figure.
-    style: as in `Record.plot`. Raises InputError where there is nothing to draw, or too much.
+    style: as in `Record.plot`. Raises InputError if there is nothing to draw, or too much.
     """
     look, confidence = style_of(style), confident(confidence)
     shown = estimates(table, both=False)
@@ -107,8 +107,8 @@ def save_study_figure(
 ) -> Path:
     """Save the figure of `plot_study` as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
-    The same table gives the same bytes. Raises InputError as `plot_study`, for another suffix, and
-    where it can't be written.
+    The same table gives the same bytes. Raises InputError as `plot_study` does, for any other
+    suffix, and if the file can't be written.
     """
     look = style_of(style)
 
@@ -124,7 +124,7 @@ def save_study_figure(
 def _grid(
     axes: Sequence[Axes] | None, shown: Sequence[Estimate], wide: int, look: Style
 ) -> NDArray[Any]:
-    """Return the axes of panels, (estimates, columns): those given, or those of a new figure."""
+    """Return the panels' axes, (estimates, columns): those given, or those of a new figure."""
     tall = len(shown)
     if axes is not None:
         given = np.ravel(np.asarray(axes, dtype=object))
@@ -137,15 +137,15 @@ def _grid(
             raise InputError(f"axes: {len(given)} of them, for {panels}: one for each")
         return given.reshape(tall, wide)
     width = (look.single if wide == 1 else look.full) or (7.0 if wide == 1 else 2.5 * wide + 2.5)
-    height = tall * HEIGHT * look.panel + 0.09 * look.label
+    height = tall * PANEL_HEIGHT * look.panel + 0.09 * look.label
     figure = new_figure(*(look.page or (width, height)))
     return figure.subplots(tall, wide, sharex=True, sharey="row", squeeze=False)
 
 
 def _above(grid: NDArray[Any], *, own: bool) -> Axes:
-    """Return the axes above which title and legend stand: of panels side by side, as wide as all.
+    """Return the axes above which title and legend stand; they span panels side by side.
 
-    Those of panels that were given are the first alone: what is above the others is not ours.
+    If the axes were given, return the first of them, since the space above others is not ours.
     """
     first: Axes = grid[0, 0]
     if grid.shape[1] == 1 or not own:
@@ -165,7 +165,7 @@ def _draw(
     look: Style,
     confidence: float,
 ) -> None:
-    """Draw an estimate into its panels, which share their limits."""
+    """Draw an estimate into its panels, which share their vertical limits."""
     points, spans = table.points(), [np.empty(0)]
     for ax, (_, lines) in zip(row, layout.columns, strict=True):
         for name, line in lines.items():
@@ -188,10 +188,10 @@ def _draw(
 
 
 def _dots(ax: Axes, places: Float, runs: Sequence[Float], entry: Entry, look: Style) -> Float:
-    """Draw each run as a dot, and return their values."""
+    """Draw each run as a dot, and return the runs' values."""
     for place, values in zip(places, runs, strict=True):
         kept = values[np.isfinite(values)]
-        kept = kept[:: -(-len(kept) // MOST_DOTS) or 1]
+        kept = kept[:: -(-len(kept) // MAX_DOTS) or 1]
         ax.plot(
             np.full(len(kept), place), kept, linestyle="none", marker="o", color=entry.color,
             markersize=0.35 * look.small, markeredgewidth=0, alpha=0.22, zorder=2.2,
@@ -232,7 +232,7 @@ def _means(
         hollow = estimate.some and each.count < len(values)
         ax.plot(
             [place], [value], linestyle="none", marker=entry.marker, color=entry.color,
-            markerfacecolor="white" if hollow else entry.color, markersize=SIZE * look.small,
+            markerfacecolor="white" if hollow else entry.color, markersize=MARKER_SIZE * look.small,
             markeredgewidth=entry.width, zorder=3.2, clip_on=False,
         )  # fmt: skip
     return np.concatenate([mean, low, high])
@@ -274,7 +274,7 @@ def _dress(ax: Axes, layout: Layout, look: Style) -> None:
 
 
 def _name_axis(ax: Axes, table: Table, layout: Layout, column: int, look: Style) -> None:
-    """Say below a panel what its axis is, and what it differs in from those beside it."""
+    """Label a panel's axis, and below it the value in which the panel differs from others."""
     name = table.settings[layout.axis] if layout.axis is not None else "all runs"
     title = layout.columns[column][0]
     text = "\n".join(filter(None, [name, title]))
@@ -285,7 +285,7 @@ def _name_axis(ax: Axes, table: Table, layout: Layout, column: int, look: Style)
 
 
 def _entry(layout: Layout, name: str, look: Style) -> Entry:
-    """Return how a line looks: colour, line style and marker, any of which tells it apart."""
+    """Return a line's colour, line style and marker, each of which identifies it."""
     index = layout.lines.index(name)
     color, dash = look.curve(index)
     if not look.greys:
@@ -294,7 +294,7 @@ def _entry(layout: Layout, name: str, look: Style) -> Entry:
 
 
 def _entries(table: Table, shown: Sequence[Estimate], layout: Layout, look: Style) -> list[Entry]:
-    """Return what the legend names: lines, if there are several, and what hollow means."""
+    """Return the entries of the legend: several lines, and the meaning of hollow markers."""
     entries = []
     if len(layout.lines) > 1:
         entries = [_entry(layout, name, look) for name in layout.lines]

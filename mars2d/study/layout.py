@@ -17,22 +17,22 @@ __all__ = ["Layout", "layout_of"]
 
 Float = NDArray[np.float64]
 
-MOST_LINES, MOST_COLUMNS = 8, 6
-"""So many lines a panel has at most, and so many panels stand side by side."""
+MAX_LINES, MAX_COLUMNS = 8, 6
+"""How many lines a panel may have, and how many panels may stand side by side."""
 
-DODGE, SPREAD = 0.024, 0.5
-"""How far apart lines are at the same value, so that no interval covers another: as a share of the
-axis, and all of them at most as a share of the gap between two values."""
+DODGE, MAX_SPREAD = 0.024, 0.5
+"""How far lines are moved apart at the same value, so that no interval covers another: the distance
+of two as a share of the axis, and that of all, at most, as a share of the gap between values."""
 
 Line = tuple[Point, ...]
 
 
 @dataclass(frozen=True)
 class Layout:
-    """What goes where in the figure of a study.
+    """The places of points in the figure of a study.
 
-    axis: the place in a point of the setting along the axis, or None where none varies; values:
-    what it has. columns: panels side by side, each with its title and its lines by their names.
+    axis: the place in a point of the setting along the axis, or None if none varies. values: those
+    of that setting. columns: panels side by side, each a title and its lines by name.
     """
 
     axis: int | None
@@ -46,12 +46,12 @@ class Layout:
 
     @property
     def numeric(self) -> bool:
-        """Whether the axis is one of numbers; else one of words, evenly spaced."""
+        """Whether the axis shows numbers; otherwise it shows words, evenly spaced."""
         return self.axis is not None and all(map(_is_number, self.values))
 
     @property
     def logarithmic(self) -> bool:
-        """Whether the numbers are more evenly spaced by their ratios, as 4, 8, 16."""
+        """Whether the numbers are more evenly spaced on a logarithmic scale, such as 4, 8, 16."""
         if not self.numeric or len(self.values) < 3 or min(self.values) <= 0:
             return False
         steps = [np.diff(np.sort(f(np.array(self.values, dtype=float)))) for f in (_same, np.log)]
@@ -59,18 +59,18 @@ class Layout:
         return even_ratio < 0.9 * even
 
     def scaled(self) -> Float:
-        """Return where the values lie along the axis, (k,), on a scale that is even."""
+        """Return the positions of the values along the axis, (k,), on a linear scale."""
         if not self.numeric:
             return np.arange(max(1, len(self.values)), dtype=float)
         values = np.array(self.values, dtype=float)
         return np.log10(values) if self.logarithmic else values
 
     def place(self, point: Point, line: str) -> float:
-        """Return where a point of a line is drawn: at its value, but for the dodge."""
+        """Return where a point of a line is drawn: at its value, moved by the line's dodge."""
         scaled, count = self.scaled(), len(self.lines)
         k = self.values.index(point[self.axis]) if self.axis is not None else 0
         gap = float(np.diff(np.sort(scaled)).min()) if len(scaled) > 1 else 1.0
-        dodge = min(SPREAD * gap / count, DODGE * (float(np.ptp(scaled)) or 5.0))
+        dodge = min(MAX_SPREAD * gap / count, DODGE * (float(np.ptp(scaled)) or 5.0))
         moved = scaled[k] + (self.lines.index(line) - (count - 1) / 2) * dodge
         return float(10**moved if self.logarithmic else moved)
 
@@ -83,7 +83,7 @@ class Layout:
         return (10 ** ends[0], 10 ** ends[1]) if self.logarithmic else ends
 
     def roomy(self) -> bool:
-        """Whether each value can have a tick of its own."""
+        """Return whether there is room for a tick at each value."""
         scaled = np.sort(self.scaled())
         gaps = np.diff(scaled) / (float(np.ptp(scaled)) or 1.0)
         return len(scaled) < 2 or (len(scaled) <= 10 and float(gaps.min()) > 0.05)
@@ -97,8 +97,8 @@ def layout_of(settings: Sequence[str], points: Iterable[Point], x: str | None = 
     """Return the layout for the points of a study.
 
     x: the setting along the axis; by default the first with several numbers, else with several
-    values. Raises InputError for another one, and for more points than a figure can show: so it can
-    be asked before hours of runs.
+    values. Raises InputError for an unknown setting, and for more lines than a figure can show; so
+    it can be called before hours of runs.
     """
     every = list(points)
     values = [tuple(dict.fromkeys(column)) for column in zip(*every, strict=True)]
@@ -125,20 +125,20 @@ def layout_of(settings: Sequence[str], points: Iterable[Point], x: str | None = 
 def _beside(
     others: Sequence[int], settings: Sequence[str], values: Sequence[Sequence[Any]]
 ) -> int | None:
-    """Return the setting that panels side by side differ in, if one panel had too many lines."""
-    if prod(len(values[k]) for k in others) <= MOST_LINES:
+    """Return the setting in which panels differ, or None if all lines fit into one panel."""
+    if prod(len(values[k]) for k in others) <= MAX_LINES:
         return None
     fits = [
         k
         for k in others
-        if len(values[k]) <= MOST_COLUMNS
-        and prod(len(values[j]) for j in others if j != k) <= MOST_LINES
+        if len(values[k]) <= MAX_COLUMNS
+        and prod(len(values[j]) for j in others if j != k) <= MAX_LINES
     ]
     if fits:
         return min(fits, key=lambda k: len(values[k]))
     sizes = " x ".join(f"{len(values[k])} of {settings[k]}" for k in others)
     raise InputError(
-        f"figure: {sizes} are too many lines: at most {MOST_LINES} in a panel and {MOST_COLUMNS} "
+        f"figure: {sizes} are too many lines: at most {MAX_LINES} in a panel and {MAX_COLUMNS} "
         f"panels side by side; draw fewer values, or another setting along the axis"
     )
 

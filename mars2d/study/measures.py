@@ -1,4 +1,4 @@
-"""Measures: what a run came to, as one number or one word."""
+"""Measures: a result of a run as one number or one word."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["UNITS", "Measure", "measure_named", "measured", "measures"]
+__all__ = ["UNITS", "Measure", "contests_of", "measure_named", "measured", "measures"]
 
 Measure = Callable[["Record"], Any]
 
-LONGEST = 80
-"""The letters of a word at most: it stands in one cell of a table."""
+MAX_WORD_LENGTH = 80
+"""The longest word, in letters, since it stands in one cell of a table."""
 
 EXPECTED = "expected a number, a word, or None where there is nothing to measure"
 
 
-# -- those built in --------------------------------------------------------------------------------
+# -- built-in measures -----------------------------------------------------------------------------
 
 
 def capture_time(record: Record) -> float | None:
@@ -91,9 +91,14 @@ def _outcome(measure: str, record: Record) -> Outcome:
     return _contest(measure, record.scenario).outcome(record)
 
 
+def contests_of(scenario: Scenario) -> list[Contest]:
+    """Return a scenario's contests: the add-ons that decide who has won."""
+    return [addon for addon in scenario.addons if isinstance(addon, Contest)]
+
+
 def _contest(measure: str, scenario: Scenario) -> Contest:
-    """Return a scenario's contest; raise InputError where there is none, or more than one."""
-    contests = [addon for addon in scenario.addons if isinstance(addon, Contest)]
+    """Return a scenario's contest; raise InputError if it has none or several."""
+    contests = contests_of(scenario)
     if len(contests) != 1:
         found = f"{len(contests)} contests" if contests else "no contest"
         raise InputError(
@@ -120,14 +125,14 @@ UNITS = {
     "least_clearance": "m",
     "final_spread": "m",
 }
-"""The units of those built in that have one."""
+"""The units of the built-in measures that have one."""
 
 
-# -- all of them, by name --------------------------------------------------------------------------
+# -- all measures ----------------------------------------------------------------------------------
 
 
 def measures() -> dict[str, str]:
-    """Return what each measure built in tells, by its name, in one line."""
+    """Return the meaning of each built-in measure, one line, by name."""
     return {
         name: (inspect.getdoc(made) or "").partition("\n")[0] for name, made in BUILT_IN.items()
     }
@@ -136,11 +141,11 @@ def measures() -> dict[str, str]:
 def measure_named(
     name: str, functions: Mapping[str, Callable[..., Any]], scenario: Scenario | None = None
 ) -> Measure:
-    """Return a measure by name: a function of the experiment's file, or else one built in.
+    """Return a measure by name: a function of the experiment's file, or else a built-in one.
 
-    functions: the public functions of the file, by name; one of them is a measure if it can be
-    called with a record alone. scenario: if given, it is asked whether it has what a measure built
-    in needs. Raises InputError, with the nearest name.
+    functions: the public functions of the file, by name; those that can be called with just a
+    record are measures. scenario: if given, it is checked for what a built-in measure needs. Raises
+    InputError, with the nearest name.
     """
     own = functions.get(name)
     if own is not None and name not in ("scenario", "control", "checks"):
@@ -169,11 +174,11 @@ def _takes_one(function: Callable[..., Any]) -> bool:
 
 
 def measured(name: str, function: Measure, record: Record) -> float | str | None:
-    """Return what a measure makes of a record: a number, a word, or None.
+    """Return a measure of a record: a number, a word, or None.
 
-    Truth values count as 1 and 0, NaN as None; an infinity stays one. Raises LawError, which points
-    at file and line, where a function of the user's raises or returns anything else; InputError
-    where one built in can't be had.
+    True and False become 1 and 0, NaN becomes None, and infinities stay. Raises LawError with file
+    and line if a user's function raises or returns anything else, and InputError if a built-in
+    measure does not apply.
     """
     if function is BUILT_IN.get(name):
         return _plain(function(record))
@@ -188,7 +193,7 @@ def measured(name: str, function: Measure, record: Record) -> float | str | None
 
 
 def _plain(value: Any) -> float | str | None:
-    """Return a number as Python's own, or a word; raise InputError for anything else."""
+    """Return a plain Python number, or a word; raise InputError for anything else."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     if value is None:
@@ -204,7 +209,7 @@ def _plain(value: Any) -> float | str | None:
 
 
 def _whole(value: Any) -> float:
-    """Return an integer as it is and anything else as a float, if it is one."""
+    """Return an integer as it is, and any other number as a float."""
     try:
         number = float(value)
     except (OverflowError, TypeError, ValueError):
@@ -213,12 +218,12 @@ def _whole(value: Any) -> float:
 
 
 def _word(value: str) -> str:
-    """Return a word that a table keeps as it is: no number, one line, not too long."""
+    """Return a word on one line; raise InputError if it is a number, empty or too long."""
     word = " ".join(value.split())
     if not word:
         raise InputError("expected a word with letters, or None where there is nothing to measure")
-    if len(word) > LONGEST:
-        raise InputError(f"expected a word of at most {LONGEST} letters")
+    if len(word) > MAX_WORD_LENGTH:
+        raise InputError(f"expected a word of at most {MAX_WORD_LENGTH} letters")
     try:
         float(word)
     except ValueError:

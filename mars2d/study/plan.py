@@ -1,4 +1,4 @@
-"""Plans: which runs a study is made of, each point of a grid of settings with each seed."""
+"""Plans: the runs of a study, which are each point of a grid of settings with each seed."""
 
 from __future__ import annotations
 
@@ -16,29 +16,15 @@ import numpy as np
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.streams import check_seed
-from mars2d.scenario.options import parse_setting
-from mars2d.study.table import key_of
+from mars2d.study.cells import key_of, value_in
 
-__all__ = [
-    "Plan",
-    "cell",
-    "cells_of",
-    "parse_all",
-    "parse_values",
-    "seeds_of",
-    "settings_of",
-    "value_in",
-    "word_cell",
-    "word_in",
-]
+__all__ = ["MAX_RUNS", "Plan", "parse_all", "parse_values", "seeds_of", "settings_of"]
 
-MOST = 1_000_000
-"""The most runs of a study."""
+MAX_RUNS = 1_000_000
+"""The largest number of runs in a study."""
 
 NUMBER = r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*"
 RANGE = re.compile(f"({NUMBER}):({NUMBER}):({NUMBER})")
-FORMULA = re.compile("'*[=+@-]")
-"""How words begin that a spreadsheet takes for a formula, or that have a quote against that."""
 
 BRACKETS = {"(": ")", "[": "]", "{": "}"}
 
@@ -47,34 +33,33 @@ BRACKETS = {"(": ")", "[": "]", "{": "}"}
 class Plan:
     """All runs of a study: each point of the grid of settings with each seed.
 
-    settings: the values of each setting, by name. seeds: the same for each point, so that points
-    differ by their settings alone and can be compared seed by seed. Raises InputError where there
-    are too many.
+    settings: the values of each setting, by name. seeds: the same ones for each point, so that
+    points can be compared seed by seed. Raises InputError for more than `MAX_RUNS` runs.
     """
 
     settings: Mapping[str, tuple[Any, ...]]
     seeds: tuple[int, ...]
 
     def __post_init__(self) -> None:
-        if len(self) > MOST:
+        if len(self) > MAX_RUNS:
             sizes = [f"{len(values)} of {name}" for name, values in self.settings.items()]
             grid = " x ".join([*sizes, f"{len(self.seeds)} seeds"])
-            raise InputError(f"{grid} are {len(self):,} runs: {MOST:,} at most")
+            raise InputError(f"{grid} are {len(self):,} runs: {MAX_RUNS:,} at most")
 
     def __len__(self) -> int:
         return math.prod(map(len, self.settings.values())) * len(self.seeds)
 
     def points(self) -> Iterator[dict[str, Any]]:
-        """Return the options of each point, in the order of the grid: the last setting quickest."""
+        """Yield the options of each point in grid order; the last setting varies fastest."""
         for values in itertools.product(*self.settings.values()):
             yield dict(zip(self.settings, values, strict=True))
 
     def runs(self) -> Iterator[tuple[dict[str, Any], int]]:
-        """Return the options and the seed of each run: point by point, seeds inside."""
+        """Return the options and the seed of each run: all seeds of a point, then the next."""
         return ((point, seed) for point in self.points() for seed in self.seeds)
 
     def probes(self) -> Iterator[dict[str, Any]]:
-        """Return points that have each value of each setting, the others at their first."""
+        """Yield points that cover each value of each setting, others at their first value."""
         first = {name: values[0] for name, values in self.settings.items()}
         yield first
         for name, values in self.settings.items():
@@ -82,13 +67,13 @@ class Plan:
                 yield {**first, name: value}
 
 
-# -- what is given ---------------------------------------------------------------------------------
+# -- settings and seeds that were given ------------------------------------------------------------
 
 
 def settings_of(given: Mapping[str, Any] | None) -> dict[str, tuple[Any, ...]]:
-    """Return the values of each setting: the items of a list, range or array; anything else is one.
+    """Return the values of each setting: the items of a list, range or array, or else one value.
 
-    Raises InputError for values that a table can't hold, for none, and for one that is there twice.
+    Raises InputError for values that a table can't hold, for no values, and for duplicates.
     """
     if given is not None and not isinstance(given, Mapping):
         raise wrong("settings", given, "a dict, as {'gain': [0.1, 0.2]}")
@@ -110,7 +95,7 @@ def _is_array(value: Any) -> bool:
 
 
 def _plain(name: str, value: Any) -> Any:
-    """Return a value as Python's own; raise InputError if a table can't hold it."""
+    """Return a value as a plain Python object; raise InputError if a table can't hold it."""
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, str):
@@ -134,10 +119,10 @@ def _refuse_twice(name: str, values: Sequence[Any]) -> None:
 
 
 def seeds_of(seeds: int | Iterable[int], first: int = 0) -> tuple[int, ...]:
-    """Return the seeds of a study: so many from `first` on, or those that are listed."""
+    """Return the seeds of a study: a number of them from `first` on, or a list as it is."""
     if isinstance(seeds, (int, np.integer)) and not isinstance(seeds, bool):
-        if not 1 <= seeds <= MOST:
-            raise wrong("seeds", seeds, f"how many, 1 to {MOST:,}, or a list of them")
+        if not 1 <= seeds <= MAX_RUNS:
+            raise wrong("seeds", seeds, f"how many, 1 to {MAX_RUNS:,}, or a list of them")
         start = check_seed(first)
         check_seed(start + int(seeds) - 1)
         return tuple(range(start, start + int(seeds)))
@@ -152,8 +137,8 @@ def seeds_of(seeds: int | Iterable[int], first: int = 0) -> tuple[int, ...]:
 def parse_values(text: str) -> tuple[str, list[Any]]:
     """Return (name, values) of ``name=values`` from the command line.
 
-    ``a:b:k`` are k evenly spaced values from a to b, both included; a comma stands between values,
-    but for those in brackets or quotes. Each is a Python literal; anything else is a word.
+    ``a:b:k`` stands for k evenly spaced values from a to b, both included. Commas separate values,
+    except in brackets and quotes. Each value is a Python literal, or else a word.
 
     >>> parse_values("gain=0.1:0.3:3")
     ('gain', [0.1, 0.2, 0.3])
@@ -172,7 +157,7 @@ def parse_values(text: str) -> tuple[str, list[Any]]:
 
 
 def parse_all(texts: Iterable[str]) -> dict[str, Any]:
-    """Return the values of all settings NAME=VALUES, by name, each of which is given once."""
+    """Return the values of all settings NAME=VALUES by name; InputError if one is given twice."""
     settings: dict[str, Any] = {}
     for text in texts:
         name, values = parse_values(text)
@@ -183,7 +168,7 @@ def parse_all(texts: Iterable[str]) -> dict[str, Any]:
 
 
 def _split(text: str, given: str) -> list[str]:
-    """Return the items between the commas that stand in no brackets and no quotes."""
+    """Split text at the commas outside of brackets and quotes."""
     items: list[str] = []
     closing: list[str] = []
     start, quote = 0, ""
@@ -208,16 +193,18 @@ def _split(text: str, given: str) -> list[str]:
 
 
 def _spaced(text: str, first: str, last: str, count: str) -> list[float]:
-    """Return evenly spaced values, each the float that is nearest to the exact one."""
+    """Return evenly spaced values, each the float nearest to the exact value."""
     try:
         number = int(count)
     except ValueError:
         number = 0
-    if not 2 <= number <= MOST:
-        raise InputError(f"--set {text}: expected FIRST:LAST:COUNT with a count of 2 to {MOST:,}")
+    if not 2 <= number <= MAX_RUNS:
+        raise InputError(
+            f"--set {text}: expected FIRST:LAST:COUNT with a count of 2 to {MAX_RUNS:,}"
+        )
     for part in (first, last):
         real(f"--set {text}", float(part))
-    # What is 0 as a float is 0: the exact value of 1e-99999999 would take for ever.
+    # Numbers that are 0 as a float become 0: the exact 1e-99999999 would take for ever.
     start, end = (Fraction(part) if float(part) else Fraction(0) for part in (first, last))
     if start == end:
         raise InputError(f"--set {text}: all {number} values would be the same")
@@ -226,41 +213,3 @@ def _spaced(text: str, first: str, last: str, count: str) -> list[float]:
     if whole and all(value.denominator == 1 for value in values):
         return [int(value) for value in values]
     return [float(value) for value in values]
-
-
-# -- as cells of a table ---------------------------------------------------------------------------
-
-
-def cell(value: Any) -> str:
-    """Return a setting's value as the text of a cell, from which `value_in` makes the same again.
-
-    >>> [cell(value) for value in (0.5, "a.py", "0.5", (1, 2))]
-    ['0.5', 'a.py', "'0.5'", '(1, 2)']
-    """
-    if isinstance(value, str) and value_in(value) == value and value.isprintable():
-        return value
-    return repr(value)
-
-
-def value_in(text: str) -> Any:
-    """Return the value that a cell holds: a Python literal, or else a word."""
-    return parse_setting(f"_={text}")[1]
-
-
-def word_cell(text: str) -> str:
-    """Return words as the text of a cell: a quote before what a spreadsheet takes for a formula.
-
-    >>> [word_cell(text) for text in ("blue", "=1+1", "'=1+1", "-")]
-    ['blue', "'=1+1", "''=1+1", "'-"]
-    """
-    return f"'{text}" if FORMULA.match(text) else text
-
-
-def word_in(text: str) -> str:
-    """Return the words that `word_cell` has made the text of a cell."""
-    return text[1:] if text[:1] == "'" and FORMULA.match(text) else text
-
-
-def cells_of(options: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the cells of a point, by which it is told apart from others."""
-    return tuple(map(cell, options.values()))

@@ -1,4 +1,4 @@
-"""Preparing a study: whether it can be run is found out before the first run."""
+"""Prepare a study: find out whether it can be run before the first run."""
 
 from __future__ import annotations
 
@@ -14,42 +14,49 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mars2d.addons.contest import Contest
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
 from mars2d.scenario.experiment import Experiment, examples
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description
-from mars2d.study.code import Watched, code_of
-from mars2d.study.measures import Measure
-from mars2d.study.one import One, measures_of, name_in, probed
-from mars2d.study.plan import Plan, cells_of
-from mars2d.study.results import FIRST, LAST, SEED
+from mars2d.study.cells import cells_of
+from mars2d.study.job import (
+    CODE_DIGITS,
+    Job,
+    WatchedFiles,
+    code_of,
+    measures_of,
+    name_in,
+    probed,
+)
+from mars2d.study.measures import Measure, contests_of
+from mars2d.study.plan import Plan
+from mars2d.study.table import FIRST, LAST, SEED
 
 __all__ = ["Study", "prepared"]
 
-PROBES = 100
-"""The most points that are opened before the first run, if one of them can be."""
+MAX_PROBES = 100
+"""How many points are opened before the first run, at most, if one of them can be."""
 
-TRIED = 1000
-"""The most points that are opened to find one that can be."""
+MAX_TRIALS = 1000
+"""How many points are opened, at most, to find one that can be."""
 
 
 @dataclass(frozen=True)
 class Study:
     """A study that can be run.
 
-    title: what its table calls the experiment. blank: a run without row, options and seed.
-    troubles: what is wrong at single points, whose runs will fail. codes: of the runs at some
-    points, by the cells of these. watched: the files that were read.
+    title: the experiment's name in the table. blank: a job without row, options and seed.
+    troubles: the errors at single points, whose runs will fail. codes: the code of the runs at some
+    points, by the points' cells. watched: the files that were read.
     """
 
     title: str
     plan: Plan
-    blank: One
+    blank: Job
     troubles: tuple[str, ...]
     codes: dict[tuple[str, ...], str]
-    watched: Watched
+    watched: WatchedFiles
 
     @property
     def measures(self) -> tuple[str, ...]:
@@ -65,10 +72,10 @@ def prepared(
     control: Callable[[Any], Any] | None = None,
     time_limit: float | None = None,
 ) -> Study:
-    """Return the study of a plan, its experiment opened at points that have each value of each.
+    """Return the study of a plan, after opening its experiment at points that cover all values.
 
-    Without measures, these are what makes sense of any run. Raises InputError if no point can be
-    opened, and for names that are not known.
+    Without measures, those that suit any run are taken. Raises InputError if no point can be
+    opened, and for unknown names.
     """
     if time_limit is not None and real("time_limit", time_limit, "a number > 0 [s]") <= 0:
         raise wrong("time_limit", time_limit, "a number > 0 [s]")
@@ -76,8 +83,8 @@ def prepared(
     title, source = _source(experiment)
     code = _code_of(source) if isinstance(source, Scenario) else ""
     folder = os.getcwd()  # noqa: PTH109
-    blank = One(0, source, {}, plan.seeds[0], measures, folder, control, time_limit, code)
-    first, troubles, codes, watched = None, [], {}, Watched()
+    blank = Job(0, source, {}, plan.seeds[0], measures, folder, control, time_limit, code)
+    first, troubles, codes, watched = None, [], {}, WatchedFiles()
     for point, found in _probes(plan, blank):
         if isinstance(found, Mars2dError):
             troubles.append(_trouble(point, found))
@@ -93,11 +100,11 @@ def prepared(
     return Study(title, plan, blank, tuple(troubles), codes, watched)
 
 
-def _probes(plan: Plan, blank: One) -> Iterator[tuple[dict[str, Any], Experiment | Mars2dError]]:
-    """Yield points with their experiments or errors; raise the first error if there is no other."""
+def _probes(plan: Plan, blank: Job) -> Iterator[tuple[dict[str, Any], Experiment | Mars2dError]]:
+    """Yield points with their experiments or errors; raise the first error if all points fail."""
     first: Mars2dError | None = None
     sound = False
-    for point in islice(plan.probes(), PROBES):
+    for point in islice(plan.probes(), MAX_PROBES):
         found = _probed(blank, point)
         if isinstance(found, Mars2dError):
             first = first or found
@@ -106,7 +113,7 @@ def _probes(plan: Plan, blank: One) -> Iterator[tuple[dict[str, Any], Experiment
         yield point, found
     if sound or first is None:
         return
-    for point in islice(plan.points(), TRIED):
+    for point in islice(plan.points(), MAX_TRIALS):
         found = _probed(blank, point)
         if not isinstance(found, Mars2dError):
             yield point, found
@@ -114,7 +121,7 @@ def _probes(plan: Plan, blank: One) -> Iterator[tuple[dict[str, Any], Experiment
     raise first
 
 
-def _probed(blank: One, point: dict[str, Any]) -> Experiment | Mars2dError:
+def _probed(blank: Job, point: dict[str, Any]) -> Experiment | Mars2dError:
     try:
         return probed(dataclasses.replace(blank, options=point))
     except MissingExtraError:
@@ -124,7 +131,7 @@ def _probed(blank: One, point: dict[str, Any]) -> Experiment | Mars2dError:
 
 
 def _trouble(point: dict[str, Any], error: Mars2dError) -> str:
-    """Return what is wrong at a point, with those of its settings that the error does not name."""
+    """Return the error at a point, preceded by those settings that it does not mention."""
     text = str(error)
     named = [f"{name} = {shown(value)}" for name, value in point.items()]
     unsaid = [each for each in named if not re.search(rf"\b{re.escape(each)}", text)]
@@ -132,12 +139,12 @@ def _trouble(point: dict[str, Any], error: Mars2dError) -> str:
 
 
 def _sensible(scenario: Scenario) -> tuple[str, ...]:
-    contests = [addon for addon in scenario.addons if isinstance(addon, Contest)]
-    return (*(["capture_time"] if len(contests) == 1 else []), "end_time", "collisions")
+    capture_time = ["capture_time"] if len(contests_of(scenario)) == 1 else []
+    return (*capture_time, "end_time", "collisions")
 
 
 def _check_columns(plan: Plan, measures: tuple[str | Measure, ...]) -> None:
-    """Refuse names that two columns of the table would have."""
+    """Raise InputError for a name that two columns of the table would have."""
     if SEED in plan.settings:
         raise InputError("setting 'seed': seeds are not a setting; say how many, with --seeds N")
     taken = dict.fromkeys((*FIRST, SEED, *LAST), "a column of each table")
@@ -151,7 +158,7 @@ def _check_columns(plan: Plan, measures: tuple[str | Measure, ...]) -> None:
 
 
 def _source(experiment: str | Path | ModuleType | Scenario) -> tuple[str, str | Scenario]:
-    """Return what a table calls an experiment, and what workers open."""
+    """Return the experiment's name in the table, and the source that workers open."""
     if isinstance(experiment, Scenario):
         return experiment.title or "Scenario", experiment
     if isinstance(experiment, ModuleType):
@@ -173,5 +180,5 @@ def _source(experiment: str | Path | ModuleType | Scenario) -> tuple[str, str | 
 
 
 def _code_of(scenario: Scenario) -> str:
-    """Return the first digits of a hash of a scenario, whose laws count by their names alone."""
-    return hashlib.sha256(repr(from_description(scenario)).encode()).hexdigest()[:8]
+    """Return the first digits of a hash of a scenario; laws count by their names alone."""
+    return hashlib.sha256(repr(from_description(scenario)).encode()).hexdigest()[:CODE_DIGITS]

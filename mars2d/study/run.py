@@ -1,4 +1,4 @@
-"""Running a study: its rows are made, and written as they come."""
+"""Run a study: do its jobs, and write each row as soon as its run is done."""
 
 from __future__ import annotations
 
@@ -13,22 +13,18 @@ from typing import cast
 from mars2d.core.errors import InputError, Mars2dError, nearest
 from mars2d.core.interrupt import noted_interrupts
 from mars2d.core.progress import Progress
-from mars2d.study.code import code_of
-from mars2d.study.one import One, opened, run_one
-from mars2d.study.plan import cell, cells_of
+from mars2d.study.cells import cell, cells_of
+from mars2d.study.job import Job, code_of, opened, run_job
 from mars2d.study.prepare import Study
-from mars2d.study.results import Results, another, save_table
-from mars2d.study.table import Result, Table
+from mars2d.study.results import Results, another
+from mars2d.study.table import Result, Table, save_table
 from mars2d.study.work import Failure, each_done, worker_count
 
-__all__ = ["StudyInterrupted", "run_study"]
-
-Key = tuple[tuple[str, ...], int]
-"""What tells the runs of a study apart: the cells of its settings, and the seed."""
+__all__ = ["CountingBar", "StudyInterrupted", "duration", "run_study"]
 
 
 class StudyInterrupted(KeyboardInterrupt):
-    """Ctrl-C during a study; `table` holds the runs that were done until then."""
+    """Ctrl-C during a study; `table` holds the runs that were done by then."""
 
     def __init__(self, message: str, table: Table) -> None:
         super().__init__(message)
@@ -44,10 +40,10 @@ def run_study(
     retry: bool = False,
     show_progress: bool = True,
 ) -> Table:
-    """Make the rows of a study, but those that its file `out` holds, and return them all in order.
+    """Do the runs of a study that its file `out` does not hold, and return all rows in order.
 
     executor, workers, retry, show_progress: see `mars2d.sweep`. Raises InputError for a file of
-    another study, and where a file of the experiment changes meanwhile; StudyInterrupted.
+    another study, and if a file of the experiment changes meanwhile; StudyInterrupted after Ctrl-C.
     """
     if executor is None:
         worker_count(workers)
@@ -73,7 +69,7 @@ def run_study(
 
 
 def _table(study: Study, rows: dict[int, Result]) -> Table:
-    """Return the table of a study with some of its rows, in order."""
+    """Return a study's table with the given rows, in order."""
     results = tuple(result for _, result in sorted(rows.items()))
     return Table(study.title, tuple(study.plan.settings), study.measures, results)
 
@@ -82,9 +78,9 @@ def _table(study: Study, rows: dict[int, Result]) -> Table:
 def _kept(
     study: Study, out: Path | None, retry: bool
 ) -> Iterator[tuple[dict[int, Result], Callable[[Result], None]]]:
-    """Yield the rows that are there already, by their numbers, and what keeps one more.
+    """Yield the rows that the file holds, by number, and a function that adds a row to it.
 
-    The file has these rows, with these numbers, before one more is added.
+    Before any row is added, the rows in the file get their numbers in this study.
     """
     if out is None:
         yield {}, lambda _: None
@@ -101,7 +97,7 @@ def _kept(
 
 
 def _rows_of(study: Study, known: tuple[Result, ...], out: Path) -> dict[int, Result]:
-    """Return the rows of a file by their numbers in a study; refuse those of another one."""
+    """Return the rows of a file by their numbers in a study; refuse those of another study."""
     places = {
         (cells_of(options), seed): row for row, (options, seed) in enumerate(study.plan.runs(), 1)
     }
@@ -117,7 +113,7 @@ def _rows_of(study: Study, known: tuple[Result, ...], out: Path) -> dict[int, Re
 
 
 def _difference(study: Study, result: Result) -> str:
-    """Return why a row is not of a study: a value or a seed that is not in its plan."""
+    """Say why a row is not of a study: its plan lacks a value or the seed."""
     for name, values in study.plan.settings.items():
         value, known = cell(result.options[name]), [*map(cell, values)]
         if value not in known:
@@ -126,7 +122,7 @@ def _difference(study: Study, result: Result) -> str:
 
 
 def _one_of_each(rows: dict[int, Result]) -> Iterator[int]:
-    """Yield rows in which each code and value is found together."""
+    """Yield few rows that together have each pair of a code and a setting's value."""
     seen: set[tuple[str, str, str]] = set()
     for row, result in sorted(rows.items()):
         pairs = {(result.code, name, cell(value)) for name, value in result.options.items()}
@@ -137,13 +133,13 @@ def _one_of_each(rows: dict[int, Result]) -> Iterator[int]:
 
 
 def _refuse_other_code(study: Study, result: Result, out: Path) -> None:
-    """Refuse a row whose experiment has changed since."""
+    """Raise InputError if the experiment has changed since a row was made."""
     point = cells_of(result.options)
     code = study.codes.get(point)
     if code is None:
-        one = dataclasses.replace(study.blank, options=result.options, seed=result.seed)
+        job = dataclasses.replace(study.blank, options=result.options, seed=result.seed)
         try:
-            code = code_of(opened(one), one.code)
+            code = code_of(opened(job), job.code)
         except Mars2dError:
             code = "none"
         study.codes[point] = code
@@ -155,7 +151,7 @@ def _refuse_other_code(study: Study, result: Result, out: Path) -> None:
 
 
 class _Run:
-    """The rows that a study has by now."""
+    """A study that is running, and the rows that it has so far."""
 
     def __init__(self, study: Study, known: dict[int, Result]) -> None:
         self._study, self._rows = study, known
@@ -167,31 +163,33 @@ class _Run:
     def results(
         self, executor: Executor | None, workers: int | None, show_progress: bool
     ) -> Generator[Result, None, None]:
-        """Make those that are missing; yield each as it comes."""
-        todo = [one for one in self._ones() if one.row not in self._rows]
+        """Do the runs that are missing; yield each result as it comes."""
+        todo = [job for job in self._jobs() if job.row not in self._rows]
         if not todo:
             return
-        progress = _Bar(len(self._study.plan), self._rows) if show_progress else None
+        failed = sum(bool(result.error) for result in self._rows.values())
+        total, done_before = len(self._study.plan), len(self._rows)
+        progress = CountingBar(total, done_before, failed) if show_progress else None
         try:
-            made_by = each_done(run_one, todo, executor, workers)
+            made_by = each_done(run_job, todo, executor, workers)
             with closing(cast("Generator[tuple[int, Result | Failure]]", made_by)) as done:
                 for index, made in done:
                     result = _result(todo[index], made, self._study)
                     self._refuse_changed(result)
                     self._rows[result.row] = result
                     if progress is not None:
-                        progress.add(result)
+                        progress.add(failed=bool(result.error))
                     yield result
         finally:
             if progress is not None:
                 progress.close()
 
-    def _ones(self) -> Iterator[One]:
+    def _jobs(self) -> Iterator[Job]:
         for row, (options, seed) in enumerate(self._study.plan.runs(), 1):
             yield dataclasses.replace(self._study.blank, row=row, options=options, seed=seed)
 
     def _refuse_changed(self, result: Result) -> None:
-        """Refuse a row that was made after a file of the experiment has changed."""
+        """Raise InputError for a row that was made after a file of the experiment had changed."""
         study = self._study
         file = study.watched.changed()
         if file is not None:
@@ -203,43 +201,43 @@ class _Run:
             code = study.codes.setdefault(cells_of(result.options), result.code)
             if code != result.code:
                 raise InputError(
-                    f"row {result.row}: the experiment's files were others where it was run than "
-                    "where other rows of its point were"
+                    f"row {result.row}: the experiment's files differ between the machines that "
+                    "ran the rows of its point"
                 )
 
 
-def _result(one: One, made: Result | Failure, study: Study) -> Result:
+def _result(job: Job, made: Result | Failure, study: Study) -> Result:
     if isinstance(made, Result):
         return made
     nothing = dict.fromkeys(study.measures)
-    return Result(one.row, one.options, one.seed, nothing, " ".join(made.error.split()))
+    return Result(job.row, job.options, job.seed, nothing, " ".join(made.error.split()))
 
 
-class _Bar:
-    """A progress bar that counts runs and failures, and estimates by those that it has seen."""
+class CountingBar:
+    """A progress bar that counts runs and failures, and estimates the time that is left."""
 
-    def __init__(self, total: int, known: dict[int, Result]) -> None:
-        self._bar = Progress(total, "runs")
-        self._total, self._known, self._done = total, len(known), len(known)
-        self._failed = sum(bool(result.error) for result in known.values())
+    def __init__(self, total: int, done: int = 0, failed: int = 0) -> None:
+        """Take the number of all runs, and of those that are done and failed already."""
+        self._bar = Progress(total)
+        self._total, self._before, self._done, self._failed = total, done, done, failed
         self._start = time.monotonic()
 
-    def add(self, result: Result) -> None:
+    def add(self, *, failed: bool = False) -> None:
         """Count one more run."""
         self._done += 1
-        self._failed += bool(result.error)
-        pace = (time.monotonic() - self._start) / (self._done - self._known)
-        failed = f", {self._failed} failed" if self._failed else ""
+        self._failed += failed
+        pace = (time.monotonic() - self._start) / (self._done - self._before)
+        failures = f", {self._failed} failed" if self._failed else ""
         left = duration(pace * (self._total - self._done))
-        self._bar.update(self._done, f"{self._done}/{self._total}{failed}, {left} left")
+        self._bar.update(self._done, f"{self._done}/{self._total}{failures}, {left} left")
 
     def close(self) -> None:
-        """Wipe the bar off the terminal."""
+        """Remove the bar from the terminal."""
         self._bar.close()
 
 
 def duration(seconds: float) -> str:
-    """Return a duration as it is said, in two units at most.
+    """Return a duration as text, in at most two units.
 
     >>> [duration(seconds) for seconds in (8, 150, 9000, 200000)]
     ['8 s', '2 min 30 s', '2 h 30 min', '2 d 7 h']

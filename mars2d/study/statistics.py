@@ -1,8 +1,7 @@
 """Statistics of many runs: intervals, shares, paired differences, and how many seeds are enough.
 
-Runs of different seeds are independent of each other, so the methods for independent observations
-hold. A value that is nan or infinite was not measured: it is left out, and `count` says how many
-are left.
+Runs with different seeds are independent, so methods for independent observations apply. Values
+that are nan or infinite are taken as missing and left out; `count` is the number of the others.
 """
 
 from __future__ import annotations
@@ -31,15 +30,15 @@ __all__ = [
 
 Float = NDArray[np.float64]
 
-MANY = 1_000_000
-"""From so many observations on Student's quantile is that of the normal distribution."""
+NORMAL_FROM = 1_000_000
+"""The number of observations from which on Student's quantile is that of the normal one."""
 
 
 @dataclass(frozen=True)
 class Interval:
-    """A mean, the bounds between which the true one lies, and of how many observations it is.
+    """A mean, its confidence bounds, and the number of observations.
 
-    The bounds are nan where the observations are too few for any.
+    The bounds are nan if there are too few observations.
     """
 
     mean: float
@@ -49,15 +48,15 @@ class Interval:
 
     @property
     def half_width(self) -> float:
-        """Half the distance of the bounds."""
+        """Half the distance between the bounds."""
         return (self.high - self.low) / 2
 
 
 def interval(values: ArrayLike, confidence: float = 0.95) -> Interval:
-    """Return the mean of some values (n,) and Student's interval of it.
+    """Return the mean of values (n,) and its Student interval.
 
-    One value has no bounds; values that are all the same have an interval of no width. It is exact
-    for values that are normally distributed, and near enough for others if they are many.
+    A single value has no bounds, and equal values have an interval of width zero. The interval is
+    exact for normally distributed values, and a good approximation for many others.
     Source: Student, The probable error of a mean, Biometrika 6 (1908).
 
     >>> found = interval([4.0, 5.0, 6.0])
@@ -73,10 +72,10 @@ def interval(values: ArrayLike, confidence: float = 0.95) -> Interval:
 
 
 def proportion(successes: float, count: int, confidence: float = 0.95) -> Interval:
-    """Return the share of successes among `count` runs and Wilson's interval of it, from 0 to 1.
+    """Return the share of successes among `count` runs and its Wilson interval, from 0 to 1.
 
-    It holds for few runs and for shares near 0 and 1, where mean and deviation mislead. Of no runs
-    nothing is known: the share is nan, from 0 to 1.
+    The interval also holds for few runs and for shares near 0 and 1, where mean and deviation
+    mislead. Without any runs the share is nan, with bounds 0 and 1.
     Source: E. B. Wilson, Journal of the American Statistical Association 22 (1927).
 
     >>> found = proportion(0, 10)
@@ -97,11 +96,11 @@ def proportion(successes: float, count: int, confidence: float = 0.95) -> Interv
 
 
 def paired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
-    """Return the mean of a - b and Student's interval of it, where a[k] and b[k] belong together.
+    """Return the mean of a - b and its Student interval, where a[k] and b[k] form a pair.
 
-    a, b: (n,), of runs from the same seeds. Chance that both have in common cancels out, so the
-    interval is narrower than that of `unpaired` where they go up and down together. Pairs of which
-    either is missing are left out: `count` pairs were not. Raises InputError for other shapes.
+    a, b: (n,), of runs from the same seeds. Chance that affects both alike cancels out, so the
+    interval is narrower than that of `unpaired` if a and b are correlated. Pairs with a missing
+    value are left out, and `count` is the number of the others. Raises InputError for other shapes.
     Source: A. M. Law, Simulation Modeling and Analysis, 5th ed. (2015), sections 10.2.1 and 11.2,
     paired-t interval and common random numbers.
     """
@@ -111,9 +110,9 @@ def paired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
 
 
 def unpaired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
-    """Return the difference of the means of a (n,) and b (m,), which need not vary alike.
+    """Return the difference of the means of a (n,) and b (m,), whose variances may differ.
 
-    For runs that do not belong together in pairs. Its count is that of all values.
+    For runs that do not form pairs. The count is that of all values.
     Source: B. L. Welch, Biometrika 34 (1947), degrees of freedom by Satterthwaite (1946).
     """
     confidence = confident(confidence)
@@ -135,10 +134,10 @@ def unpaired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
 
 
 def paired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
-    """Return the share in a less that in b, from -1 to 1, where a[k] and b[k] belong together.
+    """Return the share in a minus that in b, from -1 to 1, where a[k] and b[k] form a pair.
 
-    a, b: (n,) of 1 and 0; nan is left out with its pair. Pairs that are all the same leave room for
-    a difference, as `proportion` does, in place of an interval of no width.
+    a, b: (n,) of 1 and 0; a pair with a nan is left out. Even if all pairs agree, the interval has
+    some width, like that of `proportion`.
     Source: D. G. Bonett, R. M. Price, Journal of Educational and Behavioral Statistics 37 (2012),
     the adjusted Wald interval.
     """
@@ -156,7 +155,7 @@ def paired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Inter
 
 
 def unpaired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
-    """Return the share in a (n,) less that in b (m,), both of 1 and 0, in no pairs.
+    """Return the share in a (n,) minus that in b (m,), both of 1 and 0, without pairs.
 
     Source: R. G. Newcombe, Statistics in Medicine 17 (1998) 873, from two intervals of Wilson's.
     """
@@ -177,11 +176,11 @@ def shared(values: ArrayLike, confidence: float = 0.95) -> Interval:
 
 
 def seeds_needed(values: ArrayLike, half_width: float, confidence: float = 0.95) -> int | None:
-    """Return how many runs give an interval of at most this half width, if they vary as these do.
+    """Return how many runs give an interval of at most this half width, if they vary like these.
 
-    values: (n,) of the runs there are; of fewer than two nothing can be said: None. It is the
-    smallest n with t s / sqrt(n) <= half_width, where Student's t is that of n runs and s the
-    standard deviation of the values: a forecast, as good as s is known.
+    values: (n,) of the runs so far; None is returned for fewer than two. The result is the smallest
+    n with t s / sqrt(n) <= half_width, where Student's t is that of n runs and s is the standard
+    deviation of the values. The forecast is as good as the estimate s.
     Source: A. M. Law, Simulation Modeling and Analysis, 5th ed. (2015), section 9.4.1.
 
     >>> seeds_needed([9.0, 10.0, 11.0], half_width=0.5)
@@ -194,7 +193,7 @@ def seeds_needed(values: ArrayLike, half_width: float, confidence: float = 0.95)
         return None
     deviation = _deviation(found)
     least = (_normal(confidence) * deviation / wanted) ** 2  # t is larger than the normal quantile
-    if not isfinite(least) or least > MANY:
+    if not isfinite(least) or least > NORMAL_FROM:
         return ceil(least) if isfinite(least) else None
     n = max(2, ceil(least))
     while _student(confidence, n - 1) * deviation / sqrt(n) > wanted:
@@ -219,7 +218,7 @@ def seeds_for_share(share: float, half_width: float, confidence: float = 0.95) -
     return high
 
 
-# -- what they have in common ----------------------------------------------------------------------
+# -- helpers ---------------------------------------------------------------------------------------
 
 
 def _around(mean: float, error: float, freedom: float, confidence: float, count: int) -> Interval:
@@ -228,7 +227,7 @@ def _around(mean: float, error: float, freedom: float, confidence: float, count:
 
 
 def _student(confidence: float, freedom: float) -> float:
-    """Return how many standard errors the bounds are away, with so many degrees of freedom."""
+    """Return the distance of the bounds in standard errors, for `freedom` degrees of freedom."""
     from scipy.special import stdtrit
 
     return float(stdtrit(freedom, (1 + confidence) / 2))
@@ -258,19 +257,19 @@ def _pairs(a: ArrayLike, b: ArrayLike) -> tuple[Float, Float]:
 
 
 def _mean(values: Float) -> float:
-    """Return the mean; of values that are all the same it is that value, to the last bit."""
+    """Return the mean, which for equal values is that value to the last bit."""
     with np.errstate(over="ignore"):
         return float(values[0]) if np.ptp(values) == 0 else float(values.mean())
 
 
 def _deviation(values: Float) -> float:
-    """Return the standard deviation of what the values are a sample of."""
+    """Return the sample standard deviation."""
     with np.errstate(over="ignore"):
         return 0.0 if np.ptp(values) == 0 else float(values.std(ddof=1))
 
 
 def confident(value: object) -> float:
-    """Return a confidence that was given; raise InputError if it is not between 0 and 1."""
+    """Return a given confidence; raise InputError if it is not between 0 and 1."""
     expected = "a share between 0 and 1, as 0.95"
     confidence = real("confidence", value, expected)
     if not 0 < confidence < 1:

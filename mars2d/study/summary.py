@@ -1,32 +1,43 @@
-"""Summaries: what a study came to, as text for a terminal."""
+"""The results of a study as text for a terminal: its means, and how settings compare."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from math import ceil, floor, inf, isnan, log10
+from dataclasses import dataclass
+from math import ceil, floor, inf, isnan, log10, nan
 
-from mars2d.core.errors import counted
-from mars2d.study.comparison import comparison
+import numpy as np
+
+from mars2d.core.errors import InputError, counted, nearest
 from mars2d.study.estimates import Estimate, Float, estimates
-from mars2d.study.statistics import seeds_for_share, seeds_needed
+from mars2d.study.statistics import Interval, confident, seeds_for_share, seeds_needed
 from mars2d.study.table import Result, Table
-from mars2d.study.text import head, in_words, name_of_point, near, percent, side_by_side, varied
+from mars2d.study.text import (
+    Point,
+    head,
+    in_words,
+    name_of_point,
+    near,
+    percent,
+    side_by_side,
+    varied,
+)
 
-__all__ = ["comparison", "summary"]
+__all__ = ["Difference", "comparison", "differences", "summary"]
 
 PRECISION = 0.05
-"""How narrow an interval should be: half of it, as a share of the mean, or of all runs."""
+"""The half width that an interval should have, as a share of the mean, or of all runs."""
 
-FEW = 10
-"""From fewer runs than these a deviation is a guess."""
+MIN_RUNS = 10
+"""With fewer runs, a standard deviation is a guess."""
 
 
 def summary(table: Table, confidence: float = 0.95) -> str:
-    """Return one line a point: its settings, its runs, each measure's mean and interval, shares.
+    """Return a line for each point: its settings, runs, means with intervals, and shares.
 
-    Below stands how many seeds would be enough, and what went wrong. Raises InputError for a
-    confidence that is not between 0 and 1.
+    Below follow how many seeds would be enough, and errors. Raises InputError for a confidence that
+    is not between 0 and 1.
     """
     points, wanted = table.points(), estimates(table)
     left = [[*(name for _, name in varied(table)), "runs"]]
@@ -54,7 +65,7 @@ def _heading(estimate: Estimate) -> str:
 
 
 def _cell(estimate: Estimate, results: Sequence[Result], confidence: float) -> str:
-    """Return an estimate of a point: ``12.3 ± 1.1``, ``76 % [63, 86]``; of some: (38 of 50)."""
+    """Return an estimate as text: ``12.3 ± 1.1``, ``76 % [63, 86]``; of some runs: (38 of 50)."""
     values = estimate.values(results)
     found = estimate.interval(values, confidence)
     of = f" ({found.count} of {len(values)})" if estimate.some else ""
@@ -70,7 +81,7 @@ def _cell(estimate: Estimate, results: Sequence[Result], confidence: float) -> s
 
 
 def _notes(table: Table, wanted: Sequence[Estimate]) -> str:
-    """Return what one has to know of the numbers above."""
+    """Return notes that help to read the numbers above."""
     sound = [result for result in table.results if not result.error]
     infinite = Counter(
         name for r in sound for name in table.measures if r.measures.get(name) in (inf, -inf)
@@ -95,7 +106,7 @@ def _notes(table: Table, wanted: Sequence[Estimate]) -> str:
 
 
 def _enough(table: Table, wanted: Sequence[Estimate], confidence: float) -> str:
-    """Return how many seeds would be enough for each mean, and for the shares of each measure."""
+    """Say how many seeds would be enough for each mean, and for the shares of each measure."""
     groups: dict[str, list[Estimate]] = {}
     for each in wanted:
         groups.setdefault(f"shares of {each.measure}" if each.share else each.label, []).append(
@@ -123,7 +134,7 @@ def _enough(table: Table, wanted: Sequence[Estimate], confidence: float) -> str:
 
 
 def _seeds(table: Table, group: Sequence[Estimate], confidence: float) -> str:
-    """Return how many seeds the point needs that needs most; nothing where there is no saying."""
+    """Say how many seeds the most demanding point needs; empty if that is unknown."""
     needed = [
         (_needed(estimate, values, confidence), len(values), point)
         for point, results in table.points().items()
@@ -133,7 +144,7 @@ def _seeds(table: Table, group: Sequence[Estimate], confidence: float) -> str:
     most, have, point = max(needed, key=lambda each: each[0], default=(0.0, 0, ()))
     if not most:
         return ""
-    guess = f", a guess from {have}" if have < FEW else ""
+    guess = f", a guess from {have}" if have < MIN_RUNS else ""
     if most <= have:
         return f"these {have} seeds{guess}"
     where = name_of_point(table, point)
@@ -142,20 +153,171 @@ def _seeds(table: Table, group: Sequence[Estimate], confidence: float) -> str:
 
 
 def _needed(estimate: Estimate, values: Float, confidence: float) -> float:
-    """Return how many seeds a point needs; 0 where there is no saying."""
+    """Return how many seeds a point needs; 0 if that is unknown."""
     found = estimate.interval(values, confidence)
     if not found.count or isnan(found.low):
         return 0.0
     if estimate.share:
         needed = seeds_for_share(found.mean, PRECISION, confidence)
-    elif found.mean == 0 or found.low <= 0 <= found.high:  # a share of what may be 0
+    elif found.mean == 0 or found.low <= 0 <= found.high:  # the mean may be 0
         return 0.0
     else:
         needed = seeds_needed(values, PRECISION * abs(found.mean), confidence) or 0
-    return needed * len(values) / found.count  # others have no number
+    return needed * len(values) / found.count  # since some runs have no number
 
 
 def _rounded_up(seeds: float) -> str:
-    """Return a number of seeds with two digits: a forecast has no more."""
+    """Return a number of seeds, rounded up to two digits, as text."""
     unit = 10 ** max(floor(log10(seeds)) - 1, 0)
     return f"{ceil(seeds / unit) * unit:,}".replace(",", " ")
+
+
+# -- comparisons -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Difference:
+    """The difference of an estimate at a point from that at the first value of a setting.
+
+    found: the difference; its count is the number of pairs or, if `paired` is False because no two
+    runs have the same seed, of all runs. left_out: pairs of which a run failed or has no number.
+    narrower: the factor by which pairing narrowed the interval; nan if that is unknown.
+    """
+
+    point: Point
+    estimate: Estimate
+    found: Interval
+    paired: bool
+    left_out: int
+    narrower: float
+
+
+def comparison(table: Table, setting: str, confidence: float = 0.95) -> str:
+    """Return the differences of each value of a setting from its first value, as text.
+
+    All intervals hold simultaneously with the given confidence. Raises InputError for an unknown
+    setting, and for one with a single value.
+    """
+    place, first = _first(table, setting)
+    found = differences(table, setting, confidence)
+    settings = [(k, name) for k, name in varied(table) if name != setting] + [(place, setting)]
+    parts = [head(table, f"differences from {setting} = {in_words(first)}, seed by seed")]
+    for estimate in dict.fromkeys(each.estimate for each in found):
+        mine = [each for each in found if each.estimate is estimate]
+        points = ([in_words(each.point[k]) for k, _ in settings] for each in mine)
+        left = [[name for _, name in settings], *points]
+        title = f"{estimate.label} [{'points' if estimate.share else estimate.unit}]"
+        columns = [
+            [title.removesuffix(" []"), *map(_verdict, mine)],
+            ["pairs", *map(_pair_count, mine)],
+            ["narrower", *map(_gain, mine)],
+        ]
+        parts += side_by_side(left, columns)
+    parts.append(_comparison_notes(found, confidence))
+    return "\n\n".join(parts)
+
+
+def differences(table: Table, setting: str, confidence: float = 0.95) -> list[Difference]:
+    """Return the differences of all points from those with the first value of a setting.
+
+    Compared points have the same other settings, and compared runs the same seed. The m intervals
+    hold simultaneously with the given confidence: each may fail with an m-th of the probability
+    with which any may (Bonferroni). Raises InputError as `comparison` does.
+    """
+    confidence = confident(confidence)
+    place, first = _first(table, setting)
+    points = table.points()
+    pairs = [
+        (point, results, points[base])
+        for point, results in points.items()
+        if point[place] != first
+        and (base := (*point[:place], first, *point[place + 1 :])) in points
+    ]
+    wanted = estimates(table, both=False)
+    each = 1 - (1 - confidence) / max(1, len(pairs) * len(wanted))
+    return [
+        _difference(point, estimate, results, base, each)
+        for estimate in wanted
+        for point, results, base in pairs
+    ]
+
+
+def _first(table: Table, setting: str) -> tuple[int, object]:
+    """Return the place of a setting in points, and its first value."""
+    if setting not in table.settings:
+        known = nearest(setting, table.settings) or "; it has none"
+        raise InputError(f"compare: the study has no setting {setting!r}{known}")
+    place = table.settings.index(setting)
+    values = list(dict.fromkeys(point[place] for point in table.points()))
+    if len(values) < 2:
+        raise InputError(f"compare: {setting} has one value in this study, {values}: expected two")
+    return place, values[0]
+
+
+def _difference(
+    point: Point,
+    estimate: Estimate,
+    results: Sequence[Result],
+    base: Sequence[Result],
+    confidence: float,
+) -> Difference:
+    seeds = sorted({r.seed for r in results} & {r.seed for r in base})
+    if not seeds:
+        apart = estimate.apart(estimate.values(results), estimate.values(base), confidence)
+        return Difference(point, estimate, apart, paired=False, left_out=0, narrower=nan)
+    mine, theirs = (estimate.by_seed(runs) for runs in (results, base))
+    a = np.array([mine.get(seed, nan) for seed in seeds])
+    b = np.array([theirs.get(seed, nan) for seed in seeds])
+    found = estimate.difference(a, b, confidence)
+    both = np.isfinite(a) & np.isfinite(b)
+    alone = estimate.apart(a[both], b[both], confidence)
+    known = found.half_width > 0 and not estimate.share  # unpaired shares use another method
+    narrower = alone.half_width / found.half_width if known else nan
+    left_out = len({r.seed for r in (*results, *base)}) - found.count
+    return Difference(point, estimate, found, True, left_out, narrower)
+
+
+def _verdict(each: Difference) -> str:
+    """Return a difference as text: ``lower by 3.1 [2.2, 4.0]``, or that none was seen."""
+    found, share = each.found, each.estimate.share
+    if isnan(found.low):
+        return "too few to say"
+    if found.low == found.high == 0:
+        return "the same"
+
+    def text(value: float) -> str:
+        return percent(value, found.count) if share else near(value, found.half_width)
+
+    if found.low <= 0 <= found.high:
+        return f"no difference seen [{text(found.low)}, {text(found.high)}]"
+    if found.mean < 0:
+        return f"lower by {text(-found.mean)} [{text(-found.high)}, {text(-found.low)}]"
+    return f"higher by {text(found.mean)} [{text(found.low)}, {text(found.high)}]"
+
+
+def _pair_count(each: Difference) -> str:
+    if not each.paired:
+        return f"0 ({each.found.count} runs)"
+    return f"{each.found.count}{f' ({each.left_out} left out)' if each.left_out else ''}"
+
+
+def _gain(each: Difference) -> str:
+    return "-" if isnan(each.narrower) else f"{each.narrower:.1f} times"
+
+
+def _comparison_notes(found: Sequence[Difference], confidence: float) -> str:
+    m = len(found)
+    percent_all = f"{100 * confidence:.4g} %"
+    notes = [f"Intervals are of {percent_all}."]
+    if m > 1:
+        one = f"{100 * (1 - (1 - confidence) / m):.4g} %"
+        notes = [f"Each of the {m} intervals is of {one}: all hold together with {percent_all}"]
+        notes[0] += " (Bonferroni)."
+    if any(each.paired for each in found):
+        notes.append("narrower: how much pairing narrowed the interval, against runs in no pairs.")
+    if any(each.left_out for each in found):
+        notes.append("left out: pairs of which a run failed or has no number, so that a difference")
+        notes.append("is of the others alone: read it beside the share of those with a number.")
+    if not all(each.paired for each in found):
+        notes.append("Runs without a seed in common are compared as they are (Welch, Newcombe).")
+    return "\n".join(notes)

@@ -1,4 +1,4 @@
-"""Sweeps: an experiment at each point of a grid of settings, with the same seeds at each."""
+"""Sweeps: an experiment is run at each point of a grid of settings, with the same seeds."""
 
 from __future__ import annotations
 
@@ -35,30 +35,30 @@ def sweep(
     retry: bool = False,
     show_progress: bool = True,
 ) -> Table:
-    """Run an experiment at each point of a grid, with each seed, and return what was measured.
+    """Run an experiment at each point of a grid, with each seed, and return the table of results.
 
     experiment: a file, the name of a shipped example, a module that has a file, or a Scenario.
-    settings: options by their dotted names, or parameters of a scenario function: a list, range or
-    array has several values, anything else is one; a point is one value of each. seeds: how many,
-    from 0 on, or a list; each point has the same ones, so that points can be compared seed by seed.
-    measures: names of measures built in or of functions in the experiment's file, or functions of
-    the record; by default when a run ended, its collisions, and if it is a game, the capture time.
-    control: the law of the team, in place of the experiment's. stop_time: seconds, as one more
-    setting.
+    settings: options by their dotted names, or parameters of a scenario function. A list, range or
+    array holds several values, anything else is one value; a point has one value of each setting.
+    seeds: how many, from 0 on, or a list. All points have the same ones, so that they can be
+    compared seed by seed. measures: names of built-in measures or of functions in the experiment's
+    file, or functions of the record; by default the end time, the collisions and, in a game, the
+    capture time. control: the law of the team, in place of the experiment's. stop_time: seconds, as
+    another setting.
 
-    out: a .csv file that takes each row as it comes; where it holds rows of this study, these are
-    not run again, but with `retry` those that have an error. executor: any of concurrent.futures';
-    by default processes, `workers` of them, one a core. With processes, call this under
+    out: a .csv file to which each row is added when its run is done. Runs whose rows it holds are
+    not repeated, except, with `retry`, those with an error. executor: any of concurrent.futures; by
+    default processes are started, `workers` of them, one a core. With processes, call this under
     ``if __name__ == "__main__":``. time_limit: seconds that a run may take. show_progress: whether
     a terminal shows a bar.
 
     A run that fails is a row with its `error`. The rows depend neither on the workers nor on the
     order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
 
-    Raises InputError for what can't be run, before the first run, and where the file holds another
-    study; `mars2d.study.run.StudyInterrupted` after Ctrl-C.
+    Raises InputError, before the first run, for anything that can't be run, and if the file holds
+    another study; `mars2d.study.run.StudyInterrupted` after Ctrl-C.
     """
-    # Processes and networks take a while to import, and few need them.
+    # Imported late, since importing processes and networks takes a while.
     from mars2d.study.plan import Plan, seeds_of, settings_of
     from mars2d.study.prepare import prepared
     from mars2d.study.run import run_study
@@ -66,7 +66,7 @@ def sweep(
 
     leave_if_imported_again()
     if not isinstance(out, (str, Path, type(None))):
-        raise wrong("out", out, "the name of a file, as 'results.csv'")
+        raise wrong("out", out, "the name of a file, such as 'results.csv'")
     plan = Plan(settings_of(_with_stop_time(settings, stop_time)), seeds_of(seeds))
     study = prepared(experiment, plan, _listed(measures), control=control, time_limit=time_limit)
     return run_study(

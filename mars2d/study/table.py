@@ -1,9 +1,15 @@
-"""Tables: what many runs of an experiment came to, one row a run."""
+"""Tables: the results of many runs of an experiment, one row a run, in memory and as .csv files.
+
+Columns: ``row``, ``experiment``, the settings, ``seed``, the measures, ``digest``, ``code``,
+``error``. The file format is that of RFC 4180.
+"""
 
 from __future__ import annotations
 
+import csv
 import html
-from collections.abc import Mapping
+import io
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import nan
 from pathlib import Path
@@ -12,27 +18,46 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import MissingExtraError, counted
+from mars2d.core.atomic import replacing
+from mars2d.core.errors import InputError, MissingExtraError, counted, shown
+from mars2d.study.cells import cell, key_of, value_in, word_cell, word_in
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-__all__ = ["Result", "Table", "key_of"]
+__all__ = [
+    "FIRST",
+    "LAST",
+    "SEED",
+    "Result",
+    "Table",
+    "file_header",
+    "file_line",
+    "is_table",
+    "load_table",
+    "parse_table",
+    "save_table",
+]
 
 Float = NDArray[np.float64]
 
-SHOWN = 20
-"""The rows of a table that a notebook shows."""
+FIRST, SEED, LAST = ("row", "experiment"), "seed", ("digest", "code", "error")
+"""The columns of every table; the settings stand before the seed, the measures after it."""
+
+SHOWN_ROWS = 20
+"""How many rows of a table a notebook shows."""
+
+LINE_END = "\r\n"
 
 
 @dataclass(frozen=True)
 class Result:
-    """What one run came to.
+    """The result of one run.
 
-    row: its number in the study, from 1. options: the value of each setting, by name. seed: of all
-    its random streams. measures: what was measured, by name: numbers or words; None where it was
-    not. error: what went wrong, one line, or empty. digest: of its record, or empty. code: the
-    first digits of a hash of all files that its experiment read.
+    row: its number in the study, from 1. options: the value of each setting, by name. seed: that of
+    all its random streams. measures: numbers or words by name; None where there was nothing to
+    measure. error: one line, or empty. digest: of its record, or empty. code: the first digits of a
+    hash of all files that its experiment read.
     """
 
     row: int
@@ -46,9 +71,9 @@ class Result:
 
 @dataclass(frozen=True)
 class Table:
-    """What a study came to: its runs in order, each with its settings, seed and measures.
+    """The results of a study: its runs in order, each with its settings, seed and measures.
 
-    experiment: what was run. settings, measures: their names, in order.
+    experiment: the name of the experiment. settings, measures: their names, in order.
     """
 
     experiment: str
@@ -69,9 +94,9 @@ class Table:
         return tuple(result for result in self.results if result.error)
 
     def points(self) -> dict[tuple[Any, ...], tuple[Result, ...]]:
-        """Return the runs of each point, which is the values of all settings, in order.
+        """Return the runs of each point, in order; a point is the tuple of all settings' values.
 
-        A list among the values is a tuple here.
+        A list among the values becomes a tuple.
         """
         points: dict[tuple[Any, ...], list[Result]] = {}
         for result in self.results:
@@ -81,11 +106,11 @@ class Table:
 
     @staticmethod
     def values(results: tuple[Result, ...], measure: str) -> Float:
-        """Return a measure of some runs, (k,); nan where there is none, or where it is a word."""
+        """Return a measure of some runs, (k,); nan where it is missing or a word."""
         found = (result.measures.get(measure) for result in results)
         return np.array([nan if v is None or isinstance(v, str) else v for v in found], dtype=float)
 
-    # -- what programs read ------------------------------------------------------------------------
+    # -- for programs ------------------------------------------------------------------------------
 
     def to_frame(self) -> DataFrame:
         """Return a table of pandas: one row a run; settings, seed and measures are columns.
@@ -100,7 +125,7 @@ class Table:
             {
                 "row": result.row,
                 **result.options,
-                "seed": result.seed,
+                SEED: result.seed,
                 **{name: result.measures.get(name) for name in self.measures},
                 "digest": result.digest,
                 "code": result.code,
@@ -108,30 +133,26 @@ class Table:
             }
             for result in self.results
         ]
-        columns = ["row", *self.settings, "seed", *self.measures, "digest", "code", "error"]
+        columns = ["row", *self.settings, SEED, *self.measures, *LAST]
         frame = pd.DataFrame(rows, columns=columns).set_index("row")
-        for name in self.measures:  # a measure that is nowhere is a column of nan, not of objects
+        for name in self.measures:  # a measure without any value is a column of nan, not of objects
             if frame[name].isna().all():
                 frame[name] = frame[name].astype(float)
         return frame
 
     def save(self, path: str | Path) -> Path:
-        """Write the table as a .csv file, which `load_table` reads again, and return its path.
+        """Write the table as a .csv file, which `load` reads, and return its path.
 
-        Raises InputError where it can't be written.
+        Raises InputError if it can't be written.
         """
-        from mars2d.study.results import save_table
-
         return save_table(self, path)
 
     @staticmethod
     def load(path: str | Path) -> Table:
-        """Return the table that a .csv file of a study holds; see `mars2d.study.results`."""
-        from mars2d.study.results import load_table
-
+        """Return the table in a .csv file of a study; see `load_table`."""
         return load_table(path)
 
-    # -- what people look at -----------------------------------------------------------------------
+    # -- for people --------------------------------------------------------------------------------
 
     def summary(self, confidence: float = 0.95) -> str:
         """Return the means of each point with their intervals, as text."""
@@ -153,31 +174,172 @@ class Table:
 
     def _repr_html_(self) -> str:
         """Return the first rows as a table, for a notebook."""
-        names = ["row", *self.settings, "seed", *self.measures]
+        names = ["row", *self.settings, SEED, *self.measures]
         errors = ["error"] if self.failed else []
-        lines = [_line("th", [*names, *errors])]
-        for result in self.results[:SHOWN]:
+        lines = [_html_row("th", [*names, *errors])]
+        for result in self.results[:SHOWN_ROWS]:
             measured = [result.measures.get(name) for name in self.measures]
             settings = [result.options[name] for name in self.settings]
             cells = [result.row, *settings, result.seed, *measured]
-            lines.append(_line("td", [*cells, *([result.error] if errors else [])]))
-        left = len(self) - SHOWN
+            lines.append(_html_row("td", [*cells, *([result.error] if errors else [])]))
+        left = len(self) - SHOWN_ROWS
         more = f"<p>and {counted(left, 'row')} more</p>" if left > 0 else ""
         title = html.escape(repr(self)[1:-1])
         return f"<p>{title}</p><table>{''.join(lines)}</table>{more}"
 
 
-def key_of(value: Any) -> Any:
-    """Return what a setting's value is told apart by: itself, but for lists, which are tuples."""
-    if isinstance(value, (list, tuple)):
-        return tuple(map(key_of, value))
-    return repr(value) if isinstance(value, (dict, set)) else value
-
-
-def _line(tag: str, cells: list[Any]) -> str:
-    texts = ("" if cell is None else _text(cell) for cell in cells)
+def _html_row(tag: str, cells: list[Any]) -> str:
+    texts = ("" if cell is None else _html_text(cell) for cell in cells)
     return f"<tr>{''.join(f'<{tag}>{text}</{tag}>' for text in texts)}</tr>"
 
 
-def _text(cell: Any) -> str:
+def _html_text(cell: Any) -> str:
     return html.escape(f"{cell:.6g}" if isinstance(cell, float) else str(cell))
+
+
+# -- writing files ---------------------------------------------------------------------------------
+
+
+def save_table(table: Table, path: str | Path) -> Path:
+    """Write a table as a .csv file, which appears when it is complete, and return its path."""
+    target = Path(path)
+    if target.suffix.lower() != ".csv":
+        raise InputError(f"{target}: expected a name that ends in .csv")
+    lines = [file_header(table), *(file_line(table, result) for result in table.results)]
+    with replacing(target) as file:
+        file.write(b"".join(lines))
+    return target
+
+
+def file_header(table: Table) -> bytes:
+    """Return the first line of a table's file."""
+    return _line([*FIRST, *table.settings, SEED, *table.measures, *LAST])
+
+
+def file_line(table: Table, result: Result) -> bytes:
+    """Return a run's line in a table's file."""
+    measured = (result.measures.get(name) for name in table.measures)
+    return _line(
+        [
+            str(result.row),
+            table.experiment,
+            *(cell(result.options[name]) for name in table.settings),
+            str(result.seed),
+            *(_measure_cell(value) for value in measured),
+            result.digest,
+            result.code,
+            word_cell(" ".join(result.error.split())),
+        ]
+    )
+
+
+def _measure_cell(value: float | str | None) -> str:
+    if isinstance(value, str):
+        return word_cell(value)
+    return "" if value is None else str(value)
+
+
+def _line(cells: Iterable[str]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text, lineterminator=LINE_END).writerow(cells)
+    return text.getvalue().encode(errors="backslashreplace")  # file names may hold any bytes
+
+
+# -- reading files ---------------------------------------------------------------------------------
+
+
+def load_table(path: str | Path) -> Table:
+    """Return the table in a file that a study wrote, sorted by row number.
+
+    An incomplete last line is left out. Raises InputError for any other file.
+    """
+    source = Path(path)
+    try:
+        data = source.read_bytes()
+    except OSError as error:
+        raise InputError(f"{source}: can't be read: {error.strerror or error}") from error
+    return parse_table(data[: data.rfind(b"\n") + 1], source)
+
+
+def is_table(path: Path) -> bool:
+    """Return whether a file begins like the table of a study."""
+    with path.open("rb") as file:
+        return file.read(200).decode("utf-8-sig", "replace").startswith(",".join(FIRST) + ",")
+
+
+def parse_table(data: bytes, path: Path) -> Table:
+    """Return the table in the content of a file. Raises InputError, which names the line."""
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: expected a table in UTF-8; {error.reason}") from error
+    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+    try:
+        header = next(reader, [])
+        settings, measures = _columns(header, path)
+        results: list[Result] = []
+        experiment = ""
+        for cells in reader:
+            if not cells:
+                continue
+            if len(cells) != len(header):
+                fields = f"{len(cells)} cells, expected {len(header)}"
+                raise InputError(f"{path}, line {reader.line_num}: {fields}")
+            if experiment and cells[1] != experiment:
+                raise InputError(
+                    f"{path}, line {reader.line_num}: experiment {shown(cells[1])}, where the rows "
+                    f"before have {shown(experiment)}"
+                )
+            experiment = cells[1]
+            results.append(_result(cells, settings, measures, f"{path}, line {reader.line_num}"))
+    except csv.Error as error:
+        raise InputError(f"{path}, line {reader.line_num}: {error}") from error
+    results.sort(key=lambda result: result.row)
+    return Table(experiment, settings, measures, tuple(results))
+
+
+def _columns(header: list[str], path: Path) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the names of the settings and of the measures in a header."""
+    ends = tuple(header[:2]), tuple(header[-3:])
+    if ends != (FIRST, LAST) or header.count(SEED) != 1:
+        expected = f"{', '.join(FIRST)}, settings, seed, measures, {', '.join(LAST)}"
+        found = f"; it begins with {shown(','.join(header))}" if header else "; it is empty"
+        raise InputError(f"{path}: is no table of a study: expected columns {expected}{found}")
+    at = header.index(SEED)
+    return tuple(header[2:at]), tuple(header[at + 1 : -3])
+
+
+def _result(
+    cells: list[str], settings: tuple[str, ...], measures: tuple[str, ...], where: str
+) -> Result:
+    row = _whole_number(cells[0], "row", where)
+    seed = _whole_number(cells[2 + len(settings)], SEED, where)
+    values = cells[2 : 2 + len(settings)]
+    found = cells[3 + len(settings) : -3]
+    digest, code, error = cells[-3:]
+    return Result(
+        row,
+        {name: value_in(text) for name, text in zip(settings, values, strict=True)},
+        seed,
+        {name: _measured(text) for name, text in zip(measures, found, strict=True)},
+        word_in(error),
+        digest,
+        code,
+    )
+
+
+def _whole_number(text: str, name: str, where: str) -> int:
+    if not text.isdecimal():
+        raise InputError(f"{where}: {name} = {shown(text)}: expected a whole number")
+    return int(text)
+
+
+def _measured(text: str) -> float | str | None:
+    if not text:
+        return None
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return word_in(text)

@@ -1,4 +1,4 @@
-"""Points, numbers and columns of studies as text."""
+"""Points, numbers and aligned columns of studies as text."""
 
 from __future__ import annotations
 
@@ -21,31 +21,31 @@ __all__ = [
     "varied",
 ]
 
-WIDTH = 80
-"""Columns of a terminal, which a table keeps to where it can."""
+TERMINAL_WIDTH = 80
+"""Characters in a line of a table, if possible."""
 
 Point = tuple[Any, ...]
 
 
 def varied(table: Table) -> list[tuple[int, str]]:
-    """Return the settings that have several values, with their places in a point."""
+    """Return (place in a point, name) of the settings that have several values."""
     several = [len({*values}) > 1 for values in zip(*table.points(), strict=True)]
     return [(k, name) for k, name in enumerate(table.settings) if k < len(several) and several[k]]
 
 
 def in_words(value: Any) -> str:
-    """Return a setting's value as people write it."""
+    """Return a setting's value as text for people."""
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
 def name_of_point(table: Table, point: Point, leave_out: Sequence[str] = ()) -> str:
-    """Return the settings of a point that vary, as ``gain = 0.5, n = 4``."""
+    """Return the settings of a point that vary, such as ``gain = 0.5, n = 4``."""
     names = [(k, name) for k, name in varied(table) if name not in leave_out]
     return ", ".join(f"{name} = {in_words(point[k])}" for k, name in names)
 
 
 def head(table: Table, what: str) -> str:
-    """Return the first line: how many runs of what, with the settings that are the same for all."""
+    """Return the first line of a text: the number of runs, the experiment, constant settings."""
     places, points = {k for k, _ in varied(table)}, list(table.points())
     same = [
         f", {name} = {in_words(points[0][k])}"
@@ -56,14 +56,14 @@ def head(table: Table, what: str) -> str:
 
 
 def near(value: float, half_width: float) -> str:
-    """Return a number with the digits that its interval leaves: two of those of half of it."""
+    """Return a number rounded to two digits of its interval's half width."""
     if half_width > 0 and isfinite(half_width):
         return number(value, half_width)
     return f"{value:.4g}"
 
 
 def percent(share: float, count: int) -> str:
-    """Return a share of so many runs in percent."""
+    """Return a share of `count` runs in percent."""
     return f"{100 * share:z.{0 if count < 200 else 1}f}"
 
 
@@ -71,11 +71,11 @@ def percent(share: float, count: int) -> str:
 
 
 def side_by_side(left: list[list[str]], columns: list[list[str]]) -> list[str]:
-    """Return tables that are not too wide: the columns on the left stand in each of them.
+    """Return tables that fit the terminal's width; each begins with the columns on the left.
 
-    left: rows of cells, the headings first. columns: each with its heading.
+    left: rows of cells, the headings first. columns: cells by column, each with its heading.
     """
-    room = WIDTH - sum(max(map(len, cells)) + 2 for cells in zip(*left, strict=True))
+    room = TERMINAL_WIDTH - sum(max(map(len, cells)) + 2 for cells in zip(*left, strict=True))
     tables: list[list[list[str]]] = []
     used = room
     for column in map(_aligned, columns):
@@ -90,14 +90,14 @@ def side_by_side(left: list[list[str]], columns: list[list[str]]) -> list[str]:
 
 
 def _aligned(column: list[str]) -> list[str]:
-    """Return cells whose first parts end below each other."""
+    """Return cells padded so that their first words end at the same place."""
     heading, *cells = column
     room = max((len(cell.partition(" ")[0]) for cell in cells), default=0)
     return [heading, *(" " * (room - len(cell.partition(" ")[0])) + cell for cell in cells)]
 
 
 def _justified(column: list[str]) -> list[str]:
-    """Return cells of the same width: numbers end below each other, words begin there."""
+    """Return cells of the same width: numbers flush right, words flush left."""
     width = max(map(len, column))
     words = any(cell[:1].isalpha() for cell in column[1:])
     return [cell.ljust(width) if words else cell.rjust(width) for cell in column]

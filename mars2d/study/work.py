@@ -1,4 +1,4 @@
-"""Work: one function for many tasks, on all cores, in threads, or on a cluster."""
+"""Work: apply one function to many tasks, on all cores, in threads or on a cluster."""
 
 from __future__ import annotations
 
@@ -17,9 +17,17 @@ from queue import Empty, SimpleQueue
 from typing import Any, TypeVar
 
 from mars2d.core.errors import InputError, counted, shown
-from mars2d.study.attempt import Failure, attempt, attempt_packed, one_line, packed, unpacked
 from mars2d.study.cluster import cluster
-from mars2d.study.workers import done_by_processes, leave_if_imported_again
+from mars2d.study.workers import (
+    Failure,
+    attempt,
+    attempt_packed,
+    done_by_processes,
+    leave_if_imported_again,
+    packed,
+    reason,
+    unpacked,
+)
 
 __all__ = ["Failure", "cluster", "each_done", "worker_count"]
 
@@ -27,13 +35,13 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 IN_FLIGHT = 1000
-"""The most tasks that another's executor holds at once."""
+"""How many tasks a foreign executor holds at once, at most."""
 
 LOST = "the executor takes no more tasks, or has lost them"
 INSTEAD = "without one, processes are started, and replaced where they end"
 
-MOST_WORKERS = 60 if sys.platform == "win32" else 1000
-"""Windows can't wait for more."""
+MAX_WORKERS = 60 if sys.platform == "win32" else 1000
+"""Windows can't wait for more than about 60 processes at once."""
 
 
 def each_done(
@@ -42,15 +50,16 @@ def each_done(
     executor: Executor | None = None,
     workers: int | None = None,
 ) -> Iterator[tuple[int, R | Failure]]:
-    """Yield (index of the task, what the function made of it) as they come, each exactly once.
+    """Yield (index of a task, its result) as results arrive, exactly one for each task.
 
-    A task that raises comes as a `Failure`. executor: any of concurrent.futures', which is left
-    open; None starts `workers` processes, which end with the iterator. When one of these ends while
-    it runs a task, another takes its place, and the task is tried once more, at the end and alone;
-    ends that one as well, the task is a Failure. workers: how many, from 1; None is one a core.
+    The result of a task that raises is a `Failure`. executor: any executor of concurrent.futures;
+    it is left open. None starts `workers` processes, which end with the iterator. If one of these
+    dies during a task, another takes its place and the task is tried once more, at the end and
+    alone; if that one dies too, the result is a Failure. workers: how many, from 1; by default one
+    a core.
 
-    Raises InputError for a number of workers that can't be, for what can't be sent to another
-    process, and where a script calls this without ``if __name__ == "__main__":``.
+    Raises InputError for an impossible number of workers, for a function or task that can't be sent
+    to another process, and if a script calls this without ``if __name__ == "__main__":``.
     """
     leave_if_imported_again()
     count = worker_count(workers)
@@ -63,11 +72,11 @@ def each_done(
 
 
 def worker_count(workers: int | None) -> int:
-    """Return how many workers are meant: as many as there are cores where nothing is said."""
+    """Return the number of workers: `workers`, or one for each core if it is None."""
     if workers is None:
-        return min(cores(), MOST_WORKERS)
-    if isinstance(workers, bool) or not isinstance(workers, int) or not 0 < workers <= MOST_WORKERS:
-        expected = f"expected a whole number from 1 to {MOST_WORKERS}"
+        return min(cores(), MAX_WORKERS)
+    if isinstance(workers, bool) or not isinstance(workers, int) or not 0 < workers <= MAX_WORKERS:
+        expected = f"expected a whole number from 1 to {MAX_WORKERS}"
         raise InputError(f"workers={shown(workers)}: {expected}")
     return workers
 
@@ -82,10 +91,10 @@ def cores() -> int:
 def _done_by(
     executor: Executor, function: Callable[[T], R], tasks: Sequence[T]
 ) -> Iterator[tuple[int, R | Failure]]:
-    """Do what `each_done` does by another's executor.
+    """Do as `each_done` with a foreign executor.
 
-    Where a worker has ended, what it was about to tell of other tasks is lost as well. So those
-    that are blamed for it are done again when all others are, each alone.
+    A worker that dies takes finished results with it that it had not sent yet, so an innocent task
+    may be blamed. Tasks that are blamed are therefore done again, alone, after all others.
     """
     blamed: list[int] = []
     for index, outcome in _sent(executor, function, tasks, range(len(tasks)), IN_FLIGHT):
@@ -98,7 +107,7 @@ def _done_by(
 
 
 class _Ended(str):
-    """What is said of a task whose process has ended."""
+    """The message about a task whose process has died."""
 
 
 def _sent(
@@ -106,21 +115,21 @@ def _sent(
     function: Callable[[T], R],
     tasks: Sequence[T],
     which: Iterable[int],
-    most: int,
+    in_flight: int,
 ) -> Iterator[tuple[int, R | Failure | _Ended]]:
-    """Send tasks to an executor, so many at once, and yield what came of each."""
+    """Send tasks to an executor, `in_flight` at once, and yield the outcome of each."""
     send, read = _ways(executor, function)
     running: dict[Future[Any], int] = {}
     done: SimpleQueue[Future[Any]] = SimpleQueue()
     indices = iter(which)
     try:
         while True:
-            while len(running) < most and (index := next(indices, None)) is not None:
+            while len(running) < in_flight and (index := next(indices, None)) is not None:
                 task = tasks[index]
                 try:
                     future = send(task)
                 except RuntimeError as error:  # it is shut down, or broken
-                    raise InputError(f"{LOST} ({one_line(error)}): {INSTEAD}") from error
+                    raise InputError(f"{LOST} ({reason(error)}): {INSTEAD}") from error
                 running[future] = index
                 future.add_done_callback(done.put)
             if not running:
@@ -143,10 +152,10 @@ def _next(done: SimpleQueue[Future[Any]]) -> Future[Any]:
 def _ways(
     executor: Executor, function: Callable[[T], R]
 ) -> tuple[Callable[[T], Future[Any]], Callable[[Any], Any]]:
-    """Return what gives a task to an executor, and what reads its result.
+    """Return a function that submits a task to an executor, and one that reads its result.
 
-    Both go as bytes where that is known to be for other processes, so that what can't be sent, or
-    is not found there, is told and does no harm.
+    Tasks and results travel as bytes if the executor is known to use other processes; see
+    `mars2d.study.workers`.
     """
     dumps = _dumps(executor)
     if dumps is None:
@@ -156,25 +165,25 @@ def _ways(
 
 
 def _dumps(executor: Executor) -> Callable[[Any], bytes] | None:
-    """Return what packs for an executor's processes; None for one of threads, or unknown."""
+    """Return the pickler for an executor's processes; None for threads and unknown executors."""
     if isinstance(executor, ProcessPoolExecutor):
         return pickle.dumps
     if type(executor).__module__.startswith("distributed."):
-        import cloudpickle  # comes with Dask; packs what is of no module as well
+        import cloudpickle  # comes with Dask; also packs functions that are in no module
 
         return cloudpickle.dumps  # type: ignore[no-any-return]
     return None
 
 
 def _outcome(future: Future[Any], read: Callable[[Any], Any]) -> Any:
-    """Return what came of a task; InputError where the executor can't do any more."""
+    """Return the outcome of a task. Raises InputError if the executor can do no more."""
     try:
         value = future.result()
     except (BrokenExecutor, CancelledError) as error:
-        raise InputError(f"{LOST} ({one_line(error)}): {INSTEAD}") from error
+        raise InputError(f"{LOST} ({reason(error)}): {INSTEAD}") from error
     except Exception as error:
         if type(error).__name__ == "KilledWorker":  # Dask's, which need not be installed
             times = counted(getattr(error, "allowed_failures", 0) + 1, "worker")
             return _Ended(f"the process that ran it ended, on {times} in turn")
-        return Failure(one_line(error))
+        return Failure(reason(error))
     return read(value)

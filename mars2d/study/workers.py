@@ -1,10 +1,15 @@
-"""Workers: processes of our own, one task each at a time; one that ends is replaced."""
+"""Worker processes: each does one task at a time, and one that dies is replaced.
+
+Tasks and results travel as bytes, so that anything that can't be pickled or found on the other
+side is reported for its own task and does not harm the pool.
+"""
 
 from __future__ import annotations
 
 import atexit
 import multiprocessing
 import os
+import pickle
 import signal
 import sys
 import threading
@@ -12,47 +17,139 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import lru_cache
 from multiprocessing.connection import Connection, wait
 from types import FrameType
-from typing import TypeVar
+from typing import Any, NamedTuple, TypeVar
 
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, described, shown
 from mars2d.core.interrupt import interrupts_blocked
-from mars2d.study.attempt import Failure, attempt_packed, packed, unpacked
+from mars2d.study import ONE_THREAD
 
-__all__ = ["done_by_processes", "leave_if_imported_again"]
+__all__ = [
+    "Failure",
+    "attempt",
+    "attempt_packed",
+    "done_by_processes",
+    "leave_if_imported_again",
+    "packed",
+    "reason",
+    "unpacked",
+]
 
 T = TypeVar("T")
 R = TypeVar("R")
 
 SPAWN = multiprocessing.get_context("spawn")
 
-UNGUARDED = 79
-"""With what a worker ends that finds itself in the call that has started it."""
+UNGUARDED_EXIT_CODE = 79
+"""The exit code of a worker that reaches, while importing its script, the call that started it."""
 
-MOST_STARTS = 3
-"""How often in a row workers may be killed before they have begun."""
+MAX_FAILED_STARTS = 3
+"""How many workers in a row may be killed before they have begun."""
 
-PATIENCE = 2.0
+END_TIMEOUT = 2.0
 """How long workers may take to end when they are told to, seconds."""
 
-THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
+# -- attempts --------------------------------------------------------------------------------------
+
+
+class Failure(NamedTuple):
+    """The result of a task that failed: the reason, in one line."""
+
+    error: str
+
+
+class _UnknownFunction(NamedTuple):
+    """The function was not found in the process that was to run it: the reason, in one line."""
+
+    error: str
+
+
+def attempt(function: Callable[[T], R], task: T) -> R | Failure:
+    """Return the function's result for a task, or a Failure if it raises."""
+    try:
+        return function(task)
+    except (Exception, SystemExit) as error:
+        return Failure(reason(error))
+
+
+def reason(error: BaseException) -> str:
+    """Return an exception's type and message in one line."""
+    return " ".join(described(error).split())
+
+
+def packed(thing: Any, dumps: Callable[[Any], bytes] = pickle.dumps) -> bytes:
+    """Return a function or a task as bytes for another process.
+
+    dumps: makes the bytes; pickle.loads must be able to read them. Raises InputError if it fails.
+    """
+    try:
+        return dumps(thing)
+    except Exception as error:
+        raise InputError(
+            f"{shown(thing)}: can't be sent to another process ({reason(error)}): give the "
+            "experiment by its file and functions from a module, or run in this process, with "
+            "executor=ThreadPoolExecutor()"
+        ) from error
+
+
+def attempt_packed(function: bytes, task: bytes) -> bytes:
+    """Do as `attempt` with a `packed` function and task; read the result with `unpacked`."""
+    result = _attempt_packed(function, task)
+    try:
+        return pickle.dumps(result)
+    except Exception as error:
+        return pickle.dumps(Failure(f"{shown(result)}: can't be sent back: {reason(error)}"))
+
+
+def _attempt_packed(function: bytes, task: bytes) -> Any:
+    try:
+        known = _function(function)
+    except Exception as error:
+        return _UnknownFunction(reason(error))
+    try:
+        given = pickle.loads(task)
+    except Exception as error:
+        return Failure(f"can't be read by the process that runs it: {reason(error)}")
+    return attempt(known, given)
+
+
+_function = lru_cache(maxsize=4)(pickle.loads)
+"""Unpickles a study's function, which is the same for all its tasks, once."""
+
+
+def unpacked(returned: bytes) -> Any:
+    """Return the result that `attempt_packed` sent; InputError if the function was not found."""
+    try:
+        value = pickle.loads(returned)
+    except Exception as error:
+        return Failure(f"what it returned can't be read: {reason(error)}")
+    if isinstance(value, _UnknownFunction):
+        raise InputError(
+            f"a worker process does not find the function ({value.error}): put it into a module"
+        )
+    return value
+
+
+# -- the pool --------------------------------------------------------------------------------------
 
 
 def leave_if_imported_again() -> None:
-    """End this process if it is a worker that imports the script which has started it.
+    """End this process if it is a worker that is importing the script that started it.
 
-    A new process imports the main script. If that starts workers as it is imported, this would
-    go on for ever. Who has started the worker sees how it has ended, and says why.
+    A new process imports the main script. If the script starts workers on import, they would start
+    workers without end. The parent process recognizes the exit code and explains the mistake.
     """
     if getattr(multiprocessing.current_process(), "_inheriting", False):
-        raise SystemExit(UNGUARDED)
+        raise SystemExit(UNGUARDED_EXIT_CODE)
 
 
 def done_by_processes(
     function: Callable[[T], R], tasks: Sequence[T], count: int
 ) -> Iterator[tuple[int, R | Failure]]:
-    """Yield what `each_done` does, by `count` processes."""
+    """Do the tasks in `count` processes; yield as `mars2d.study.work.each_done` does."""
     known, order, left = packed(function), _Order(len(tasks)), len(tasks)
     crew = _Crew()
     try:
@@ -76,7 +173,7 @@ def done_by_processes(
 
 
 class _Order:
-    """Which task is next: each in turn, then, alone, those whose worker has ended."""
+    """The order of tasks: each in turn, then, one by one, those whose worker died."""
 
     def __init__(self, count: int) -> None:
         self._fresh = iter(range(count))
@@ -84,14 +181,14 @@ class _Order:
         self._ended: set[int] = set()
 
     def next(self, *, alone: bool) -> int | None:
-        """Return the next task, or None; alone: whether no other task is being done."""
+        """Return the next task, or None; alone: whether no other task is running."""
         index = next(self._fresh, None)
         if index is None and self._again and alone:
             return self._again.popleft()
         return index
 
     def once_more(self, index: int) -> bool:
-        """Note that the worker of a task has ended; return whether it is tried once more."""
+        """Note that a task's worker died; return whether the task is tried once more."""
         first = index not in self._ended
         if first:
             self._ended.add(index)
@@ -114,27 +211,27 @@ class _Worker:
         self.task: int | None = None
 
     def give(self, index: int, function: bytes, task: bytes) -> None:
-        """Send a task; if the worker has ended meanwhile, it is found to have ended with it."""
+        """Send a task; a worker that has died in the meantime will be blamed on this task."""
         self.task = index
         with suppress(OSError):
             self.connection.send_bytes(function)
             self.connection.send_bytes(task)
 
     def message(self) -> bytes | None:
-        """Return what it has sent, or None where it has ended."""
+        """Return the message that it has sent, or None if it has died."""
         with suppress(EOFError, OSError):
             if self.connection.poll():
                 return self.connection.recv_bytes()
         return None
 
     def tell_to_end(self) -> None:
-        """Let go of it: when it waits for a task it ends by itself, else by a signal."""
+        """Close the connection, which ends an idle worker, and send a busy one a signal."""
         self.connection.close()
         if self.task is not None or not self.ready:
             self.process.terminate()
 
     def how_ended(self, until: float) -> str:
-        """Wait until it has ended, until a time of the clock; then kill it. Return how it ended."""
+        """Wait for its end until a time of the monotonic clock, then kill it; say how it ended."""
         try:
             self.process.join(max(0.0, until - time.monotonic()))
         finally:
@@ -143,19 +240,19 @@ class _Worker:
         code = self.process.exitcode or 0
         if code >= 0:
             return f"ended with exit code {code}"
-        why = ", perhaps for want of memory" if code == -9 else ""
+        why = ", perhaps for lack of memory" if code == -9 else ""
         return f"was killed by {signal.Signals(-code).name}{why}"
 
 
 class _Crew:
-    """Workers, and others in the place of those that have ended."""
+    """All workers; a new one takes the place of each that dies."""
 
     def __init__(self) -> None:
         self._workers: list[_Worker] = []
         self._failed_starts = 0
 
     def start(self, count: int) -> None:
-        """Start so many processes."""
+        """Start `count` processes."""
         atexit.register(self.end)  # before multiprocessing waits for them there
         for started in range(count):
             try:
@@ -165,11 +262,11 @@ class _Crew:
                 raise InputError(f"workers={count}: {why}") from error
 
     def end(self) -> None:
-        """End all processes, at once: of one that does not go within `PATIENCE` nothing is left."""
+        """End all processes at the same time, and kill those that take over `END_TIMEOUT`."""
         atexit.unregister(self.end)
         for worker in self._workers:
             worker.tell_to_end()
-        until = time.monotonic() + PATIENCE
+        until = time.monotonic() + END_TIMEOUT
         try:
             for worker in self._workers:
                 worker.how_ended(until)
@@ -182,14 +279,11 @@ class _Crew:
         return [worker for worker in self._workers if worker.ready and worker.task is None]
 
     def busy(self) -> bool:
-        """Return whether any does a task."""
+        """Return whether any worker is doing a task."""
         return any(worker.task is not None for worker in self._workers)
 
     def wait(self) -> list[tuple[int, bytes | str]]:
-        """Wait until something has happened; return the tasks of which something has come.
-
-        Of each its index and what was returned; or how its worker has ended, in words.
-        """
+        """Wait for news; return (index of a task, its result or how its worker died, in words)."""
         ends = [end for each in self._workers for end in (each.connection, each.process.sentinel)]
         heard = set(wait(ends))
         found: list[tuple[int, bytes | str]] = []
@@ -205,22 +299,22 @@ class _Crew:
         return found
 
     def _replace(self, place: int) -> str:
-        """Put another worker in the place of one that has ended; return how it has."""
+        """Replace a worker that has died; say how it did. Raises InputError if none can begin."""
         worker = self._workers[place]
         worker.tell_to_end()
-        how = worker.how_ended(time.monotonic() + PATIENCE)
+        how = worker.how_ended(time.monotonic() + END_TIMEOUT)
         if not worker.ready:
             self._failed_starts += 1
             code = worker.process.exitcode or 0
-            if code == UNGUARDED:
+            if code == UNGUARDED_EXIT_CODE:
                 raise InputError(
                     "a script that starts worker processes is imported by each of them: put what "
                     'runs many runs under `if __name__ == "__main__":`'
                 )
-            if code >= 0 or self._failed_starts == MOST_STARTS:
+            if code >= 0 or self._failed_starts == MAX_FAILED_STARTS:
                 raise InputError(
-                    f"a worker process {how} before it had begun, see above: each imports the "
-                    "script that runs the study, which must be a file that can be imported"
+                    f"a worker process {how} before it had begun, see above: each worker imports "
+                    "the script that runs the study, which must be a file that can be imported"
                 )
         self._workers[place] = _Worker()
         return how
@@ -228,11 +322,12 @@ class _Crew:
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Start a process in which numpy's linear algebra is one thread, unless the user has said more.
+    """Start processes with `ONE_THREAD`, except for variables that the user has set.
 
-    By itself it takes all cores, as does each other worker: at 100 unknowns that is times slower.
+    By default, numpy's linear algebra uses all cores in each worker, which makes them compete: at
+    100 unknowns it is several times slower.
     """
-    ours = {name: "1" for name in THREADS if name not in os.environ}
+    ours = {name: value for name, value in ONE_THREAD.items() if name not in os.environ}
     os.environ.update(ours)
     try:
         yield
@@ -241,12 +336,15 @@ def _one_thread() -> Iterator[None]:
             os.environ.pop(name, None)
 
 
+# -- inside a worker -------------------------------------------------------------------------------
+
+
 class _EndedError(BaseException):
-    """Raised in a worker that is told to end, so that what it has started ends with it."""
+    """Raised in a worker that is told to end, so that its task can clean up."""
 
 
 def _serve(connection: Connection) -> None:
-    """Do tasks, in a process of one's own, until there are no more."""
+    """Do tasks, in a process of its own, until the connection closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, _end)
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -263,7 +361,7 @@ def _end(_number: int, _frame: FrameType | None) -> None:
 
 
 def _end_with_parent() -> None:
-    """End this process when its parent has, also in the midst of a task."""
+    """End this process when its parent ends, even in the middle of a task."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()

@@ -1,12 +1,12 @@
-"""Checkers for parts of one's own: does a part work, and is what it does repeatable?
+"""Checkers for your own parts: does a part work, and are its runs repeatable?
 
-Each puts the part into a small world, watches it, and raises `CheckError`, which lists all that is
-wrong in words. So a test of a sensor is one line:
+Each checker runs the part in a small world and raises `CheckError`, which lists everything that is
+wrong. A test of a sensor is one line:
 
 >>> from mars2d.sensors import Proximity
 >>> check_sensor(Proximity(range=1.0))
 
-The functions ``..._findings`` return what was found, hints too, in place of raising.
+The functions ``..._findings`` return all findings, including hints, instead of raising.
 """
 
 from mars2d.testing.addon import addon_findings, check_addon

@@ -1,9 +1,9 @@
-"""Try an add-on: its hooks, what it puts into the world, seeds, and whether drawing matters."""
+"""Check an add-on: its hooks, obstacles, beacons and seeds, and that drawing changes nothing."""
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,18 +18,18 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.testing.common import (
     check_fields,
+    check_finite,
     check_methods,
     check_places,
     check_repeatable,
     first_run,
     is_own,
     run_ended,
+    with_methods,
 )
-from mars2d.testing.drawing import check_finite
-from mars2d.testing.finding import Finding, Report, judge
+from mars2d.testing.finding import Finding, Notes, Report, at, judge
 from mars2d.testing.state import Places, fingerprint
 from mars2d.testing.trial import Run, Trial, changes, difference, prints, shepherd, small_world
-from mars2d.testing.witness import Notes, at, with_methods
 from mars2d.world.world import World
 
 __all__ = ["addon_findings", "check_addon"]
@@ -47,7 +47,7 @@ METHODS = {
     "draw": ("scene", "frame"),
     "theory": ("scene", "frame"),
 }
-"""What an add-on can have of its own, and the arguments."""
+"""The methods that an add-on can define, with their arguments."""
 
 KEEP = "Keep such things in attributes of self, set in on_start"
 
@@ -55,11 +55,11 @@ KEEP = "Keep such things in attributes of self, set in on_start"
 def check_addon(
     addon: Addon, *, sensors: Sequence[Sensor] = (), scenario: Scenario | None = None
 ) -> None:
-    """Try an add-on, and raise CheckError, which lists all that is wrong with it.
+    """Try an add-on, and raise CheckError, which lists everything that is wrong with it.
 
-    It is put into a small world with robots that carry `sensors`, or into a `scenario`, and watched
-    for 50 control steps: what its hooks raise, where its random numbers come from, whether drawing
-    changes anything, whether the same seed gives the same run.
+    The add-on runs for 50 control steps in a small world with robots that carry `sensors`, or in a
+    `scenario`. The check reports exceptions in its hooks, random numbers from shared generators,
+    drawing that changes the run, and runs that differ with the same seed.
 
     >>> from mars2d.addons import Map
     >>> check_addon(Map([[(0, 0), (0, 1)]]))
@@ -76,9 +76,9 @@ def addon_findings(
     control: Callable[[Any], Any] | None = None,
     deadline: Deadline | None = None,
 ) -> tuple[Finding, ...]:
-    """Return what `check_addon` finds, hints too.
+    """Return the findings of `check_addon`, including hints.
 
-    control: the law of the scenario's team. deadline: that of each control step.
+    control: the law of the scenario's team. deadline: the limit of each control step.
     """
     checks.instance(Addon, "Map([...])")("check_addon(addon)", addon)
     subject = _Subject(addon)
@@ -86,10 +86,10 @@ def addon_findings(
     copies = check_fields(addon, Addon, subject.notes)
     if subject.can_be_called() and copies:
         with deadline or Deadline() as limit:
-            place = functools.partial(subject.placed, sensors)
+            place = partial(subject.placed, sensors)
             done = first_run(place, scenario, control, subject.look, limit, subject.notes)
             if done is not None:
-                # In a small world all else is known to be repeatable.
+                # Everything else in the small world is known to be repeatable.
                 own = ("",) if scenario is None else (f"add-on {addon.key}.",)
                 check_repeatable(*done, places, subject.notes, own)
                 subject.check_drawing(*done)
@@ -98,7 +98,7 @@ def addon_findings(
 
 
 class _Subject:
-    """The add-on that is tried, and what is seen of it."""
+    """The add-on on trial, and the observations so far."""
 
     def __init__(self, addon: Addon) -> None:
         self.addon, self.kind = addon, type(addon)
@@ -109,7 +109,7 @@ class _Subject:
         self._painted: set[str] = set()  # attributes that on_draw sets
 
     def can_be_called(self) -> bool:
-        """Say which methods can't be called; return whether it can be tried."""
+        """Report methods that can't be called; return whether it can be tried."""
         return check_methods(self.addon, Addon, METHODS, self.notes)
 
     def placed(
@@ -118,10 +118,9 @@ class _Subject:
         scenario: Scenario | None,
         control: Callable[[Any], Any] | None,
     ) -> tuple[Scenario, Callable[[Any], Any] | None]:
-        """Return the scenario in which it is tried, and the law of its team."""
+        """Return the scenario for the trial, and the law of its team."""
         hooks = [hook for hook in HOOKS if is_own(self.addon, hook, Addon)]
-        methods = {hook: _hook(self, hook) for hook in hooks}
-        witness = with_methods(self.addon, methods)
+        witness = with_methods(self.addon, {hook: partial(self.call, hook) for hook in hooks})
         self._outlines = self._standing(witness)
         if scenario is None:
             return self._somewhere(sensors, witness), shepherd
@@ -132,7 +131,7 @@ class _Subject:
         ), control
 
     def _somewhere(self, sensors: Sequence[Sensor], witness: Addon) -> Scenario:
-        """Return a small world with the add-on; without walls if its obstacles lie in the way."""
+        """Return a small world with the add-on; moved and without walls if obstacles are in it."""
         try:
             return small_world(sensors, [witness])
         except InputError:
@@ -151,7 +150,7 @@ class _Subject:
             )
 
     def _standing(self, live: Addon) -> str:
-        """Return a print of its obstacles now; they are known to be outlines."""
+        """Return a fingerprint of its current obstacles; raise if they are not outlines."""
         with self.notes.calling("obstacles", self.kind.obstacles, None):
             found = self.kind.obstacles(live)
         return fingerprint(checks.outlines(f"{self.notes.name}.obstacles()", found))
@@ -159,7 +158,7 @@ class _Subject:
     # -- called by the witness ------------------------------------------------------------------
 
     def call(self, hook: str, live: Addon, world: World, *more: Any) -> None:
-        """Let a hook do what it does, and look at it."""
+        """Call a hook, and check its effects."""
         function = getattr(self.kind, hook)
         with self.notes.calling(hook, function, world.time):
             if hook != "on_draw":
@@ -184,7 +183,7 @@ class _Subject:
             check_finite(more[0], f"{self.notes.name}.on_draw", at(world.time), self.report)
 
     def look(self, world: World) -> None:
-        """Look at what it puts into the world, after a control step."""
+        """Check its obstacles, beacons, floor and drawings after a control step."""
         live = getattr(world.addons, self.addon.key)
         time = world.time
         if is_own(self.addon, "obstacles", Addon) and self._standing(live) != self._outlines:
@@ -228,7 +227,7 @@ class _Subject:
                 )
 
     def _look_at_drawing(self, method: str, world: World) -> None:
-        """Draw as a replay does: by the add-on of the scenario, which is frozen."""
+        """Draw as a replay does, by the frozen add-on of the scenario."""
         area = world.workspace or rectangle(*world.bounds)
         function, scene = getattr(self.kind, method), Scene()
         with self.notes.calling(method, function, world.time):
@@ -238,7 +237,7 @@ class _Subject:
     # -- after the runs -------------------------------------------------------------------------
 
     def check_drawing(self, trial: Trial, first: Run) -> None:
-        """Say if a run goes another way when it is drawn, or is drawn otherwise each time."""
+        """Report a run that drawing changes, and drawings that differ between equal runs."""
         if not is_own(self.addon, "on_draw", Addon):
             return
         again, sound = trial.shortened(first), self.report.sound
@@ -268,15 +267,8 @@ class _Subject:
             self.report.hint(f"{self.notes.name}.on_draw drew nothing in the whole trial")
 
 
-def _hook(subject: _Subject, name: str) -> Any:
-    def hook(self: Addon, world: World, *more: Scene) -> None:
-        subject.call(name, self, world, *more)
-
-    return hook
-
-
 def _same_but(one: Run, other: Run, what: set[str]) -> bool:
-    """Return whether two runs are the same but for some things."""
+    """Return whether two runs are equal except for some names in `Run.rows`."""
     kept = [
         [{k: v for k, v in row.items() if k not in what} for row in run.rows]
         for run in (one, other)

@@ -1,4 +1,4 @@
-"""What is asked of every part: its methods' arguments, its fields, whether runs are repeatable."""
+"""Checks for all kinds of parts: arguments of methods, fields, drawing, repeatability."""
 
 from __future__ import annotations
 
@@ -8,27 +8,41 @@ import inspect
 import json
 import pickle
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
+
+import numpy as np
 
 from mars2d.core.deadline import Deadline, Late
 from mars2d.core.description import Description
 from mars2d.core.errors import described, shown
+from mars2d.core.scene import Scene
 from mars2d.scenario import serialize
 from mars2d.scenario.scenario import Scenario
+from mars2d.testing.finding import Noted, Notes, Report
 from mars2d.testing.state import Places
-from mars2d.testing.trial import Difference, Run, Trial, as_input_error, difference
-from mars2d.testing.witness import Noted, Notes
+from mars2d.testing.trial import (
+    Difference,
+    Run,
+    Trial,
+    as_input_error,
+    coordinates,
+    difference,
+)
 from mars2d.world.world import World
 
 __all__ = [
     "check_fields",
+    "check_finite",
     "check_methods",
     "check_places",
     "check_repeatable",
     "first_run",
     "is_own",
     "run_ended",
+    "with_methods",
 ]
+
+Part = TypeVar("Part", bound=Description)
 
 ControlLaw = Callable[[Any], Any]
 
@@ -36,7 +50,7 @@ SHARES = "worlds and robots that run in one process would disturb each other"
 
 
 def is_own(part: Description, method: str, base: type[Description]) -> bool:
-    """Return whether a part has a method of its own, not that of its family's base."""
+    """Return whether a part's class defines a method instead of inheriting it from its base."""
     return getattr(type(part), method, None) is not getattr(base, method)
 
 
@@ -46,7 +60,7 @@ def check_methods(
     methods: Mapping[str, Sequence[str]],
     notes: Notes,
 ) -> bool:
-    """Say which of a part's own methods can't be called with their arguments; False if any."""
+    """Report a part's own methods that can't be called as documented; return whether none."""
     own = [method for method in methods if is_own(part, method, base)]
     callables = [_check_arguments(part, method, methods[method], notes) for method in own]
     return all(callables)
@@ -55,7 +69,7 @@ def check_methods(
 def _check_arguments(
     part: Description, method: str, arguments: Sequence[str], notes: Notes
 ) -> bool:
-    """Say if a method can't be called with these arguments; return whether it can."""
+    """Report a method that can't be called with these arguments; return whether it can."""
     function = getattr(part, method)
     expected = f"expected {method}({', '.join(['self', *arguments])})"
     if not callable(function):
@@ -82,9 +96,9 @@ def _check_arguments(
 
 
 def check_fields(part: Description, base: type[Description], notes: Notes) -> bool:
-    """Say which fields can't be copied, sent to another process or kept in a file.
+    """Report fields that can't be copied, sent to another process or saved in a file.
 
-    Returns whether all can be copied, as each world needs a copy of its own.
+    Returns whether all can be copied, since each world needs its own copy.
     """
     report, name, copies = notes.report, notes.name, True
     for field in dataclasses.fields(part):
@@ -137,7 +151,7 @@ def _check_in_file(part: Description, field: str, value: Any, notes: Notes) -> N
 
 
 def check_places(places: Places, notes: Notes) -> None:
-    """Hint at attributes of a class that can be changed: all its objects share them."""
+    """Hint at mutable attributes of a class, which all its objects share."""
     for place in places.of_classes():
         notes.report.hint(
             f"{place}, is shared by all objects and worlds: what is written there is seen "
@@ -146,9 +160,9 @@ def check_places(places: Places, notes: Notes) -> None:
 
 
 def run_ended(run: Run, notes: Notes) -> bool:
-    """Say why a run did not come to its end, if it didn't; return whether it did.
+    """Report why a run did not reach its end; return whether it did.
 
-    What a part raises itself is noted before: any other error is not its fault.
+    Errors raised by the part itself are reported before; any other error is not its fault.
     """
     if run.late is not None:
         where = f"{run.late}: " if run.late else ""
@@ -173,10 +187,10 @@ def first_run(
     deadline: Deadline,
     notes: Notes,
 ) -> tuple[Trial, Run] | None:
-    """Run a part for the first time; None, with a finding, if that does not come to its end.
+    """Run a part for the first time; return None, after reporting why, if the run fails.
 
-    place: returns the scenario with the part in it, or the small world for None, and the law of the
-    team. Where the scenario fails for another reason than the part, the small world is taken.
+    place: puts the part into a scenario, or into the small world for None; returns the scenario and
+    the team's law. If the scenario fails for other reasons than the part, the small world is used.
     """
     run, trial = Run(), None
     notes.small_world = scenario is None
@@ -200,9 +214,10 @@ def first_run(
 def check_repeatable(
     trial: Trial, first: Run, places: Places, notes: Notes, own: tuple[str, ...]
 ) -> None:
-    """Say if the same seed does not give the same run, alone or beside another world.
+    """Report if the same seed does not give the same run, alone or beside another world.
 
-    first: a run of the trial that was done. own: what the part answers for in `Run.rows` begins so.
+    first: an earlier run of the trial. own: prefixes of those names in `Run.rows` for which the
+    part is responsible.
     """
     again, tick = trial.shortened(first), trial.scenario.sampling_time
     found = difference(first, again.run(noise=2), tick)
@@ -243,3 +258,34 @@ def _answers(found: Difference | None, own: tuple[str, ...]) -> bool:
 
 def _what(found: Difference) -> str:
     return f"from {found.time:g} s on ({found.what})"
+
+
+def check_finite(scene: Scene, name: str, when: str, report: Report) -> None:
+    """Report a shape with coordinates that are nan or infinite."""
+    for shape in scene.shapes:
+        for value in coordinates(shape):
+            if isinstance(value, (float, tuple, np.ndarray)) and not np.isfinite(value).all():
+                report.wrong(
+                    f"{name} draws a {type(shape).__name__.lower()} with nan or inf in it{when}: "
+                    "leave out what is missing, and end at the range what has no end"
+                )
+                return
+
+
+def with_methods(part: Part, methods: Mapping[str, Callable[..., Any]]) -> Part:
+    """Return a copy of a part, of a subclass in which functions of the part replace methods."""
+    kind = type(part)
+    body: dict[str, Any] = {"__module__": kind.__module__, "__doc__": kind.__doc__}
+    body |= {name: _as_method(function) for name, function in methods.items()}
+    twin: Part = object.__new__(type(kind.__name__, (kind,), body))
+    twin.__dict__.update(vars(part))
+    return twin
+
+
+def _as_method(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that is called with the part first, as a bound method would not be."""
+
+    def method(part: Any, *arguments: Any) -> Any:
+        return function(part, *arguments)
+
+    return method

@@ -1,4 +1,4 @@
-"""Try a control law: what it returns, what it may see, seeds, and where it keeps things."""
+"""Check a control law: its commands, its sight, seeds, and where it keeps state."""
 
 from __future__ import annotations
 
@@ -17,10 +17,9 @@ from mars2d.core.usercode import name_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.testing.common import check_repeatable, run_ended
-from mars2d.testing.finding import Finding, Report, judge
+from mars2d.testing.finding import Finding, Noted, Notes, Report, at, judge
 from mars2d.testing.state import Places
 from mars2d.testing.trial import Run, Trial, small_world
-from mars2d.testing.witness import Noted, Notes, at
 from mars2d.world.laws import Law, robot_command, team_command
 from mars2d.world.world import World
 
@@ -45,12 +44,12 @@ def check_controller(
     scenario: Scenario | None = None,
     team: bool | None = None,
 ) -> None:
-    """Try a control law, and raise CheckError, which lists all that is wrong with it.
+    """Try a control law, and raise CheckError, which lists everything that is wrong with it.
 
-    It drives the robots of a small world, which carry `sensors`, or of a `scenario`, where it
-    drives those that have it as their own, and watched for 50 control steps. sees: what it may see,
-    as ``Robot.sees`` or ``Scenario.sees``. team: whether it is the law of the team; by default, if
-    its argument is called world or team.
+    For 50 control steps, the law drives the robots of a small world, which carry `sensors`, or
+    those robots of a `scenario` that have it as their controller. sees: as ``Robot.sees`` or
+    ``Scenario.sees``. team: whether it is the law of the team; by default, if its argument is
+    called world or team.
 
     >>> check_controller(lambda robot: (0.2, 0.1 * robot.rng.normal()))
     """
@@ -61,7 +60,7 @@ def check_controller(
 
 
 def is_of_a_team(law: ControlLaw) -> bool:
-    """Return whether a law's argument is called as that of a team's law is: world, or team."""
+    """Return whether a law's argument has the name of a team law's: world, or team."""
     try:
         names = list(inspect.signature(law).parameters)
     except (TypeError, ValueError):
@@ -80,10 +79,10 @@ def controller_findings(
     team: bool | None = None,
     deadline: Deadline | None = None,
 ) -> tuple[Finding, ...]:
-    """Return what `check_controller` finds, hints too.
+    """Return the findings of `check_controller`, including hints.
 
-    control: the law of the scenario's team, if the law is a robot's. deadline: that
-    of each control step.
+    control: the law of the scenario's team, if the law is a robot's. deadline: the limit of each
+    control step.
     """
     of_team = is_of_a_team(law) if team is None else team
     report = Report()
@@ -96,7 +95,7 @@ def controller_findings(
     subject.notes.small_world = scenario is None
     places = Places(law)
     with deadline or Deadline() as limit:
-        # A law is tried in its own scenario or not at all: elsewhere it might lack something.
+        # A law is tried only in its own scenario: elsewhere it might lack something.
         run, looked = Run(), subject.look
         try:
             if scenario is None:
@@ -118,7 +117,7 @@ def controller_findings(
 def _place(
     law: ControlLaw, of_team: bool, sees: str, sensors: Sequence[Sensor], addons: Sequence[Addon]
 ) -> Scenario:
-    """Return the small world in which a law is tried."""
+    """Return the small world for the trial of a law."""
     if not of_team:
         return small_world(sensors, addons, law, sees)
     scenario = small_world(sensors, addons, law)
@@ -127,7 +126,7 @@ def _place(
 
 
 class _Subject:
-    """The law that is tried, and what is seen of it."""
+    """The law on trial, and the observations so far."""
 
     def __init__(self, law: ControlLaw, report: Report, of_team: bool) -> None:
         self.law, self.report, self.of_team = law, report, of_team
@@ -140,7 +139,7 @@ class _Subject:
         self.returned_at: float | None = None
 
     def placed(self, scenario: Scenario) -> Scenario:
-        """Return a scenario whose robots that have the law as their own have the witness."""
+        """Return a scenario in which the witness replaces the law as a controller."""
         if self.of_team:
             return scenario
         own = [robot.controller is not None and _same(robot.controller, self.law)
@@ -152,13 +151,13 @@ class _Subject:
         return scenario.replace(robots=robots)
 
     def commands(self, scenario: Scenario) -> tuple[str, ...]:
-        """Return what the law answers for, as in `Run.rows`."""
+        """Return the names in `Run.rows` for which the law is responsible."""
         mine = [r for r in scenario.robots if (r.controller is None) == self.of_team
                 and r.controller in (None, self.witness)]  # fmt: skip
         return tuple(f"command {robot.name}" for robot in mine)
 
     def checked(self, subject: Any, value: Any) -> Any:
-        """Return a command if it can be used; else say why not, and stand still."""
+        """Return a valid command; report an invalid one, and return that to stand still."""
         law = Law(self.law, subject)
         try:
             if self.of_team:
@@ -177,7 +176,7 @@ class _Subject:
         return np.zeros((2, len(subject.robots))) if self.of_team else (0.0, 0.0)
 
     def look(self, world: World) -> None:
-        """Compare what was asked for with what was issued, after a control step."""
+        """Compare the commands asked for with those issued, after a control step."""
         for i, asked in self._asked.items():
             issued = world.command[:, i]
             self.steps += 1
@@ -188,7 +187,7 @@ class _Subject:
         self._asked = {}
 
     def conclude(self) -> None:
-        """Hint at what is seldom meant."""
+        """Hint at behaviour that is rarely intended."""
         name = self.notes.name
         if self.returned_at is not None:
             self.report.hint(
@@ -205,7 +204,7 @@ class _Subject:
 
 
 class _Witness:
-    """A law that does what another one does, and lets it be looked at."""
+    """A law that calls another one and checks its commands."""
 
     def __init__(self, subject: _Subject) -> None:
         self._subject = subject
@@ -213,7 +212,7 @@ class _Witness:
         self.__name__ = subject.notes.name
 
     def __call__(self, subject: Any) -> Any:
-        """Call the law; what it raises is noted, and its robots stand still."""
+        """Call the law; report an exception, and then let its robots stand still."""
         mine = self._subject
         try:
             with mine.notes.calling("", mine.law, subject.time):

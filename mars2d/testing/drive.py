@@ -1,4 +1,4 @@
-"""Try a drive: the shapes of its commands and twists, its limits, and that it keeps nothing."""
+"""Check a drive: the shapes of its commands and twists, its limits, and that it has no state."""
 
 from __future__ import annotations
 
@@ -12,10 +12,9 @@ from mars2d.core.deadline import Deadline
 from mars2d.core.errors import InputError, shown
 from mars2d.scenario.robot import Robot
 from mars2d.testing.common import check_fields, check_methods, check_places, is_own, run_ended
-from mars2d.testing.finding import Finding, Report, judge
+from mars2d.testing.finding import Finding, Noted, Notes, Report, judge
 from mars2d.testing.state import Places
 from mars2d.testing.trial import Run, Trial, bystander, small_world
-from mars2d.testing.witness import Noted, Notes
 
 __all__ = ["check_drive", "drive_findings"]
 
@@ -27,16 +26,16 @@ METHODS = {
     "accelerate": (("command", "last", "duration"), 2),
     "disturb": (("command", "normal"), 2),
 }
-"""What a drive can have of its own: the arguments, and the rows of what it returns."""
+"""The methods that a drive can define: their arguments, and the rows of the result."""
 
 COMMANDS = np.array([[0.0, 0.3, -0.2, 5.0, -7.0], [0.0, 0.4, 1.0, -9.0, 0.0]])
 
 
 def check_drive(drive: Drive) -> None:
-    """Try a drive, and raise CheckError, which lists all that is wrong with it.
+    """Try a drive, and raise CheckError, which lists everything that is wrong with it.
 
-    Its methods are called with the commands of several robots at once and of each alone; then it
-    drives robots in a small world.
+    Its methods are called with the commands of several robots at once and of each one alone; then
+    it drives robots in a small world.
 
     >>> from mars2d import Unicycle
     >>> check_drive(Unicycle())
@@ -45,7 +44,7 @@ def check_drive(drive: Drive) -> None:
 
 
 def drive_findings(drive: Drive, *, deadline: Deadline | None = None) -> tuple[Finding, ...]:
-    """Return what `check_drive` finds, hints too. deadline: that of the trial."""
+    """Return the findings of `check_drive`, including hints. deadline: the limit of a step."""
     checks.instance(Drive, "Unicycle()")("check_drive(drive)", drive)
     subject = _Subject(drive)
     places = Places(type(drive))
@@ -70,7 +69,7 @@ KEEP = "a drive is the same at each step and for all robots that have it, and ke
 
 
 class _Subject:
-    """The drive that is tried, and what is seen of it."""
+    """The drive on trial, and the observations so far."""
 
     def __init__(self, drive: Drive) -> None:
         self.drive, self.kind = drive, type(drive)
@@ -79,7 +78,7 @@ class _Subject:
         self.notes = Notes(self.kind.__name__, self.report, own, KEEP.capitalize())
 
     def can_be_called(self) -> bool:
-        """Say which methods are missing or can't be called; return whether it can be tried."""
+        """Report methods that are missing or can't be called; return whether it can be tried."""
         if not is_own(self.drive, "twist", Drive):
             self.report.wrong(
                 f"{self.notes.name} has no method twist: write twist(self, command), which makes "
@@ -90,7 +89,7 @@ class _Subject:
         return check_methods(self.drive, Drive, methods, self.notes)
 
     def try_methods(self) -> None:
-        """Call each method with several commands at once, and with each alone."""
+        """Call each method with several commands at once, and with each one alone."""
         for method, (_, rows) in METHODS.items():
             if not is_own(self.drive, method, Drive):
                 continue
@@ -101,8 +100,8 @@ class _Subject:
             if any(one is None or not np.allclose(one[:, 0], every[:, i], rtol=1e-9, atol=1e-12)
                    for i, one in enumerate(alone)):  # fmt: skip
                 self.report.wrong(
-                    f"{self.notes.name}.{method} gives a robot something else among others than "
-                    "alone: each column is a robot's, and must not depend on the others"
+                    f"{self.notes.name}.{method} gives a robot another result among others than "
+                    "alone: each column belongs to a robot, and must not depend on the others"
                 )
         if not self.report.sound:
             return

@@ -1,4 +1,4 @@
-"""Try all parts and laws of a file: those that it defines, as its scenario uses them."""
+"""Check all parts and laws that a file defines, as its scenario uses them."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import dataclasses
 import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from types import ModuleType
 from typing import Any
 
@@ -29,13 +30,13 @@ __all__ = ["Case", "defined_parts", "trials"]
 
 FAMILIES: dict[str, type[Description]] = {"drive": Drive, "sensor": Sensor, "add-on": Addon}
 
-OBJECTS = 3
-"""Of one class so many different objects of a scenario are tried."""
+MAX_OBJECTS = 3
+"""How many different objects of one class in a scenario are tried, at most."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """One part or law that can be tried: what it is, where, and the function that tries it.
+    """A part or law to be tried: its name, where it is tried, and the function that tries it.
 
     untried: why it can't be tried; then `findings` returns nothing.
     """
@@ -47,7 +48,7 @@ class Case:
 
 
 def defined_parts(module: ModuleType) -> dict[str, list[type[Description]]]:
-    """Return the classes of parts that a file defines, by their family."""
+    """Return the classes of parts that a file defines, by family."""
     found: dict[str, list[type[Description]]] = {family: [] for family in FAMILIES}
     kinds = [k for k in vars(module).values() if isinstance(k, type)]
     own = [k for k in kinds if k.__module__ == module.__name__ and issubclass(k, Description)]
@@ -61,7 +62,7 @@ def defined_parts(module: ModuleType) -> dict[str, list[type[Description]]]:
 
 
 def _is_abstract(kind: type[Description], base: type[Description]) -> bool:
-    """Return whether a class leaves to others what each part must have."""
+    """Return whether a class lacks the method that each part of its family must have."""
     needed = {Sensor: "read", Drive: "twist"}.get(base, "")
     return bool(needed) and getattr(kind, needed) is getattr(base, needed)
 
@@ -69,9 +70,9 @@ def _is_abstract(kind: type[Description], base: type[Description]) -> bool:
 def trials(
     module: ModuleType, experiment: Experiment | None, deadline: Deadline | None = None
 ) -> Iterator[Case]:
-    """Yield all that can be tried of a file: its drives, sensors and add-ons, then laws.
+    """Yield everything in a file that can be tried: drives, sensors and add-ons, then laws.
 
-    experiment: what the file makes of itself, None if it has no scenario.
+    experiment: the file's own, or None if it has no scenario.
     """
     defined = defined_parts(module)
     for family, kinds in defined.items():
@@ -90,7 +91,7 @@ def _of_class(
     scenario = None if experiment is None else experiment.scenario
     used = [] if scenario is None else [p for p in _parts(scenario)[family] if type(p) is kind]
     if used and experiment is not None:
-        for part in used[:OBJECTS]:
+        for part in used[:MAX_OBJECTS]:
             yield _trial(
                 name if len(used) == 1 else f"{family} {part!r}", part, experiment, deadline
             )
@@ -111,22 +112,19 @@ def _of_class(
 
 
 def _trial(name: str, part: Any, experiment: Experiment | None, deadline: Deadline | None) -> Case:
-    """Return the trial of a part, in the file's own scenario if that uses it."""
+    """Return the trial of a part, in the file's own scenario if there is one."""
     if isinstance(part, Drive):
-        return Case(name, "in a small world", lambda: drive_findings(part, deadline=deadline))
+        return Case(name, "in a small world", partial(drive_findings, part, deadline=deadline))
     findings = sensor_findings if isinstance(part, Sensor) else addon_findings
     if experiment is None:
-        return Case(name, "in a small world", lambda: findings(part, deadline=deadline))
+        return Case(name, "in a small world", partial(findings, part, deadline=deadline))
     scenario, control = experiment.scenario, experiment.control
-    return Case(
-        name,
-        "in its scenario",
-        lambda: findings(part, scenario=scenario, control=control, deadline=deadline),
-    )
+    trial = partial(findings, part, scenario=scenario, control=control, deadline=deadline)
+    return Case(name, "in its scenario", trial)
 
 
 def _of_experiment(experiment: Experiment, deadline: Deadline | None) -> Iterator[Case]:
-    """Yield the laws of a scenario, each piece of code once."""
+    """Yield the laws of a scenario; equal code is tried once."""
     scenario, control = experiment.scenario, experiment.control
     laws: dict[Any, tuple[Callable[[Any], Any], list[str]]] = {}
     for robot in scenario.robots:
@@ -134,29 +132,15 @@ def _of_experiment(experiment: Experiment, deadline: Deadline | None) -> Iterato
         if law is not None:
             code = getattr(inspect.unwrap(law), "__code__", law)
             laws.setdefault(code, (law, []))[1].append(str(robot.name))
+    trial = partial(controller_findings, scenario=scenario, deadline=deadline)
     if control is not None:
-        yield Case(
-            f"law {name_of(control)}",
-            "of the team",
-            lambda: controller_findings(control, scenario=scenario, team=True, deadline=deadline),
-        )
+        yield Case(f"law {name_of(control)}", "of the team", partial(trial, control, team=True))
     for law, robots in laws.values():
         yield Case(
             f"law {name_of(law)}",
             f"of {', '.join(robots[:3])}{', ...' if len(robots) > 3 else ''}",
-            _trying(law, scenario, control, deadline),
+            partial(trial, law, control=control, team=False),
         )
-
-
-def _trying(
-    law: Callable[[Any], Any],
-    scenario: Scenario,
-    control: Callable[[Any], Any] | None,
-    deadline: Deadline | None,
-) -> Callable[[], tuple[Finding, ...]]:
-    return lambda: controller_findings(
-        law, scenario=scenario, control=control, team=False, deadline=deadline
-    )
 
 
 def _of_laws(module: ModuleType, sensors: list[Any], deadline: Deadline | None) -> Iterator[Case]:
@@ -167,23 +151,16 @@ def _of_laws(module: ModuleType, sensors: list[Any], deadline: Deadline | None) 
         arguments = list(inspect.signature(function).parameters)
         if name == "control" or (arguments in (["robot"], ["world"]) and not name.startswith("_")):
             where = "of a team" if is_of_a_team(function) else "of a robot"
-            yield Case(
-                f"law {name}", f"{where}, in a small world", _alone(function, sensors, deadline)
-            )
-
-
-def _alone(
-    law: Callable[[Any], Any], sensors: list[Any], deadline: Deadline | None
-) -> Callable[[], tuple[Finding, ...]]:
-    return lambda: controller_findings(law, sensors=sensors, deadline=deadline)
+            trial = partial(controller_findings, function, sensors=sensors, deadline=deadline)
+            yield Case(f"law {name}", f"{where}, in a small world", trial)
 
 
 def _all_that_can_be_made(kinds: list[type[Description]]) -> list[Any]:
-    """Return an object of each class that needs no fields and has what its family needs."""
+    """Return an object of each class that has no required fields and is complete."""
     made = []
     for kind in kinds:
         if not (_required(kind) or _is_abstract(kind, Sensor)):
-            with contextlib.suppress(InputError):  # it is said where the class is tried
+            with contextlib.suppress(InputError):  # reported where the class is tried
                 made.append(kind())
     return made
 

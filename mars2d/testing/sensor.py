@@ -1,10 +1,11 @@
-"""Try a sensor: its arguments, readings, seeds, purity, drawing."""
+"""Check a sensor: its arguments, readings, seeds, purity and drawing."""
 
 from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from math import pi
 from typing import Any
 
@@ -19,17 +20,17 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Quantity, Sensor
 from mars2d.testing.common import (
     check_fields,
+    check_finite,
     check_methods,
     check_places,
     check_repeatable,
     first_run,
     is_own,
+    with_methods,
 )
-from mars2d.testing.drawing import check_finite
-from mars2d.testing.finding import Finding, Report, judge
+from mars2d.testing.finding import Finding, Noted, Notes, Report, at, judge
 from mars2d.testing.state import Places, fingerprint
 from mars2d.testing.trial import Run, Trial, changes, difference, prints, shepherd, small_world
-from mars2d.testing.witness import Noted, Notes, at, with_methods
 from mars2d.world.world import World
 
 __all__ = ["check_sensor", "sensor_findings"]
@@ -41,17 +42,17 @@ METHODS = {
     "shown": ("reading",),
     "draw": ("scene", "pose", "reading", "color"),
 }
-"""What a sensor can have of its own, and the arguments."""
+"""The methods that a sensor can define, with their arguments."""
 
 KEEP = "Keep such things in attributes of self, set in on_start"
 
 
 def check_sensor(sensor: Sensor, *, scenario: Scenario | None = None) -> None:
-    """Try a sensor, and raise CheckError, which lists all that is wrong with it.
+    """Try a sensor, and raise CheckError, which lists everything that is wrong with it.
 
-    It is put on robots of a small world with walls, an obstacle and a box, or on those of a
-    `scenario`, and watched for 50 control steps: what it reads, where its random numbers come from,
-    whether it changes anything, whether the same seed gives the same readings.
+    The sensor runs for 50 control steps on the robots of a small world with walls, an obstacle and
+    a box, or on those of a `scenario`. The check reports invalid readings, random numbers from
+    shared generators, changes to the world, and readings that differ with the same seed.
 
     >>> from mars2d.sensors import Proximity
     >>> check_sensor(Proximity(range=1.0))
@@ -66,9 +67,9 @@ def sensor_findings(
     control: Callable[[Any], Any] | None = None,
     deadline: Deadline | None = None,
 ) -> tuple[Finding, ...]:
-    """Return what `check_sensor` finds, hints too.
+    """Return the findings of `check_sensor`, including hints.
 
-    control: the law of the scenario's team. deadline: that of each control step.
+    control: the law of the scenario's team. deadline: the limit of each control step.
     """
     checks.instance(Sensor, "Proximity(range=1)")("check_sensor(sensor)", sensor)
     subject = _Subject(sensor)
@@ -86,7 +87,7 @@ def sensor_findings(
 
 
 class _Subject:
-    """The sensor that is tried, and what is seen of it."""
+    """The sensor on trial, and the observations so far."""
 
     def __init__(self, sensor: Sensor) -> None:
         self.sensor, self.kind = sensor, type(sensor)
@@ -97,7 +98,7 @@ class _Subject:
         self._unstable: set[str] = set()
 
     def can_be_called(self) -> bool:
-        """Say which methods are missing or can't be called; return whether it can be tried."""
+        """Report methods that are missing or can't be called; return whether it can be tried."""
         name = self.notes.name
         if not is_own(self.sensor, "read", Sensor):
             self.report.wrong(
@@ -110,7 +111,7 @@ class _Subject:
     def placed(
         self, scenario: Scenario | None, control: Callable[[Any], Any] | None
     ) -> tuple[Scenario, Callable[[Any], Any] | None]:
-        """Return the scenario in which it is tried, and the law of its team."""
+        """Return the scenario for the trial, and the law of its team."""
         witness = self._witness(self.sensor)
         if scenario is None:
             tick = 0.1 if self.sensor.rate is None else _tick(self.sensor.rate)
@@ -125,21 +126,22 @@ class _Subject:
         return scenario.replace(robots=robots), control
 
     def _witness(self, sensor: Sensor) -> Sensor:
-        """Return the sensor with methods that tell this object what they do."""
-        methods: dict[str, Any] = {"read": _reading(self)}
-        for name in ("on_start", "on_step"):
-            if is_own(sensor, name, Sensor):
-                methods[name] = _following(self, name)
-        if is_own(sensor, "shown", Sensor):
-            methods["shown"] = _showing(self)
-        witness = with_methods(sensor, methods)
-        witness.__dict__["recorded"] = True  # so that it is read, whether a law asks or not
+        """Return the sensor with methods that report to this object."""
+        methods: dict[str, Callable[..., Any]] = {
+            "read": self.read,
+            "on_start": partial(self.follow, "on_start"),
+            "on_step": partial(self.follow, "on_step"),
+            "shown": self.show,
+        }
+        own = {name: method for name, method in methods.items() if is_own(sensor, name, Sensor)}
+        witness = with_methods(sensor, own)
+        witness.__dict__["recorded"] = True  # so that it is read even if no law asks
         return witness
 
     # -- called by the witness ------------------------------------------------------------------
 
     def read(self, live: Sensor, robot: Any, world: Any, rng: np.random.Generator) -> Any:
-        """Let it read, and look at that from all sides."""
+        """Read, and check the reading, its side effects and its repeatability."""
         state, before = rng.bit_generator.state, prints(robot.world)
         untouched = _copy_of(live)
         with self.notes.calling("read", self.kind.read, world.time):
@@ -157,19 +159,19 @@ class _Subject:
     def follow(
         self, method: str, live: Sensor, robot: Any, world: Any, rng: np.random.Generator
     ) -> None:
-        """Let it do what it does at the start, or at a control step."""
+        """Call on_start or on_step, and check that the world is unchanged."""
         before, function = prints(robot.world), getattr(self.kind, method)
         with self.notes.calling(method, function, world.time):
             function(live, robot, world, rng)
         self._unchanged(method, before, robot.world)
 
     def show(self, live: Sensor, reading: Any) -> Any:
-        """Let it make of a reading what laws find."""
+        """Convert a reading to the form that laws get."""
         with self.notes.calling("shown", self.kind.shown, None):
             return self.kind.shown(live, reading)
 
     def draw(self, world: World) -> None:
-        """Let it draw, as window and figures do: by the sensor of the scenario."""
+        """Draw as window and figures do, by the frozen sensor of the scenario."""
         if not is_own(self.sensor, "draw", Sensor):
             return
         for i, reading in world.frame.readings.get(self.sensor.key, ()):
@@ -191,7 +193,7 @@ class _Subject:
             )
 
     def _acceptable(self, reading: Any, robot: str, time: float) -> None:
-        """Say what is wrong with a reading; one that can't be recorded ends the run."""
+        """Report an invalid reading; one that can't be recorded ends the run."""
         name, expected = f"{self.notes.name}.read", "a number, True or False, or an array of them"
         if reading is None:
             self._refuse(f"{name} returned nothing{at(time)}: expected {expected}; no `return`?")
@@ -205,8 +207,8 @@ class _Subject:
             self._refuse(
                 f"{name} returned {_described(values.shape, kind)} on {robot}{at(time)}, and "
                 f"{_described(*self._first)} before: shape and kind must stay the same, over time "
-                "and on all robots; what is missing is inf for a distance, False for a flag, "
-                "else nan"
+                "and on all robots; a missing value is inf for a distance, False for a flag, "
+                "otherwise nan"
             )
         quantities = self.kind.quantities
         if len(quantities) > 1 and (not values.ndim or values.shape[-1] != len(quantities)):
@@ -230,7 +232,7 @@ class _Subject:
     # -- after the runs -------------------------------------------------------------------------
 
     def check_mount(self, trial: Trial, first: Run) -> None:
-        """Say if the mount that was given makes no difference."""
+        """Hint at a mount that makes no difference to the readings."""
         if self.sensor.mount == (0.0, 0.0, 0.0):
             return
         ahead = self._witness(self.sensor.replace(mount=(0, 0, 0)))
@@ -247,12 +249,12 @@ class _Subject:
             )
 
     def conclude(self) -> None:
-        """Say what only shows once all runs are done."""
+        """Report findings that need all runs."""
         if "counts" in self._unstable:
             self.report.wrong(
                 f"{self.notes.name}.read gives another reading when it is called twice at the same "
-                "instant: how often it is called depends on the rate, and on what laws ask. What "
-                "goes on with time belongs into on_step, called once a control step"
+                "instant: how often it is called depends on the rate and on the laws. Changes over "
+                "time belong in on_step, which is called once a control step"
             )
         elif "wavers" in self._unstable and self.report.sound:
             self.report.wrong(
@@ -263,43 +265,22 @@ class _Subject:
             self.report.hint(f"{self.notes.name}.draw drew nothing in the whole trial")
 
 
-def _reading(subject: _Subject) -> Any:
-    def read(self: Sensor, robot: Any, world: Any, rng: np.random.Generator) -> Any:
-        return subject.read(self, robot, world, rng)
-
-    return read
-
-
-def _following(subject: _Subject, method: str) -> Any:
-    def follow(self: Sensor, robot: Any, world: Any, rng: np.random.Generator) -> None:
-        subject.follow(method, self, robot, world, rng)
-
-    return follow
-
-
-def _showing(subject: _Subject) -> Any:
-    def shown(self: Sensor, reading: Any) -> Any:
-        return subject.show(self, reading)
-
-    return shown
-
-
 def _exchanged(
     sensors: Sequence[Sensor], key: str, sensor: Sensor, *, add: bool = True
 ) -> list[Sensor]:
-    """Return a robot's sensors with one in the place of that of its name, or else beside them."""
+    """Return a robot's sensors with one replaced by name, or else added."""
     if any(each.key == key for each in sensors):
         return [sensor if each.key == key else each for each in sensors]
     return [*sensors, sensor] if add else [*sensors]
 
 
 def _tick(rate: float) -> float:
-    """Return a sampling time of about 0.1 s that suits a sensor's rate."""
+    """Return a sampling time of about 0.1 s that divides a sensor's period."""
     return 1 / (rate * max(1, round(10 / rate)))
 
 
 def _copy_of(live: Sensor) -> Sensor | None:
-    """Return a copy, None if what it keeps can't be copied."""
+    """Return a copy, or None if its attributes can't be copied."""
     try:
         return copy.deepcopy(live)
     except Exception:  # whatever a user's object raises
@@ -307,7 +288,7 @@ def _copy_of(live: Sensor) -> Sensor | None:
 
 
 def _generator(state: Any) -> np.random.Generator:
-    """Return a generator that draws what another one would draw from this state on."""
+    """Return a random generator in a given state."""
     generator = np.random.Generator(np.random.PCG64(0))
     generator.bit_generator.state = state
     return generator
@@ -330,7 +311,7 @@ def _described(shape: tuple[int, ...], kind: str) -> str:
 
 
 def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> tuple[str, str] | None:
-    """Return which value is none of a quantity, and what it should be; None if all are."""
+    """Return (invalid value of a quantity, what is expected), or None if all are valid."""
     of = f"of {quantity.name}" + (f" [{quantity.unit}]" if quantity.unit else "")
     flags = values.dtype == bool
     if quantity.kind == "flag":
@@ -340,7 +321,7 @@ def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> tuple[s
         return (
             None if only else (f"True or False {of}", "expected numbers, or quantities = (FLAG,)")
         )
-    bad, why = np.isinf(values), "what is not there is nan, only a distance is inf"
+    bad, why = np.isinf(values), "a missing value is nan; only a distance is inf"
     if quantity.kind == "distance":
         bad, why = np.isnan(values), "a distance to nothing is inf"
         if not bad.any():

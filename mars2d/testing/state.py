@@ -1,4 +1,4 @@
-"""Values compared by their contents, and the places in which code can keep something."""
+"""Fingerprints of values, and the places in which code can keep state."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ __all__ = ["Places", "fingerprint"]
 
 GENERATORS = (np.random.Generator, np.random.RandomState, random.Random)
 
-DEPTH = 12
-"""How deep things are looked into."""
+MAX_DEPTH = 12
+"""The depth to which nested objects are compared."""
 
 
 def fingerprint(value: Any) -> str:
-    """Return a text that is the same for the same contents, whatever the addresses in memory.
+    """Return a text that is equal for equal contents, independent of addresses in memory.
 
-    Looks into numbers, text, arrays, collections, random generators and plain objects; of what
-    belongs to MARS2D's machinery, and of modules, functions and classes, only the kind counts.
+    It covers numbers, text, arrays, collections, random generators and plain objects. Of MARS2D's
+    own objects and of modules, functions and classes, only the type counts.
     """
     sha = hashlib.sha1(usedforsecurity=False)
-    for piece in _pieces(value, DEPTH, ()):
+    for piece in _pieces(value, MAX_DEPTH, ()):
         sha.update(piece)
     return sha.hexdigest()
 
@@ -70,11 +70,11 @@ def _state(generator: Any) -> Any:
     if isinstance(generator, np.random.RandomState):
         return generator.get_state(legacy=False)
     state = generator.bit_generator.state
-    return repr(state) if state["bit_generator"] == "PCG64" else state  # nothing but integers
+    return repr(state) if state["bit_generator"] == "PCG64" else state  # only integers
 
 
 def _is_plain(value: Any) -> bool:
-    """Return whether an object is of the user's own, or just holds attributes."""
+    """Return whether an object is the user's own, or a description."""
     if isinstance(value, (type, types.ModuleType, types.FunctionType, types.MethodType)):
         return False
     of_ours = type(value).__module__.partition(".")[0] == "mars2d"
@@ -84,10 +84,10 @@ def _is_plain(value: Any) -> bool:
 
 
 class Places:
-    """The places outside of self and the world in which a class or a function can keep something.
+    """The places outside of self and the world in which a class or a function can keep state.
 
-    Attributes of the class, variables of its module and of a function round it, defaults and
-    attributes of functions, attributes of a callable object.
+    These are attributes of the class, variables of its module and of an enclosing function, default
+    arguments and attributes of functions, and attributes of a callable object.
     """
 
     def __init__(self, code: Any) -> None:
@@ -101,12 +101,12 @@ class Places:
         self._before = self._look()
 
     def changed(self) -> list[str]:
-        """Return the places whose contents have changed since this object was made."""
+        """Return the places whose contents have changed since this object was created."""
         now = self._look()
         return [place for place, print_ in now.items() if self._before[place] != print_]
 
     def of_classes(self) -> list[str]:
-        """Return the attributes of classes whose contents could be changed, and were not."""
+        """Return the mutable attributes of classes that have not changed."""
         kinds = (list, dict, set, np.ndarray, np.random.Generator)
         changed = self.changed()
         return [
@@ -191,18 +191,18 @@ class Places:
 
 
 def _holds(value: Any) -> bool:
-    """Return whether a value is data: no module, class, function or description."""
+    """Return whether a value is data, and no module, class, function or description."""
     return not isinstance(value, (type, types.ModuleType, Description)) and not callable(value)
 
 
 def _function_of(value: Any) -> Any:
-    """Return the function behind a method of any kind or a property, None if there is none."""
+    """Return the function behind a method or property, or None if there is none."""
     for attribute in ("__func__", "fget", "func"):
         value = getattr(value, attribute, value)
     return value if isinstance(value, types.FunctionType) else None
 
 
 def _names(code: types.CodeType) -> set[str]:
-    """Return the names that code uses, that of functions within it too."""
+    """Return the names that code uses, including the functions inside it."""
     inner = (c for c in code.co_consts if isinstance(c, types.CodeType))
     return set(code.co_names).union(*map(_names, inner))

@@ -1,4 +1,4 @@
-"""A small world in which parts are tried, and runs that are compared with each other."""
+"""Trials: runs of a part in a small world or a scenario, which can be compared."""
 
 from __future__ import annotations
 
@@ -23,7 +23,6 @@ from mars2d.core.usercode import users_line
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.testing.drawing import coordinates
 from mars2d.testing.state import fingerprint
 from mars2d.world.world import World
 
@@ -35,6 +34,7 @@ __all__ = [
     "as_input_error",
     "bystander",
     "changes",
+    "coordinates",
     "difference",
     "drawn_at_random",
     "prints",
@@ -45,10 +45,10 @@ __all__ = [
 STEPS = 50
 """Control steps of a trial."""
 
-FEWEST = 5
+MIN_STEPS = 5
 
-ENOUGH = 1.0
-"""Seconds that a run may take: of what is slow fewer steps are done, but not less than FEWEST."""
+MAX_RUN_TIME = 1.0
+"""Seconds after which a slow run ends early, but not before `MIN_STEPS` steps."""
 
 
 def small_world(
@@ -60,8 +60,8 @@ def small_world(
 ) -> Scenario:
     """Return a room with three robots, a wall in the middle, an obstacle, a box and a beacon.
 
-    sensors: of the first two robots, and of the third if a law is given. controller: the law of
-    all robots; else the first two wander about, and the law of the team is to drive the third.
+    sensors: those of the first two robots, and of the third if a law is given. controller: the law
+    of all robots; by default the first two wander, and the law of the team drives the third.
     """
     carrier = Robot(sensors=sensors, controller=controller or bystander, sees=sees)
     third = carrier if controller else Robot()
@@ -82,7 +82,7 @@ def small_world(
 
 
 class Room(Addon):
-    """What stands in the small world: a wall, a triangle, a beacon, a grey half of the floor."""
+    """The furniture of the small world: a wall, a triangle, a beacon, a floor that is half grey."""
 
     def obstacles(self) -> tuple[Outline, ...]:
         """Return a wall and a triangle."""
@@ -99,12 +99,12 @@ class Room(Addon):
 
 
 def bystander(robot: Any) -> tuple[float, float]:
-    """Wander: the law of robots in a trial that have no other, which draws random numbers."""
+    """Wander at random: the default law of a trial's robots."""
     return 0.3, robot.rng.uniform(-1.5, 1.5)
 
 
 def shepherd(world: Any) -> Any:
-    """Let all robots wander: the law of the team in a trial, if it has no other."""
+    """Let all robots wander at random: the default law of a trial's team."""
     still = np.zeros((2, len(world.robots)))
     still[0], still[1] = 0.2, world.rng.uniform(-pi / 2, pi / 2)
     return still
@@ -114,8 +114,9 @@ def shepherd(world: Any) -> Any:
 class Run:
     """One run of a trial.
 
-    rows: for each control step prints of what there was, in order. error: what ended it. late: the
-    line that took longer than `patience` seconds. scenes: prints of what add-ons drew.
+    rows: for each control step, fingerprints of the world's state by name, in causal order. error:
+    the one that ended the run. late: the line that took longer than `patience` seconds. scenes:
+    fingerprints of the add-ons' drawings.
     """
 
     rows: list[dict[str, str]] = field(default_factory=list)
@@ -127,12 +128,12 @@ class Run:
 
     @property
     def failed(self) -> bool:
-        """Whether it did not come to its end."""
+        """Whether it did not run to its end."""
         return self.error is not None or self.late is not None
 
 
 def as_input_error(error: Exception) -> InputError:
-    """Return what was raised as an error that points at the user's line."""
+    """Return an exception as an InputError that points at the user's line."""
     if isinstance(error, InputError):
         return error
     result = InputError(described(error))
@@ -142,7 +143,7 @@ def as_input_error(error: Exception) -> InputError:
 
 @dataclass(frozen=True)
 class Difference:
-    """Where two runs part: the control step, its time, and what differs first, as in `Run.rows`."""
+    """The first difference of two runs: the control step, its time, and a name in `Run.rows`."""
 
     step: int
     time: float
@@ -150,7 +151,7 @@ class Difference:
 
 
 def difference(one: Run, other: Run, sampling_time: float) -> Difference | None:
-    """Return where two runs part, None if they are the same."""
+    """Return the first difference of two runs, or None if they are equal."""
     for step, (mine, its) in enumerate(zip(one.rows, other.rows, strict=False)):
         for what in mine | its:
             if mine.get(what) != its.get(what):
@@ -163,10 +164,10 @@ def difference(one: Run, other: Run, sampling_time: float) -> Difference | None:
 
 @dataclass(frozen=True)
 class Trial:
-    """A scenario and a law of its team that can be run again and again.
+    """A scenario and its team's law, which can be run repeatedly.
 
-    deadline: broken off by it, a run is late. timed: whether fewer steps are done of what is slow,
-    not for runs that are to be compared with one. looked: called with the world after each step.
+    deadline: a run that it breaks off is late. timed: whether slow runs end early; False for runs
+    that are compared with another one. looked: called with the world after each step.
     """
 
     scenario: Scenario
@@ -179,8 +180,8 @@ class Trial:
     def run(self, seed: int = 1, *, noise: int = 1, draw: bool = False) -> Run:
         """Run once.
 
-        noise: the seed of the random generators that all of Python shares, which must not matter.
-        draw: let add-ons draw at each step, as in a window.
+        noise: the seed of Python's and numpy's shared random generators, which must not matter.
+        draw: whether add-ons draw at each step, as in a window.
         """
         result = Run()
         with _global_generators(noise):
@@ -188,14 +189,14 @@ class Trial:
         return result
 
     def interleaved(self, seed: int = 1) -> Run:
-        """Run two worlds at the same time, of different seeds, and return the first one's run."""
+        """Run two worlds with different seeds in alternation; return the first one's run."""
         result = Run()
         with _global_generators(1):
             self._go([(seed, result), (seed + 1, Run())], draw=False)
         return result
 
     def shortened(self, run: Run) -> Trial:
-        """Return this trial with as many steps as a run had the time for."""
+        """Return this trial with as many steps as a run has done."""
         return replace(self, steps=max(len(run.rows), 1), timed=False)
 
     def _go(self, seeded: list[tuple[int, Run]], draw: bool) -> None:
@@ -206,7 +207,7 @@ class Trial:
                 self.deadline.alive()
                 each.world = World(self.scenario, self.control, seed)
             for step in range(self.steps):
-                if self.timed and step >= FEWEST and time.monotonic() - start > ENOUGH:
+                if self.timed and step >= MIN_STEPS and time.monotonic() - start > MAX_RUN_TIME:
                     break
                 for _, each in seeded:
                     self.deadline.alive()
@@ -238,7 +239,7 @@ class Trial:
 
 
 def _row(world: World) -> dict[str, str]:
-    """Return prints of what there is after a control step, in the order in which it came about."""
+    """Return fingerprints of the state after a control step, by name, in causal order."""
     row = {
         f"add-on {key}.{attribute}": fingerprint(value)
         for key, addon in vars(world.addons).items()
@@ -255,18 +256,23 @@ def _name(world: World, index: int) -> str:
     return str(world.scenario.robots[index].name)
 
 
+def coordinates(shape: Any) -> list[Any]:
+    """Return the kind of a scene's shape and the values of its slots."""
+    return [type(shape).__name__, *(getattr(shape, name) for name in type(shape).__slots__)]
+
+
 OVER = "whether the experiment is over"
 
 
 def changes(before: dict[str, str], world: World, besides: str = "") -> str:
-    """Return what of a world has changed since `prints` was asked, in words; empty if nothing."""
+    """Return the names of what has changed in a world since `prints`, as text; empty if nothing."""
     now = prints(world, besides)
     changed = [name for name, contents in before.items() if now.get(name) != contents]
-    return OVER if OVER in changed else ", ".join(changed)  # which changes more with it
+    return OVER if OVER in changed else ", ".join(changed)  # the end changes more than itself
 
 
 def prints(world: World, besides: str = "") -> dict[str, str]:
-    """Return prints of all of a world that sensors and pictures must not change, by its name.
+    """Return fingerprints, by name, of everything that sensors and drawings must not change.
 
     besides: the key of an add-on that may change itself.
     """
@@ -287,7 +293,7 @@ def prints(world: World, besides: str = "") -> dict[str, str]:
 
 @contextmanager
 def _global_generators(seed: int) -> Iterator[None]:
-    """Seed the generators that all of Python shares, and put them back."""
+    """Seed Python's and numpy's shared generators, and restore their states afterwards."""
     before = random.getstate(), np.random.get_state()  # noqa: NPY002 - it is what laws misuse
     random.seed(seed)
     np.random.seed(seed)  # noqa: NPY002
@@ -300,7 +306,7 @@ def _global_generators(seed: int) -> Iterator[None]:
 
 @contextmanager
 def drawn_at_random(note: Callable[[str], None]) -> Iterator[None]:
-    """Call `note` with the name of each shared generator that is used within."""
+    """Call `note` with the name of each shared generator that is used inside the block."""
     python, numpy = random.getstate(), _numpy_state()
     try:
         yield

@@ -1,4 +1,4 @@
-"""How large a point is on this desktop: sharp screens have several pixels for one."""
+"""The scale of the desktop: how many pixels a point has."""
 
 from __future__ import annotations
 
@@ -14,39 +14,39 @@ from mars2d.core.errors import InputError, shown
 __all__ = ["VARIABLE", "be_sharp", "desktop_scale", "opening_size"]
 
 VARIABLE = "MARS2D_SCALE"
-"""The environment variable that says how many pixels a point has, where that is not found out."""
-LEAST, MOST = 0.5, 8.0
+"""The environment variable that sets the number of pixels in a point."""
+MIN_SCALE, MAX_SCALE = 0.5, 8.0
 USUAL_DPI = 96.0
-ROOM = 0.9
-"""A window that opens takes at most such a share of the desktop."""
+MAX_SHARE = 0.9
+"""The largest share of the desktop that a new window takes."""
 
 
 def be_sharp() -> None:
-    """Ask Windows not to enlarge the window's pixels; to be called before the display starts."""
+    """Ask Windows not to enlarge the window's pixels; call it before the display starts."""
     os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")
 
 
 def desktop_scale() -> float:
-    """Return how many pixels a point of the desktop has: 1, on sharp screens 1.25 to 4.
+    """Return how many pixels a point of the desktop has: 1, or 1.25 to 4 on sharp screens.
 
-    The variable MARS2D_SCALE decides if it is set, and must be 0.5 to 8. Where the system enlarges
-    windows by itself, as on macOS and Wayland, it is 1. Raises InputError.
+    The environment variable MARS2D_SCALE, 0.5 to 8, overrides it. It is 1 on systems that enlarge
+    windows themselves, such as macOS and Wayland. Raises InputError for an invalid variable.
     """
     chosen = os.environ.get(VARIABLE)
     if chosen:
         return _chosen(chosen)
     driver = pygame.display.get_driver() if pygame.display.get_init() else ""
     found = {"windows": _of_windows, "x11": _of_x11}.get(driver, lambda: None)()
-    return min(max(found, 1.0), MOST) if found else 1.0
+    return min(max(found, 1.0), MAX_SCALE) if found else 1.0
 
 
 def opening_size(size: tuple[int, int], scale: float) -> tuple[int, int]:
-    """Return the pixels of a window of `size` points; less where the desktop has not as many.
+    """Return the size in pixels of a window of `size` points, reduced to fit the desktop.
 
-    A desktop too small even at a scale of 1 bounds each side by itself. The display must have been
-    started.
+    The scale is reduced to no less than 1; then each side is bounded by itself. The display must
+    have been started.
     """
-    width, height = (ROOM * room for room in pygame.display.get_desktop_sizes()[0])
+    width, height = (MAX_SHARE * room for room in pygame.display.get_desktop_sizes()[0])
     share = min(scale, max(1.0, min(width / size[0], height / size[1])))
     return round(min(share * size[0], width)), round(min(share * size[1], height))
 
@@ -56,9 +56,10 @@ def _chosen(text: str) -> float:
         scale = float(text)
     except ValueError:
         scale = float("nan")
-    if not LEAST <= scale <= MOST:
+    if not MIN_SCALE <= scale <= MAX_SCALE:
         raise InputError(
-            f"{VARIABLE}={shown(text)}: expected the pixels of a point, {LEAST:g} to {MOST:g}"
+            f"{VARIABLE}={shown(text)}: expected the pixels of a point, "
+            f"{MIN_SCALE:g} to {MAX_SCALE:g}"
         )
     return scale
 
@@ -73,7 +74,7 @@ def _of_windows() -> float | None:
 
 
 def _of_x11() -> float | None:
-    """Return what the desktop has set for its programs: GDK_SCALE, or the resource Xft.dpi."""
+    """Return the desktop's setting for programs: GDK_SCALE, or the resource Xft.dpi."""
     try:
         return float(os.environ["GDK_SCALE"])
     except (KeyError, ValueError):
@@ -82,7 +83,7 @@ def _of_x11() -> float | None:
 
 
 def _resources() -> str:
-    """Return the resources of the X server, lines of names and values; empty without one."""
+    """Return the X server's resources, lines of names and values; "" without a server."""
     try:
         x11 = ctypes.CDLL("libX11.so.6")
     except OSError:

@@ -1,4 +1,4 @@
-"""What a person changes of a run: who drives, where things are and stand, which past goes on."""
+"""Changes that a person makes to a run: moving bodies, driving a robot, drawing, branching."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ RECORDING = "this is a recording: it can be looked at, not changed"
 
 
 class Director:
-    """Changes the run that a player plays, at the instant that is seen; tells why it can't.
+    """Changes a player's run at the instant that is shown, or says why it can't be changed.
 
-    Where that instant is in the past, the run goes on from there as a branch of its own.
-    show_way_back: shows how much of the way back is done, and returns whether to go on.
+    A change in the past makes a new branch of the run. show_way_back: shows the progress of going
+    back, and returns whether to continue.
     """
 
     def __init__(self, player: Player, notes: Notes, show_way_back: Progress) -> None:
@@ -39,7 +39,7 @@ class Director:
             player.error = self.timeline.error
 
     def change(self, act: Callable[[World], None]) -> bool:
-        """Do something to the world; return whether that was done."""
+        """Do something to the world; return whether it was possible."""
         timeline = self._live()
         if timeline is None:
             return False
@@ -50,7 +50,7 @@ class Director:
             self._notes.say(str(error), "warning")
             return False
         finally:
-            if back or not self._player.playing:  # else time goes on from where it is
+            if back or not self._player.playing:  # otherwise time goes on from where it is
                 self._player.settle()
         self._player.error = None
         if len(timeline.branches) > branches:
@@ -60,13 +60,13 @@ class Director:
         return True
 
     def _live(self) -> Timeline | None:
-        """Return what can be changed; say so if that is nothing."""
+        """Return the timeline; None, with a note, for a recording."""
         if self.timeline is None:
             self._notes.say(RECORDING, "warning")
         return self.timeline
 
     def other_branch(self) -> None:
-        """Look at what was run before something was changed."""
+        """Show the branch that was run before a change."""
         timeline = self._live()
         if timeline is None:
             return
@@ -84,7 +84,7 @@ class Director:
     # -- a robot driven by hand ---------------------------------------------------------------
 
     def drive(self, robot: int) -> None:
-        """Let a robot be driven by hand from now on."""
+        """Start to drive a robot by hand."""
         if self._live() is None:
             return
         name = str(self._player.source.scenario.robots[robot].name)
@@ -92,18 +92,17 @@ class Director:
         self._notes.say(f"arrow keys or WASD drive {name}, Shift slowly; H or Esc lets go")
 
     def let_go(self) -> None:
-        """Give a robot that is driven by hand back to its law."""
+        """Stop driving by hand: the robot's law drives it again."""
         robot = self.driver.robot
         self.driver.release()
         if robot is not None and self.timeline is not None:
             self.timeline.world.hands.steer(robot, None)
 
     def steer(self, seconds: float) -> None:
-        """Give the robot that is driven the command of the keys.
+        """Give the driven robot the command of the keys.
 
-        In the past there must be one, and time must pass: who looks back changes nothing.
-
-        seconds: since the last time.
+        In the past only a command other than 0 counts, and only while time passes: to look back
+        changes nothing. seconds: since the last call.
         """
         robot, timeline = self.driver.robot, self.timeline
         if robot is None or timeline is None or timeline.over:
@@ -116,19 +115,19 @@ class Director:
         elif wanted and not self.change(lambda world: world.hands.steer(robot, command)):
             self.let_go()
 
-    # -- drawing on it ------------------------------------------------------------------------
+    # -- drawing ------------------------------------------------------------------------------
 
     def scenario_now(self) -> Scenario:
-        """The scenario with all bodies where they are seen."""
+        """Return the scenario with all bodies at their poses of now."""
         frame = self._player.frame
         try:
             return with_poses(frame.scenario, np.hstack([frame.pose, frame.prop_pose]))
-        except InputError as error:  # in the thick of a crowd bodies may overlap
+        except InputError as error:  # bodies of a dense crowd may overlap
             self._notes.say(f"bodies are shown where they were at the start: {error}", "warning")
             return frame.scenario
 
     def editor(self, painter: Painter) -> Editor | None:
-        """Return an editor of what is seen."""
+        """Return an editor of the scenario as it is now."""
         timeline = self._live()
         if timeline is None:
             return None
@@ -138,7 +137,7 @@ class Director:
         return Editor(self.scenario_now(), painter, path=path, live=True, control=control)
 
     def apply(self, outcome: Outcome) -> None:
-        """Go on from now, or from the start, with what was drawn."""
+        """Continue with the drawn scenario, from now or from the start."""
         assert self.timeline is not None
         if outcome.when == "start":
             self._restart(self.timeline.experiment.redrawn(outcome.scenario))
@@ -149,7 +148,7 @@ class Director:
 
         def draw(world: World) -> None:
             check_alike(world.scenario, outcome.scenario)
-            # In the past it is a world with laws of its own, which go on.
+            # In the past this is another world, whose own laws go on.
             world.change(carried(world.scenario, outcome.scenario), world.control, moved)
 
         if self.change(draw):

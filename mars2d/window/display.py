@@ -1,4 +1,4 @@
-"""Is there a screen?"""
+"""The display: whether there is one, how a window is opened on it, and how that looks."""
 
 from __future__ import annotations
 
@@ -10,15 +10,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from mars2d.core.description import Description, flag, number
 from mars2d.core.errors import InputError
+from mars2d.core.scene import PALETTE, Scene
 from mars2d.output.raster import has_pygame
 
 if TYPE_CHECKING:
     import pygame
 
+    from mars2d.output.raster.painter import Painter
+
 __all__ = [
     "NO_DISPLAY",
     "PICTURES_A_SECOND",
+    "Preferences",
     "be_quick",
     "display_available",
     "open_display",
@@ -33,16 +38,25 @@ NO_DISPLAY = (
 )
 
 NOT_REAL = ("dummy", "offscreen", "evdev", "disk")
+"""SDL's video drivers without a screen."""
 ATTEMPTS = 3
+"""How often to try to start the display."""
 
 PICTURES_A_SECOND = 60
 """How often a window is drawn."""
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
-"""A key that is held repeats after so many milliseconds, and then each so many."""
+"""The time until a held key repeats, and between repeats, milliseconds."""
+
+
+class Preferences(Description):
+    """How a window looks at first, whatever the experiment; keys change it."""
+
+    dark: bool = flag(default=False, doc="for a dark room, else for a projector in daylight")
+    text: float = number(default=1.0, low=0.5, high=4, doc="factor on the size of text and lines")
 
 
 def display_available() -> bool:
-    """Return whether a window could be opened that a person sees."""
+    """Return whether a window can be opened on a real screen."""
     wanted = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER") or ""
     if wanted.lower() in NOT_REAL:
         return False
@@ -56,7 +70,7 @@ def display_available() -> bool:
         return True
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         return False
-    # The variable may name a screen that is gone, as after a lost ssh connection: try.
+    # The variable may name a screen that is gone, for example after a lost ssh connection: try.
     try:
         open_display()
     except InputError:
@@ -66,13 +80,13 @@ def display_available() -> bool:
 
 
 def open_display() -> None:
-    """Start pygame's display. Raises InputError where there is none that a person sees."""
+    """Start pygame's display. Raises InputError without a real screen."""
     import pygame
 
-    from mars2d.window import lost
+    from mars2d.window import display_loss
     from mars2d.window.desktop import be_sharp
 
-    lost.check()
+    display_loss.check()
     if pygame.display.get_init():
         if pygame.display.get_driver() in NOT_REAL:
             raise InputError(NO_DISPLAY)
@@ -83,7 +97,7 @@ def open_display() -> None:
         try:
             pygame.display.init()
         except pygame.error:
-            # A bare X server starts anew when its last window has closed, and is deaf meanwhile.
+            # A bare X server resets when its last window closes, and refuses connections meanwhile.
             if attempt + 1 < ATTEMPTS and os.environ.get("DISPLAY"):
                 time.sleep(0.1)
             continue
@@ -96,13 +110,13 @@ def open_display() -> None:
 
 @contextmanager
 def started_display() -> Iterator[None]:
-    """Have pygame's display started meanwhile; end it then, unless it was there before.
+    """Start pygame's display, and end it afterwards unless it was started before.
 
-    Raises InputError where there is none that a person sees.
+    Raises InputError without a real screen.
     """
     import pygame
 
-    from mars2d.window import lost
+    from mars2d.window import display_loss
 
     ours = not pygame.display.get_init()
     open_display()
@@ -110,44 +124,58 @@ def started_display() -> Iterator[None]:
         yield
     finally:
         if ours:
-            lost.close()
+            display_loss.close()
 
 
-def open_window(size: tuple[int, int], icon: pygame.Surface) -> pygame.Surface:
-    """Return the surface of a new window of `size` pixels, where keys that are held repeat.
+def open_window(size: tuple[int, int], painter: Painter) -> pygame.Surface:
+    """Open a window of `size` pixels, in which held keys repeat, and return its surface.
 
-    Raises InputError where it can't be opened.
+    painter: draws the window's icon. Raises InputError if the window can't be opened.
     """
     import pygame
 
-    from mars2d.window import lost
+    from mars2d.window import display_loss
 
-    lost.check()
-    pygame.display.set_icon(icon)
+    display_loss.check()
+    pygame.display.set_icon(_icon(painter))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)  # desktops may choose another size
             surface = pygame.display.set_mode(size, pygame.RESIZABLE)
     except pygame.error as error:
         raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
-    lost.watch()
+    display_loss.watch()
     pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
     return surface
 
 
-def show_drawn() -> None:
-    """Put what was drawn on the screen. Raises DisplayError where that has gone away."""
+def _icon(painter: Painter) -> pygame.Surface:
+    """Return the icon of MARS2D's windows: a robot, seen from above."""
     import pygame
 
-    from mars2d.window import lost
+    from mars2d.output.raster.camera import Camera
+
+    scene = Scene()
+    scene.circle((0, 0), 1.0, fill=PALETTE[0], stroke="#ffffff", width=2.0)
+    scene.line([(0, 0), (1, 0)], stroke="#ffffff", width=7.0)
+    surface = pygame.Surface((64, 64), pygame.SRCALPHA, 32)
+    painter.paint(surface, scene.shapes, Camera(29.0, 32.0, 32.0), shaded=False)
+    return surface
+
+
+def show_drawn() -> None:
+    """Put the drawn picture on the screen. Raises DisplayError if the display is lost."""
+    import pygame
+
+    from mars2d.window import display_loss
 
     pygame.display.flip()
-    lost.check()
+    display_loss.check()
 
 
 def be_quick() -> None:
-    """Ask for pictures to go to the screen as they are; to be called before the display starts.
+    """Ask SDL to copy pictures to the screen without OpenGL; call it before the display starts.
 
-    SDL would hand them to OpenGL, which takes ten times as long where that is done in software.
+    OpenGL in software takes ten times as long.
     """
     os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")

@@ -15,23 +15,21 @@ WAYS = {
     pygame.KSCAN_LEFT: Stick(-1, 0), pygame.KSCAN_A: Stick(-1, 0),
     pygame.KSCAN_RIGHT: Stick(1, 0), pygame.KSCAN_D: Stick(1, 0),
 }  # fmt: skip
-"""What keys ask for, by their places: WASD are a cross on every keyboard."""
+"""The stick that a key stands for, by its place: WASD are a cross on every keyboard."""
 
 SLOW = 0.5
-"""How far out a stick is held with Shift."""
-
-DEAD = 0.15
-"""So far out a controller's stick counts as at rest."""
-
+"""The deflection of the stick with Shift."""
+DEAD_ZONE = 0.15
+"""The deflection of a controller's stick that counts as rest."""
 ACROSS, AHEAD = 0, 1
-"""The axes of a controller's left stick; the second points back."""
+"""The axes of a controller's left stick; the second points backwards."""
 
 
 class Driver:
-    """Drives one robot, by keys or a controller that may be plugged in and out at any time."""
+    """Drives one robot by keys, or by a controller, which may be plugged in and out at any time."""
 
     def __init__(self) -> None:
-        """Drive nobody."""
+        """Start without a robot."""
         self.robot: int | None = None
         self._name = ""
         self._held: set[int] = set()
@@ -44,14 +42,14 @@ class Driver:
     # -- who ------------------------------------------------------------------------------------
 
     def take(self, robot: int, name: str = "") -> None:
-        """Drive a robot from now on; name: what it is called in `status`."""
+        """Start to drive a robot; name: for `status`."""
         self.robot, self._name = robot, name or f"robot {robot}"
         self._rest()
         if not pygame.joystick.get_init():
-            pygame.joystick.init()  # it tells of each controller that is there by an event
+            pygame.joystick.init()  # which posts an event for each controller
 
     def release(self) -> None:
-        """Drive nobody any more."""
+        """Stop driving."""
         self.robot = None
         self._rest()
 
@@ -62,7 +60,7 @@ class Driver:
 
     @property
     def status(self) -> str:
-        """Who is driven, and by what, in words; "" for nobody."""
+        """The driven robot and its controller, in words; "" without a robot."""
         if self.robot is None:
             return ""
         by = " by controller" if self._by_controller else ""
@@ -71,7 +69,7 @@ class Driver:
     # -- how ------------------------------------------------------------------------------------
 
     def handle(self, event: pygame.Event) -> bool:
-        """Take an event; return whether it is one of those that drive, and nobody else's."""
+        """Handle an event; return whether it is for the driver alone."""
         if event.type in (pygame.JOYDEVICEADDED, pygame.JOYDEVICEREMOVED):
             self._plug(event)
             return True
@@ -86,16 +84,16 @@ class Driver:
         return self._controller(event)
 
     def command(self, drive: Drive, dt: float) -> tuple[float, float]:
-        """Return the command of the driven robot, `dt` seconds after the one before.
+        """Return the command of the driven robot; dt: since the last one, seconds.
 
-        Keys move a stick out within a quarter of a second, so that a tap is a nudge.
+        Keys deflect the stick gradually, in a quarter of a second, so that a tap is a nudge.
         """
         self._stick = ramped(self._stick, self._wanted, dt)
         return command_of(drive, self._stick.within() if drive.frame == "world" else self._stick)
 
     @property
     def _wanted(self) -> Stick:
-        """Where the stick is held: by keys, else by a controller."""
+        """The stick's target: that of the keys, or else of a controller."""
         if not self._held:
             return self._of_controllers
         across, ahead = (sum(way[k] for way in {WAYS[key] for key in self._held}) for k in (0, 1))
@@ -127,7 +125,7 @@ class Driver:
     # -- controllers ----------------------------------------------------------------------------
 
     def _plug(self, event: pygame.Event) -> None:
-        """Take a controller that is plugged in; forget one that is plugged out."""
+        """Add a controller that is plugged in; remove one that is plugged out."""
         if event.type == pygame.JOYDEVICEADDED:
             controller = pygame.joystick.Joystick(event.device_index)
             self._controllers[controller.get_instance_id()] = controller
@@ -152,5 +150,5 @@ class Driver:
             return
         stick = Stick(controller.get_axis(ACROSS), -controller.get_axis(AHEAD)).within()
         out = (stick.across**2 + stick.ahead**2) ** 0.5
-        share = 0.0 if out <= DEAD else (out - DEAD) / (1 - DEAD) / out
+        share = 0.0 if out <= DEAD_ZONE else (out - DEAD_ZONE) / (1 - DEAD_ZONE) / out
         self._axes[which] = Stick(share * stick.across, share * stick.ahead)

@@ -1,4 +1,4 @@
-"""The force on a body over time, with its bound and the effort of its drive, as a small plot."""
+"""The inspector's plot of the force on a body, its bound, and the effort of its drive."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import hairlines
 from mars2d.record.frame import Float, Frame
-from mars2d.window.meter import Bound, Reading, bound_of, span_of
+from mars2d.window.forcemeter import Bound, Reading, bound_of, span_of
 
 __all__ = ["draw_force"]
 
-OVERSHOOT = 3.0
-"""The scale goes up to the highest force, but at most to so many times the bound."""
+MAX_OVER_BOUND = 3.0
+"""The upper end of the force axis, at most, as a multiple of the bound."""
 
 HEAD, LEFT, FOOT = 22.0, 44.0, 17.0
-"""The room for the title, for the numbers of forces and for those of times, points."""
+"""The room for the title, the numbers of the force axis and those of the time axis, points."""
 
 
 def draw_force(
@@ -34,7 +34,7 @@ def draw_force(
     body: int,
     reading: Reading,
 ) -> None:
-    """Draw the net contact force on a body, as its meter has read it, within a rectangle."""
+    """Draw a meter's reading of the net contact force on a body within a rectangle."""
     ui, bound = painter.ui, bound_of(frame, body)
     _draw_title(surface, rect, painter, reading, bound)
     area = pygame.Rect(
@@ -58,7 +58,7 @@ def _draw_title(
     reading: Reading,
     bound: Bound | None,
 ) -> None:
-    """Write how large the force is now, and what the lines are."""
+    """Write the present force, and the names of the curves."""
     ui, fonts, theme = painter.ui, painter.fonts, painter.theme
     middle = rect.top + round(HEAD / 2 * ui)
     now = float(reading.force[-1]) if len(reading.force) else 0.0
@@ -118,7 +118,7 @@ def _draw_curves(
     bound: Bound | None,
     limits: tuple[float, float, float],
 ) -> None:
-    """Draw the force and the effort as steps, where the drive slips, and the bound."""
+    """Draw the force and the effort as steps, the stretches of slip, and the bound."""
     start, end, top = limits
     ui, theme, ink = painter.ui, painter.theme, painter.theme.shade(FORCE)
 
@@ -165,15 +165,15 @@ def _draw_curves(
 
 
 def _top(force: Float, bound: Bound | None) -> float:
-    """Return the upper end of the scale, newtons."""
+    """Return the upper end of the force axis, newtons."""
     peak = float(force.max(initial=0.0))
     if bound is None:
         return 1.15 * peak if peak > 0 else 1.0
-    return max(1.45 * bound.force, min(1.1 * peak, OVERSHOOT * bound.force))
+    return max(1.45 * bound.force, min(1.1 * peak, MAX_OVER_BOUND * bound.force))
 
 
 def _steps(edges: Float, values: Float, room: int) -> tuple[Float, Float]:
-    """Return the corners of a line of steps, at most one a pixel: of those nearer the highest."""
+    """Return the corners of a step curve, at most one step a pixel: the highest within each."""
     if len(values) > room:
         starts = np.arange(0, len(values), ceil(len(values) / room))
         values = np.maximum.reduceat(values, starts)
@@ -182,6 +182,6 @@ def _steps(edges: Float, values: Float, room: int) -> tuple[Float, Float]:
 
 
 def _stretches(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return from where to where flags are set."""
+    """Return the stretches of set flags, each as its start and its end."""
     changes = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     return list(zip(changes[::2].tolist(), changes[1::2].tolist(), strict=True))

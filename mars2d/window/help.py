@@ -1,4 +1,4 @@
-"""The page of help: every key and what it does, by groups, in columns, on pages if need be."""
+"""The help: all keys in groups, laid out in columns, on several pages if need be."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ Groups = Iterable[tuple[str, Sequence[Key]]]
 Named = tuple[tuple[str, tuple[Key, ...]], ...]
 
 UNREADABLE = 0.2
-"""Pixels a point below which a page of text is not worth drawing."""
+"""The scale below which text is not drawn, pixels a point."""
 LEGIBLE = 0.8
-"""Pixels a point down to which all is put on one page; what would be smaller takes several."""
-SHRUNK = 0.62
-"""The same as a share of the text elsewhere, so that large text stays rather large."""
-MOST_COLUMNS = 3
+"""The scale below which the help is split into pages, pixels a point."""
+LEGIBLE_SHARE = 0.62
+"""The same as a share of the window's scale, so that large text stays rather large."""
+MAX_COLUMNS = 3
 SIZE, ROW, LINE = 15.0, 33.0, 19.0
-"""The heights of letters, of a row, and of a row's further lines, points."""
+"""The heights of letters, of a row, and of each further line of a row, points."""
 HEADING, GAP = 34.0, 12.0
-"""The heights of a group's heading, and of the gap above it, points."""
+"""The heights of a group's heading and of the gap above it, points."""
 TOP, PAD, BETWEEN = 62.0, 28.0, 34.0
-"""The height of the page's title, its margin, and what lies between two columns, points."""
-NARROW, WORDS = 150.0, 380.0
-"""A line of words is at least and at most so wide, points."""
+"""The height of the title, the margin, and the gap between two columns, points."""
+MIN_WORDS, MAX_WORDS = 150.0, 380.0
+"""The narrowest and the widest line of words, points."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Row:
-    """A key with what it does in lines, or a group's heading, which has no labels.
+    """The labels of a key and the lines of its help; without labels, a group's heading.
 
-    caps: pixels from the left at which the lines begin. first: whether it is the top of a column.
+    caps: the room for the labels, pixels. first: whether it is the top row of a column.
     """
 
     labels: tuple[str, ...]
@@ -57,7 +57,7 @@ class _Row:
 
 @dataclass(frozen=True, slots=True)
 class _Plan:
-    """Pages of columns of rows, all `column` pixels wide, at so many pixels a point."""
+    """Pages of columns of rows; ui: pixels a point; column: the width of all columns, pixels."""
 
     ui: float
     column: int
@@ -65,31 +65,31 @@ class _Plan:
 
 
 class Help:
-    """The help of a window: closed, or open on one of its pages, which are counted from 0."""
+    """The help of a window; page: the open page, from 0, or None if it is closed."""
 
     def __init__(self) -> None:
         """Start closed."""
         self.page: int | None = None
-        self._pages = 1  # as there were when it was drawn last
+        self._pages = 1  # when it was last drawn
 
     @property
     def is_open(self) -> bool:
-        """Whether it lies over the picture."""
+        """Whether a page is open."""
         return self.page is not None
 
     def turn(self) -> None:
-        """Open it, turn the page, or close it after the last one."""
+        """Open the help, turn the page, or close it after the last page."""
         page = 0 if self.page is None else self.page + 1
         self.page = page if page < self._pages else None
 
     def close(self) -> None:
-        """Close it."""
+        """Close the help."""
         self.page = None
 
     def draw(
         self, surface: pygame.Surface, layout: Layout, painter: Painter, groups: Groups
     ) -> None:
-        """Draw the page that is open, if one is; groups: pairs of a heading and its keys."""
+        """Draw the open page, if there is one; groups: pairs of a heading and its keys."""
         if self.page is not None:
             self._pages = draw_help(surface, layout, painter, groups, self.page)
             self.page = min(self.page, self._pages - 1)
@@ -102,9 +102,9 @@ def draw_help(
     groups: Groups,
     page: int = 0,
 ) -> int:
-    """Draw a page of help over the picture and return how many pages there are.
+    """Draw a page of help over the picture, and return the number of pages.
 
-    groups: pairs of a heading and its keys. A page beyond the last one is the last one.
+    groups: pairs of a heading and its keys. page: a number beyond the last page means the last.
     """
     top = layout.header.bottom
     area = pygame.Rect(0, top, surface.get_width(), surface.get_height() - top)
@@ -169,17 +169,17 @@ def _draw_column(
         top = bottom
 
 
-# -- how it is laid out ---------------------------------------------------------------------------
+# -- layout ---------------------------------------------------------------------------------------
 
 
 @lru_cache(maxsize=4)
 def _plan(fonts: Fonts, groups: Named, room: tuple[int, int], ui: float) -> _Plan | None:
-    """Return the largest layout on one page; if that is too small to read, one of several pages.
+    """Return the largest layout on one page, or on several pages if that is too small to read.
 
     room: width and height, pixels.
     """
-    least = max(min(LEGIBLE, ui), SHRUNK * ui)
-    counts = range(1, MOST_COLUMNS + 1)
+    least = max(min(LEGIBLE, ui), LEGIBLE_SHARE * ui)
+    counts = range(1, MAX_COLUMNS + 1)
     plans = [_one_page(fonts, groups, room, count, ui, least) for count in counts]
     best = max((plan for plan in plans if plan), key=lambda plan: plan.ui, default=None)
     if best is not None:
@@ -192,7 +192,7 @@ def _plan(fonts: Fonts, groups: Named, room: tuple[int, int], ui: float) -> _Pla
 def _one_page(
     fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float, least: float
 ) -> _Plan | None:
-    """Return the largest page of so many columns, of `ui` to `least` pixels a point, or None."""
+    """Return the largest page of `count` columns, at `ui` to `least` pixels a point, or None."""
     while ui >= least:
         made = _columns(fonts, groups, room, count, ui)
         if made is not None:
@@ -207,7 +207,7 @@ def _one_page(
 def _several_pages(
     fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float
 ) -> _Plan | None:
-    """Return pages of so many columns, which are filled one after the other, or None."""
+    """Return pages of `count` columns that are filled one after the other, or None."""
     made = _columns(fonts, groups, room, count, ui)
     limit = room[1] / ui - TOP - PAD + 10
     if made is None:
@@ -223,15 +223,15 @@ def _several_pages(
 def _columns(
     fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float
 ) -> tuple[int, list[_Row]] | None:
-    """Return how wide columns are, pixels, and all rows; None where columns are too thin."""
+    """Return the width of the columns, pixels, and all rows; None if columns are too narrow."""
     column = (room[0] - 2 * PAD * ui - (count - 1) * BETWEEN * ui) / count
     rows, widest = [], 0
     for heading, group in groups:
         rows.append(_Row((), (heading,)))
         caps = max(sum(_cap_width(fonts, name, ui) for name in key.labels) for key in group)
         caps += round(10 * ui)
-        words = min(column - caps, WORDS * ui)
-        if words < NARROW * ui:
+        words = min(column - caps, MAX_WORDS * ui)
+        if words < MIN_WORDS * ui:
             return None
         for key in group:
             lines = fonts.wrap(key.help, SIZE * ui, words, 4)
@@ -241,7 +241,7 @@ def _columns(
 
 
 def _split(rows: Sequence[_Row], count: int, limit: float) -> tuple[tuple[_Row, ...], ...] | None:
-    """Return the rows in at most `count` columns, about equally high; None where they don't fit."""
+    """Return the rows in at most `count` columns of similar height; None if they don't fit."""
     low, high = 0.0, limit
     best = _filled(rows, high)
     if len(best) > count or any(_height(column) > high for column in best):
@@ -257,7 +257,7 @@ def _split(rows: Sequence[_Row], count: int, limit: float) -> tuple[tuple[_Row, 
 
 
 def _filled(rows: Sequence[_Row], limit: float) -> tuple[tuple[_Row, ...], ...]:
-    """Return columns up to a height, points; groups stay whole where a column can hold them."""
+    """Return columns up to a height, points; a group is not split if a column can hold it."""
     groups: list[list[_Row]] = []
     for row in rows:
         if not row.labels:
@@ -285,7 +285,7 @@ def _cap_width(fonts: Fonts, text: str, ui: float) -> int:
 
 
 def _cap(surface: pygame.Surface, painter: Painter, text: str, x: int, y: int, ui: float) -> int:
-    """Draw one key as it looks on a keyboard; return where the next may begin."""
+    """Draw a key's cap; return where the next one begins."""
     theme = painter.theme
     width = _cap_width(painter.fonts, text, ui)
     plate = pygame.Rect(x, 0, width - round(6 * ui), round(26 * ui))

@@ -1,65 +1,55 @@
-"""Everything about the selected body, in a column beside the picture."""
+"""The inspector: everything about the selected body, in a column beside the picture."""
 
 from __future__ import annotations
 
-import re
 import time
-from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
-import numpy as np
 import pygame
 
-from mars2d.addons.communication import Communication
-from mars2d.bodies.drives.base import Drive, Wheeled
 from mars2d.core.description import snake_case
-from mars2d.core.quantity import UNKNOWN
 from mars2d.output.layers.bodies import prop_colors
-from mars2d.output.layers.forces import SLIP, SLIPPING, in_newtons, mean_forces
+from mars2d.output.layers.forces import SLIP, SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
+from mars2d.window.forcemeter import Meter
 from mars2d.window.forceplot import draw_force
-from mars2d.window.meter import Meter
+from mars2d.window.readout import (
+    MAX_MESSAGES,
+    Row,
+    contacts_of,
+    inbox,
+    kind_of,
+    rounded,
+    state_of,
+)
 from mars2d.window.sensorplot import TITLE, SensorPlot, plot_of
 
-__all__ = ["Inspector", "inbox"]
+__all__ = ["Inspector", "sensor_plots"]
 
-WIDTH, NARROWEST = 344.0, 220.0
-"""Points; at most a part of the picture, and where that is less than the second, it is left out."""
-LARGEST_SHARE = 0.46
-SHORTEST = 130.0
+WIDTH, MIN_WIDTH, MIN_HEIGHT = 344.0, 220.0, 130.0
+"""The inspector's size, points. Where there is less room than the minimum, it is left out."""
+MAX_SHARE = 0.46
+"""The largest share of the picture's width."""
 
 PAD, GAP = 14.0, 9.0
-"""Round all, and between two sections, points."""
+"""The margin, and the gap between two sections, points."""
 HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
 """The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
-LOW_FORCE = 76.0
-"""The plot of forces is at least so high, points."""
+MIN_FORCE = 76.0
+"""The lowest plot of forces, points."""
 LABEL = 72.0
-"""The room for what a row of numbers is, points."""
+"""The room for the label of a row, points."""
 
-EVERY = 1 / 15
-"""Seconds between two drawings of what changes all the time."""
-
-LINES = 3
-"""So many contacts, and so many messages, are listed."""
-
-BLOCK = 65_536
-"""So many messages at a time are looked through, from the last one on."""
-
-MINUS = "\N{MINUS SIGN}"
-
-LONG_NUMBER = re.compile(r"(?<![\w.])-?\d+\.\d{3,}(e[+-]?\d+)?")
-
-Row = tuple[str, list[tuple[str, str]]]
-"""What it is, and the names and values of its numbers."""
+DRAW_INTERVAL = 1 / 15
+"""The shortest time between two drawings while only numbers change, seconds."""
 
 
 class Section(NamedTuple):
-    """A part of the column: how high it is [points], and how it is drawn within a rectangle.
+    """A section of the inspector; draw: draws it within a rectangle.
 
-    least: how low it may be made where there is little room, points; by default no lower.
+    height: points. least: the lowest height where there is little room; None: the same height.
     """
 
     height: float
@@ -68,13 +58,13 @@ class Section(NamedTuple):
 
 
 class Inspector:
-    """Draws what is known of one body: where it is, what it does, feels, senses and hears.
+    """Shows the state, contacts, forces, sensors and messages of one body.
 
-    clock: what tells when it was drawn last; it is drawn anew a few times a second.
+    clock: seconds; the inspector is drawn anew a few times a second.
     """
 
     def __init__(self, painter: Painter, clock: Callable[[], float] = time.perf_counter) -> None:
-        """Start with nothing read; fonts and sprites are the painter's."""
+        """Start with nothing drawn."""
         self.painter = painter
         self._clock = clock
         self._meter = Meter()
@@ -85,14 +75,14 @@ class Inspector:
         self._drawn_at = 0.0
 
     def place(self, plot: pygame.Rect, body: tuple[float, float]) -> pygame.Rect | None:
-        """Return where it may lie on the picture: at the right, or where the body is there, left.
+        """Return the inspector's place: at the right of the picture, or left if the body is there.
 
-        body: pixels. None where the picture is too small for it.
+        body: its position, pixels. None if the picture is too small.
         """
         ui, gap = self.painter.ui, round(12 * self.painter.ui)
-        width = round(min(WIDTH * ui, LARGEST_SHARE * plot.width))
+        width = round(min(WIDTH * ui, MAX_SHARE * plot.width))
         height = plot.height - 2 * gap
-        if width < NARROWEST * ui or height < SHORTEST * ui:
+        if width < MIN_WIDTH * ui or height < MIN_HEIGHT * ui:
             return None
         left = pygame.Rect(plot.left + gap, plot.top + gap, width, height)
         right = left.move(plot.width - 2 * gap - width, 0)
@@ -106,12 +96,12 @@ class Inspector:
     def draw(
         self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame, body: int
     ) -> pygame.Rect:
-        """Draw it for a body within a rectangle; return how much of that it takes."""
+        """Draw the inspector of a body within a rectangle; return the part that it covers."""
         ui, theme = self.painter.ui, self.painter.theme
         of = body, frame.scenario, rect.size, ui, theme
-        reading = self._meter.read(frame, body)  # each control step, or all would be read anew
+        reading = self._meter.read(frame, body)  # at each control step, else it would start over
         now = self._clock()
-        late = frame is not self._frame and now - self._drawn_at >= EVERY
+        late = frame is not self._frame and now - self._drawn_at >= DRAW_INTERVAL
         if self._image is None or of != self._of or late:
             inner = rect.inflate(-2 * round(PAD * ui), -2 * round(PAD / 2 * ui))
             sections = list(self._chosen(frame, body, inner.height, reading))
@@ -133,10 +123,10 @@ class Inspector:
         return round((section.height + GAP) * self.painter.ui)
 
     def _chosen(self, frame: Frame, body: int, room: int, reading: Any) -> Iterator[Section]:
-        """Yield the sections for which there is room, the most important ones first."""
+        """Yield the sections for which there is room, in order of importance."""
         left_out: list[str] = []
         for name, section in self._sections(frame, body, reading):
-            last = round(LINE * self.painter.ui)  # for what is left out
+            last = round(LINE * self.painter.ui)  # for the names of those left out
             if section.least is not None and self._pixels(section) + last > room:
                 lower = (room - last) / self.painter.ui - GAP
                 section = section._replace(height=max(section.least, lower))  # noqa: PLW2901
@@ -170,12 +160,12 @@ class Inspector:
                     lambda surface, rect: draw_force(
                         surface, rect, self.painter, frame, body, reading
                     ),
-                    LOW_FORCE,
+                    MIN_FORCE,
                 ),
             )
         for plot in sensor_plots(frame, body):
             yield plot.sensor.key, self._sensor(plot)
-        if body < n and any(isinstance(addon, Communication) for addon in frame.scenario.addons):
+        if body < n and any(addon.carries_messages for addon in frame.scenario.addons):
             heard = [
                 f"{sender}, {frame.time - sent:.1f} s ago: {rounded(text)}"
                 for sender, sent, text in inbox(frame, body)
@@ -193,7 +183,7 @@ class Inspector:
         rows: list[Row],
         effort: float | None,
     ) -> None:
-        """Draw the name of a body, and its numbers."""
+        """Draw the name and kind of a body, and its rows of numbers."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
         colors = (*frame.scenario.colors, *prop_colors(frame.scenario.props))
         middle = rect.top + round(HEAD / 2 * ui)
@@ -223,7 +213,7 @@ class Inspector:
         what: str,
         numbers: list[tuple[str, str]],
     ) -> None:
-        """Draw a row of up to three numbers; where columns are too narrow, one after the other."""
+        """Draw a row of up to three numbers, in columns if these are wide enough."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
         image = fonts.render(what, 12.5 * ui, theme.muted)
         surface.blit(image, image.get_rect(midleft=rect.midleft))
@@ -245,7 +235,7 @@ class Inspector:
             x += gap
 
     def _draw_effort(self, surface: pygame.Surface, rect: pygame.Rect, effort: float) -> None:
-        """Draw how much of its bounds the drive uses, as a bar."""
+        """Draw the effort of the drive as a bar."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
         image = fonts.render("effort", 12.5 * ui, theme.muted)
         surface.blit(image, image.get_rect(midleft=rect.midleft))
@@ -263,7 +253,7 @@ class Inspector:
             pygame.draw.rect(surface, color, bar, border_radius=radius)
 
     def _sensor(self, plot: SensorPlot) -> Section:
-        """Return the section of a sensor: its name, and its plot."""
+        """Return the section of a sensor: its name and its plot."""
         ui = self.painter.ui
 
         def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
@@ -286,21 +276,21 @@ class Inspector:
         return Section(TITLE, draw)
 
     def _list(self, title: str, lines: list[str]) -> Section:
-        """Return a section of some lines of text; it is as high as if there were the most."""
+        """Return a section of lines of text; its height does not depend on their number."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
 
         def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
             self._heading(surface, rect, title, "" if lines else "nothing yet")
-            for k, line in enumerate(lines[:LINES]):
+            for k, line in enumerate(lines[:MAX_MESSAGES]):
                 text = fonts.shorten(line, 12.5 * ui, rect.width)
                 image = fonts.render(text, 12.5 * ui, theme.text)
                 middle = rect.top + round((TITLE + (k + 0.5) * LINE) * ui)
                 surface.blit(image, image.get_rect(midleft=(rect.left, middle)))
 
-        return Section(TITLE + LINES * LINE, draw)
+        return Section(TITLE + MAX_MESSAGES * LINE, draw)
 
     def _text(self, text: str) -> Section:
-        """Return a section of one quiet line."""
+        """Return a section of one muted line."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
 
         def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
@@ -320,82 +310,6 @@ class Inspector:
         surface.blit(image, image.get_rect(midright=(rect.right, middle)))
 
 
-# -- what there is to say ---------------------------------------------------------------------
-
-
-def kind_of(frame: Frame, body: int) -> str:
-    """Return what kind of thing a body is: its drive, or what it is made as."""
-    n = len(frame.scenario.robots)
-    if body >= n:
-        return snake_case(type(frame.scenario.props[body - n]).__name__).replace("_", " ")
-    return snake_case(type(frame.scenario.robots[body].drive).__name__).replace("_", " ")
-
-
-def state_of(frame: Frame, body: int) -> list[Row]:
-    """Return the rows of numbers of a body."""
-    n = len(frame.scenario.robots)
-    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
-    vx, vy, omega = frame.velocity[:, body].tolist()
-    pose = [("x", _number(x, "m")), ("y", _number(y, "m")), ("θ", _degrees(theta))]
-    moves = [("v", _number(float(np.hypot(vx, vy)), "m/s")), ("ω", _number(omega, "rad/s"))]
-    if body >= n:
-        return [("pose", pose), ("moves", moves)]
-    drive = frame.scenario.robots[body].drive
-    command = np.zeros(2)
-    if len(frame.command_path):
-        command = frame.command_path[-1][:, body]
-    rows: list[Row] = [("pose", pose), ("command", command_words(drive, command)), ("moves", moves)]
-    if isinstance(drive, Wheeled):
-        left, right = drive.actuators(command[:, None])[:, 0].tolist()
-        rows.append(("wheels", [("left", _number(left)), ("right", _number(right, "m/s"))]))
-    return rows
-
-
-def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
-    """Return the names and values of a command (2,); a unit of both stands once, at the end."""
-    first, second = drive.quantities or UNKNOWN
-    units = "" if first.unit == second.unit else first.unit, second.unit
-    pairs = zip((first, second), np.asarray(command).tolist(), units, strict=True)
-    return [
-        (each.symbol, _degrees(value) if each.kind == "angle" else _number(value, unit))
-        for each, value, unit in pairs
-    ]
-
-
-def _number(value: float, unit: str = "") -> str:
-    """Return a number as it is read."""
-    text = f"{value + 0.0:.2f}" if abs(value) < 1000 else f"{value:.3g}"
-    text = "0.00" if text == "-0.00" else text
-    return f"{text} {unit}".strip().replace("-", MINUS)
-
-
-def _degrees(angle: float) -> str:
-    turned = (np.degrees(angle) + 180.0) % 360.0 - 180.0
-    return f"{round(turned) + 0:d}°".replace("-", MINUS)
-
-
-def contacts_of(frame: Frame, body: int) -> list[str]:
-    """Return with what a body is in touch, and how hard, the strongest first."""
-    rows = frame.contacts
-    mine = rows[(rows["a"] == body) | (rows["b"] == body)]
-    size = np.hypot(*mean_forces(mine, frame.scenario.sampling_time).T)
-    lines = []
-    for k in np.argsort(-size, kind="stable").tolist():
-        a, b = int(mine["a"][k]), int(mine["b"][k])
-        other = b if a == body else a
-        lines.append(f"{frame.scenario.body_name(other)}  {in_newtons(float(size[k]))}")
-    return lines
-
-
-def rounded(text: str) -> str:
-    """Return a message with the numbers in it to three digits.
-
-    >>> rounded('[0.1558127,-12.5,{"a": 1e-17}]')
-    '[0.156,-12.5,{"a": 1e-17}]'
-    """
-    return LONG_NUMBER.sub(lambda found: f"{float(found[0]):.3g}", text)
-
-
 def sensor_plots(frame: Frame, body: int) -> Iterator[SensorPlot]:
     """Yield the plots of a robot's sensors that have read something."""
     if body >= len(frame.scenario.robots):
@@ -404,22 +318,3 @@ def sensor_plots(frame: Frame, body: int) -> Iterator[SensorPlot]:
         for robot, reading in frame.readings.get(sensor.key, ()):
             if robot == body:
                 yield plot_of(frame, body, sensor, reading)
-
-
-def inbox(frame: Frame, robot: int, most: int = LINES) -> list[tuple[str, float, str]]:
-    """Return the last messages that arrived for a robot: sender's name, when sent [s], content."""
-    rows, contents = frame.message_log()
-    now = frame.time + 1e-6 * frame.scenario.sampling_time
-    end = bisect_right(rows["time"], now)
-    found: list[tuple[str, float, str]] = []
-    while end > 0 and len(found) < most:
-        begin = max(0, end - BLOCK)
-        block = rows[begin:end]
-        for k in np.flatnonzero((block["receiver"] == robot) & (block["arrival"] <= now))[::-1]:
-            row = block[k]
-            name = str(frame.scenario.robots[int(row["sender"])].name)
-            found.append((name, float(row["time"]), contents[int(row["content"])]))
-            if len(found) == most:
-                break
-        end = begin
-    return found

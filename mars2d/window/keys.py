@@ -1,18 +1,23 @@
-"""The keys of the window: one table for what they do and for the page of help."""
+"""The keys of the run window: one table for commands and for the help."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-__all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "action_of"]
+import pygame
+
+__all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "Keyboard", "action_of"]
+
+MAX_NUMBER = 1_000_000
+"""The largest number that can be typed before a command."""
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """One command: the keys that give it, as pygame names them, and its line of help.
+    """A command, the keys that give it, by pygame's names, and its line of help.
 
-    labels: as on the keyboard. repeats: holding the key repeats it.
+    labels: as on the keyboard. repeats: whether a held key repeats the command.
     """
 
     action: str
@@ -80,24 +85,69 @@ MOUSE = (
 )
 
 GROUPS: Mapping[str, Sequence[Key]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}
-"""All of them, as the page of help shows them."""
+"""All keys, in the groups of the help."""
 
 MODIFIERS = frozenset(
     f"{side} {key}" for side in ("left", "right") for key in ("shift", "ctrl", "alt", "meta", "gui")
 ) | {"caps lock", "numlock", "scroll lock", "alt gr", "menu", "print screen", ""}
-"""Keys that are held or switched for other keys' sake, and do nothing by themselves."""
+"""Keys that only modify other keys."""
 
 _BY_NAME = {name: key for key in KEYS for name in key.names}
 _STEP = next(key for key in KEYS if key.action == "step")
 
 
 def action_of(name: str, character: str, *, manual: bool) -> Key | None:
-    """Return the command that a key gives, or None.
+    """Return the command of a key, or None.
 
-    name: pygame's name of the key. character: what it types, which tells a + on any keyboard.
-    manual: MARS's manual mode, where every key that is no other command does one step.
+    name: pygame's name of the key. character: the text that it types, which identifies + on every
+    keyboard. manual: whether the window is in MARS's manual mode, in which each key without another
+    command does one step.
     """
     key = (_BY_NAME.get(character) if character in "+-" else None) or _BY_NAME.get(name)
     if not manual or name in MODIFIERS or character.isdigit():
         return key
     return _STEP if key is None or key.action == "pause" else key
+
+
+class Keyboard:
+    """Turns pressed keys into commands; digits make a number for the next command."""
+
+    def __init__(self) -> None:
+        """Start with no key held and nothing typed."""
+        self.number = 0  # typed so far
+        self._held: set[int] = set()
+
+    def press(self, code: int, character: str, *, manual: bool) -> Key | None:
+        """Press a key; return its command, or None.
+
+        code: pygame's code of the key; character, manual: as for `action_of`.
+        """
+        if _is_digit(character):
+            self.number = min(10 * self.number + int(character), MAX_NUMBER)
+            return None
+        key = action_of(pygame.key.name(code), character, manual=manual)
+        held = code in self._held
+        self._held.add(code)
+        return key if key is not None and (key.repeats or not held) else None
+
+    def forget(self, code: int, character: str) -> None:
+        """Forget the typed number after a key, unless it is a digit or only modifies others."""
+        if not _is_digit(character) and pygame.key.name(code) not in MODIFIERS:
+            self.number = 0
+
+    def typed(self, otherwise: int) -> int:
+        """Return the typed number, or another one if none was typed; forget it."""
+        number, self.number = self.number, 0
+        return number or otherwise
+
+    def release(self, code: int) -> None:
+        """Release a key."""
+        self._held.discard(code)
+
+    def clear(self) -> None:
+        """Release all keys."""
+        self._held.clear()
+
+
+def _is_digit(character: str) -> bool:
+    return character.isdigit() and character.isascii()

@@ -1,4 +1,4 @@
-"""Short messages over the picture, which fade by themselves; and how far something long has got."""
+"""What a window says: notes that fade, the progress of something long, why a run has ended."""
 
 from __future__ import annotations
 
@@ -7,25 +7,31 @@ from typing import Literal
 
 import pygame
 
+from mars2d.core.errors import Mars2dError
 from mars2d.core.scene import faded
+from mars2d.core.usercode import Excerpt, excerpt_of
+from mars2d.output.raster.bars import Banner
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
+from mars2d.window.player import Player
+from mars2d.world.timeline import Timeline
 
-__all__ = ["Notes", "Progress", "draw_progress"]
+__all__ = ["Ending", "Notes", "Progress", "draw_progress"]
 
 NoteKind = Literal["info", "warning", "error"]
 
 STAYS, FADES = 5.0, 0.7
-"""A note is seen for so many seconds, and fades in the last ones."""
-MOST = 4
-"""Notes at a time."""
-LINES = 6
-WIDTH = 420.0
-"""Of a note, points, at most."""
-SHARE = 0.62
-"""Of a note, of the picture's width, at most."""
+"""How long a note is seen, and how long it fades at the end, seconds."""
+MAX_NOTES = 4
+MAX_LINES = 6
+"""The number of lines in a note."""
+MAX_WIDTH, MAX_WIDTH_SHARE = 420.0, 0.62
+"""The widest note: in points, and as a share of the picture's width."""
 SIZE, LINE = 14.0, 20.0
 """The heights of letters and lines, points."""
+
+HINT = "← looks back   R restarts   Esc leaves"
+MEND = "correct the file and save it"
 
 
 @dataclass(slots=True)
@@ -36,10 +42,10 @@ class _Note:
 
 
 class Notes:
-    """Messages in the lower right corner of the picture, the newest lowest.
+    """Messages in the lower right corner of the picture, the newest at the bottom.
 
-    An error stays until another one replaces it, or until all are cleared: in the window by Esc,
-    or by a file that is read without one.
+    An error stays until the next error replaces it or all notes are cleared: by Esc, or when a file
+    is read without an error.
     """
 
     def __init__(self) -> None:
@@ -47,29 +53,29 @@ class Notes:
         self._notes: list[_Note] = []
 
     def __len__(self) -> int:
-        """Return how many are there to be drawn."""
+        """Return the number of notes."""
         return len(self._notes)
 
     @property
     def failed(self) -> bool:
-        """Whether there is an error among them."""
+        """Whether one of the notes is an error."""
         return any(note.kind == "error" for note in self._notes)
 
     def say(self, text: str, kind: NoteKind = "info") -> None:
-        """Add a message; one that says the same goes, and an error for an error."""
+        """Add a note. It replaces a note with the same text; an error also replaces an error."""
         self._notes = [
             note for note in self._notes if note.text != text and not (kind == note.kind == "error")
         ]
-        self._notes = [*self._notes, _Note(text, kind)][-MOST:]
+        self._notes = [*self._notes, _Note(text, kind)][-MAX_NOTES:]
 
     def clear(self) -> None:
-        """Remove all, errors too."""
+        """Remove all notes, errors too."""
         self._notes = []
 
     def draw(
         self, surface: pygame.Surface, plot: pygame.Rect, painter: Painter, now: float
     ) -> None:
-        """Draw what is not over yet; now: seconds on a clock that goes on."""
+        """Draw the notes that have not expired; now: a monotonic clock, seconds."""
         ui = painter.ui
         for note in self._notes:
             note.since = now if note.since is None else note.since
@@ -86,7 +92,7 @@ class Notes:
 
 
 def _opacity(note: _Note, now: float) -> float:
-    """Return how much of a note is seen, from 0 to 1."""
+    """Return the opacity of a note, from 0 to 1."""
     if note.kind == "error" or note.since is None:
         return 1.0
     return min(max((note.since + STAYS - now) / FADES, 0.0), 1.0)
@@ -95,8 +101,8 @@ def _opacity(note: _Note, now: float) -> float:
 def _drawn(note: _Note, plot: pygame.Rect, painter: Painter) -> pygame.Surface:
     """Return a note on a transparent surface: a plate with a bar of its colour at the left."""
     ui, fonts, theme = painter.ui, painter.fonts, painter.theme
-    room = min(WIDTH * ui, SHARE * plot.width) - 36 * ui
-    lines = fonts.wrap(note.text, SIZE * ui, room, LINES)
+    room = min(MAX_WIDTH * ui, MAX_WIDTH_SHARE * plot.width) - 36 * ui
+    lines = fonts.wrap(note.text, SIZE * ui, room, MAX_LINES)
     width = max(fonts.width(line, SIZE * ui) for line in lines) + round(36 * ui)
     size = round(width), round((LINE * len(lines) + 18) * ui)
     image = pygame.Surface(size, pygame.SRCALPHA, 32)
@@ -119,7 +125,7 @@ def _color(kind: NoteKind, theme: Theme) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Something that takes a while, in words, and which share of it is done, from 0 to 1."""
+    """A long task: its name, and the share of it that is done, from 0 to 1."""
 
     text: str
     share: float
@@ -128,11 +134,11 @@ class Progress:
 def draw_progress(
     surface: pygame.Surface, plot: pygame.Rect, painter: Painter, progress: Progress
 ) -> None:
-    """Draw a line of words with a bar below it, in the middle of the picture's foot."""
+    """Draw the task and a bar below it, at the middle of the picture's lower edge."""
     ui, fonts, theme = painter.ui, painter.fonts, painter.theme
     share = min(max(progress.share, 0.0), 1.0)
     pad, percent = round(18 * ui), f"{100 * share:.0f} %"
-    most = min(WIDTH * ui, plot.width - 4 * pad)
+    most = min(MAX_WIDTH * ui, plot.width - 4 * pad)
     number = fonts.width("100 %", 15 * ui, bold=True) + round(14 * ui)
     text = fonts.shorten(progress.text, 15 * ui, most - number)
     width = max(fonts.width(text, 15 * ui) + number, round(min(260 * ui, most)))
@@ -150,3 +156,35 @@ def draw_progress(
     surface.set_clip(pygame.Rect(line.left, line.top, round(share * line.width), line.height))
     painter.panel(surface, line, theme.selected, line.height / 2)
     surface.set_clip(before)
+
+
+class Ending:
+    """Tells why a run has ended.
+
+    The banner of an error shows the lines of code that were run. They are read once, so that edits
+    of the file do not change them.
+    """
+
+    def __init__(self, player: Player) -> None:
+        """Start without an error."""
+        self._player = player
+        self._error: Mars2dError | None = None
+        self._excerpt: Excerpt | None = None
+
+    def banner(self) -> Banner | None:
+        """Return the banner for the window's footer, None while the run goes on."""
+        player = self._player
+        if player.failed and player.error is not None:
+            excerpt = self._excerpt_of(player.error)
+            hint = HINT if excerpt is None else f"{MEND}   {HINT}"
+            return Banner(str(player.error), hint, error=True, excerpt=excerpt)
+        if not player.over:
+            return None
+        return Banner(player.frame.over_message or "The experiment is over.", HINT)
+
+    def _excerpt_of(self, error: Mars2dError) -> Excerpt | None:
+        if error is not self._error:
+            source = self._player.source
+            path = source.experiment.path if isinstance(source, Timeline) else None
+            self._error, self._excerpt = error, excerpt_of(error, path)
+        return self._excerpt

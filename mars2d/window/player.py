@@ -1,4 +1,4 @@
-"""The clock of a window: how far the source goes for the time that passes on the wall."""
+"""The clock of a window: how far the source goes as wall time passes."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ __all__ = ["SPEEDS", "Player", "between"]
 
 Kind = Literal["running", "waiting", "past", "error"]
 Status = tuple[str, Kind]
-"""What the clock does, in words, and its kind: running, waiting, past or error."""
+"""The state of the clock in words, and its kind."""
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
-"""The rungs of + and -; above them lies "max"."""
+"""The rungs of + and -; above them is "max"."""
 
-LONGEST_GAP = 0.1
-"""Wall time beyond this between two pictures, seconds, is not caught up with."""
+MAX_GAP = 0.1
+"""The longest wall time between two pictures that is caught up with, seconds."""
 
-SHARE = 9.0
-"""At speed max, how many times as long as the drawing of a picture the simulation may take..."""
-RAREST = 0.1
-"""... as long as there is a picture at least each so many seconds."""
+SHARE_AT_MAX = 9.0
+"""At speed max, the time of the simulation as a multiple of the last picture's drawing time..."""
+MAX_TIME_AT_MAX = 0.1
+"""... and the longest such time, seconds."""
 
 
 class Player:
-    """Plays a source: at a factor of real time, as fast as it goes, paused, or by single steps.
+    """Plays a source at a factor of real time, as fast as possible, paused, or in single steps.
 
-    speed: a factor, 0 for manual mode (one step a key press), or "max". budget: seconds of each
-    picture that the simulation may take.
+    speed: a factor, 0 for manual mode (one step a key press), or "max". budget: the time that the
+    simulation may take for each picture, seconds.
     """
 
     def __init__(
@@ -52,13 +52,13 @@ class Player:
         self.speed = float("inf") if checked == "max" else float(checked)
         self.paused = False
         self.error: Mars2dError | None = None
-        self.drawing = 0.0  # seconds that the last picture took
-        self._todo = 0  # steps
+        self.drawing = 0.0  # the time of the last picture, seconds
+        self._todo = 0  # steps to do
         self._budget, self._clock = budget, clock
         self._present = source.frame
         self._previous: Frame | None = None
         self._time = self._present.time
-        self._seen: tuple[Frame, float, Frame] | None = None  # between two: the second, when, what
+        self._seen: tuple[Frame, float, Frame] | None = None  # next frame, time, interpolated
         self._pace: deque[tuple[float, float]] = deque()
 
     @property
@@ -73,12 +73,12 @@ class Player:
 
     @property
     def past(self) -> bool:
-        """Whether what is shown was run before: there are newer rows."""
+        """Whether an earlier row than the newest is shown."""
         return self.source.row < self.source.newest
 
     @property
     def failed(self) -> bool:
-        """Whether what is shown is where a law, sensor or add-on has failed."""
+        """Whether the row is shown at which a law, sensor or add-on has failed."""
         return self.error is not None and not self.past
 
     @property
@@ -88,7 +88,7 @@ class Player:
 
     @property
     def frame(self) -> Frame:
-        """What is to be drawn now: between the last two frames while time passes, else the last."""
+        """The frame to draw: between the last two while time passes, else the last."""
         present, previous = self._present, self._previous
         if previous is None or self._time >= present.time or present.time <= previous.time:
             return present
@@ -98,14 +98,14 @@ class Player:
 
     @property
     def factor(self) -> float | None:
-        """How many times as fast as the wall clock it went of late; None when not known yet."""
+        """The recent factor of real time, None if it is not known yet."""
         if len(self._pace) < 2:
             return None
         (wall0, time0), (wall1, time1) = self._pace[0], self._pace[-1]
         return (time1 - time0) / (wall1 - wall0) if wall1 - wall0 > 0.25 else None
 
     def pass_time(self, wall: float) -> None:
-        """Go on for `wall` seconds that have passed since the last picture."""
+        """Advance by `wall` seconds since the last picture."""
         if self._todo:
             self._do_steps()
         if not self.playing:
@@ -115,9 +115,9 @@ class Player:
             self._advance_for_long()
             self.settle()
         else:
-            wanted = self._time + self.speed * min(wall, LONGEST_GAP)
+            wanted = self._time + self.speed * min(wall, MAX_GAP)
             self._advance_until(wanted)
-            # Where the simulation is too slow, time waits for it instead of piling up a debt.
+            # If the simulation is too slow, time waits for it and does not catch up later.
             self._time = min(wanted, self._present.time)
         now = self._clock()
         self._pace.append((now, self._time))
@@ -125,13 +125,13 @@ class Player:
             self._pace.popleft()
 
     def step(self, count: int = 1) -> None:
-        """Go on by so many sampling times, and pause; by many as time allows between pictures."""
+        """Advance by `count` sampling times, over several pictures if need be, and pause."""
         self.pause()
         self._todo = count
         self._do_steps()
 
     def _do_steps(self) -> None:
-        """Do steps that are to be done, as many as a picture may wait for."""
+        """Do the requested steps, as many as fit into the time of one picture."""
         deadline = self._clock() + self._budget
         while self._todo and not (self.failed or self.source.over):
             self._todo -= 1
@@ -142,24 +142,24 @@ class Player:
         self.settle()
 
     def back(self, count: int = 1) -> None:
-        """Go back by so many sampling times, and pause."""
+        """Go back by `count` sampling times, and pause."""
         self.go(self.source.row - count)
 
     def go(self, row: int) -> None:
-        """Go to a row, or to the nearest one that there is as yet, and pause."""
+        """Go to a row, or to the nearest recorded one, and pause."""
         self.pause()
         self.source.go(row)
         self.settle()
 
     def pause(self) -> None:
-        """Stop time, if it passes, and show the present frame."""
+        """Stop time, and show the present frame."""
         self._todo = 0
         if not self.manual:
             self.paused = True
         self.settle()
 
     def pause_or_resume(self) -> None:
-        """Stop time or let it pass; in manual mode, one step."""
+        """Pause or resume; in manual mode, do one step."""
         if self.manual:
             self.step()
             return
@@ -169,23 +169,23 @@ class Player:
             self.settle()
 
     def set_speed(self, speed: float) -> None:
-        """Play at a factor of real time, or as fast as it goes: inf."""
+        """Play at a factor of real time; inf: as fast as possible."""
         self.speed = speed
         self._pace.clear()
 
     def faster(self) -> None:
-        """Go one rung up; from manual mode to the lowest."""
+        """Go one rung up; from manual mode to the lowest rung."""
         higher = [rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)]
         self.set_speed(higher[0] if higher else float("inf"))
 
     def slower(self) -> None:
-        """Go one rung down, at most to the lowest."""
+        """Go one rung down, not below the lowest."""
         lower = [rung for rung in SPEEDS if rung < self.speed * (1 - 1e-9)]
         if lower:
             self.set_speed(lower[-1])
 
     def restart(self) -> None:
-        """Go back to the start; a law that failed gets another chance."""
+        """Start again; a law that has failed is run again."""
         self.error = None
         self._todo = 0
         self._pace.clear()
@@ -193,11 +193,11 @@ class Player:
             self.source.restart()
         except Mars2dError as error:
             self.error = error
-            self.source.go(self.source.newest)  # where it is told
+            self.source.go(self.source.newest)  # where the error is shown
         self.settle()
 
     def status(self) -> Status:
-        """Return what the clock does."""
+        """Return the state of the clock."""
         if self.past:
             ago = (self.source.newest - self.source.row) * self.source.scenario.sampling_time
             return f"{self._pace_in_words() if self.playing else 'past'}  {ago:g} s ago", "past"
@@ -219,21 +219,22 @@ class Player:
         return text
 
     def fail(self, error: Mars2dError) -> None:
-        """Stop at the present frame, without what add-ons and sensors draw: one of them raised."""
-        if str(self.error) != str(error):  # it raises at each picture
+        """Stop at the present frame, without drawings of add-ons and sensors: one has raised."""
+        if str(self.error) != str(error):  # it raises again at each picture
             self.error = error
         self.settle()
         self._present = replace(self._present, readings={}, draw_addons=None)
 
     def settle(self) -> None:
-        """Show the source's present frame, as after something was done to the world."""
+        """Show the source's present frame, for example after a change of the world."""
         self._present = self.source.frame
         self._previous = None
         self._time = self._present.time
 
     def _advance_for_long(self) -> None:
-        """Go on for as long as a picture may take, asking for no frame in between."""
-        deadline = self._clock() + max(self._budget, min(SHARE * self.drawing, RAREST))
+        """Advance for as long as a picture may take, without frames in between."""
+        seconds = max(self._budget, min(SHARE_AT_MAX * self.drawing, MAX_TIME_AT_MAX))
+        deadline = self._clock() + seconds
         while not self.source.over and self._advance():
             if self._clock() >= deadline:
                 break
@@ -250,7 +251,7 @@ class Player:
                 break
 
     def _advance(self) -> bool:
-        """Go on by one sampling time; return whether the law held."""
+        """Advance by one sampling time; return whether nothing has failed."""
         try:
             self.source.advance()
         except Mars2dError as error:

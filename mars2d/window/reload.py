@@ -1,4 +1,4 @@
-"""Live editing: an experiment's files are watched, and read again when they are saved."""
+"""Hot reload: an experiment's files are watched, and read again when they are saved."""
 
 from __future__ import annotations
 
@@ -15,41 +15,41 @@ from mars2d.world.timeline import Progress, Timeline
 __all__ = ["Reload", "Reloaded"]
 
 INTERVAL = 0.3
-"""The files are looked at no more often, seconds."""
+"""The time between two looks at the files, seconds."""
 REST = 0.2
-"""For so long they must have stayed the same: editors write in several steps, seconds."""
+"""How long files must be unchanged before they are read, since editors write in steps, seconds."""
 
 Stamp = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
 class Reloaded:
-    """What became of a file that was saved, in words; error: why it could not be used."""
+    """The effect of a saved file in words; error: why it can't be used."""
 
     message: str
     error: Mars2dError | None = None
 
 
 class Reload:
-    """Lets a timeline go on with its experiment's files as they are saved.
+    """Makes a timeline follow its experiment's files as they are saved.
 
-    Laws, obstacles and the like are in effect from the present row on; where more has changed, the
-    run begins anew. A file with an error is told of, and the old law goes on. progress: is
-    told how far the new laws have got with what was run before.
+    New laws, obstacles and the like apply from the present row on; larger changes start the run
+    anew. If a file has an error, the old law goes on. progress: is told how far the new laws have
+    come in the rows that were run before.
     """
 
     def __init__(self, timeline: Timeline, progress: Progress = lambda _: True) -> None:
-        """Look at the files as they are now."""
+        """Start to watch the files."""
         self._timeline, self._progress = timeline, progress
-        self._next = self._since = 0.0  # when to look again; when they were last seen to change
+        self._next = self._since = 0.0  # when to look again; when files last changed
         self._stamps: dict[Path, Stamp | None] = {}
         self._contents: dict[Path, bytes] = {}
         self._adopt()
 
     def poll(self, now: float) -> Reloaded | None:
-        """Look at the files if it is time to, and do what has to be done; return what was done.
+        """Look at the files if it is time to, and read those that were saved; return the effect.
 
-        now: a clock, seconds.
+        now: a monotonic clock, seconds.
         """
         if self._timeline.experiment is not self._experiment:  # it was restarted
             self._stamps = {}
@@ -72,7 +72,7 @@ class Reload:
         return self._read(", ".join(others)) if others else None
 
     def _adopt(self) -> None:
-        """Watch the files of the timeline's experiment; those not watched yet, as they are now."""
+        """Watch the files of the timeline's experiment."""
         self._experiment = self._timeline.experiment
         self._watch(self._experiment.files)
 
@@ -85,7 +85,7 @@ class Reload:
             self._contents[path] = before[1][path] if known else _content(path)
 
     def _read(self, name: str) -> Reloaded:
-        """Open the experiment anew, and go on with it; name: that of the files that were saved."""
+        """Open the experiment again, and continue with it; name: of the saved files."""
         with files_read() as files:
             try:
                 return Reloaded(f"{name}: {self._take(self._experiment.reopened())}")
@@ -96,7 +96,7 @@ class Reload:
         return problem
 
     def _take(self, experiment: Experiment) -> str:
-        """Go on with an experiment read again; return what happens, in words."""
+        """Continue with an experiment; return the effect in words."""
         try:
             self._timeline.check(experiment)
         except InputError as error:
@@ -109,7 +109,7 @@ class Reload:
 
 
 def _stamp(path: Path) -> Stamp | None:
-    """Return when a file was written and its size; None while there is none."""
+    """Return the time of writing and the size of a file; None if there is none."""
     try:
         status = path.stat()
     except OSError:
@@ -118,7 +118,7 @@ def _stamp(path: Path) -> Stamp | None:
 
 
 def _content(path: Path) -> bytes:
-    """Return what stands for a file's content; empty if it can't be read."""
+    """Return a digest of a file's content, empty if it can't be read."""
     try:
         return hashlib.sha256(path.read_bytes()).digest()
     except OSError:

@@ -1,4 +1,4 @@
-"""What a sensor reads, as a small plot: over time, or over the directions that it looks in."""
+"""The inspector's plots of sensors: readings over time, or over bearings."""
 
 from __future__ import annotations
 
@@ -18,28 +18,28 @@ from mars2d.output.raster.strokes import hairlines
 from mars2d.output.raster.theme import mixed
 from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
-from mars2d.window.meter import span_of
+from mars2d.window.forcemeter import span_of
 
 __all__ = ["SensorPlot", "plot_of"]
 
 ROW, FLAG_ROW, FAN, CELLS, BARS = 24.0, 15.0, 62.0, 18.0, 40.0
-"""The heights of a line over time, of a flag, of directions, of colours and of bars, points."""
+"""The heights of a line over time, a flag, a fan of bearings, colours and bars, points."""
 
 TITLE = 21.0
 """The height of a plot's title, points."""
 
-FEW = 6
-"""So many numbers have a line each, and more are shown as bars."""
+MAX_LINES = 6
+"""How many numbers are drawn as lines over time; more are drawn as bars."""
 
 NAME, VALUE = 46.0, 84.0
 """The room for the name and the value beside a line, points."""
 
 LIT = "#d55e00"
-"""The colour of a flag that is set, as sensors draw it."""
+"""The colour of a set flag, the same as in drawings of sensors."""
 
 
 class SensorPlot(NamedTuple):
-    """A plot of a sensor: how high it is without its title [points], and how it is drawn."""
+    """A plot of a sensor; height: without its title, points."""
 
     sensor: Sensor
     height: float
@@ -47,10 +47,9 @@ class SensorPlot(NamedTuple):
 
 
 class History(NamedTuple):
-    """Readings of the last control steps, (k, ...), the last one now.
+    """Readings (k, ...) of the last control steps, up to the present.
 
-    share: where the first of them lies in the time that is shown, from 0 to 1, and the last is 1
-    or, at the start of an experiment, less.
+    first, last: the places of the first and the last on the time axis, from 0 to 1.
     """
 
     values: NDArray[Any]
@@ -59,7 +58,7 @@ class History(NamedTuple):
 
 
 def plot_of(frame: Frame, robot: int, sensor: Sensor, reading: Any) -> SensorPlot:
-    """Return the plot of what a sensor has read on a robot."""
+    """Return the plot of a sensor's readings on a robot."""
     now = np.asarray(reading)
     quantities = sensor.quantities or (Quantity("value"),)
     kinds = tuple(quantity.kind for quantity in quantities)
@@ -68,10 +67,10 @@ def plot_of(frame: Frame, robot: int, sensor: Sensor, reading: Any) -> SensorPlo
     angles = np.asarray(getattr(sensor, "angles", ()), dtype=float)
     if now.dtype.kind == "b":
         flags = past.values.reshape(len(past.values), -1)
-        if flags.shape[1] <= FEW:
+        if flags.shape[1] <= MAX_LINES:
             names = tuple(_degrees(angle) for angle in angles.tolist())
             if len(names) != flags.shape[1]:
-                names = tuple(map(str, range(FEW)))
+                names = tuple(map(str, range(MAX_LINES)))
             bands = _Flags(past._replace(values=flags), names)
             return SensorPlot(sensor, FLAG_ROW * flags.shape[1], bands)
         return SensorPlot(sensor, CELLS, _Cells(_lit(now.ravel()[None, ::-1])))
@@ -84,7 +83,7 @@ def plot_of(frame: Frame, robot: int, sensor: Sensor, reading: Any) -> SensorPlo
         colors = frame.scenario.colors if len(now) == len(frame.scenario.robots) else (color,)
         return SensorPlot(sensor, FAN, _Sightings(now, _range(sensor, now[:, 0]), colors))
     numbers = past.values.reshape(len(past.values), -1).astype(float)
-    if numbers.shape[1] <= FEW:
+    if numbers.shape[1] <= MAX_LINES:
         named = quantities if len(quantities) == numbers.shape[1] else None
         lines = _Lines(past._replace(values=numbers), named, quantities[0], color)
         return SensorPlot(sensor, ROW * numbers.shape[1], lines)
@@ -92,7 +91,7 @@ def plot_of(frame: Frame, robot: int, sensor: Sensor, reading: Any) -> SensorPlo
 
 
 def history(frame: Frame, robot: int, sensor: Sensor, now: NDArray[Any]) -> History:
-    """Return what a sensor has read on a robot of late, and what it reads now."""
+    """Return the recent readings of a sensor on a robot; now: the present one."""
     past = frame.reading_path(sensor.key, robot)
     if past is None or past.shape[1:] != now.shape:
         return History(now[None], 1.0, 1.0)
@@ -105,7 +104,7 @@ def history(frame: Frame, robot: int, sensor: Sensor, now: NDArray[Any]) -> Hist
 
 
 def _range(sensor: Sensor, distances: Float) -> float:
-    """Return how far a sensor can see, or as far as it does see now."""
+    """Return a sensor's range, or the farthest distance that it reads now."""
     reach = getattr(sensor, "range", None)
     finite = distances[np.isfinite(distances)]
     seen = float(finite.max(initial=0.0)) or 1.0
@@ -120,7 +119,7 @@ def _lit(flags: NDArray[np.bool_]) -> Float:
 
 @dataclass(frozen=True, slots=True)
 class _Lines:
-    """A line over time for each number."""
+    """Numbers, as a line over time each."""
 
     history: History
     named: tuple[Quantity, ...] | None
@@ -158,11 +157,11 @@ def _line(
     quantity: Quantity,
     color: str,
 ) -> None:
-    """Draw one number over time, as high as it varies."""
+    """Draw number k over time, scaled to its range."""
     values = history.values[:, k]
     surface.fill(painter.theme.track, (area.left, area.bottom, area.width, 1))
     stride = max(1, len(values) // max(1, area.width))
-    at = np.arange(len(values) - 1, -1, -stride)[::-1]  # the last one is always seen
+    at = np.arange(len(values) - 1, -1, -stride)[::-1]  # the last one is always drawn
     x = area.left + area.width * np.linspace(history.first, history.last, len(values))[at]
     values = values[at]
     finite = np.isfinite(values)
@@ -184,7 +183,7 @@ def _line(
 
 
 def _leaps(values: Float, quantity: Quantity) -> NDArray[np.bool_]:
-    """Return where an angle leaps from one end of its range to the other."""
+    """Return where an angle jumps from one end of its range to the other."""
     if quantity.kind != "angle":
         return np.zeros(len(values) - 1, dtype=bool)
     with np.errstate(invalid="ignore"):
@@ -193,7 +192,7 @@ def _leaps(values: Float, quantity: Quantity) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True, slots=True)
 class _Flags:
-    """A band over time for each flag, filled while it is set."""
+    """Flags, as a band over time each, filled while set."""
 
     history: History
     names: tuple[str, ...]
@@ -230,7 +229,7 @@ class _Flags:
 
 @dataclass(frozen=True, slots=True)
 class _Fan:
-    """Distances over the bearings of beams, what lies to the left on the left."""
+    """Distances over the bearings of beams; the left of the robot is on the left."""
 
     angles: Float
     distances: Float
@@ -253,7 +252,7 @@ class _Fan:
 
 @dataclass(frozen=True, slots=True)
 class _Sightings:
-    """A stem for each thing that is seen: how far off, and in which direction."""
+    """Distances and bearings of things, as a stem each."""
 
     rows: Float
     reach: float
@@ -303,7 +302,7 @@ def _bearings(
 
 @dataclass(frozen=True, slots=True)
 class _Cells:
-    """Colours side by side: of pixels, or of one place over time; nan is nothing."""
+    """Colours side by side: of pixels, or of one pixel over time; nan is drawn empty."""
 
     colors: Float
 
@@ -319,7 +318,7 @@ class _Cells:
 
 @dataclass(frozen=True, slots=True)
 class _Bars:
-    """Many numbers side by side."""
+    """Many numbers, as bars side by side."""
 
     values: Float
     color: str
@@ -341,7 +340,7 @@ class _Bars:
 
 
 def _in_words(value: float, quantity: Quantity) -> str:
-    """Return a number as it is read, with its unit; angles in degrees."""
+    """Return a number in words, with its unit; angles in degrees."""
     if quantity.kind == "angle" and np.isfinite(value):
         return _degrees(value)
     if not np.isfinite(value):

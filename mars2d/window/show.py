@@ -1,4 +1,4 @@
-"""Play an experiment or a record in a window."""
+"""Show an experiment or a record in a window."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mars2d.core.interrupt import noted_interrupts
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.preferences import Preferences
+from mars2d.window.display import Preferences
 from mars2d.window.source import Playback
 from mars2d.world.loop import Interrupted
 from mars2d.world.timeline import Timeline
@@ -32,12 +32,12 @@ def show_experiment(
     human: int | None = None,
     log: Log | None = None,
 ) -> Record:
-    """Run an experiment in a window until it is closed, and return what was recorded until then.
+    """Run an experiment in a window until it is closed, and return the record.
 
     speed: simulated seconds per second, "max", or 0 for one step a key press. preferences: how the
-    window looks. human: a robot that is driven by hand; then it waits until somebody starts it.
-    log: what writes each control step to a file when it is done, and is closed at the end. Raises
-    InputError without a display, and what a law raised, once the window is closed.
+    window looks. human: the robot to drive by hand; the run then waits for the person to start it.
+    log: writes each control step to a file; it is closed at the end. Raises InputError without a
+    display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
     from mars2d.window.window import Window

@@ -1,4 +1,4 @@
-"""The slider of the speed, from slow motion to as fast as it goes."""
+"""Sliders: a line with a handle; and the slider of the speed."""
 
 from __future__ import annotations
 
@@ -10,39 +10,59 @@ import pygame
 from mars2d.core.scene import Scene
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
-from mars2d.window.tooltip import draw_tooltip
 
-__all__ = ["SpeedSlider", "times"]
+__all__ = ["BEHIND", "Slider", "SpeedSlider", "draw_tooltip", "times"]
 
-BAND = 4.0
-"""The height of its line, points."""
-VALUE, SHARE = 108.0, 0.48
-"""The room for the words beside it, points, and of all at most."""
+SPEED_LINE = 4.0
+"""The height of the speed slider's line, points."""
+WORDS, WORDS_SHARE = 108.0, 0.48
+"""The room for the words beside the line: points, and at most this share of the slider."""
 BEHIND = 0.9
-"""Reached is less than wanted below such a share of it."""
+"""A run that reaches less than this share of the chosen speed lags behind."""
 
 
-class SpeedSlider:
-    """Shows a speed on a line whose rungs are equally far apart, and tells which lies where.
+class Slider:
+    """The base of sliders: a line, and an area round it in which a press moves the handle."""
 
-    rungs: factors of real time in ascending order, about equally far apart as factors; above them
-    lies "max", as inf.
-    """
-
-    def __init__(self, rungs: Sequence[float]) -> None:
-        """Take the rungs; nothing is drawn yet."""
-        self.rungs = (*rungs, inf)
+    def __init__(self) -> None:
+        """Start with nothing drawn."""
         self._line = pygame.Rect(0, 0, 0, 0)
         self._area = pygame.Rect(0, 0, 0, 0)
 
     def hit(self, pixel: tuple[int, int]) -> bool:
-        """Return whether a pixel belongs to the slider: a press there chooses its speed."""
+        """Return whether a press at a pixel moves the handle."""
         return bool(self._area.collidepoint(pixel))
 
-    def speed_at(self, x: float) -> float | None:
-        """Return the speed of the rung nearest to a pixel from the left, inf for "max"; or None.
+    def _place(self, rect: pygame.Rect, line: pygame.Rect, margin: int) -> None:
+        """Set the line, and the area that is as high as `rect` and wider than the line."""
+        self._line = line
+        self._area = pygame.Rect(line.left - margin, rect.top, 0, rect.height)
+        self._area.width = line.width + 2 * margin if line.width else 0
 
-        None as long as nothing is drawn, or where there is no room for it.
+    def _fill(self, surface: pygame.Surface, painter: Painter, end: float, color: str) -> None:
+        """Draw the line from its left end to a pixel `end` from the left of the surface."""
+        line, before = self._line, surface.get_clip()
+        surface.set_clip(pygame.Rect(line.left, line.top, end - line.left, line.height))
+        painter.panel(surface, line, color, line.height / 2)
+        surface.set_clip(before)
+
+
+class SpeedSlider(Slider):
+    """Shows the speed on a line with equally spaced rungs.
+
+    rungs: factors of real time in ascending order, with about equal ratios; the last rung, "max",
+    is inf.
+    """
+
+    def __init__(self, rungs: Sequence[float]) -> None:
+        """Start with nothing drawn."""
+        super().__init__()
+        self.rungs = (*rungs, inf)
+
+    def speed_at(self, x: float) -> float | None:
+        """Return the speed of the rung nearest to a pixel from the left, inf for "max".
+
+        None while nothing is drawn, or if there is no room for the line.
         """
         if self._line.width <= 0:
             return None
@@ -51,7 +71,7 @@ class SpeedSlider:
         return self.rungs[min(max(round(share * last), 0), last)]
 
     def x_of(self, speed: float) -> float:
-        """Return how far from the left a speed lies, pixels; between rungs by its logarithm."""
+        """Return where a speed lies, pixels from the left; between rungs by its logarithm."""
         last = len(self.rungs) - 1
         if speed >= self.rungs[-2]:
             place = float(last if speed == inf else last - 1)
@@ -73,10 +93,10 @@ class SpeedSlider:
         pointer: tuple[int, int] | None = None,
         held: bool = False,
     ) -> None:
-        """Draw it on a part of a surface.
+        """Draw the slider on a part of a surface.
 
-        speed: 0 in manual mode, inf for "max". reached: the factor of real time of late, if known.
-        pointer: where the mouse is. held: it drags the handle.
+        speed: 0 in manual mode, inf for "max". reached: the recent factor of real time, if known.
+        pointer: where the mouse is. held: whether the mouse drags the handle.
         """
         ui, theme = painter.ui, painter.theme
         surface.fill(theme.bar, rect)
@@ -106,23 +126,17 @@ class SpeedSlider:
 
     def _arrange(self, rect: pygame.Rect, ui: float) -> None:
         pad = round(16 * ui)
-        words = round(min(VALUE * ui, SHARE * rect.width))
-        height = max(2, round(BAND * ui))
+        words = round(min(WORDS * ui, WORDS_SHARE * rect.width))
+        height = max(2, round(SPEED_LINE * ui))
         line = pygame.Rect(rect.left + pad, 0, max(0, rect.width - 2 * pad - words), height)
         line.centery = rect.centery
-        self._line = line
-        self._area = pygame.Rect(line.left - round(10 * ui), rect.top, 0, rect.height)
-        self._area.width = line.width + round(20 * ui) if line.width else 0
+        self._place(rect, line, round(10 * ui))
 
     def _draw_line(self, surface: pygame.Surface, painter: Painter, speed: float) -> None:
-        """Draw the line up to the handle and beyond it, and a tick at each rung."""
+        """Draw the line up to the handle and beyond, and a tick at each rung."""
         ui, theme, line = painter.ui, painter.theme, self._line
         painter.panel(surface, line, theme.track, line.height / 2)
-        before = surface.get_clip()
-        played = self.x_of(speed) - line.left
-        surface.set_clip(pygame.Rect(line.left, line.top, played, line.height))
-        painter.panel(surface, line, theme.selected, line.height / 2)
-        surface.set_clip(before)
+        self._fill(surface, painter, self.x_of(speed), theme.selected)
         for k, rung in enumerate(self.rungs):
             x = round(line.left + line.width * k / (len(self.rungs) - 1))
             long = round((7 if rung in (1.0, inf) else 4) * ui)
@@ -137,7 +151,7 @@ class SpeedSlider:
         speed: float,
         reached: float | None,
     ) -> None:
-        """Write the speed, and below it what is reached where that is less."""
+        """Write the speed, and below it the speed that is reached if that is less."""
         ui, theme, fonts = painter.ui, painter.theme, painter.fonts
         left = self._line.right + round(20 * ui)
         room = rect.right - round(14 * ui) - left
@@ -159,8 +173,22 @@ class SpeedSlider:
         surface.blit(image, image.get_rect(midleft=(left, rect.centery + round(11 * ui))))
 
 
+def draw_tooltip(
+    surface: pygame.Surface, painter: Painter, text: str, foot: tuple[int, int]
+) -> pygame.Rect:
+    """Draw a word on a plate above a pixel, within the surface; return the plate."""
+    ui, theme = painter.ui, painter.theme
+    image = painter.fonts.render(text, 13 * ui, theme.ink, bold=True)
+    plate = pygame.Rect(0, 0, image.get_width() + round(16 * ui), round(26 * ui))
+    plate.midbottom = foot
+    plate.clamp_ip(surface.get_rect())
+    painter.panel(surface, plate, theme.plate, 6 * ui, theme.key_edge)
+    surface.blit(image, image.get_rect(center=plate.center))
+    return plate
+
+
 def times(factor: float) -> str:
-    """Return a factor of real time as it is read.
+    """Return a factor of real time in words.
 
     >>> [times(factor) for factor in (0.1, 2.0, 3.27, 341.7, 0.0, float("inf"))]
     ['0.1x', '2x', '3.3x', '340x', 'manual', 'max']

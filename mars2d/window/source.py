@@ -1,4 +1,4 @@
-"""Where a window's frames come from: a live experiment or a recorded one."""
+"""The source of a window's frames: a live experiment or a record."""
 
 from __future__ import annotations
 
@@ -12,33 +12,33 @@ __all__ = ["Playback", "Source"]
 
 
 class Source(Protocol):
-    """What the window plays: a sequence of frames, one a sampling time.
+    """A sequence of frames, one per sampling time, that a window plays.
 
-    A `mars2d.world.timeline.Timeline` is one that can be changed, see there.
+    A `mars2d.world.timeline.Timeline` is a source that can be changed.
     """
 
     @property
     def scenario(self) -> Scenario:
-        """What is played."""
+        """The scenario of the present row."""
 
     @property
     def frame(self) -> Frame:
-        """The present instant."""
+        """The frame of the present row."""
 
     @property
     def row(self) -> int:
-        """Which row that is."""
+        """The present row."""
 
     @property
     def newest(self) -> int:
-        """The last row that there is as yet."""
+        """The last row so far."""
 
     @property
     def over(self) -> bool:
-        """Whether there is no further frame."""
+        """Whether there is no further row."""
 
     def advance(self) -> None:
-        """Go on by one sampling time. Raises Mars2dError when a law fails; nothing when over."""
+        """Advance by one row; do nothing when over. Raises Mars2dError when a law fails."""
 
     def go(self, row: int) -> None:
         """Go to a row, or to the nearest one that there is."""

@@ -1,4 +1,4 @@
-"""The time bar: what has been recorded of an experiment, where one is in it, and what happened."""
+"""The time bar: the recorded part of an experiment, the instant shown, and events."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from mars2d.output.layers.forces import FORCE
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme, mixed
-from mars2d.window.tooltip import draw_tooltip
+from mars2d.window.slider import Slider, draw_tooltip
 
 __all__ = ["MarkKind", "TimeBar", "TimeState"]
 
 MarkKind = Literal["collision", "hand", "branch", "error"]
 
 ENDLESS = 1_000_000
-"""Experiments of more rows than this are not shown whole, but as far as they have gone."""
-SHORTEST = 10.0
-"""The least that is shown of them, seconds."""
-BAND = 6.0
-"""The height of the bar, points."""
+"""Experiments of more rows than this are shown only as far as they have gone."""
+MIN_ENDLESS = 10.0
+"""The shortest time shown of such an experiment, seconds."""
+LINE = 6.0
+"""The height of the line, points."""
 
 
 @dataclass(frozen=True, slots=True)
 class TimeState:
     """Where an experiment is: rows are control steps, from 0.
 
-    row: what is shown. rows: the newest one simulated so far. last: that at which it ends.
-    sampling_time: seconds between two rows. marks: rows, in ascending order, at which collisions
-    began, a hand has intervened, a branch begins, or a law has failed.
+    row: the row shown. rows: the newest row simulated so far. last: the row at which the experiment
+    ends. sampling_time: seconds between two rows. marks: rows, in ascending order, at which
+    collisions began, a person intervened, a branch begins, or a law failed.
     """
 
     row: int
@@ -47,18 +47,19 @@ class TimeState:
 
     @property
     def extent(self) -> float:
-        """The row at the right end: the last one; of endless experiments a round time ahead."""
+        """The row at the right end: the last row, or a round time ahead in endless experiments."""
         if self.last <= ENDLESS:
             return max(self.last, self.rows, 1)
-        time = max(1.02 * self.rows * self.sampling_time, SHORTEST)
+        time = max(1.02 * self.rows * self.sampling_time, MIN_ENDLESS)
         return min(grid_step(time) / self.sampling_time, float(self.last))
 
 
 @dataclass(slots=True)
 class _Ticks:
-    """Which columns of pixels events lie in, from the left of the line; more events may follow.
+    """The columns of pixels, from the left of the line, in which events of one kind lie.
 
-    rows: of the events, a list that may grow. width: of the line, pixels. extent: as of the state.
+    rows: the rows of the events; this list may grow. width: the line's, pixels. extent: the
+    state's. count: how many events have been read.
     """
 
     rows: Sequence[int]
@@ -71,9 +72,9 @@ class _Ticks:
         self.columns = np.zeros(self.width + 1, dtype=bool)
 
     def stretches(self, left: int, thick: int) -> list[tuple[int, int]]:
-        """Return the columns in which there is anything, as first ones and how many.
+        """Return runs of columns with events, each as its first pixel and its width.
 
-        left: where the line begins. thick: of a tick, pixels.
+        left: where the line begins. thick: the width of a tick, pixels.
         """
         new = np.array(self.rows[self.count :], dtype=np.float64)
         places = np.rint(left + self.width * np.minimum(new / self.extent, 1.0)).astype(int)
@@ -87,24 +88,19 @@ class _Ticks:
         return list(zip(firsts, (ends - starts + thick).tolist(), strict=True))
 
 
-class TimeBar:
-    """Draws the state of an experiment along a line, and tells which row lies where on it."""
+class TimeBar(Slider):
+    """Shows the state of an experiment along a line, and finds the row at a pixel."""
 
     def __init__(self) -> None:
         """Start with nothing drawn."""
-        self._line = pygame.Rect(0, 0, 0, 0)
-        self._area = pygame.Rect(0, 0, 0, 0)
+        super().__init__()
         self._state: TimeState | None = None
         self._ticks: dict[MarkKind, _Ticks] = {}
 
-    def hit(self, pixel: tuple[int, int]) -> bool:
-        """Return whether a pixel belongs to the bar: a press there goes to its row."""
-        return bool(self._area.collidepoint(pixel))
-
     def row_at(self, x: float) -> int | None:
-        """Return the row at a pixel from the left, of those recorded the nearest.
+        """Return the recorded row nearest to a pixel from the left.
 
-        None as long as nothing is drawn, or where there is no room for a bar.
+        None while nothing is drawn, or if there is no room for the line.
         """
         if self._state is None or self._line.width <= 0:
             return None
@@ -112,7 +108,7 @@ class TimeBar:
         return min(max(round(share * self._state.extent), 0), self._state.rows)
 
     def x_of(self, row: float) -> float:
-        """Return how far from the left a row lies, pixels."""
+        """Return where a row lies, pixels from the left."""
         extent = 1.0 if self._state is None else self._state.extent
         return self._line.left + self._line.width * min(row / extent, 1.0)
 
@@ -126,9 +122,9 @@ class TimeBar:
         pointer: tuple[int, int] | None = None,
         held: bool = False,
     ) -> None:
-        """Draw it on a part of a surface.
+        """Draw the bar on a part of a surface.
 
-        pointer: where the mouse is. held: it drags the handle.
+        pointer: where the mouse is. held: whether the mouse drags the handle.
         """
         ui, theme = painter.ui, painter.theme
         surface.fill(theme.bar, rect)
@@ -149,7 +145,7 @@ class TimeBar:
             draw_tooltip(surface, painter, _time(row or 0, state), place)
 
     def _arrange(self, rect: pygame.Rect, painter: Painter, state: TimeState) -> None:
-        """Place the line between the labels of its ends, or without them where it is short."""
+        """Place the line between the labels of its ends; leave them out if it would be short."""
         ui, fonts = painter.ui, painter.fonts
         pad, gap, size = 20 * ui, 12 * ui, 13 * ui
         left = rect.left + pad + fonts.width("0 s", size) + gap
@@ -157,12 +153,10 @@ class TimeBar:
         self._labelled = right - left >= 120 * ui
         if not self._labelled:
             left, right = rect.left + pad, rect.right - pad
-        height = round(BAND * ui)
+        height = round(LINE * ui)
         line = pygame.Rect(round(left), 0, max(0, round(right - left)), height)
         line.centery = rect.top + round(0.58 * rect.height)
-        self._line = line
-        self._area = pygame.Rect(line.left - round(8 * ui), rect.top, 0, rect.height)
-        self._area.width = line.width + round(16 * ui) if line.width else 0
+        self._place(rect, line, round(8 * ui))
 
     def _ends(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
         """Write the times at both ends."""
@@ -177,22 +171,18 @@ class TimeBar:
         surface.blit(image, image.get_rect(midleft=(line.right + gap, line.centery)))
 
     def _band(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Draw what is to come, what is recorded, and over that what has been played."""
-        theme, line = painter.theme, self._line
+        """Draw the line, over it the recorded part, and over that the part before the handle."""
+        theme = painter.theme
         ahead = mixed(theme.selected, theme.bar, 0.42)
-        before = surface.get_clip()
         for row, color in (
             (state.extent, theme.track),
             (state.rows, ahead),
             (state.row, theme.selected),
         ):
-            end = round(self.x_of(row))
-            surface.set_clip(pygame.Rect(line.left, line.top, end - line.left, line.height))
-            painter.panel(surface, line, color, line.height / 2)
-        surface.set_clip(before)
+            self._fill(surface, painter, round(self.x_of(row)), color)
 
     def _marks(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Draw a tick for each event, one a pixel: hands above the line, collisions below it."""
+        """Draw a tick per event: interventions above the line, collisions below it."""
         ui, line = painter.ui, self._line
         thick, long = max(1, round(1.5 * ui)), round(6 * ui)
         above, below = line.top - round(2 * ui) - long, line.bottom + round(2 * ui)
@@ -209,7 +199,7 @@ class TimeBar:
                 surface.fill(color, (x, top, width, height))
 
     def _ticks_of(self, kind: MarkKind, state: TimeState) -> _Ticks:
-        """Return the ticks of a kind of event; those of a list that has only grown go on."""
+        """Return the ticks of a kind of event; they are kept while their list only grows."""
         rows, width, extent = state.marks.get(kind, ()), self._line.width, state.extent
         ticks = self._ticks.get(kind)
         if (
@@ -234,7 +224,7 @@ class TimeBar:
         painter.paint(surface, scene.shapes, PIXELS, shaded=False)
 
     def _label(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Write the time above the handle, where one looks back."""
+        """Write the time above the handle, while the past is shown."""
         if state.row >= state.rows:
             return
         ui, line = painter.ui, self._line
@@ -256,7 +246,7 @@ def _mark_color(kind: MarkKind, theme: Theme) -> str:
 
 
 def _time(row: float, state: TimeState, digits: int | None = None) -> str:
-    """Return the time of a row in words, with as many decimals as tell two rows apart."""
+    """Return the time of a row in words, with enough decimals to tell two rows apart."""
     step = state.sampling_time
     if digits is None:
         digits = next((k for k in (0, 1, 2) if abs(round(step, k) - step) < 1e-9), 3)

@@ -1,4 +1,4 @@
-"""The window: watch an experiment, stop it, go back in it, put a hand to it."""
+"""The run window: watch an experiment, pause it, go back in it, intervene in it."""
 
 from __future__ import annotations
 
@@ -23,26 +23,28 @@ from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
 from mars2d.window import keys
+from mars2d.window.controls import Controls, Marks
 from mars2d.window.desktop import desktop_scale, opening_size
 from mars2d.window.director import Director
-from mars2d.window.display import PICTURES_A_SECOND, open_window, show_drawn, started_display
+from mars2d.window.display import (
+    PICTURES_A_SECOND,
+    Preferences,
+    open_window,
+    show_drawn,
+    started_display,
+)
 from mars2d.window.editor import Editor
-from mars2d.window.ghosts import Marks, ghosts
-from mars2d.window.hand import CLICK, Hand
+from mars2d.window.ghosts import ghosts
+from mars2d.window.grab import CLICK, Grab
 from mars2d.window.help import Help
-from mars2d.window.icon import icon
 from mars2d.window.inspector import Inspector
-from mars2d.window.keeper import Keeper
 from mars2d.window.mouse import Mouse
-from mars2d.window.notes import Notes, Progress, draw_progress
-from mars2d.window.outcome import Outcome
-from mars2d.window.player import SPEEDS, Player
-from mars2d.window.preferences import Preferences
+from mars2d.window.notes import Ending, Notes, Progress, draw_progress
+from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
+from mars2d.window.player import Player
 from mars2d.window.reload import Reload
-from mars2d.window.selection import body_at, next_body, selection_mark, sensed_by
-from mars2d.window.slider import SpeedSlider
+from mars2d.window.saving import Saver
 from mars2d.window.source import Source
-from mars2d.window.timebar import TimeBar, TimeState
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 
@@ -54,11 +56,9 @@ HINTS = (
 HAND_HINTS = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
 LEAP = 10
-"""How many steps PgDn and PgUp do, unless a number is typed before."""
-MOST_STEPS = 1_000_000
-"""A number that is typed is no larger."""
-IDLE = 0.004
-"""The time of a picture that is left for other things, seconds."""
+"""How many steps PgDn and PgUp do, unless a number was typed."""
+RESERVE = 0.004
+"""The time of a picture that is not used to prepare for going back, seconds."""
 LAYERS = (
     "grid", "trails", "sensors", "messages", "forces", "theory", "addons", "names", "velocities",
 )  # fmt: skip
@@ -68,10 +68,10 @@ THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
 
 
 class Window:
-    """Shows a source on the screen until it is closed.
+    """Shows a source on the screen until the window is closed.
 
-    speed: a factor of real time, 0 for one step a key press, or "max". size: pixels, at first.
-    preferences: how it looks. Raises InputError when there is no display.
+    speed: a factor of real time, 0 for one step a key press, or "max". size: at first, pixels.
+    preferences: how the window looks.
     """
 
     def __init__(
@@ -92,34 +92,32 @@ class Window:
         self.text, self.scale = preferences.text, 1.0
         self.notes = Notes()
         self.director = Director(self.player, self.notes, self._show_way_back)
-        self.hand = Hand(self.director.change, partial(self.notes.say, kind="warning"))
-        self.keeper = Keeper(self.notes, _stem(source))
+        self.grab = Grab(self.director.change, partial(self.notes.say, kind="warning"))
+        self.saver = Saver(self.notes, _stem(source))
         self.editor: Editor | None = None
         timeline = self.director.timeline
-        self._marks = None if timeline is None else Marks(timeline)
+        self._controls = Controls(self.player, None if timeline is None else Marks(timeline))
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
-        self._outcome = Outcome(self.player)
+        self._ending = Ending(self.player)
         self._cast = _cast(source)
-        self._number = 0  # typed before a key
         self._open = False
-        self._held: set[int] = set()
+        self._keyboard = keys.Keyboard()
         self._painter = Painter(theme=theme_of(dark=preferences.dark))
         self._stage = Stage(self._painter, MEMORY)
         self._inspector = Inspector(self._painter)
         self._inspected = pygame.Rect(0, 0, 0, 0)  # where the inspector was drawn
-        self._time_bar, self._slider = TimeBar(), SpeedSlider(SPEEDS)
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
-        grips = [(self._time_bar.hit, self._scrub), (self._slider.hit, self._choose_speed)]
         self._mouse = Mouse(
-            self.player, self.viewpoint, self.hand, grips, self._is_picture, self._select_at
-        )
+            self.player, self.viewpoint, self.grab, self._controls.handles,
+            self._is_picture, self._select_at,
+        )  # fmt: skip
         self._actions: dict[str, Callable[[], None]] = {
             "pause": self.player.pause_or_resume,
-            "step": lambda: self.player.step(self._typed(1)),
-            "back": lambda: self.player.back(self._typed(1)),
-            "leap": lambda: self.player.step(self._typed(LEAP)),
-            "leap_back": lambda: self.player.back(self._typed(LEAP)),
+            "step": lambda: self.player.step(self._keyboard.typed(1)),
+            "back": lambda: self.player.back(self._keyboard.typed(1)),
+            "leap": lambda: self.player.step(self._keyboard.typed(LEAP)),
+            "leap_back": lambda: self.player.back(self._keyboard.typed(LEAP)),
             "start": lambda: self.player.go(0),
             "newest": lambda: self.player.go(source.newest),
             "faster": self.player.faster,
@@ -134,41 +132,41 @@ class Window:
             "text": self._change_text,
             "drive": self._drive_or_not,
             "edit": self._open_editor,
-            "picture": self._keep_picture,
-            "film": self.keeper.film_or_not,
-            "python": self._keep_python,
+            "picture": self._save_picture,
+            "film": self.saver.film_or_not,
+            "python": self._save_python,
             "help": self.help.turn,
             "leave": self._leave,
         }
 
     @property
     def camera(self) -> Camera:
-        """From where the picture is seen."""
+        """The camera."""
         return self.viewpoint.camera
 
     @property
     def layout(self) -> Layout:
-        """Where everything lies."""
+        """The layout."""
         return self.viewpoint.layout
 
     def run(self) -> None:
-        """Open the window and play until it is closed; then raise the error of a law that failed.
+        """Open the window and play until it is closed; then raise the error of a failed law.
 
-        Ctrl+C in the terminal closes it, and KeyboardInterrupt is raised; DisplayError where the
-        display goes away.
+        Ctrl+C in the terminal closes the window and raises KeyboardInterrupt. Raises InputError
+        without a display, DisplayError if the display is lost.
         """
         with started_display():
             try:
                 self.scale = desktop_scale()
                 self._loop(self._show())
             finally:
-                self.keeper.close()
+                self.saver.close()
         if self.player.error is not None:
             raise self.player.error
 
     def _show(self) -> pygame.Surface:
         pygame.display.set_caption(self.title)
-        screen = open_window(opening_size(self.size, self.scale), icon(self._painter))
+        screen = open_window(opening_size(self.size, self.scale), self._painter)
         self._open = True
         return screen
 
@@ -184,32 +182,32 @@ class Window:
             start = time.perf_counter()
             screen = pygame.display.get_surface() or screen
             self.draw(screen)
-            self.keeper.film(screen, self.layout.plot, self._painter)
-            if self.keeper.filming and self.editor is None:  # what is said is not in the film
+            self.saver.film(screen, self.layout.plot, self._painter)
+            if self.saver.filming and self.editor is None:  # notes are not part of the film
                 self.notes.draw(screen, self.layout.plot, self._painter, time.monotonic())
             show_drawn()
             self.player.drawing = time.perf_counter() - start
-            self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - IDLE)
+            self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE)
             if self.player.speed < inf or not self.player.playing:
                 clock.tick(PICTURES_A_SECOND)
 
     def _pass_time(self, seconds: float) -> None:
-        """Let time go on by seconds of the wall clock."""
+        """Advance by seconds of the wall clock."""
         if self.editor is not None:
             return
         self._read_again()
         self.director.steer(seconds)
-        self.hand.tick(self.player.frame, self.camera, self.player.playing)
+        self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.player.pass_time(seconds)
         self.viewpoint.step(self.player.frame, seconds)
 
     def _read_again(self) -> None:
-        """Go on with the experiment's files as they are now, if they were saved."""
+        """Continue with the experiment's files if they were saved."""
         reloaded = None if self._reload is None else self._reload.poll(time.monotonic())
         if reloaded is None:
             return
         if reloaded.error is None:
-            self.notes.clear()  # of the mistake that is mended now
+            self.notes.clear()  # the error is corrected
         self.notes.say(reloaded.message, "info" if reloaded.error is None else "error")
         if self.director.timeline is not None:
             self.player.error = self.director.timeline.error
@@ -217,40 +215,40 @@ class Window:
         self._meet()
 
     def _meet(self) -> None:
-        """Let go of all bodies, where the experiment has others than before."""
+        """Release and deselect all bodies if the experiment has others than before."""
         cast = _cast(self.player.source)
         if cast == self._cast:
             return
         self._cast, self.selected, self.viewpoint.following = cast, None, None
         self.director.driver.release()
-        self.hand.cancel()
-        self.hand.leave()
+        self.grab.cancel()
+        self.grab.leave()
 
     def _use_rest(self, seconds: float) -> None:
-        """Use the time that is left of a picture to prepare for going back."""
+        """Use the rest of a picture's time to prepare for going back."""
         if self.director.timeline is not None and seconds > 0:
             self.director.timeline.idle(seconds)
 
     # -- drawing --------------------------------------------------------------------------------
 
     def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
-        """Draw everything on a surface; the layout follows its size."""
+        """Draw the window on a surface; the layout follows its size."""
         if self.editor is not None:
             self.editor.draw(surface)
             return
         try:
             self._draw(surface, self.layers, notes=notes)
-        except Mars2dError as error:  # of what a user's add-on or sensor draws
+        except Mars2dError as error:  # raised by the drawing of an add-on or a sensor
             self.player.fail(error)
             self._draw(surface, replace(self.layers, **dict.fromkeys(THEIRS, False)), notes=notes)
 
     def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
-        banner = self._outcome.banner()
-        frame = self.hand.shown(self.player.frame)
+        banner = self._ending.banner()
+        frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
-        self._painter.ui, self.hand.click = layout.ui, CLICK * layout.ui
+        self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
         self.viewpoint.arrange(layout, frame.scenario)
-        marks = self.hand.marks(frame, self.camera, named=self.layers.names)
+        marks = self.grab.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
@@ -266,7 +264,7 @@ class Window:
             hurried=self.viewpoint.hurried,
         )
         self._inspect(surface, frame)
-        if notes and not self.keeper.filming:
+        if notes and not self.saver.filming:
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
@@ -274,22 +272,15 @@ class Window:
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
 
     def _draw_bars(self, surface: pygame.Surface, frame: Frame, banner: Banner | None) -> None:
-        """Draw what stands round the picture."""
-        layout, painter, player = self.layout, self._painter, self.player
+        """Draw the bars round the picture."""
+        layout, painter = self.layout, self._painter
         pointer = pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
         draw_header(surface, layout, painter, frame, self._status())
-        self._time_bar.draw(
-            surface, layout.timebar, painter, self._time_state(), pointer=pointer,
-            held=self._mouse.drags(self._scrub),
-        )  # fmt: skip
-        self._slider.draw(
-            surface, layout.slider, painter, player.speed, player.factor, pointer=pointer,
-            held=self._mouse.drags(self._choose_speed),
-        )  # fmt: skip
+        self._controls.draw(surface, layout, painter, pointer, self._mouse.drags)
         draw_footer(surface, layout, painter, banner, summary(frame), self._hints())
 
     def _hints(self) -> Sequence[tuple[str, str]]:
-        """Return the keys that serve now, and what they do."""
+        """Return the keys that are useful now, and what they do."""
         go_on, (drive, slowly, *rest) = ("Space", "go on"), HAND_HINTS
         if self._drives:
             return (go_on, drive, *rest) if self.player.paused else (drive, slowly, *rest)
@@ -298,23 +289,15 @@ class Window:
         return (go_on, *HINTS[1:]) if self.player.paused else HINTS
 
     def _status(self) -> Status:
-        if self._number:
-            return Status(f"{self._number} ...", "waiting")
+        if self._keyboard.number:
+            return Status(f"{self._keyboard.number} ...", "waiting")
         text, kind = self.player.status()
         if self._drives and kind in ("running", "waiting") and not self.player.over:
             return Status(f"{text}  {self.director.driver.status}", "hand")
         return Status(text, kind)
 
-    def _time_state(self) -> TimeState:
-        source = self.player.source
-        last = source.scenario.last_iteration
-        if self._marks is None:  # a recording goes no further
-            last = source.newest
-        marks = {} if self._marks is None else self._marks.rows()
-        return TimeState(source.row, source.newest, last, source.scenario.sampling_time, marks)
-
     def _inspect(self, surface: pygame.Surface, frame: Frame) -> None:
-        """Draw what is known of the selected body, if there is one and room for it."""
+        """Draw the inspector of the selected body, if there is one and room for it."""
         self._inspected = pygame.Rect(0, 0, 0, 0)
         if self.selected is None:
             return
@@ -330,13 +313,13 @@ class Window:
         return self.director.driver.robot is not None
 
     def _hides(self, place: pygame.Rect, frame: Frame) -> bool:
-        """Return whether a rectangle lies over the workspace, where one who drives looks."""
+        """Return whether a rectangle covers the workspace, which a driver needs to see."""
         xmin, xmax, ymin, ymax = frame.scenario.bounds
         (left, top), (right, bottom) = self.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).tolist()
         return place.colliderect(pygame.Rect(left, top, right - left, bottom - top))
 
     def _layout(self, size: tuple[int, int], banner: Banner | None) -> Layout:
-        """Return where everything lies on a surface of this size."""
+        """Return the layout on a surface of this size."""
         text, scale = self.text, self.scale
         height = footer_height(banner, size, self._painter, text, scale)
         return Layout.of(size, height, text=text, scale=scale, timebar=True)
@@ -350,68 +333,45 @@ class Window:
             pass
         elif self.editor is not None:
             self.editor.handle(event)
-            if self.editor.done:
+            if self.editor.dialogs.done:
                 self._close_editor(self.editor)
         elif event.type == pygame.KEYDOWN:
             self._press(event.key, event.unicode)
         elif event.type == pygame.KEYUP:
-            self._held.discard(event.key)
+            self._keyboard.release(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
-            self._held.clear()
+            self._keyboard.clear()
         else:
             self._mouse.handle(event)
 
     def _press(self, code: int, character: str) -> None:
-        if character.isdigit() and character.isascii():
-            self._number = min(10 * self._number + int(character), MOST_STEPS)
-            return
-        key = keys.action_of(pygame.key.name(code), character, manual=self.player.manual)
-        held = code in self._held
-        self._held.add(code)
-        if key is not None and (key.repeats or not held):
+        key = self._keyboard.press(code, character, manual=self.player.manual)
+        if key is not None:
             self._actions[key.action]()
-        if pygame.key.name(code) not in keys.MODIFIERS:
-            self._number = 0
-
-    def _typed(self, otherwise: int) -> int:
-        """Return the number that was typed before this key, if one was."""
-        number, self._number = self._number, 0
-        return number or otherwise
+        self._keyboard.forget(code, character)
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
-        """Return whether at a pixel there is the picture, and nothing over it."""
+        """Return whether a pixel shows the picture, with nothing over it."""
         over = self.help.is_open or self._inspected.collidepoint(pixel)
         return not over and self.layout.plot.collidepoint(pixel)
 
-    def _scrub(self, pixel: tuple[int, int]) -> None:
-        """Look at the time at a pixel of the time bar."""
-        row = self._time_bar.row_at(pixel[0])
-        if row is not None:
-            self.player.go(row)
-
-    def _choose_speed(self, pixel: tuple[int, int]) -> None:
-        """Play at the speed at a pixel of the slider."""
-        speed = self._slider.speed_at(pixel[0])
-        if speed is not None and speed != self.player.speed:
-            self.player.set_speed(speed)
-
     def _select_at(self, point: Point) -> None:
-        """Select what lies at a point [m] of the picture, or nothing."""
-        slack = self.hand.click / self.camera.scale
+        """Select the body at a point [m] of the picture, or nothing."""
+        slack = self.grab.click / self.camera.scale
         self.selected = body_at(self.player.frame, point, slack)
 
-    # -- what keys do ---------------------------------------------------------------------------
+    # -- commands -------------------------------------------------------------------------------
 
     def _restart(self) -> None:
-        """Start anew, with the file as it is now."""
-        self.hand.cancel()
+        """Start again, with the file as it is now."""
+        self.grab.cancel()
         self.notes.clear()
         self.player.restart()
         self._meet()
 
     def _other_branch(self) -> None:
-        """Look at another branch; what is pulled or carried is let go of in this one."""
-        self.hand.cancel()
+        """Show another branch; a drag in the present one ends."""
+        self.grab.cancel()
         self.director.other_branch()
 
     def _toggle(self, layer: str) -> None:
@@ -421,12 +381,12 @@ class Window:
         self._painter.theme = theme_of(dark=not self._painter.theme.dark)
 
     def _change_text(self) -> None:
-        """Take the next size of text, or the smallest one again."""
+        """Choose the next size of text, after the largest the smallest."""
         self.text = next_text_size(self.text)
         self.notes.say(f"text {self.text:g} times as large as usual")
 
     def _follow_or_not(self) -> None:
-        """Let the camera follow what is selected, or all robots; or stay where it is."""
+        """Let the camera follow the selected body or all robots, or stop following."""
         self.viewpoint.follow(self.selected)
         if self.viewpoint.following is None:
             self.notes.say("the camera stays where it is; F shows all")
@@ -439,13 +399,13 @@ class Window:
         self.selected = next_body(self.player.frame, self.selected)
 
     def _leave(self) -> None:
-        """Close the help, let go of what is held, select none, clear errors, or leave."""
-        if self._number:
-            return  # what was typed is forgotten
+        """Close the help, end a drag, stop driving, select nothing, clear errors, or leave."""
+        if self._keyboard.number:
+            return  # only the typed number is forgotten
         if self.help.is_open:
             self.help.close()
-        elif self.hand.busy:
-            self.hand.cancel()
+        elif self.grab.busy:
+            self.grab.cancel()
         elif self.director.driver.robot is not None:
             self.director.let_go()
         elif self.selected is not None:
@@ -455,23 +415,23 @@ class Window:
         else:
             self._open = False
 
-    # -- what is kept, and what changes the run ---------------------------------------------------
+    # -- saving, and changing the run -----------------------------------------------------------
 
-    def _keep_picture(self) -> None:
-        """Save what is seen, without the notes over it."""
+    def _save_picture(self) -> None:
+        """Save the window's picture, without the notes."""
         surface = pygame.Surface(self.layout.size, 0, 32)
         self.draw(surface, notes=False)
-        self.keeper.picture(surface)
+        self.saver.picture(surface)
 
-    def _keep_python(self) -> None:
-        """Save the scenario as it is seen as a Python file."""
+    def _save_python(self) -> None:
+        """Save the scenario as it is now as a Python file."""
         timeline = self.director.timeline
-        self.keeper.python(
+        self.saver.python(
             self.director.scenario_now(), None if timeline is None else timeline.world.control
         )
 
     def _drive_or_not(self) -> None:
-        """Drive the selected robot by hand, the first one if none is selected; or let it go."""
+        """Drive the selected robot by hand, or the first one; or stop driving."""
         scenario = self.player.source.scenario
         if self.director.driver.robot is not None:
             self.director.let_go()
@@ -482,7 +442,7 @@ class Window:
             self.director.drive(self.selected)
 
     def wait_for(self, robot: int) -> None:
-        """Let a robot be driven by hand, and wait for the person to start."""
+        """Let a person drive a robot, and wait for the person to start."""
         self.player.pause()
         self.selected = robot
         self.director.drive(robot)
@@ -491,22 +451,22 @@ class Window:
         self.notes.say(f"Space starts; arrow keys or WASD drive {name}")
 
     def _open_editor(self) -> None:
-        """Draw on what is seen."""
+        """Open the editor on the scenario as it is now."""
         self._mouse.let_go()
         self.editor = self.director.editor(self._painter)
         if self.editor is not None:
             self.editor.text, self.editor.scale = self.text, self.scale
 
     def _close_editor(self, editor: Editor) -> None:
-        """Go on with what was drawn, if it is to be."""
+        """Close the editor, and apply its outcome."""
         self.editor, self.text = None, editor.text
-        self._held.clear()
-        if editor.outcome is not None:
-            self.director.apply(editor.outcome)
+        self._keyboard.clear()
+        if editor.dialogs.outcome is not None:
+            self.director.apply(editor.dialogs.outcome)
             self._meet()
 
     def _show_way_back(self, share: float) -> bool:
-        """Draw how far going back has got; return whether to go on: until Esc."""
+        """Draw the progress of going back; return whether to go on: False after Esc."""
         self._way_back = Progress(f"Going back to {self.player.frame.time:.1f} s", share)
         surface = pygame.display.get_surface()
         if surface is not None:
@@ -520,12 +480,12 @@ class Window:
 
 
 def _cast(source: Source) -> tuple[list[str | None], list[str | None]]:
-    """Return who takes part: the names of robots and of props."""
+    """Return the names of robots and of props."""
     scenario = source.scenario
     return [robot.name for robot in scenario.robots], [prop.name for prop in scenario.props]
 
 
 def _stem(source: Source) -> str:
-    """Return what files are called that are kept of a source, without a number."""
+    """Return the name for saved files, without a number."""
     path = source.experiment.path if isinstance(source, Timeline) else None
     return source.scenario.title if path is None else path.stem

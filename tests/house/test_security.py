@@ -49,18 +49,18 @@ ALLOWED = {
     ("hatch_build.py", "exec_module"): "the kernel's own build.py, beside it",
     ("world/channel.py", "marshal.loads"): "a copy of what marshal.dumps has just made of JSON",
     ("addons/maps/svg.py", "xml"): "after a DOCTYPE, without which are no entities",
-    ("study/attempt.py", "pickle.loads"): "from and to our own worker processes",
-    ("study/isolation/host.py", "pickle.loads"): "in a law's process, of what the match tells it",
-    ("study/isolation/mirror.py", "pickle.loads"): "in a law's process, of what the match tells it",
+    ("study/workers.py", "pickle.loads"): "from and to our own worker processes",
+    ("study/isolation/host.py", "pickle.loads"): "in a law's process, from the match",
+    ("study/isolation/mirror_world.py", "pickle.loads"): "in a law's process, from the match",
 }
 """Where one of these is right, and why."""
 
 TALKS = {
     ("study/cluster.py", "asyncio"): "a cluster, as docs/clusters.md says",
     ("study/cluster.py", "distributed"): "the same",
-    ("study/isolation/ears.py", "socket"): "pairs of sockets between a match and its laws",
+    ("study/isolation/fork_server.py", "socket"): "pairs of sockets between a match and its laws",
     ("study/isolation/host.py", "socket"): "the same",
-    ("study/isolation/nursery.py", "socket"): "the same",
+    ("study/isolation/guard.py", "socket"): "the same",
     ("study/isolation/process.py", "socket"): "the same",
 }
 """Which modules may talk to other processes, and why."""

@@ -152,7 +152,7 @@ def test_a_worker_of_another_version_is_refused(local, monkeypatch):
 
 
 def test_where_no_scheduler_answers_there_is_one_line_soon(local, monkeypatch, capfd):
-    monkeypatch.setattr(clusters, "PATIENCE", 0.3)
+    monkeypatch.setattr(clusters, "ANSWER_TIMEOUT", 0.3)
     with socket.socket() as closed, socket.create_server(("127.0.0.1", 0)) as silent:
         closed.bind(("127.0.0.1", 0))
         addresses = [f"tcp://127.0.0.1:{each.getsockname()[1]}" for each in (closed, silent)]

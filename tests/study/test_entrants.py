@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mars2d.core.errors import InputError
-from mars2d.study.tournament.entrants import entrants, law_code, law_files, names_of
+from mars2d.study.tournament.schedule import entrants, law_code, law_files, names_of
 
 ROLES = ("pursuer", "evader")
 

@@ -22,7 +22,7 @@ from mars2d.bodies.props import Puck
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.neighbours import Neighbourhood, Within
 from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
-from mars2d.study.isolation import Guard, Limits, Verdict, nursery
+from mars2d.study.isolation import Guard, Limits, Verdict, fork_server
 from mars2d.world.loop import simulate
 from mars2d.world.world import World
 from tests.processes import PATIENCE, wait_until
@@ -284,7 +284,7 @@ def control(robot):
 FOREVER = "import time\ndef control(robot):\n    robot.memory.x = 1\n    {}\n    return 0, 0\n"
 
 FORGING = """import gc, threading
-        from mars2d.study.isolation.frames import *
+        from mars2d.study.isolation.protocol import *
         def forge(kind, body):
             host = next(each for each in gc.get_objects() if type(each).__name__ == "Host")
             host._channel.sendall(framed(kind, body))
@@ -450,8 +450,8 @@ BEYOND = {
         import os
         def control(robot):
             if not robot.time:
-                nursery = open(f"/proc/{os.getppid()}/stat").read()
-                match = int(nursery.rpartition(")")[2].split()[1])
+                server = open(f"/proc/{os.getppid()}/stat").read()
+                match = int(server.rpartition(")")[2].split()[1])
                 assert "PATH=" in open(f"/proc/{match}/environ").read()
                 print("done")
             return 0, 0"""),
@@ -579,8 +579,8 @@ def test_a_law_can_kill_the_match(tmp_path) -> None:
 import os
 from pathlib import Path
 def control(robot):
-    nursery = Path(f"/proc/{os.getppid()}/stat").read_text()
-    os.kill(int(nursery.rpartition(")")[2].split()[1]), 9)
+    server = Path(f"/proc/{os.getppid()}/stat").read_text()
+    os.kill(int(server.rpartition(")")[2].split()[1]), 9)
     while True: pass
 """
     code = f"""
@@ -657,7 +657,7 @@ def test_of_much_output_the_beginning_is_kept(tmp_path) -> None:
 
 
 def descendants() -> set[int]:
-    """All processes that have come of this one, but for the nursery."""
+    """All processes that have come of this one, but for the fork server."""
     parents = {}
     for folder in Path("/proc").iterdir():
         if folder.name.isdigit():
@@ -669,7 +669,7 @@ def descendants() -> set[int]:
     found = {os.getpid()}
     while more := {child for child, parent in parents.items() if parent in found} - found:
         found |= more
-    return found - {os.getpid()} - {n._process.pid for n in nursery._nurseries.values()}
+    return found - {os.getpid()} - {n._process.pid for n in fork_server._servers.values()}
 
 
 def held() -> tuple[int, int]:
@@ -786,7 +786,7 @@ def test_ctrl_c_ends_the_match_and_its_laws(tmp_path) -> None:
 # -- processes -----------------------------------------------------------------------------------
 
 
-def test_where_there_is_no_nursery_a_law_starts_by_itself(tmp_path, monkeypatch) -> None:
+def test_where_there_is_no_fork_server_a_law_starts_by_itself(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("sys.platform", "elsewhere")
     laws = {"a": (law(tmp_path, PUSHER), [0]), "b": (law(tmp_path, "1 / 0\n", "bad.py"), [1])}
     _, guard, _ = played(sumo(), laws)
@@ -794,10 +794,10 @@ def test_where_there_is_no_nursery_a_law_starts_by_itself(tmp_path, monkeypatch)
     assert guard.verdicts["b"].text == "bad.py, line 1: ZeroDivisionError: division by zero"
 
 
-def test_a_nursery_that_was_killed_is_replaced(tmp_path) -> None:
+def test_a_fork_server_that_was_killed_is_replaced(tmp_path) -> None:
     laws = {"a": (law(tmp_path, GOOD), [0])}
     played(pair(), laws)
-    for each in nursery._nurseries.values():
+    for each in fork_server._servers.values():
         each._process.kill()
         each._process.wait()
     record, _, error = played(pair(), laws)

@@ -7,10 +7,9 @@ from types import MappingProxyType
 import pytest
 
 from mars2d.study.isolation import Verdict
-from mars2d.study.tournament.league import head_to_head, league
+from mars2d.study.tournament.league import Tournament, head_to_head, league
 from mars2d.study.tournament.league_text import league_text
 from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.tournament import Tournament
 
 ROLES = ("pursuer", "evader")
 

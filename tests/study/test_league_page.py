@@ -10,15 +10,15 @@ import mars2d
 from mars2d import Robot, Scenario
 from mars2d.addons import Game
 from mars2d.output.pages.replay import page as replay_page
+from mars2d.output.pages.replay import replay_data
 from mars2d.output.raster.theme import DARK, LIGHT, contrast
 from mars2d.study.isolation import Verdict
 from mars2d.study.tournament import page as pages
-from mars2d.study.tournament.league import league
+from mars2d.study.tournament.league import Tournament, league
 from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.page import league_page, replay_data
-from mars2d.study.tournament.page.matrix import STEPS, shades
-from mars2d.study.tournament.page.text import DASH
-from mars2d.study.tournament.tournament import Tournament
+from mars2d.study.tournament.page import league_page
+from mars2d.study.tournament.page.tables import COLOR_STEPS, shades
+from mars2d.study.tournament.page.words import DASH
 from tests.browser import Tab
 
 EVIL = "</script><script>alert(1)</script>'\"&amp;<img src=x onerror=alert(1)>\u2028{{title}}"
@@ -298,7 +298,7 @@ def test_a_cell_of_the_matrix_has_the_share_and_picks_its_matches(tab):
     cell = tab.page.get_by_role(
         "button", name="lead against zigzag: 50 % of the points in 4 matches"
     )
-    assert (cell.inner_text(), cell.get_attribute("class")) == ("50", f"s{STEPS // 2}")
+    assert (cell.inner_text(), cell.get_attribute("class")) == ("50", f"s{COLOR_STEPS // 2}")
     cell.click()
     assert shown(tab) == [1, 2, 13, 14]
     stops = tab.page.locator('table.matrix button[tabindex="0"]')
@@ -316,7 +316,7 @@ def test_a_cell_of_the_matrix_has_the_share_and_picks_its_matches(tab):
 def test_shares_can_be_read_on_their_colours(theme):
     root = ":root.dark" if theme.dark else ":root"
     colors = re.findall(rf"^{root} \.s\d+ {{ background: (#\w+)", shades(), flags=re.M)
-    assert len(set(colors)) == STEPS + 1
+    assert len(set(colors)) == COLOR_STEPS + 1
     assert min(contrast(theme.ink, color) for color in colors) >= 4.5
 
 
@@ -400,7 +400,7 @@ def test_replays_that_are_too_many_are_left_out_from_the_end_and_it_says_so(
     open_tab, tournament, tmp_path, monkeypatch
 ):
     sizes = [len(each.replay) for each in tournament.matches]
-    monkeypatch.setattr(pages, "LARGEST", sum(sizes[:15]))
+    monkeypatch.setattr(pages, "MAX_REPLAYS_SIZE", sum(sizes[:15]))
     left = sum(size > 0 for size in sizes[15:])
     tab = open_tab(tournament.save_html(tmp_path / "few.html"))
     assert f"{left} are left out, from match 16 on" in tab.text("#facts")

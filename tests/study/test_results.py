@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from mars2d import InputError, Table
-from mars2d.study.results import Results, load_table, save_table
-from mars2d.study.table import Result
+from mars2d.study.results import Results
+from mars2d.study.table import Result, load_table, save_table
 
 ROWS = (
     Result(1, {"n": 1, "red": "a, b.py"}, 0, {"time": 0.1 + 0.2, "won": "red"}, "", "ab", "12"),

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from mars2d import InputError
-from mars2d.study.comparison import differences
 from mars2d.study.estimates import estimates
 from mars2d.study.statistics import interval, proportion, seeds_needed
-from mars2d.study.summary import comparison, summary
+from mars2d.study.summary import comparison, differences, summary
 from mars2d.study.table import Result, Table
 
 

@@ -15,7 +15,8 @@ import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
 from mars2d.core import deadline
-from mars2d.study.results import Results, load_table
+from mars2d.study.results import Results
+from mars2d.study.table import load_table
 from tests.processes import PATIENCE, wait_until
 
 DRIFT = '''

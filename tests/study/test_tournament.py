@@ -20,9 +20,8 @@ from mars2d.cli import command_line as cli
 from mars2d.core.errors import InputError
 from mars2d.study.isolation import Limits
 from mars2d.study.tournament.folder import PLAYED, Folder, played_before
-from mars2d.study.tournament.playing import play_all
 from mars2d.study.tournament.schedule import schedule
-from mars2d.study.tournament.tournament import LIMITS
+from mars2d.study.tournament.tournament import LIMITS, play_all
 from tests.processes import PATIENCE, wait_until
 
 CHASE = """

@@ -183,7 +183,7 @@ def test_tasks_are_made_as_they_are_needed_and_workers_end_with_the_iterator(do)
 def test_workers_that_are_busy_are_ended_promptly_and_what_they_hold_is_tidied_up(
     do, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(workers, "PATIENCE", 0.5)
+    monkeypatch.setattr(workers, "END_TIMEOUT", 0.5)
     tidy, stubborn = tmp_path / "tidy", tmp_path / "stubborn"
     done = each_done(
         do, [("hangs", str(tidy)), ("square", 2), ("clings", str(stubborn))], workers=2

@@ -408,7 +408,7 @@ def test_a_counter_of_the_class_that_changes_nothing_is_but_a_hint():
 
 
 def test_a_slow_sensor_is_tried_for_fewer_steps_and_all_runs_have_the_same(monkeypatch):
-    monkeypatch.setattr("mars2d.testing.trial.ENOUGH", 0.05)
+    monkeypatch.setattr("mars2d.testing.trial.MAX_RUN_TIME", 0.05)
     times: list[float] = []
 
     def slow(self, robot, world, rng):

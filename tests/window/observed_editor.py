@@ -43,9 +43,9 @@ def state_of(editor):
         "notice": desk.notice,
         "fault": editor.judge.verdict.text,
         "culprits": sorted(editor.judge.verdict.culprits),
-        "prompt": None if editor.prompt is None else editor.prompt.label,
-        "typed": None if editor.prompt is None else editor.prompt.text,
-        "error": None if editor.prompt is None else editor.prompt.error,
+        "prompt": None if editor.dialogs.prompt is None else editor.dialogs.prompt.label,
+        "typed": None if editor.dialogs.prompt is None else editor.dialogs.prompt.text,
+        "error": None if editor.dialogs.prompt is None else editor.dialogs.prompt.error,
         "help": editor.help.is_open,
         "snaps": desk.snaps,
         "step": desk.step,
@@ -70,7 +70,7 @@ def main():
         empty=source == "-", **options,
     )  # fmt: skip
     Observed(editor, (800, 600)).run()
-    outcome = editor.outcome
+    outcome = editor.dialogs.outcome
     print(json.dumps({
         "left": True,
         "when": None if outcome is None else outcome.when,

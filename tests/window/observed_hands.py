@@ -44,14 +44,14 @@ class Observed(Window):
         self.teller.shown()
         super().draw(surface)
         frame = self.player.frame
-        shown = self.hand.shown(frame)
+        shown = self.grab.shown(frame)
         self.teller.drawn(
             {
                 "passed": self.passed,
                 "time": round(frame.time, 3),
                 "paused": self.player.paused,
-                "over": self.hand.over,
-                "busy": self.hand.busy,
+                "over": self.grab.over,
+                "busy": self.grab.busy,
                 "selected": self.selected,
                 "driving": self.director.driver.robot,
                 "status": self.director.driver.status,

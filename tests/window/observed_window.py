@@ -13,7 +13,7 @@ from mars2d.core.errors import LawError
 from mars2d.record.record import load
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.preferences import Preferences
+from mars2d.window.display import Preferences
 from mars2d.window.source import Playback
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
@@ -49,9 +49,9 @@ class Observed(Window):
 def state_of(window):
     player, director = window.player, window.director
     frame, source, timeline = player.frame, player.source, director.timeline
-    seen = window.hand.shown(frame)
-    bar, slider = window._time_bar, window._slider
-    banner = window._outcome.banner()
+    seen = window.grab.shown(frame)
+    bar, slider = window._controls.time_bar, window._controls.slider
+    banner = window._ending.banner()
     return {
         "time": round(frame.time, 3),
         "row": source.row,
@@ -70,8 +70,8 @@ def state_of(window):
         "robots": seen.pose.T.round(4).tolist(),
         "props": seen.prop_pose.T.round(4).tolist(),
         "pulls": 0 if timeline is None else len(timeline.world.hands.pulls),
-        "over_body": window.hand.over,
-        "busy": window.hand.busy,
+        "over_body": window.grab.over,
+        "busy": window.grab.busy,
         "driving": director.driver.robot,
         "selected": window.selected,
         "following": window.viewpoint.following is not None,
@@ -85,13 +85,13 @@ def state_of(window):
         "said": window.said,
         "banner": None if banner is None else banner.text,
         "line": None if banner is None or banner.excerpt is None else banner.excerpt.line,
-        "filming": window.keeper._film is not None,
+        "filming": window.saver._film is not None,
         "editor": None if window.editor is None else editor_of(window.editor),
     }
 
 
 def marks_of(window):
-    return window._time_state().marks
+    return window._controls.time_state().marks
 
 
 def editor_of(editor):
@@ -103,7 +103,7 @@ def editor_of(editor):
         "outlines": desk.draft.outlines,
         "selection": desk.selection,
         "corners": len(getattr(editor.tool, "corners", ())),
-        "prompt": None if editor.prompt is None else editor.prompt.label,
+        "prompt": None if editor.dialogs.prompt is None else editor.dialogs.prompt.label,
         "fault": editor.judge.verdict.text,
         "notice": desk.notice,
         "camera": [desk.camera.scale, desk.camera.x, desk.camera.y],

@@ -17,14 +17,13 @@ from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, keys
-from mars2d.window.editor.desk import Desk
+from mars2d.window.editor.chrome import Prompt
+from mars2d.window.editor.desk import Desk, History
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
-from mars2d.window.editor.gestures import spanned
-from mars2d.window.editor.history import History
-from mars2d.window.editor.prompt import Prompt
+from mars2d.window.editor.handles import spanned
+from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.sketch import Sketch
-from mars2d.window.editor.target import item_at, items_within
 from mars2d.window.editor.verdict import judge
 from mars2d.window.viewpoint import Viewpoint
 
@@ -217,7 +216,7 @@ def test_history_goes_back_and_forth_and_merges_nudges():
     assert not history.changed
     assert [history.redo() for _ in range(4)] == [True, True, True, False]
     assert history.draft is drafts[-1]
-    history.keep()
+    history.mark_saved()
     assert not history.changed
     for _ in range(3):
         moved = history.draft.moved([Item("robot", 0)], Motion(by=(0.0, 0.1)))
@@ -284,6 +283,19 @@ def test_a_box_spans_two_corners_whichever_way(end):
     box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
     assert (box.length, box.width) == (1, 2)
     assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
+
+
+def test_a_rectangular_prop_of_ones_own_is_resized_and_stays_what_it_is():
+    class Crate(Box):
+        pass
+
+    crate = spanned(Crate(height=0.3), (0.0, 0.0), (2.0, 1.0))
+    assert isinstance(crate, Crate)
+    assert crate.height == 0.3
+    assert crate.side_lengths == (2, 1)
+    assert Ball().side_lengths is None
+    with pytest.raises(NotImplementedError, match="Ball is no rectangle"):
+        Ball().with_side_lengths(1, 2)
 
 
 def test_a_prompt_shows_what_is_wrong_and_stays():
@@ -426,6 +438,6 @@ def test_no_sequence_of_events_breaks_it(seed, tmp_path, monkeypatch):
         if step % 15 == 0:
             editor.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=chance.choice([-1, 1])))
             editor.draw(surface)
-        editor.done, editor.outcome = False, None
+        editor.dialogs.done, editor.dialogs.outcome = False, None
     judged = editor.judge.of(editor.desk.draft)
     assert (judged.scenario is None) == bool(judged.faults)

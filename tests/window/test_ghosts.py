@@ -9,7 +9,8 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.ghosts import Marks, ghosts
+from mars2d.window.controls import Marks
+from mars2d.window.ghosts import ghosts
 from mars2d.window.player import between
 from mars2d.world.timeline import Timeline
 from tests.worlds import ahead
@@ -140,7 +141,7 @@ def test_collisions_are_looked_for_now_and_then(monkeypatch):
     run_to(timeline, 40)
     assert marks.rows()["collision"] == []
     later = time.monotonic() + 1.0
-    monkeypatch.setattr("mars2d.window.ghosts.time.monotonic", lambda: later)
+    monkeypatch.setattr("mars2d.window.controls.time.monotonic", lambda: later)
     assert len(marks.rows()["collision"]) == 1
     assert len(marks.rows()["collision"]) == 1
 

@@ -34,9 +34,10 @@ from mars2d.sensors import (
     Sensor,
     SonarRing,
 )
+from mars2d.window.forcemeter import Meter
 from mars2d.window.forceplot import draw_force
-from mars2d.window.inspector import Inspector, contacts_of, inbox, rounded, sensor_plots, state_of
-from mars2d.window.meter import Meter
+from mars2d.window.inspector import Inspector, sensor_plots
+from mars2d.window.readout import contacts_of, inbox, rounded, state_of
 from mars2d.window.sensorplot import history
 from tests.window.circling import Circling
 from tests.window.written import Written, painter
@@ -147,7 +148,7 @@ def test_the_inbox_has_the_last_messages_that_have_arrived(world):
 
 
 def test_an_inbox_of_long_ago_is_found(world, monkeypatch):
-    monkeypatch.setattr("mars2d.window.inspector.BLOCK", 7)
+    monkeypatch.setattr("mars2d.window.readout.BLOCK", 7)
     assert len(inbox(world.frame, 0, most=100)) == world.iteration - 1
     assert [name for name, _, _ in inbox(world.frame, 2, most=2)] == ["blue", "red"]
 

@@ -10,9 +10,9 @@ import pytest
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.bodies.props import Ball, Box, Solid
 from mars2d.physics.floor import GRAVITY
-from mars2d.window.meter import Meter, bound_of
+from mars2d.window.forcemeter import Meter, bound_of
+from mars2d.window.picking import body_at, next_body, selection_mark
 from mars2d.window.player import between
-from mars2d.window.selection import body_at, body_name, next_body, selection_mark
 from tests.window.circling import Circling
 from tests.worlds import ELL
 
@@ -158,7 +158,7 @@ def test_one_body_after_the_other_is_selected_and_then_none():
         body = next_body(frame, body)
         order.append(body)
     assert order == [0, 1, 2, 3, None]
-    assert body_name(frame, 2) == "ell"
+    assert frame.scenario.bodies[2].name == "ell"
 
 
 def test_the_mark_goes_round_the_body():

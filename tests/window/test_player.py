@@ -11,8 +11,8 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.output.layers.parts import sensors
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.window import keys
+from mars2d.window.picking import sensed_by
 from mars2d.window.player import SPEEDS, Player, between
-from mars2d.window.selection import sensed_by
 from tests.window.circling import Circling, circling_scenario
 
 

@@ -187,7 +187,7 @@ def test_to_scrub_with_a_driving_key_held_changes_nothing(desk):
     desk.press("h")
     desk.down("w")
     desk.play(20)
-    bar = desk.window._time_bar
+    bar = desk.window._controls.time_bar
     desk.grasp((round(bar.x_of(20)), bar._line.centery))
     for row in (15, 12, 9, 6):
         desk.move((round(bar.x_of(row)), bar._line.centery))
@@ -211,7 +211,7 @@ def test_laws_go_on_where_a_wall_is_drawn_in_the_past(desk):
     desk.press("e")
     drawn = desk.window.director.scenario_now()
     wall = Map(walls=[[(2, 1), (2, 1.5)]])
-    desk.window.editor.outcome = Outcome(drawn.replace(addons=[*drawn.addons, wall]), "now")
+    desk.window.editor.dialogs.outcome = Outcome(drawn.replace(addons=[*drawn.addons, wall]), "now")
     desk.window._close_editor(desk.window.editor)
     assert desk.where == (20, 20, 1)
     desk.press("space")
@@ -231,13 +231,13 @@ def test_what_an_add_on_draws_of_theory_may_fail(desk):
     desk.press("y")
     desk.play(10)
     desk.pass_pictures(10)
-    banner = desk.window._outcome.banner()
+    banner = desk.window._ending.banner()
     assert "room.py, line 16: add-on 'lines' raised ZeroDivisionError" in banner.text
     assert banner.excerpt.line == 16
     desk.press("p")
     assert (desk.path.parent / "room_1.png").exists()
     desk.press("left")
-    assert desk.window._outcome.banner() is None
+    assert desk.window._ending.banner() is None
     desk.press("end", "y", "r")
     assert desk.window.player.error is None
 
@@ -251,16 +251,16 @@ def test_a_branch_that_ended_by_an_error_still_tells_of_it(desk):
     desk = desk(TIRED)
     desk.play(20)
     desk.pass_pictures(10)
-    banner = desk.window._outcome.banner()
+    banner = desk.window._ending.banner()
     assert banner.excerpt.line == 10
     desk.window.player.go(10)
     desk.drag(1, by=(40, 0))
     desk.drop()
-    assert desk.window._outcome.banner() is None
+    assert desk.window._ending.banner() is None
     desk.press("b", "end")
-    assert desk.window._outcome.banner() == banner
+    assert desk.window._ending.banner() == banner
     desk.press("b")
-    assert desk.window._outcome.banner() is None
+    assert desk.window._ending.banner() is None
 
 
 BAD = """
@@ -280,14 +280,14 @@ SENSED = SENSED.replace("\nfrom", "\nfrom mars2d.sensors import Sensor\nfrom", 1
 
 def test_a_sensor_that_fails_at_the_start_is_told_of_in_the_window_and_mended(desk):
     desk = desk(SENSED)
-    banner = desk.window._outcome.banner()
+    banner = desk.window._ending.banner()
     assert "sensor 'bad' raised ZeroDivisionError" in banner.text
     assert banner.excerpt is not None
     desk.save(ROOM)
-    assert desk.window._outcome.banner() is None
+    assert desk.window._ending.banner() is None
     desk.play(5)
     desk.save(SENSED)
-    assert desk.window._outcome.banner().excerpt is not None
+    assert desk.window._ending.banner().excerpt is not None
 
 
 def test_a_mistake_that_is_mended_is_not_told_of_any_more(desk):
@@ -318,7 +318,7 @@ def test_a_film_says_where_it_is_before_the_window_may_be_closed(desk):
     desk = desk()
     desk.press("v")
     (note,) = desk.notes
-    desk.window.keeper.film(desk.surface, desk.window.layout.plot, desk.window._painter)
-    desk.window.keeper.close()
+    desk.window.saver.film(desk.surface, desk.window.layout.plot, desk.window._painter)
+    desk.window.saver.close()
     (film,) = (path for path in desk.path.parent.iterdir() if path.suffix in (".mp4", ".gif"))
     assert str(film) in note

@@ -54,7 +54,7 @@ class Monkey:
         window = self.window
         window._pass_time(self.random.choice((0.001, 1 / 60, 0.1)))
         window.draw(self.surface)
-        window.keeper.film(self.surface, window.layout.plot, window._painter)
+        window.saver.film(self.surface, window.layout.plot, window._painter)
         window._use_rest(0.003)
 
     def events(self):
@@ -162,7 +162,7 @@ def play(kind, seed, path, seconds=None, acts=0):
         error.add_note(f"{kind}, seed {seed}, act {count}, at last: {monkey.done[-6:]}")
         raise
     finally:
-        window.keeper.close()
+        window.saver.close()
     return monkey
 
 

@@ -96,9 +96,9 @@ def test_escape_clears_an_error_before_it_closes_the_window(window):
 def test_a_name_stands_but_once_beside_what_the_pointer_is_over(window):
     words(window)
     pixel = tuple(window.camera.to_pixels([window.player.frame.pose[:2, 1]])[0].astype(int))
-    window.hand.move(window.player.frame, window.camera, pixel, running=True)
-    marks = window.hand.marks(window.player.frame, window.camera)
-    bare = window.hand.marks(window.player.frame, window.camera, named=True)
+    window.grab.move(window.player.frame, window.camera, pixel, running=True)
+    marks = window.grab.marks(window.player.frame, window.camera)
+    bare = window.grab.marks(window.player.frame, window.camera, named=True)
     assert len(marks) == len(bare) + 1
 
 
@@ -119,5 +119,5 @@ def test_what_is_said_is_in_no_film(window):
     bare = seen()
     window.notes.say("filming; V ends the film")
     assert seen() != bare
-    window.keeper._film = object()
+    window.saver._film = object()
     assert seen() == bare  # the window shows what is said once the film has its picture

@@ -65,6 +65,8 @@ class Drive(Description):
 
     holonomic: ClassVar[bool] = False
     """Whether it can move in any direction at once."""
+    wheel_names: ClassVar[tuple[str, str] | None] = None
+    """The names of the two actuators if they are wheels, as the inspector shows them."""
 
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) within the actuators' limits; by default, unchanged."""
@@ -143,6 +145,7 @@ class Wheeled(Drive):
     wheel_semiaxis: float = number(
         default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
     )
+    wheel_names: ClassVar[tuple[str, str] | None] = ("left", "right")
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:

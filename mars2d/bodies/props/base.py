@@ -89,6 +89,15 @@ class Prop(Description):
         """Its shape, the centre of mass at the origin."""
         raise NotImplementedError(f"{type(self).__name__} must say what shape it has")
 
+    @property
+    def side_lengths(self) -> tuple[float, float] | None:
+        """The length and width of a rectangle, metres; None for any other shape."""
+        return None
+
+    def with_side_lengths(self, length: float, width: float) -> Self:
+        """Return a copy of a rectangle with other sides, metres."""
+        raise NotImplementedError(f"{type(self).__name__} is no rectangle")
+
     def joints(self) -> tuple[Joint, ...]:
         """Return the joints that come with it. Its `name` is known by then."""
         return ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Self
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
@@ -25,3 +26,12 @@ class Box(Prop):
     def shape(self) -> Shape:
         """The rectangle."""
         return rectangle(self.length, self.width)
+
+    @property
+    def side_lengths(self) -> tuple[float, float]:
+        """Its length and width, metres."""
+        return self.length, self.width
+
+    def with_side_lengths(self, length: float, width: float) -> Self:
+        """Return a copy with another length and width, metres."""
+        return self.replace(length=length, width=width)

@@ -54,7 +54,7 @@ def execute(arguments: argparse.Namespace) -> None:
     try:
         EditorWindow(editor, preferences=preferences_of(arguments)).run()
     except BaseException:  # Ctrl-C, a lost display, a fault: too late to ask for a name
-        kept = editor.rescue()
+        kept = editor.dialogs.rescue()
         if kept is not None:
             print(f"mars2d: what was drawn and not saved is in {kept}", file=sys.stderr)
         raise

@@ -13,9 +13,8 @@ from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
 from mars2d.study.prepare import prepared
-from mars2d.study.results import is_table, load_table
 from mars2d.study.run import run_study
-from mars2d.study.table import Table
+from mars2d.study.table import Table, is_table, load_table
 
 TABLE = Path("sweep.csv")
 """The default file of the rows."""

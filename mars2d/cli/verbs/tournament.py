@@ -16,11 +16,11 @@ from mars2d.record.record import Record
 from mars2d.study.isolation.limits import Limits
 from mars2d.study.plan import parse_all
 from mars2d.study.tournament.folder import played_before
+from mars2d.study.tournament.league import PAGE, Tournament
 from mars2d.study.tournament.league_text import league_text, matches
 from mars2d.study.tournament.match import Match, Played, replayed
-from mars2d.study.tournament.playing import TournamentInterrupted, play_schedule
 from mars2d.study.tournament.schedule import Schedule, schedule
-from mars2d.study.tournament.tournament import LIMITS, PAGE, Tournament
+from mars2d.study.tournament.tournament import LIMITS, TournamentInterrupted, play_schedule
 from mars2d.study.work import worker_count
 
 

@@ -1,9 +1,9 @@
-"""Laws in processes of their own, which a broken law can't leave.
+"""Isolated laws: each runs in a process of its own, so that a broken law can't spoil a match.
 
-On this side `guard` puts the laws on their robots, `nursery` starts and ends the processes,
-`process` talks to one, `ears` tells who has answered, `sight` says what a law may see. On the other
-side `host` runs the law, and `mirror` is the world to it. `frames` and `briefing` are what passes
-between them.
+In the match's process, `guard` puts the laws on their robots, `process` talks to one of them,
+`fork_server` starts and ends the processes, and `observation` decides what a law may see. In the
+law's process, `host` runs the law, and `mirror_world` stands in for the world. `protocol` is the
+format of the messages between them.
 """
 
 from mars2d.study.isolation.guard import Guard

@@ -1,39 +1,47 @@
-"""Laws that can't spoil a match: each role's in a process of its own, with limits and verdicts."""
+"""Run a match whose laws can't spoil it: each role's law has its own process and limits."""
 
 from __future__ import annotations
 
 import contextlib
+import os
+import select
+import socket
 import time
 from collections.abc import Callable, Mapping, Sequence
+from math import ceil
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.streams import check_seed
 from mars2d.scenario.scenario import Scenario
-from mars2d.study.isolation.briefing import brief
-from mars2d.study.isolation.ears import Ears
 from mars2d.study.isolation.limits import Limits, Verdict
+from mars2d.study.isolation.observation import brief
 from mars2d.study.isolation.process import LawProcess
 from mars2d.world.views import RobotView
 from mars2d.world.world import World
 
 __all__ = ["Guard", "Limits", "Verdict"]
 
-PATIENCE = 1.0
-"""How long one law may go on talking while another's time is over, seconds."""
+CHATTER_TIME = 1.0
+"""How long a law may go on sending after another law's time is over, seconds."""
+
+SPIN_TIME = 3e-4
+"""For how long the sockets are polled before the process sleeps, seconds. Most laws answer within
+this time, and waking up takes as long. The processor is yielded to other processes meanwhile."""
+
+_yield_processor = getattr(os, "sched_yield", lambda: None)
 
 
 class Guard:
-    """Runs the laws of a match each in a process of its own, and says of each that fails why.
+    """Runs each law of a match in a process of its own, and gives a verdict on each that fails.
 
-    It is a context manager, and for one run. A law that fails raises a LawError from its robot's
-    controller, which breaks the run off; all laws that fail in the same control step have verdicts
-    then. It is no sandbox: a law may read and write files, for instance.
+    Use it as a context manager, for one run. A law that fails raises a LawError from its robot's
+    controller, which ends the run; all laws that fail in the same control step get verdicts. It is
+    not a sandbox: a law can still read and write files, for example.
 
-    scenario: what is to be run, by `World` or `simulate`: its robots ask the isolated laws.
-    verdicts: by role, of those that have failed.
+    scenario: to be run by `World` or `simulate`; its robots ask the isolated laws. verdicts: of the
+    laws that have failed, by role.
     """
 
     def __init__(
@@ -43,9 +51,9 @@ class Guard:
         seed: int,
         limits: Limits = Limits(),  # noqa: B008 - it is frozen
     ) -> None:
-        """Take the scenario, by role the law's file and its robots' indices, and the run's seed.
+        """Take the scenario, each role's file and robot indices, and the run's seed.
 
-        Raises InputError for robots that are not there, or that two laws would drive.
+        Raises InputError for unknown robots, and for robots with two laws.
         """
         self._drivers = _drivers(scenario, laws)
         self._laws = {
@@ -60,27 +68,27 @@ class Guard:
         self.scenario = scenario.replace(robots=robots)
         self.verdicts: dict[str, Verdict] = {}
         self._processes: dict[str, LawProcess] = {}
-        self._ears: Ears | None = None
+        self._poller: _Poller | None = None
         self._world: World | None = None
         self._iteration = -1
 
     @property
     def output(self) -> dict[str, str]:
-        """What each law has printed so far, by role: the first 64 kB."""
+        """The first 64 kB that each law has printed, by role."""
         return {role: process.printed for role, process in self._processes.items()}
 
     def __enter__(self) -> Self:
-        """Start the processes and load the laws, side by side."""
+        """Start the processes and load the laws, in parallel."""
         if self._processes:
             raise InputError("a Guard is for one run: make another one")
         briefings = brief(self._original, self._laws, self._seed, self._limits)
         count = len(self._original.robots), len(self._original.props)
-        ears = self._ears = Ears()
+        poller = self._poller = _Poller()
         try:
             for role, briefing in briefings.items():
                 process = self._processes[role] = LawProcess(briefing, *count)
-                ears.add(process.channel, process.receive)
-                ears.add(process.output, process.drain)
+                poller.add(process.channel, process.receive)
+                poller.add(process.output, process.drain)
             for process in self._processes.values():
                 process.brief()
             self._wait()
@@ -89,17 +97,12 @@ class Guard:
             raise
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._end()
 
     def _end(self) -> None:
-        """End all processes and all that they have started."""
-        self._ears = None
+        """End all processes and everything that they have started."""
+        self._poller = None
         with contextlib.ExitStack() as all_of_them:  # each, even if another one raises
             for process in self._processes.values():
                 all_of_them.callback(process.end)
@@ -120,8 +123,8 @@ class Guard:
         return control
 
     def _ask_all(self, world: World) -> None:
-        """Ask all laws for their commands of this control step; they think side by side."""
-        if self._ears is None:
+        """Ask all laws, in parallel, for their commands of this control step."""
+        if self._poller is None:
             raise InputError("the laws' processes do not run: use the Guard in a with statement")
         if self._world is None:
             self._world = world
@@ -130,24 +133,24 @@ class Guard:
         self._iteration = world.iteration
         for process in self._processes.values():
             if process.fault is None:
-                process.tell(process.look(world))  # it thinks while the next one is told
+                process.tell(process.look(world))  # it computes while the next one is told
         self._wait()
         if any(process.fault for process in self._processes.values()):
             self._judge(world.time)
 
     def _wait(self) -> None:
-        """Wait until all who were asked have answered, or their time is over."""
-        assert self._ears is not None
+        """Wait until each process that was asked has answered, or its time is over."""
+        assert self._poller is not None
         while asked := [process for process in self._processes.values() if process.asked]:
             wait = min(process.deadline for process in asked) - time.perf_counter()
-            heard = self._ears.listen(max(0.0, wait))
-            now = time.perf_counter() - (PATIENCE if heard else 0.0)
+            heard = self._poller.wait(max(0.0, wait))
+            now = time.perf_counter() - (CHATTER_TIME if heard else 0.0)
             for process in asked:
                 if process.asked and process.deadline <= now:
                     process.expire()
 
     def _judge(self, time: float) -> None:
-        """Raise what is said of the laws that have failed."""
+        """Note the verdicts on laws that have failed, and raise them as a LawError."""
         for role, process in self._processes.items():
             if process.fault is not None:
                 self.verdicts[role] = Verdict(*process.fault, time)
@@ -156,7 +159,7 @@ class Guard:
 
 
 def _drivers(scenario: Scenario, laws: Mapping[str, tuple[Path, Sequence[int]]]) -> dict[int, str]:
-    """Return the role whose law drives each robot. Raises InputError for two, or no such robot."""
+    """Return the role that drives each robot; InputError for two roles or an unknown robot."""
     drivers: dict[int, str] = {}
     for role, (_, robots) in laws.items():
         for robot in robots:
@@ -166,3 +169,34 @@ def _drivers(scenario: Scenario, laws: Mapping[str, tuple[Path, Sequence[int]]])
                 raise InputError(f"Guard.laws: {name} has the laws of {drivers[index]} and {role}")
             drivers[index] = role
     return drivers
+
+
+class _Poller:
+    """Waits for sockets, and calls the function of each that can be read."""
+
+    def __init__(self) -> None:
+        self._readers: dict[int, Callable[[], object]] = {}
+        self._poll = select.poll() if hasattr(select, "poll") else None  # not on Windows
+
+    def add(self, source: socket.socket, read: Callable[[], object]) -> None:
+        """Add a socket; `read` reads from it, and returns False after the end."""
+        self._readers[source.fileno()] = read
+        if self._poll is not None:
+            self._poll.register(source, select.POLLIN)
+
+    def wait(self, seconds: float) -> bool:
+        """Wait until a socket can be read, and read all that can; return whether there was one."""
+        if self._poll is not None:
+            until = time.perf_counter() + min(seconds, SPIN_TIME)
+            while not (events := self._poll.poll(0)) and time.perf_counter() < until:
+                _yield_processor()
+            events = events or self._poll.poll(ceil(1000 * seconds))
+            ready = [descriptor for descriptor, _ in events]
+        else:
+            ready = select.select([*self._readers], [], [], seconds)[0]
+        for descriptor in ready:
+            if self._readers[descriptor]() is False:
+                del self._readers[descriptor]
+                if self._poll is not None:
+                    self._poll.unregister(descriptor)
+        return bool(ready)

@@ -1,4 +1,4 @@
-"""The process that an isolated law runs in: it is told of the world, and answers with commands."""
+"""The process in which an isolated law runs: it receives observations and sends commands."""
 
 from __future__ import annotations
 
@@ -24,8 +24,10 @@ import numpy as np
 from mars2d.core.errors import Mars2dError, described
 from mars2d.core.usercode import users_line
 from mars2d.scenario.experiment import law_in
-from mars2d.study.isolation.briefing import Briefing
-from mars2d.study.isolation.frames import (
+from mars2d.study.isolation.limits import MB
+from mars2d.study.isolation.mirror_world import MirrorWorld
+from mars2d.study.isolation.observation import Briefing
+from mars2d.study.isolation.protocol import (
     ANSWER,
     COMMANDS,
     FAULT,
@@ -35,8 +37,6 @@ from mars2d.study.isolation.frames import (
     Reader,
     framed,
 )
-from mars2d.study.isolation.limits import MB
-from mars2d.study.isolation.mirror import Mirror
 from mars2d.world.laws import Law, robot_command
 
 __all__ = ["CUT_OFF", "main"]
@@ -44,17 +44,17 @@ __all__ = ["CUT_OFF", "main"]
 CUT_OFF = 70
 """The exit code of a process whose law has closed the connection to the match."""
 
-LATE = 0.6
-"""After this share of its time a law is late: the line is told where it is."""
+LATE_SHARE = 0.6
+"""After this share of its time, a law is late, and its current line is sent."""
 
-RESERVE = 64 * MB
-"""How much more memory there is for saying that there is no more."""
+MEMORY_RESERVE = 64 * MB
+"""Additional memory with which a law's process can report that it ran out of memory."""
 
 
 def main(channel: socket.socket, output: socket.socket) -> NoReturn:
     """Serve one match and end the process.
 
-    channel: to the match. output: takes what is printed.
+    channel: the connection to the match. output: receives everything that is printed.
     """
     code = CUT_OFF
     try:
@@ -64,11 +64,11 @@ def main(channel: socket.socket, output: socket.socket) -> NoReturn:
     except BaseException:
         traceback.print_exc()
     finally:
-        os._exit(code)  # whatever the law has left behind: threads, handlers, functions at exit
+        os._exit(code)  # despite threads, handlers and exit functions that the law left behind
 
 
 def _redirect(output: socket.socket) -> None:
-    """Let the standard input be empty, and all that is printed go to the match."""
+    """Make the standard input empty, and send everything that is printed to the match."""
     with Path(os.devnull).open("rb") as nothing:
         os.dup2(nothing.fileno(), 0)
     for descriptor in (1, 2):
@@ -79,10 +79,10 @@ def _redirect(output: socket.socket) -> None:
 
 
 class _Printed(io.TextIOWrapper):
-    """A standard stream that counts what is written, so that a flood ends at the same print."""
+    """A standard stream that counts its bytes, so that the limit always falls on the same print."""
 
-    total, most = 0, 0
-    """Bytes, of all streams."""
+    total, limit = 0, 0
+    """Bytes, of all streams together."""
 
     def __init__(self, descriptor: int, host: Host) -> None:
         raw = io.FileIO(descriptor, "w", closefd=False)
@@ -91,10 +91,12 @@ class _Printed(io.TextIOWrapper):
 
     def write(self, text: str) -> int:
         _Printed.total += len(text.encode("utf-8", "backslashreplace"))
-        if _Printed.total > _Printed.most:
+        if _Printed.total > _Printed.limit:
             stack = traceback.extract_stack()
-            self._host.fail("output", users_line(stack), f"printed more than {_Printed.most} bytes")
-            threading.Event().wait()  # for its end
+            self._host.fail(
+                "output", users_line(stack), f"printed more than {_Printed.limit} bytes"
+            )
+            threading.Event().wait()  # until the match ends this process
         written = super().write(text)
         self.flush()
         return written
@@ -108,8 +110,8 @@ class Host:
         self._channel = channel
         self._frames = Reader(2**32)
         self._writing = threading.Lock()
-        self._thinking: tuple[float, float] | None = None  # since when, and how long it may
-        os.register_at_fork(after_in_child=channel.close)  # what a law forks does not answer
+        self._thinking: tuple[float, float] | None = None  # since when, and the time allowed
+        os.register_at_fork(after_in_child=channel.close)  # a law's own forks must not answer
 
     def serve(self) -> None:
         """Load the law, then answer each control step, until the match is over."""
@@ -118,16 +120,16 @@ class Host:
         os.chdir(briefing.folder)
         random.seed(briefing.chance)
         np.random.seed(briefing.chance)  # noqa: NPY002 - laws that draw from it
-        _Printed.most = int(limits.output * MB)
+        _Printed.limit = int(limits.output * MB)
         printed = _Printed(1, self), _Printed(2, self)
         for name, stream in zip(("stdout", "stderr"), printed, strict=True):
             setattr(sys, name, stream)
             setattr(sys, f"__{name}__", stream)
-        pause = min(limits.tick, limits.start) * LATE / 4
+        pause = min(limits.tick, limits.start) * LATE_SHARE / 4
         threading.Thread(target=self._tell_line, args=(pause,), daemon=True).start()
         _limit_memory(int(limits.memory * MB))
         self._thinking = time.monotonic(), limits.start
-        mirror = Mirror(briefing, self._velocities)
+        mirror = MirrorWorld(briefing, self._velocities)
         try:
             laws = [Law(law_in(briefing.file, "control"), view) for view in mirror.mine]
         except BaseException as error:
@@ -146,13 +148,13 @@ class Host:
             )
 
     def _velocities(self) -> tuple[bytes, bytes]:
-        """Return the frame of the present control step with velocities, and so from now on."""
+        """Request velocities; return the current control step's frame with them."""
         with self._writing:
             self._channel.sendall(framed(WANTED, b""))
         return self._next()
 
     def _commands(self, laws: Sequence[Law]) -> bytes | None:
-        """Return the commands of all robots, two numbers each; None after a fault that was told."""
+        """Return the commands of all robots, two numbers each; None after reporting a fault."""
         asked = b""
         for law in laws:
             kind = "error"
@@ -166,11 +168,11 @@ class Host:
         return asked
 
     def _blame(self, kind: str, error: BaseException, file: str | None) -> None:
-        """Tell what was raised while the law was loaded or asked."""
+        """Report an exception from loading or calling the law."""
         place = users_line(traceback.extract_tb(error.__traceback__)) or file
-        if _wants_memory(error):
+        if _is_memory_error(error):
             kind = "memory"
-            _more_memory()
+            _use_reserve()
         try:
             if isinstance(error, Mars2dError):
                 place, text = error.where or place, str(error.args[0] if error.args else error)
@@ -181,14 +183,14 @@ class Host:
         self.fail(kind, place, text)
 
     def fail(self, kind: str, place: str | None, text: str) -> None:
-        """Tell the match what the law has done."""
+        """Report a fault of the law to the match."""
         fault = {"kind": kind, "where": place, "text": " ".join(text.split())[:2000]}
         self._answer(FAULT, json.dumps(fault).encode())
         with contextlib.suppress(EOFError):
-            self._next()  # which is the end
+            self._next()  # raises EOFError when the match is over
 
     def _tell_line(self, pause: float) -> None:
-        """Tell, in a thread of its own, at which line a law is that takes long."""
+        """Report, in a separate thread, the current line of a law that takes long."""
         main = threading.main_thread().ident or 0
         told = None
         while True:
@@ -197,7 +199,7 @@ class Host:
             if thinking is None or thinking == told:
                 continue
             since, allowed = thinking
-            if time.monotonic() - since < LATE * allowed:
+            if time.monotonic() - since < LATE_SHARE * allowed:
                 continue
             told = thinking
             with contextlib.suppress(Exception), self._writing:
@@ -221,19 +223,19 @@ class Host:
 
 
 def _limit_memory(more: int) -> None:
-    """Let this process take so many bytes more than now, where the system can enforce it."""
+    """Limit this process to `more` bytes beyond its present size, on Linux."""
     if sys.platform != "linux":
         return
     import resource
 
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
     now = pages * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (now + more, now + more + RESERVE))
+    resource.setrlimit(resource.RLIMIT_AS, (now + more, now + more + MEMORY_RESERVE))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def _more_memory() -> None:
-    """Take the reserve, so that there is memory for saying that there was none."""
+def _use_reserve() -> None:
+    """Raise the limit by `MEMORY_RESERVE`, so that the lack of memory can be reported."""
     if sys.platform == "linux":
         import resource
 
@@ -241,8 +243,8 @@ def _more_memory() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
-def _wants_memory(error: BaseException | None) -> bool:
-    """Return whether an error is, or comes of, one that there is no memory."""
+def _is_memory_error(error: BaseException | None) -> bool:
+    """Return whether an error is a MemoryError or was caused by one."""
     while error is not None:
         if isinstance(error, MemoryError):
             return True

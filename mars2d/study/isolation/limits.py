@@ -1,4 +1,4 @@
-"""How much an isolated law may take, and what is said of one that has failed."""
+"""The limits of an isolated law, and the verdict on one that has failed."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ MB = 1_000_000
 
 @dataclass(frozen=True)
 class Limits:
-    """How much time, memory and output a law may take in a match; all are more than 0.
+    """How much time, memory and output a law may use in a match; all limits are > 0.
 
-    tick: for the commands of one control step, seconds. match: for those of a whole match, as a
-    chess clock counts, seconds. memory: besides what Python and numpy take at the start, MB; only
-    Linux enforces it. output: what it prints and sends in a match, MB. start: for loading its file,
-    seconds. Raises InputError for anything else.
+    tick: time for the commands of one control step, seconds. match: time for all commands of a
+    match, counted like a chess clock, seconds. memory: in addition to Python and numpy at the
+    start, MB; enforced on Linux only. output: printed and sent in a match, MB. start: time for
+    loading its file, seconds. Raises InputError for anything else.
     """
 
     tick: float = 1.0
@@ -37,10 +37,10 @@ class Limits:
 
 
 class Verdict(NamedTuple):
-    """What is said of a law that has failed.
+    """The reason why a law has failed.
 
     kind: "slow", "clock", "memory", "error", "command", "exit", "output" or "start". text: one line
-    with file and, where it is known, line. time: when in the match, simulated seconds.
+    with the file and, if known, the line number. time: in the match, simulated seconds.
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""One isolated law, as the match deals with it: asked by frames, its clock kept, ended at last."""
+"""An isolated law as the match sees it: a process with a clock, asked by frames."""
 
 from __future__ import annotations
 
@@ -16,8 +16,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mars2d.core.errors import Mars2dError
 from mars2d.core.usercode import users_line
-from mars2d.study.isolation.briefing import Briefing
-from mars2d.study.isolation.frames import (
+from mars2d.study.isolation.fork_server import start
+from mars2d.study.isolation.host import CUT_OFF
+from mars2d.study.isolation.limits import MB
+from mars2d.study.isolation.observation import Briefing, Observer
+from mars2d.study.isolation.protocol import (
     ANSWER,
     BRIEFING,
     COMMANDS,
@@ -29,10 +32,6 @@ from mars2d.study.isolation.frames import (
     Reader,
     framed,
 )
-from mars2d.study.isolation.host import CUT_OFF
-from mars2d.study.isolation.limits import MB
-from mars2d.study.isolation.nursery import start
-from mars2d.study.isolation.sight import Sight
 from mars2d.world.laws import LARGEST
 
 if TYPE_CHECKING:
@@ -40,22 +39,23 @@ if TYPE_CHECKING:
 
 __all__ = ["Fault", "LawProcess"]
 
-KEPT = 64_000
-"""How much of its output is kept from the beginning, bytes; of the end there is as much."""
+KEPT_OUTPUT = 64_000
+"""How many bytes of a law's output are kept from the beginning, and as many from the end."""
 
 GRACE = 0.5
-"""How long a process that says no more has to end by itself, seconds."""
+"""How long a process that has closed its connection may take to end by itself, seconds."""
 
 PIECE = 1 << 16
+"""How many bytes are read at once, at most."""
 
-TELLS = ("start", "memory", "error", "command", "output")
-"""The kinds of faults that a law's process tells of itself."""
+REPORTED_KINDS = ("start", "memory", "error", "command", "output")
+"""The kinds of faults that a law's process reports itself."""
 
 NO_ANSWER = "what it says to the match is no answer"
 
 
 class Fault(NamedTuple):
-    """Why a law has failed: the kind of a verdict, and a line of text."""
+    """The reason why a law has failed: the kind of a verdict, and a line of text."""
 
     kind: str
     text: str
@@ -64,25 +64,25 @@ class Fault(NamedTuple):
 class LawProcess:
     """A law in a process of its own.
 
-    fault: why it has failed, or None. asked: whether its answer is waited for. channel, output:
-    what to listen to; `receive` and `drain` are called when there is something.
+    fault: why it has failed, or None. asked: whether its answer is awaited. channel, output: the
+    sockets to poll; call `receive` and `drain` when they can be read.
     """
 
     def __init__(self, briefing: Briefing, robots: int, props: int) -> None:
-        """Start the process. robots, props: how many there are in all."""
+        """Start the process. robots, props: the numbers of all of them."""
         self._briefing, self._limits = briefing, briefing.limits
         self._file = briefing.file.name
-        self._sight = Sight(briefing, robots, props)
+        self._observer = Observer(briefing, robots, props)
         self._most = int(self._limits.output * MB)
         self._frames = Reader(2 * self._most + PIECE)
         self._numbers = struct.Struct(f"<{2 * len(briefing.robots)}d")
-        self._plain = struct.Struct(
+        self._answer_struct = struct.Struct(
             HEAD.format + (ANSWER.format + self._numbers.format).replace("<", "")
         )
         self.fault: Fault | None = None
         self.asked, self._since, self._allowed = False, 0.0, 0.0
-        self._used = 0.0  # s, of its clock
-        self._late = ""  # the line where it was when it took long
+        self._used = 0.0  # seconds on its clock
+        self._late = ""  # its current line, once it is late
         self._world: World | None = None
         self._iteration = -1
         self._commands: Sequence[float] = ()
@@ -99,13 +99,13 @@ class LawProcess:
     # -- questions and answers -----------------------------------------------------------------
 
     def brief(self) -> None:
-        """Tell it all that it is told once; its answer is that it has loaded its file."""
+        """Send its briefing; it answers when it has loaded its file."""
         self._ask(framed(BRIEFING, pickle.dumps(self._briefing)), self._limits.start)
 
     def look(self, world: World) -> bytes | memoryview:
-        """Return what it is to be told of a control step, for `tell`."""
+        """Return the frame of a control step, for `tell`."""
         self._world, self._iteration = world, world.iteration
-        return self._sight.frame(world)
+        return self._observer.frame(world)
 
     def tell(self, frame: bytes | memoryview) -> None:
         """Ask it for the commands of a control step."""
@@ -118,7 +118,7 @@ class LawProcess:
 
     def _send(self, frame: bytes | memoryview) -> None:
         sent = 0
-        with contextlib.suppress(OSError):  # of one that is gone, or reads no more
+        with contextlib.suppress(OSError):  # a process that is gone, or does not read
             sent = self.channel.send(frame)
         if sent < len(frame):
             self.channel.settimeout(self._allowed)
@@ -128,13 +128,13 @@ class LawProcess:
 
     @property
     def deadline(self) -> float:
-        """By when it has to answer, in seconds of `time.perf_counter`."""
+        """The time by which it must answer, in seconds of `time.perf_counter`."""
         return self._since + self._allowed
 
     def receive(self) -> bool:
-        """Take what it says; return whether it may say more.
+        """Read from its channel; return whether more may follow.
 
-        `asked` is False when that was the answer, or there will be none.
+        `asked` becomes False with the answer, or if there will be none.
         """
         try:
             piece = self.channel.recv(1 << 12)
@@ -146,7 +146,7 @@ class LawProcess:
             self._gone()
             return False
         try:
-            if len(piece) == self._plain.size and self._is_plain_answer(piece):
+            if len(piece) == self._answer_struct.size and self._is_plain_answer(piece):
                 return True
             for kind, body in self._frames.read(piece):
                 self._take(kind, body)
@@ -155,8 +155,8 @@ class LawProcess:
         return self.fault is None
 
     def _is_plain_answer(self, piece: bytes) -> bool:
-        """Take what most answers are, one frame with nothing but commands."""
-        length, kind, iteration, *numbers = self._plain.unpack(piece)
+        """Process the most frequent answer, one frame of commands without messages, quickly."""
+        length, kind, iteration, *numbers = self._answer_struct.unpack(piece)
         whole = length == len(piece) - HEAD.size and self._frames.empty
         if not (whole and kind == COMMANDS and self.asked and iteration == self._iteration):
             return False
@@ -164,12 +164,12 @@ class LawProcess:
         return True
 
     def _take(self, kind: bytes, body: bytes) -> None:
-        """Take a frame. Raises ValueError and the like for what no law's process says."""
+        """Process a frame. Raises ValueError or the like for an invalid one."""
         if kind == LINE:
             self._late = _one_line(json.loads(body), 200)
         elif kind == FAULT:
             told = json.loads(body)
-            if told["kind"] not in TELLS:
+            if told["kind"] not in REPORTED_KINDS:
                 raise ValueError(told["kind"])
             where = None if told["where"] is None else _one_line(told["where"], 200)
             self._fail(told["kind"], where, _one_line(told["text"], 2000))
@@ -177,9 +177,9 @@ class LawProcess:
             self.asked = False
         elif kind == COMMANDS and self.asked:
             self._take_commands(body)
-        elif kind == WANTED and self.asked and self._world and not self._sight.velocities:
-            self._sight.velocities = True
-            self._send(self._sight.again(self._world))
+        elif kind == WANTED and self.asked and self._world and not self._observer.velocities:
+            self._observer.velocities = True
+            self._send(self._observer.again(self._world))
         else:
             raise ValueError(kind)
 
@@ -201,10 +201,10 @@ class LawProcess:
             self._too_long()
 
     def command(self, world: World, robot: int) -> tuple[float, float]:
-        """Return the command of one of its robots, whose messages go their way.
+        """Return the command of one of its robots, after sending that robot's messages.
 
-        There is a fault afterwards where these are no messages: its process has checked what its
-        law sends, so somebody else has written them.
+        Invalid messages are a fault: the law's process checks messages, so the law must have
+        written to the channel itself.
         """
         try:
             for sender, text, receivers in self._letters:
@@ -215,10 +215,10 @@ class LawProcess:
         place = self._places[robot]
         return self._commands[place], self._commands[place + 1]
 
-    # -- what goes wrong -----------------------------------------------------------------------
+    # -- faults --------------------------------------------------------------------------------
 
     def expire(self) -> None:
-        """Say that its time is over, and at which line, if it can still tell."""
+        """Note that its time is over, with its line if it can still report that."""
         with contextlib.suppress(OSError, ValueError):
             self._hear_line(time.perf_counter() + GRACE)
         if self._iteration < 0:
@@ -243,7 +243,7 @@ class LawProcess:
         self._fail("clock", self._late, text)
 
     def _fail(self, kind: str, where: str | None, text: str) -> None:
-        """Note the first fault; nothing is waited for any more."""
+        """Note the first fault, and stop waiting for an answer."""
         self.asked = False
         if self.fault is None:
             if kind == "memory":
@@ -251,7 +251,7 @@ class LawProcess:
             self.fault = Fault(kind, f"{where or self._file}: {text}")
 
     def _gone(self) -> None:
-        """Say why the process is there no more, or talks no more."""
+        """Note why the process has ended or closed its connection."""
         if self.fault is not None:
             return
         code, forced = self._finish(GRACE)
@@ -261,12 +261,12 @@ class LawProcess:
             self._fail("exit", None, f"its process has ended itself, with code {code}")
         else:
             name = signal.Signals(-code).name
-            words = {"SIGSEGV": ", a segmentation fault", "SIGKILL": ", perhaps for want of memory"}
+            words = {"SIGSEGV": ", a segmentation fault", "SIGKILL": ", perhaps for lack of memory"}
             text = f"its process was ended by the signal {name}{words.get(name, '')}"
             self._fail("exit", self._crash_line(), text)
 
     def _crash_line(self) -> str | None:
-        """Return the user's line of the traceback that Python prints when it crashes."""
+        """Return the user's line in the traceback that Python prints on a crash."""
         text = self._last.decode(errors="replace").rpartition("Fatal Python error")[2]
         steps = re.findall(r'File "([^"]+)", line (\d+) in (\S+)', text.partition("\n\n")[2])
         stack = traceback.StackSummary.from_list(
@@ -277,22 +277,22 @@ class LawProcess:
     # -- output and end ------------------------------------------------------------------------
 
     def drain(self) -> bool:
-        """Take what it has printed; return whether there may be more."""
+        """Read its output; return whether more may follow."""
         try:
             piece = self.output.recv(PIECE)
         except OSError:
             return False
         self._printed += len(piece)
-        if len(self._first) < KEPT:
-            self._first += piece[: KEPT - len(self._first)]
-        self._last = (self._last + piece)[-KEPT:]
+        if len(self._first) < KEPT_OUTPUT:
+            self._first += piece[: KEPT_OUTPUT - len(self._first)]
+        self._last = (self._last + piece)[-KEPT_OUTPUT:]
         if self._printed > self._most + PIECE:
             self._fail("output", self._late, f"printed more than {self._most} bytes")
         return bool(piece)
 
     @property
     def printed(self) -> str:
-        """The beginning of what it has printed."""
+        """The beginning of its output."""
         return self._first.decode(errors="replace")
 
     def _finish(self, grace: float) -> tuple[int, bool]:
@@ -302,13 +302,13 @@ class LawProcess:
         return ended
 
     def _used_up(self) -> None:
-        """Take the last that was printed, as far as it is of interest."""
+        """Read the rest of its output, up to the limit."""
         for _ in range(self._most // PIECE + 8):
             if not self.drain():
                 return
 
     def end(self) -> None:
-        """End the process and close what led to it."""
+        """End the process and close its sockets."""
         try:
             if not self._ended:
                 self._finish(0.0)

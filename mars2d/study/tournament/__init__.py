@@ -1,1 +1,1 @@
-"""Tournaments: who plays whom, how a match went, who stands first, and the page that shows it."""
+"""Tournaments: schedule, matches, standings, and the page that shows them."""

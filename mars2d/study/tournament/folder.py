@@ -1,4 +1,4 @@
-"""A tournament's folder, in which matches are kept as they come."""
+"""A tournament's folder, to which matches are written as they are played."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ from mars2d.core.errors import InputError
 from mars2d.physics.settings import versions
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.results import lock
-from mars2d.study.tournament.entrants import law_code
 from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.schedule import Schedule
+from mars2d.study.tournament.schedule import Schedule, law_code
 
 __all__ = ["PLAYED", "Folder", "played_before"]
 
@@ -24,13 +23,13 @@ PLAYED = "played.jsonl"
 """The file that is written while matches are played."""
 
 FORMAT = 1
-"""The version of its format; a folder of another one is refused."""
+"""The version of the file's format; a folder with another version is refused."""
 
 
 def _prints(schedule: Schedule, limits: Limits) -> dict[int, str]:
-    """Return a hash for each match, by number: of all that decides how it goes.
+    """Return a hash for each match, by number, of everything that determines its result.
 
-    That is the experiment, the laws, options and seed, the limits and the versions; not its number.
+    That is the experiment, laws, options, seed, limits and versions, but not the match's number.
     """
     every = dict.fromkeys(file for match in schedule.matches for file in match.files.values())
     laws = {file: _hash(law_code(Path(file)).values()) for file in every}
@@ -49,7 +48,7 @@ def _prints(schedule: Schedule, limits: Limits) -> dict[int, str]:
 
 
 def _hash(parts: Iterable[bytes]) -> str:
-    """Return a hash of some bytes, one after the other."""
+    """Return a hash of a sequence of bytes objects."""
     sha = hashlib.sha256()
     for part in parts:
         sha.update(f"{len(part)} ".encode() + part)
@@ -57,12 +56,11 @@ def _hash(parts: Iterable[bytes]) -> str:
 
 
 class Folder:
-    """Keeps each match in a file when it is done, and finds again those that were played before.
+    """Writes each match to a file when it is done, and finds matches that were played before.
 
-    A line is one match, as JSON. Who is killed in the midst of a line loses that match alone. A
-    match is played again where its experiment, a law, a limit or a version has changed, and where
-    it had no result. Raises InputError for a folder with other things in it, and for one that
-    can't be written.
+    Each line is a match, as JSON; if the process is killed within a line, only that match is lost.
+    A match is played again if its experiment, a law, a limit or a version has changed, or if it had
+    no result. Raises InputError for a folder that holds anything else, or can't be written.
     """
 
     def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
@@ -96,7 +94,7 @@ class Folder:
         return self
 
     def __exit__(self, *_: object) -> None:
-        with suppress(OSError):  # a full disk, of which `keep` has told already
+        with suppress(OSError):  # a full disk, which `keep` has reported already
             self._file.close()
 
     def _write(self, row: Mapping[str, Any]) -> None:
@@ -106,12 +104,12 @@ class Folder:
 
 
 def played_before(path: Path, schedule: Schedule, limits: Limits) -> tuple[Played, ...]:
-    """Return those matches of a schedule that a folder holds; it need not be there."""
+    """Return the matches of a schedule that a folder holds; the folder need not exist."""
     return _known(path, schedule, _prints(schedule, limits)) if path.is_dir() else ()
 
 
 def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[Played, ...]:
-    """Return those matches of a schedule that were played with a result, found by their hash."""
+    """Return the matches of a schedule that a log holds with a result, found by their hash."""
     log = path / PLAYED
     if not log.exists():
         others = sorted(each.name for each in path.iterdir() if not each.name.startswith("."))
@@ -162,7 +160,7 @@ def _writing(path: Path) -> Iterator[None]:
 
 
 def _named(match: Match) -> Match:
-    """Return a match whose options are plain text, for people: its hash is what identifies it."""
+    """Return a match with its options as text for people; its hash identifies it."""
     return replace(match, options={name: repr(value) for name, value in match.options.items()})
 
 

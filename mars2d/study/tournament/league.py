@@ -1,30 +1,57 @@
-"""Leagues: how each law stands after the matches that were played."""
+"""Leagues: how each law stands after the matches of a tournament, and the tournament as a whole."""
 
 from __future__ import annotations
 
+import csv
+import html
+import io
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
+from pathlib import Path
 from statistics import fmean
+from typing import TYPE_CHECKING, Any
 
+from mars2d.core.atomic import replacing
+from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.study.cells import cell, word_cell
 from mars2d.study.statistics import Interval, proportion
 from mars2d.study.tournament.match import Played
+from mars2d.study.tournament.schedule import Schedule
 
-__all__ = ["DRAW", "WIN", "Standing", "head_to_head", "is_draw", "league", "one_table"]
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+__all__ = [
+    "DRAW",
+    "LEAGUE",
+    "MATCHES",
+    "PAGE",
+    "WIN",
+    "Standing",
+    "Tournament",
+    "head_to_head",
+    "is_draw",
+    "league",
+    "one_table",
+]
 
 WIN, DRAW = 1.0, 0.5
-"""The points of a match; who lost has none."""
+"""The points for a match; a loss gives none."""
+
+MATCHES, LEAGUE, PAGE = "matches.csv", "league.csv", "league.html"
+"""The files that are written to a tournament's folder at the end."""
 
 
 @dataclass(frozen=True)
 class Standing:
-    """How a law stands.
+    """A law's place in the league.
 
-    law: its name. role: the one it played, or empty where laws play all roles. played: matches that
-    have a result. forfeits: of those lost, how many because the law failed. points: 1 for a match
-    won, 1/2 for one drawn. share: of all points that it could have, with its confidence interval
-    (Wilson's). capture_time: the mean, seconds, of those matches in which the evaders were caught;
-    for laws that play all roles, of those that it hunted in. None if there are none.
+    law: its name. role: the one it played, or empty if laws play all roles. played: matches with a
+    result. forfeits: matches lost because the law failed. points: 1 for a win, 1/2 for a draw.
+    share: of all points that it could have won, with Wilson's confidence interval. capture_time:
+    the mean over matches in which the evaders were caught, seconds; if laws play all roles, only
+    over those in which it was the hunter. None if there are none.
     """
 
     law: str
@@ -40,7 +67,7 @@ class Standing:
 
 
 def one_table(played: Iterable[Played], roles: Sequence[str]) -> bool:
-    """Return whether some law plays more than one role, so that all are compared in one table."""
+    """Return whether a law plays more than one role, so that one table compares all laws."""
     taken: dict[str, set[str]] = {role: set() for role in roles}
     for each in played:
         for role, law in each.match.laws.items():
@@ -49,11 +76,10 @@ def one_table(played: Iterable[Played], roles: Sequence[str]) -> bool:
 
 
 def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
-    """Return how all laws stand, best first; first those of the first role, then of the second.
+    """Return the standings, best first: the laws of the first role, then those of the second.
 
-    Where a law plays more than one role, there is one table for all. The order is by points, those
-    of a match where some played more of them than others, then by the mean time of capture, since
-    hunters should be quick and evaders last long, then by the name.
+    If a law plays more than one role, there is one table for all laws. Laws are ordered by points
+    per match, then by mean capture time (short for hunters, long for evaders), then by name.
     """
     if one_table(played, roles):
         tables = [("", tuple(roles))]
@@ -103,7 +129,7 @@ def _standing(
 
 
 def is_draw(played: Played) -> bool:
-    """Return whether nobody has won, and nobody's law has failed."""
+    """Return whether a match has no winner although no law failed."""
     return played.winner is None and not played.verdicts and not played.error
 
 
@@ -114,7 +140,7 @@ def _order(standing: Standing, roles: Sequence[str]) -> tuple[float, float, str]
 
 
 def head_to_head(played: Iterable[Played], roles: Sequence[str]) -> Mapping[tuple[str, str], float]:
-    """Return the points that a law of the first role took from each of the second."""
+    """Return the points that each law of the first role took from each law of the second."""
     points: dict[tuple[str, str], float] = {}
     for each in played:
         if not each.error:
@@ -122,3 +148,149 @@ def head_to_head(played: Iterable[Played], roles: Sequence[str]) -> Mapping[tupl
             won = WIN * (each.winner == roles[0]) + DRAW * is_draw(each)
             points[first, second] = points.get((first, second), 0.0) + won
     return points
+
+
+# -- the tournament --------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Tournament:
+    """The results of a tournament.
+
+    title, experiment: those of the scenario. roles: those of its contest. matches: their results,
+    in order. standings: best first, role by role if each law plays only one. settings: the options
+    in which rounds differ.
+    """
+
+    title: str
+    experiment: str
+    roles: tuple[str, ...]
+    matches: tuple[Played, ...] = field(repr=False)
+    standings: tuple[Standing, ...]
+    settings: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, schedule: Schedule, matches: Iterable[Played]) -> Tournament:
+        """Return the tournament of a schedule from the matches that were played, in any order."""
+        done = tuple(sorted(matches, key=lambda played: played.match.number))
+        return cls(
+            title=schedule.title,
+            experiment=schedule.experiment,
+            roles=schedule.roles,
+            matches=done,
+            standings=tuple(league(done, schedule.roles)),
+            settings=schedule.settings,
+        )
+
+    def rows(self) -> tuple[dict[str, Any], ...]:
+        """Return a row for each match: its number, settings, seed, laws and result.
+
+        ``verdict`` names the role and fault of each law that failed, such as ``pursuer: slow``.
+        """
+        return tuple(self._row(played) for played in self.matches)
+
+    def _row(self, played: Played) -> dict[str, Any]:
+        match = played.match
+        settings = {name: match.options.get(name) for name in self.settings}
+        verdicts = [f"{role}: {verdict.kind}" for role, verdict in played.verdicts.items()]
+        return {
+            "match": match.number,
+            **settings,
+            "seed": match.seed,
+            **{role: match.laws[role] for role in self.roles},
+            "winner": played.winner,
+            **{f"{role}_score": played.score.get(role) for role in self.roles},
+            "capture_time": played.capture_time,
+            "steps": played.steps,
+            "verdict": "; ".join(verdicts),
+            "message": played.message,
+            "digest": played.digest,
+        }
+
+    def standing_rows(self) -> tuple[dict[str, Any], ...]:
+        """Return a row for each law: its place in its table, and its results."""
+        places: dict[str, int] = {}
+        rows = []
+        for standing in self.standings:
+            places[standing.role] = places.get(standing.role, 0) + 1
+            rows.append(
+                {
+                    "role": standing.role,
+                    "place": places[standing.role],
+                    "law": standing.law,
+                    "played": standing.played,
+                    "won": standing.won,
+                    "drawn": standing.drawn,
+                    "lost": standing.lost,
+                    "forfeits": standing.forfeits,
+                    "points": standing.points,
+                    "share": standing.share.mean,
+                    "share_low": standing.share.low,
+                    "share_high": standing.share.high,
+                    "capture_time": standing.capture_time,
+                }
+            )
+        return tuple(rows)
+
+    def to_frame(self, table: str = "matches") -> DataFrame:
+        """Return a table of pandas: "matches", one row a match, or "league", one row a law."""
+        if table not in ("matches", "league"):
+            raise InputError(f"to_frame({table!r}): expected 'matches' or 'league'")
+        try:
+            import pandas as pd
+        except ImportError:
+            raise MissingExtraError('tables need pandas: pip install "mars2d[data]"') from None
+        return pd.DataFrame(self.rows() if table == "matches" else self.standing_rows())
+
+    def save_csv(self, path: str | Path, table: str = "matches") -> Path:
+        """Write one row a match, or with table="league" one row a law; return the path."""
+        if table not in ("matches", "league"):
+            raise InputError(f"save_csv(table={table!r}): expected 'matches' or 'league'")
+        rows = self.rows() if table == "matches" else self.standing_rows()
+        text = io.StringIO(newline="")
+        writer = csv.writer(text)
+        writer.writerow(rows[0] if rows else [])
+        writer.writerows([_cell(value) for value in row.values()] for row in rows)
+        return _write(Path(path), text.getvalue())
+
+    def save_html(self, path: str | Path) -> Path:
+        """Write one page with the league, all matches and their replays; return the path."""
+        from mars2d.study.tournament.page import league_page
+
+        return _write(Path(path), league_page(self))
+
+    def save_all(self, folder: Path) -> None:
+        """Write both tables and the page to a folder."""
+        self.save_csv(folder / MATCHES)
+        self.save_csv(folder / LEAGUE, "league")
+        self.save_html(folder / PAGE)
+
+    def _repr_html_(self) -> str:
+        """Return the league as tables, for a notebook."""
+        rows = self.standing_rows()
+        lines = [
+            list(rows[0]) if rows else [],
+            *([_shown(v) for v in row.values()] for row in rows),
+        ]
+        cells = ("".join(f"<td>{html.escape(cell)}</td>" for cell in line) for line in lines)
+        body = "".join(f"<tr>{row}</tr>" for row in cells)
+        return f"<table><caption>{html.escape(self.title)}</caption>{body}</table>"
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.3g}" if isinstance(value, float) else "" if value is None else str(value)
+
+
+def _cell(value: Any) -> str:
+    """Return a value as a cell of a table; words that look like formulas are quoted."""
+    if value is None or value != value:  # noqa: PLR0124 - nan
+        return ""
+    return word_cell(" ".join(value.split())) if isinstance(value, str) else cell(value)
+
+
+def _write(path: Path, text: str) -> Path:
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: there is no folder {path.parent}")
+    with replacing(path) as file:
+        file.write(text.encode("utf-8", errors="replace"))
+    return path

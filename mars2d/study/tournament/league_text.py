@@ -1,36 +1,32 @@
-"""A tournament as text for a terminal: the league, who beat whom, what went wrong."""
+"""A tournament as text for a terminal: standings, who beat whom, faults."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from math import isnan
-from typing import TYPE_CHECKING
 
 from mars2d.core.errors import counted
-from mars2d.study.tournament.league import Standing, head_to_head, league
+from mars2d.study.tournament.league import Standing, Tournament, head_to_head, league
 from mars2d.study.tournament.match import Played
-
-if TYPE_CHECKING:
-    from mars2d.study.tournament.tournament import Tournament
 
 __all__ = ["league_text", "matches"]
 
-WIDTH = 100
-"""The most letters of a line of the table of who beat whom; a wider one is left to the page."""
+MAX_WIDTH = 100
+"""The greatest width of the table of who beat whom; a wider one is only on the page."""
 
-WORDS = 160
-"""The most letters of what is said of one law's faults."""
+MAX_FAULT_LENGTH = 160
+"""The greatest length of the text about a law's faults."""
 
 
 def league_text(tournament: Tournament) -> str:
-    """Return the league tables, who beat whom, and in words what went wrong."""
+    """Return the league tables, the table of who beat whom, and notes on faults."""
     parts = (_tables, _matrix, _rounds, _faults, _notes)
     return "\n\n".join(filter(None, (part(tournament) for part in parts)))
 
 
 def aligned(rows: Sequence[Sequence[str]], left: int) -> list[str]:
-    """Return rows as lines, the first `left` columns flush left, the others flush right."""
+    """Return rows as lines; the first `left` columns are flush left, the others flush right."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return [
         "  ".join(
@@ -43,8 +39,8 @@ def aligned(rows: Sequence[Sequence[str]], left: int) -> list[str]:
 
 # -- the league ------------------------------------------------------------------------------------
 
-ALWAYS = 5
-"""The first columns that are shown whatever they hold: place, law, points, share, played."""
+ALWAYS_SHOWN = 5
+"""The number of first columns that are always shown: place, law, points, share, played."""
 
 COLUMNS = ("points", "share (95 %)", "played", "won", "drawn", "lost", "forfeits", "caught after")
 
@@ -55,14 +51,16 @@ def _tables(tournament: Tournament) -> str:
         rows: list[tuple[str, ...]] = [("", role or "law", *COLUMNS)]
         rows += [(f"{k}", *_row(standing)) for k, standing in enumerate(standings, 1)]
         shown = [
-            k for k in range(len(rows[0])) if k < ALWAYS or any(_says(row[k]) for row in rows[1:])
+            k
+            for k in range(len(rows[0]))
+            if k < ALWAYS_SHOWN or any(_says(row[k]) for row in rows[1:])
         ]
         tables.append("\n".join(aligned([[row[k] for k in shown] for row in rows], left=2)))
     return "\n\n".join(tables)
 
 
 def _says(text: str) -> bool:
-    """Return whether a cell says anything: columns that do not are left out."""
+    """Return whether a cell has a value; columns without any are left out."""
     return text not in ("", "0", "-")
 
 
@@ -84,7 +82,7 @@ def _row(standing: Standing) -> tuple[str, ...]:
 
 
 def _matrix(tournament: Tournament) -> str:
-    """Return who took how many points from whom, if there are several on both sides."""
+    """Return the points that laws took from each other, if there is more than one pairing."""
     points = head_to_head(tournament.matches, tournament.roles)
     ranked = dict.fromkeys(standing.law for standing in tournament.standings)
     rows, columns = ([law for law in ranked if any(p[k] == law for p in points)] for k in (0, 1))
@@ -94,13 +92,13 @@ def _matrix(tournament: Tournament) -> str:
     table = [(f"{first} \\ {second}", *columns)]
     table += [(row, *(_points(points.get((row, column))) for column in columns)) for row in rows]
     lines = aligned(table, left=1)
-    if max(map(len, lines)) > WIDTH:
+    if max(map(len, lines)) > MAX_WIDTH:
         return ""
     return "\n".join([f"Points of each {first} against each {second}:", *lines])
 
 
 def _rounds(tournament: Tournament) -> str:
-    """Return how many points each law took in each round, if there are several."""
+    """Return each law's points in each round, if there are several rounds."""
     rounds: dict[str, list[Played]] = {}
     for played in tournament.matches:
         options = played.match.options
@@ -115,18 +113,18 @@ def _rounds(tournament: Tournament) -> str:
         key = (standing.role, standing.law)
         table.append((standing.law, *(_points(each.get(key)) for each in points)))
     lines = aligned(table, left=1)
-    return "" if max(map(len, lines)) > WIDTH else "\n".join(lines)
+    return "" if max(map(len, lines)) > MAX_WIDTH else "\n".join(lines)
 
 
 def _points(points: float | None) -> str:
     return "-" if points is None else f"{points:g}"
 
 
-# -- what went wrong, and what else is to be known -------------------------------------------------
+# -- faults and notes ------------------------------------------------------------------------------
 
 
 def _faults(tournament: Tournament) -> str:
-    """Return for each law that failed how often, and how it did so first."""
+    """Return a line for each law's kind of fault: how often it occurred, and its first text."""
     faults: dict[tuple[str, str], list[tuple[Played, str]]] = {}
     for played in tournament.matches:
         for role, verdict in played.verdicts.items():
@@ -149,12 +147,12 @@ def _faults(tournament: Tournament) -> str:
 
 
 def matches(count: int) -> str:
-    """Return how many matches, in words."""
+    """Return a number of matches as text."""
     return "1 match" if count == 1 else f"{count} matches"
 
 
 def _cut(text: str) -> str:
-    return text if len(text) <= WORDS else text[: WORDS - 3] + "..."
+    return text if len(text) <= MAX_FAULT_LENGTH else text[: MAX_FAULT_LENGTH - 3] + "..."
 
 
 def _numbers(matches: Iterable[Played]) -> str:
@@ -163,7 +161,7 @@ def _numbers(matches: Iterable[Played]) -> str:
 
 
 def _notes(tournament: Tournament) -> str:
-    """Say of pairings whose seeds all gave the same match that nothing in them is random."""
+    """Return a note on pairings that played the same match with every seed."""
     pairings: dict[tuple[object, ...], list[Played]] = {}
     for played in tournament.matches:
         if played.digest and not played.verdicts:

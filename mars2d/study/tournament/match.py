@@ -1,4 +1,4 @@
-"""A match: laws of their own files against each other in the roles of an experiment's contest."""
+"""Matches: laws from files play against each other in the roles of an experiment's contest."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.limits import Limits, Verdict
+from mars2d.study.measures import contests_of
 from mars2d.world.loop import simulate
 
 if TYPE_CHECKING:
@@ -24,11 +25,11 @@ __all__ = ["Match", "Played", "contest_of", "play", "replayed"]
 
 @dataclass(frozen=True)
 class Match:
-    """What is played: the experiment, with which options and seed, and each role's law.
+    """A match to be played: the experiment, its options and seed, and each role's law.
 
     number: in the tournament, from 1. experiment: a file, or the name of an example. options: those
-    of its round, as `mars2d.run` takes them. laws: the name of each role's law, as tables show it.
-    files: where these laws are.
+    of its round, as for `mars2d.run`. laws: the name of each role's law, as tables show it. files:
+    the paths of these laws.
     """
 
     number: int
@@ -41,13 +42,13 @@ class Match:
 
 @dataclass(frozen=True)
 class Played:
-    """How a match went.
+    """The result of a match.
 
-    winner: a role, or None for a draw, and where both laws failed. score: of each role, when it was
-    over. capture_time: when the last one was caught, seconds, or None. message: how it ended, one
-    line. verdicts: on the laws that failed, by role: these have forfeited the match. output: what
-    each role's law printed. digest: of the record, or empty. steps: how many control steps it took.
-    replay: data for a page, or empty. error: why there is no result, or empty.
+    winner: a role, or None for a draw or if both laws failed. score: each role's, at the end.
+    capture_time: the time at which the last evader was caught, seconds, or None. message: how the
+    match ended, one line. verdicts: on laws that failed and so forfeited the match, by role.
+    output: printed by each role's law. digest: of the record, or empty. steps: the number of
+    control steps. replay: data for a page, or empty. error: why there is no result, or empty.
     """
 
     match: Match
@@ -64,16 +65,16 @@ class Played:
 
     @classmethod
     def without_result(cls, match: Match, error: str) -> Played:
-        """Return a match that nobody could play to its end: it counts for nobody."""
+        """Return a match that could not be played to its end, and counts for no law."""
         return cls(match, message=f"no result: {error}", error=error)
 
 
 def contest_of(scenario: Scenario, name: str) -> Contest:
-    """Return the one contest of a scenario. Raises InputError if there is none, or several.
+    """Return a scenario's contest. Raises InputError if there is none, or several.
 
-    name: what messages call the experiment.
+    name: the experiment's name in messages.
     """
-    contests = [addon for addon in scenario.addons if isinstance(addon, Contest)]
+    contests = contests_of(scenario)
     if len(contests) != 1:
         found = "has none" if not contests else f"has {len(contests)}"
         raise InputError(
@@ -84,16 +85,16 @@ def contest_of(scenario: Scenario, name: str) -> Contest:
 
 
 def play(match: Match, limits: Limits, replays: bool) -> Played:
-    """Play a match, each law in a process of its own, and return how it went.
+    """Play a match, with each law in a process of its own, and return its result.
 
-    replays: whether to keep data for a page. Raises InputError where the experiment itself fails,
-    which is no law's fault.
+    replays: whether to keep data for a page. Raises InputError if the experiment itself fails,
+    which is not a law's fault.
     """
     return _played(match, limits, replays)[0]
 
 
 def replayed(match: Match, limits: Limits) -> tuple[Played, Record]:
-    """Play a match, and return its record as well. Raises InputError as `play` does."""
+    """Play a match, and return its result and record. Raises InputError as `play` does."""
     return _played(match, limits, replays=False)
 
 
@@ -126,7 +127,7 @@ def _played(match: Match, limits: Limits, replays: bool) -> tuple[Played, Record
 
 
 def _record(experiment: Experiment, guard: Guard, seed: int) -> Record:
-    """Return the record of a match, also of one that the failure of a guarded law broke off."""
+    """Return the record of a match, even if the failure of a guarded law ended it."""
     guarded = Experiment(guard.scenario, experiment.control, experiment.filename)
     try:
         return simulate(guarded, seed).record
@@ -141,13 +142,13 @@ def _roles(contest: Contest) -> tuple[str, ...]:
 
 
 def _left(verdicts: Mapping[str, Verdict], roles: tuple[str, ...]) -> str | None:
-    """Return the one role whose law has not failed, or None."""
+    """Return the only role whose law has not failed, or None."""
     left = [role for role in roles if role not in verdicts]
     return left[0] if len(left) == 1 else None
 
 
 def _forfeits(match: Match, verdicts: Mapping[str, Verdict], winner: str | None) -> str:
-    """Return in words who has forfeited a match, and why."""
+    """Say which laws have forfeited a match, and why."""
     faults = [
         f"{match.laws[role]} forfeits as {role} after {verdict.time:g} s: "
         f"{verdict.kind}: {verdict.text}"
@@ -157,7 +158,7 @@ def _forfeits(match: Match, verdicts: Mapping[str, Verdict], winner: str | None)
 
 
 def _replay(record: Record) -> str:
-    """Return the data of a record's replay, if there is anything to be seen."""
-    from mars2d.study.tournament.page import replay_data
+    """Return the data of a record's replay, or empty if the record is."""
+    from mars2d.output.pages.replay import replay_data
 
     return replay_data(record) if len(record) else ""

@@ -1,28 +1,37 @@
-"""Schedules: which matches a tournament is made of."""
+"""Schedules: the laws that take part in a tournament, and its matches, in order."""
 
 from __future__ import annotations
 
+import glob
 import itertools
-from collections.abc import Iterable, Mapping, Sequence
+import os
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mars2d.core.errors import InputError, shown
+from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.scenario.experiment import examples, open_experiment
-from mars2d.study.plan import MOST, Plan, seeds_of, settings_of
-from mars2d.study.tournament.entrants import Files, entrants, names_of
+from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
 from mars2d.study.tournament.match import Match, contest_of
 
-__all__ = ["Schedule", "schedule"]
+__all__ = ["Files", "Schedule", "entrants", "law_code", "law_files", "names_of", "schedule"]
+
+IMPORT = re.compile(rb"(?:^|[;:])\s*(?:from|import)\s+([a-zA-Z0-9_., \t]+)", re.MULTILINE)
+
+Files = str | Path | Sequence[str | Path]
+"""One or several files of laws, folders or patterns."""
+
+EXPECTED = "expected files of laws (.py), a folder of them, or a pattern as laws/*.py"
 
 
 @dataclass(frozen=True)
 class Schedule:
     """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
 
-    title, experiment: what is played. roles: of its contest, the first one first. settings: what
-    tells its rounds from one another. files: all that were read for the experiment itself.
+    title, experiment: those of the scenario. roles: those of its contest, in order. settings: the
+    options in which rounds differ. files: those that were read for the experiment itself.
     """
 
     title: str
@@ -43,10 +52,10 @@ def schedule(
     settings: Mapping[str, Any] | None = None,
     stop_time: float | None = None,
 ) -> Schedule:
-    """Return who plays whom: all laws of one role all of the other, from the same seeds.
+    """Return the schedule in which each law of a role plays each of the other, with all seeds.
 
-    The arguments are those of `mars2d.tournament`. No law is read, only the experiment. Raises
-    InputError for what can't be played.
+    The arguments are those of `mars2d.tournament`. Only the experiment is read, and no law. Raises
+    InputError for anything that can't be played.
     """
     if not isinstance(experiment, (str, Path)):
         raise InputError(
@@ -58,7 +67,7 @@ def schedule(
     opened = open_experiment(experiment, rounds[0], seed=plan.seeds[0])
     parts = contest_of(opened.scenario, str(experiment)).roles
     names = tuple(role for role, _ in parts)
-    for options in (probe | always for probe in plan.probes()):  # before a match, not after many
+    for options in (probe | always for probe in plan.probes()):  # before any match, not after many
         scenario = open_experiment(experiment, options, seed=plan.seeds[0]).scenario
         contest = contest_of(scenario, str(experiment))
         contest.teams(scenario)
@@ -71,8 +80,8 @@ def schedule(
     if not pairings:
         raise InputError("there is nobody to play against: a law does not play itself")
     count = len(rounds) * len(pairings) * len(plan.seeds)
-    if count > MOST:
-        raise InputError(f"these are {count:,} matches: {MOST:,} at most")
+    if count > MAX_RUNS:
+        raise InputError(f"these are {count:,} matches: {MAX_RUNS:,} at most")
     named = str(experiment) if str(experiment) in examples() else str(opened.path)
     law_names = names_of(law for laws in taking_part.values() for law in laws)
     matches = tuple(
@@ -99,7 +108,7 @@ def schedule(
 
 
 def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
-    """Refuse settings that would be columns of the table of matches twice."""
+    """Refuse settings whose column would be twice in the table of matches."""
     for name in settings:
         if name == "seed":
             raise InputError("setting 'seed': say how many there are, with --seeds N")
@@ -109,8 +118,145 @@ def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
             )
 
 
-def pairings_of(entrants: Mapping[str, Sequence[Path]]) -> Iterable[dict[str, str]]:
-    """Return each role's law in each pairing: everybody meets everybody, but nobody himself."""
+def pairings_of(entrants: Mapping[str, Sequence[Path]]) -> Iterator[dict[str, str]]:
+    """Yield each role's law in each pairing; a law does not play itself."""
     for laws in itertools.product(*entrants.values()):
         if len({*laws}) == len(laws):
             yield {role: str(law) for role, law in zip(entrants, laws, strict=True)}
+
+
+# -- entrants --------------------------------------------------------------------------------------
+
+
+def law_files(named: str | Path, beside: Path | None = None) -> tuple[Path, ...]:
+    """Return the files that a name stands for: absolute paths, each once.
+
+    named: a file, a folder (all its .py files except those that begin with _), a pattern, or
+    several of these, separated by commas. beside: a folder that is searched for relative names
+    before the current one. Raises InputError, with the nearest name, if there is no such file.
+    """
+    parts = [part.strip() for part in str(named).split(",") if part.strip()]
+    if not parts:
+        raise InputError(f"{named!r}: {EXPECTED}")
+    files = [file for part in parts for file in _files(part, beside)]
+    return tuple(dict.fromkeys(files))
+
+
+def _files(part: str, beside: Path | None) -> list[Path]:
+    folders = [Path.cwd()] if beside is None else [beside, Path.cwd()]
+    for folder in folders:
+        path = folder / part
+        if path.is_dir():
+            inside = _laws(path.glob("*.py"))
+            if not inside:
+                raise InputError(f"{part}: no law in this folder; {EXPECTED}")
+            return inside
+        if path.is_file():
+            if path.suffix != ".py":
+                raise InputError(f"{part}: expected the file of a law, which ends in .py")
+            return [_plain(path)]
+        found = _laws(map(Path, glob.glob(str(path))))  # noqa: PTH207 - of absolute patterns, too
+        if found:
+            return found
+    raise InputError(f"{part}: no such file; {EXPECTED}{_near(part, folders)}")
+
+
+def _laws(paths: Iterable[Path]) -> list[Path]:
+    """Return those files that can be laws, sorted."""
+    return sorted(
+        _plain(path)
+        for path in paths
+        if path.suffix == ".py" and path.is_file() and not path.name.startswith("_")
+    )
+
+
+def _plain(path: Path) -> Path:
+    """Return an absolute path without `..`, which is the same however the file was named."""
+    return Path(os.path.normpath(path.absolute()))
+
+
+def _near(part: str, folders: Sequence[Path]) -> str:
+    """Return the nearest existing name, as the end of a message."""
+    parent = Path(part).parent
+    names = {
+        str(parent / path.name)
+        for folder in folders
+        if (folder / parent).is_dir()
+        for path in (folder / parent).iterdir()
+        if path.suffix == ".py" or path.is_dir()
+    }
+    return likely(part, names)
+
+
+def entrants(
+    roles: Sequence[str],
+    given: Mapping[str, Files],
+    players: Files = (),
+    beside: Path | None = None,
+) -> dict[str, tuple[Path, ...]]:
+    """Return each role's laws: those given for it, and the players, which play every role.
+
+    beside: see `law_files`. Raises InputError for an unknown role, a role without laws, and missing
+    files.
+    """
+    for role in given:
+        if role not in roles:
+            raise InputError(f"there is no role {role!r}{nearest(role, roles)}")
+    every = _all_files(players, beside)
+    found = {}
+    for role in roles:
+        laws = tuple(dict.fromkeys((*_all_files(given.get(role, ()), beside), *every)))
+        if not laws:
+            raise InputError(
+                f"no laws for the role {role!r}: name them by --role {role}=FILES, "
+                "or by --players FILES those that play every role"
+            )
+        found[role] = laws
+    return found
+
+
+def _all_files(named: Files, beside: Path | None) -> list[Path]:
+    parts = [named] if isinstance(named, (str, Path)) else named
+    if not isinstance(parts, Iterable) or not all(isinstance(p, (str, Path)) for p in parts):
+        raise InputError(f"{shown(named)}: {EXPECTED}")
+    return [file for part in parts for file in law_files(part, beside)]
+
+
+def names_of(files: Iterable[str | Path]) -> dict[str, str]:
+    """Return a name for each law's file: its own, preceded by folders where needed to be unique.
+
+    >>> names_of(["a/hunt.py", "b/hunt.py", "b/flee.py"])
+    {'a/hunt.py': 'a/hunt', 'b/hunt.py': 'b/hunt', 'b/flee.py': 'flee'}
+    """
+    paths = {str(file): Path(file).with_suffix("").parts for file in files}
+    names = {}
+    for file, parts in paths.items():
+        others = [other for key, other in paths.items() if key != file]
+        depth = next(
+            (k for k in range(1, len(parts)) if all(o[-k:] != parts[-k:] for o in others)),
+            len(parts),
+        )
+        names[file] = "/".join(parts[-depth:])
+    return names
+
+
+def law_code(law: Path) -> dict[Path, bytes]:
+    """Return the contents of a law's file and of the files beside it that it imports, by path.
+
+    All .py files of an imported folder count. The files are not run; imports are found in the text.
+    """
+    contents: dict[Path, bytes] = {}
+    waiting = [law]
+    while waiting:
+        path = waiting.pop()
+        if path in contents or not path.is_file():
+            continue
+        contents[path] = path.read_bytes()
+        lines = re.findall(IMPORT, contents[path])
+        names = sorted(
+            {name.decode() for line in lines for name in re.findall(rb"[a-zA-Z0-9_]+", line)}
+        )
+        for folder in dict.fromkeys((path.parent, law.parent)):
+            for name in names:
+                waiting += [folder / f"{name}.py", *sorted((folder / name).rglob("*.py"))]
+    return contents

@@ -1,21 +1,27 @@
-"""What stands round the drawing: the header with its buttons, the footer, plates of words."""
+"""What surrounds the drawing: the header with its buttons, the footer, prompts, plates of text."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import pygame
 
+from mars2d.core.errors import Mars2dError
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
-from mars2d.window.editor.prompt import Prompt
 
-__all__ = ["Button", "Header", "draw_footer", "draw_plate", "draw_prompt"]
+__all__ = ["Button", "Header", "Prompt", "draw_footer", "draw_plate", "draw_prompt"]
+
+MAX_TYPED = 200
+"""How many characters can be typed into a prompt."""
 
 
 class Button(NamedTuple):
-    """The action, its words, and how it looks: the one to take, and whether it does anything."""
+    """A button of the header.
+
+    first: whether it is emphasized. works: whether it does anything now.
+    """
 
     action: str
     words: str
@@ -24,15 +30,15 @@ class Button(NamedTuple):
 
 
 class Header:
-    """The title, and buttons at the right."""
+    """A bar with the title, and buttons at the right."""
 
     def __init__(self, painter: Painter) -> None:
-        """Draw with a painter."""
+        """Start with nothing drawn."""
         self._painter = painter
         self._places: list[tuple[str, pygame.Rect]] = []
 
     def at(self, pixel: tuple[int, int]) -> str | None:
-        """Return the action whose button lies at a pixel."""
+        """Return the action of the button at a pixel, if there is one."""
         return next((name for name, place in self._places if place.collidepoint(pixel)), None)
 
     def draw(
@@ -44,7 +50,7 @@ class Header:
         buttons: Sequence[Button],
         pointer: tuple[int, int],
     ) -> None:
-        """Draw it; note: a quiet word after the title."""
+        """Draw the header; note: muted text after the title."""
         painter, theme, ui = self._painter, self._painter.theme, self._painter.ui
         fonts, pad = painter.fonts, round(20 * ui)
         surface.fill(theme.bar, bar)
@@ -82,7 +88,7 @@ def draw_footer(
     kind: str,
     right: str,
 ) -> None:
-    """Draw the footer; kind: of its text, "hint", "note" or "error". right: quiet, at the right."""
+    """Draw the footer; kind: of the text, "hint", "note" or "error". right: text at the right."""
     theme, ui, fonts = painter.theme, painter.ui, painter.fonts
     pad = round(20 * ui)
     tone = {"error": theme.error, "note": theme.running}.get(kind)
@@ -102,10 +108,53 @@ def draw_footer(
         y += 1.3 * size
 
 
+class Prompt:
+    """A question at the foot of the window, which stays until one of its keys is pressed.
+
+    Esc closes it without an answer. answers: functions of the typed text, by the names of keys; if
+    one raises Mars2dError, the error is shown and the prompt stays open. field: whether there is a
+    field to type in.
+    """
+
+    def __init__(
+        self,
+        label: str,
+        hint: str,
+        answers: Mapping[str, Callable[[str], None]],
+        *,
+        text: str = "",
+        field: bool = False,
+    ) -> None:
+        """Open the prompt; hint: names the keys; text: the first content of the field."""
+        self.label, self.hint, self.text, self.field = label, hint, text, field
+        self.error = ""
+        self.open = True
+        self._answers = answers
+
+    def press(self, name: str, character: str) -> None:
+        """Press a key; name: as `chord` returns it; character: the text that it types."""
+        name = "return" if name == "enter" else "shift+return" if name == "shift+enter" else name
+        if name == "escape":
+            self.open = False
+        elif name in self._answers:
+            self._answer(self._answers[name])
+        elif self.field and name == "backspace":
+            self.text, self.error = self.text[:-1], ""
+        elif self.field and character.isprintable() and len(self.text) < MAX_TYPED:
+            self.text, self.error = self.text + character, ""
+
+    def _answer(self, answer: Callable[[str], None]) -> None:
+        self.open = False  # unless the answer opens it again
+        try:
+            answer(self.text)
+        except Mars2dError as error:
+            self.open, self.error = True, str(error)
+
+
 def draw_prompt(
     surface: pygame.Surface, layout: Layout, painter: Painter, prompt: Prompt, *, blink: bool
 ) -> None:
-    """Draw a question across the foot of the window."""
+    """Draw a prompt in place of the footer."""
     theme, ui, fonts, bar = painter.theme, painter.ui, painter.fonts, layout.footer
     surface.fill(theme.waiting.pale, bar)
     surface.fill(theme.waiting.ink, (bar.left, bar.top, bar.width, max(1, round(2 * ui))))
@@ -154,10 +203,10 @@ def draw_plate(
     off: tuple[int, int] | None = None,
     **place: tuple[int, int],
 ) -> None:
-    """Draw lines of words on a plate, the first one bold if there are several.
+    """Draw lines of text on a plate, the first line bold if there are several.
 
-    place: where it goes, as for ``get_rect``; it stays within bounds. off: a pixel; a plate near it
-    goes to the left end instead.
+    place: the plate's position, as for ``get_rect``; it stays within bounds. off: a pixel; a plate
+    that would be near it is drawn at the left end instead.
     """
     theme, ui, fonts = painter.theme, painter.ui, painter.fonts
     images = [

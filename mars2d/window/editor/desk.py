@@ -1,4 +1,4 @@
-"""What the tools work at: the draft with its history, what is selected, how it is looked at."""
+"""The desk that tools work at: the draft with its history, the selection, the view."""
 
 from __future__ import annotations
 
@@ -8,30 +8,103 @@ from math import floor, hypot, log10
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point, grid_step
 from mars2d.output.raster.camera import Camera
-from mars2d.window.editor.draft import Draft, Item, Motion, tidy
-from mars2d.window.editor.history import History
+from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.item import Item, Motion, tidy
 from mars2d.window.viewpoint import Viewpoint
 
-__all__ = ["Desk", "Gesture"]
+__all__ = ["Desk", "Gesture", "History"]
 
-SNAP = 9.0
-"""The grid that things snap to has steps of at least so many points."""
+MIN_GRID_STEP = 9.0
+"""The smallest step of the grid on the screen, points."""
+MAX_DRAFTS = 500
+"""The length of the history."""
+
+
+class History:
+    """A list of drafts, and the index of the present one."""
+
+    def __init__(self, draft: Draft) -> None:
+        """Start with a draft that counts as saved."""
+        self._drafts = [draft]
+        self._place = 0
+        self._tag = ""
+        self._saved: Draft | None = draft
+
+    @property
+    def draft(self) -> Draft:
+        """The present draft."""
+        return self._drafts[self._place]
+
+    @property
+    def changed(self) -> bool:
+        """Whether the present draft differs from the saved one."""
+        return self.draft is not self._saved and self.draft != self._saved
+
+    def put(self, draft: Draft, tag: str = "") -> None:
+        """Continue with a draft. Consecutive changes with the same tag are undone as one."""
+        if draft == self.draft:
+            return
+        merges = bool(tag) and tag == self._tag and self._place + 1 == len(self._drafts)
+        end = self._place if merges else self._place + 1
+        self._drafts[end:] = [draft]
+        del self._drafts[:-MAX_DRAFTS]
+        self._place, self._tag = len(self._drafts) - 1, tag
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is anything to undo."""
+        return self._place > 0
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is anything to redo."""
+        return self._place + 1 < len(self._drafts)
+
+    def undo(self) -> bool:
+        """Undo a change; return whether there was one."""
+        return self._go(self._place - 1)
+
+    def redo(self) -> bool:
+        """Redo a change; return whether there was one."""
+        return self._go(self._place + 1)
+
+    def _go(self, place: int) -> bool:
+        self._tag = ""
+        if not 0 <= place < len(self._drafts):
+            return False
+        self._place = place
+        return True
+
+    def mark_saved(self) -> None:
+        """Count the present draft as saved."""
+        self._saved, self._tag = self.draft, ""
+
+    def mark_unsaved(self) -> None:
+        """Count no draft as saved."""
+        self._saved = None
 
 
 class Gesture:
-    """What a drag does: `to` returns the draft with the pointer at a point."""
+    """The base of drags; corner: the index of the corner that it moves, if it moves one."""
+
+    corner: int | None = None
 
     def to(self, point: Point, *, shift: bool) -> Draft:
-        """Return what becomes of the draft when the pointer is at a point [m]."""
+        """Return the draft with the pointer dragged to a point [m]."""
         raise NotImplementedError
+
+    @property
+    def remark(self) -> str:
+        """A measure to show beside the pointer, for example ``1.50 m   90°``."""
+        return ""
 
 
 class Desk:
-    """A draft under the hands of a person.
+    """The draft with everything that tools need.
 
-    selection: the things selected, in the order in which they were. corner: the number of the
-    corner that was touched last, of the one outline that is selected. viewpoint: from where it is
-    looked at.
+    selection: the selected items, in the order of selection. corner: the index of the last touched
+    corner, if one outline alone is selected. snaps: whether points snap to the grid. notice: a text
+    for the footer; warns: whether it is a warning.
     """
 
     def __init__(self, draft: Draft, viewpoint: Viewpoint) -> None:
@@ -49,11 +122,11 @@ class Desk:
 
     @property
     def draft(self) -> Draft:
-        """The draft as it is seen now, in the middle of a drag, too."""
+        """The present draft, also in the middle of a drag."""
         return self.history.draft if self._held is None else self._held
 
     def put(self, draft: Draft, tag: str = "") -> None:
-        """Go on with a draft; `tag` as in `History.put`."""
+        """Continue with a draft; tag: as for `History.put`."""
         self._held = None
         self.history.put(draft, tag)
         self._forget()
@@ -63,19 +136,19 @@ class Desk:
         self._held = draft
 
     def drag(self, gesture: Gesture, point: Point, *, shift: bool) -> None:
-        """Show what a drag makes of the draft; what can't be is said and not done."""
+        """Show the draft with a drag; an InputError is shown, and the drag stays as it was."""
         try:
             self.hold(gesture.to(point, shift=shift))
         except InputError as error:
             self.say(str(error), warns=True)
 
     def settle(self) -> None:
-        """Go on with what a drag has made."""
+        """Continue with the draft of the drag."""
         if self._held is not None:
             self.put(self._held)
 
     def drop(self) -> bool:
-        """Forget what a drag has made; return whether there was any."""
+        """Drop the draft of the drag; return whether there was one."""
         held, self._held = self._held, None
         return held is not None
 
@@ -86,25 +159,25 @@ class Desk:
         self._forget()
 
     def redo(self) -> None:
-        """Do again what was undone."""
+        """Redo the last change that was undone."""
         self.drop()
         if not self.history.redo():
-            self.say("there is nothing to do again")
+            self.say("there is nothing to redo")
         self._forget()
 
-    # -- what is selected -------------------------------------------------------------------------
+    # -- the selection ----------------------------------------------------------------------------
 
     def select(self, items: Iterable[Item] = ()) -> None:
-        """Select things, and nothing else."""
+        """Select items in place of the present selection."""
         self.selection, self.corner = tuple(dict.fromkeys(items)), None
 
     @property
     def only(self) -> Item | None:
-        """The thing selected, if it is one alone."""
+        """The selected item, if there is exactly one."""
         return self.selection[0] if len(self.selection) == 1 else None
 
     def _forget(self) -> None:
-        """Drop from the selection what is no longer there."""
+        """Remove from the selection items that no longer exist."""
         kept = tuple(item for item in self.selection if self.draft.holds(item))
         if kept != self.selection:
             self.select(kept)
@@ -113,13 +186,13 @@ class Desk:
             self.corner = None
 
     def say(self, text: str, *, warns: bool = False) -> None:
-        """Say something at the foot of the window, until the next thing is done."""
+        """Show a text in the footer, until the next action."""
         self.notice, self.warns = text, warns
 
-    # -- what is done to it -----------------------------------------------------------------------
+    # -- changes ----------------------------------------------------------------------------------
 
     def remove(self) -> None:
-        """Remove the corner that was touched last, or else what is selected."""
+        """Remove the last touched corner, or else the selection."""
         item = self.only
         corners = None if item is None else self.draft.corners(item)
         if item is None or corners is None or self.corner is None:
@@ -136,7 +209,7 @@ class Desk:
         self.put(self.draft.with_corners(item, left))
 
     def duplicate(self) -> None:
-        """Put a copy of what is selected beside it, and select that."""
+        """Put a copy beside the selection, and select the copy."""
         items = [item for item in self.selection if item.kind != "workspace"]
         if items:
             aside = Motion(by=(2 * self.step, -2 * self.step))
@@ -145,7 +218,7 @@ class Desk:
             self.select(copies)
 
     def nudge(self, dx: int, dy: int, *, fine: bool) -> None:
-        """Move the corner that was touched last, or what is selected, by steps of the grid.
+        """Move the last touched corner, or else the selection, by steps of the grid.
 
         fine: by tenths of a step.
         """
@@ -158,11 +231,11 @@ class Desk:
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
 
-    # -- how it is looked at ----------------------------------------------------------------------
+    # -- the view ---------------------------------------------------------------------------------
 
     @property
     def camera(self) -> Camera:
-        """From where the drawing is seen."""
+        """The camera of the drawing."""
         return self.viewpoint.camera
 
     @property
@@ -172,19 +245,19 @@ class Desk:
 
     @property
     def step(self) -> float:
-        """The step of the grid that things snap to, metres."""
-        return grid_step(SNAP * self.ui / self.camera.scale)
+        """The step of the grid to which points snap, metres."""
+        return grid_step(MIN_GRID_STEP * self.ui / self.camera.scale)
 
     def metres(self, points: float) -> float:
-        """Return how long so many points of the screen are, metres."""
+        """Return the length of points of the screen, metres."""
         return points * self.ui / self.camera.scale
 
     def snapped(self, point: Point) -> Point:
-        """Return the nearest point of the grid; without it, the point to a tenth of a pixel."""
+        """Return the nearest grid point; without snapping, the point to a fraction of a pixel."""
         step = self.step if self.snaps else 10.0 ** floor(log10(self.metres(1.0)))
         x, y = (tidy(round(value / step) * step) for value in point)
         return x, y
 
     def near(self, a: Point, b: Point, points: float) -> bool:
-        """Return whether two points are so near on the screen."""
+        """Return whether two points are at most this near on the screen."""
         return hypot(a[0] - b[0], a[1] - b[1]) <= self.metres(points)

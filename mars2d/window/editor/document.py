@@ -1,4 +1,4 @@
-"""The file that a drawing is kept in."""
+"""The scenario file that the editor saves to."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from mars2d.core.errors import InputError
 from mars2d.scenario import toml_file
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.keep import free_name
+from mars2d.window.saving import free_name
 
 __all__ = ["Document"]
 
@@ -19,29 +19,29 @@ UNTITLED = Scenario.__dataclass_fields__["title"].default
 
 
 class Document:
-    """A scenario file, with a name or still without one.
+    """A scenario file, which may not have a name yet.
 
-    path: the file that was opened or is to be made, if it is a .toml; of any other name only the
-    stem is used. control: the law of the team.
+    path: the file to open or to create, if it ends in .toml; of other paths only the stem is used.
+    control: the law of the team.
     """
 
     def __init__(self, path: Path | None, control: Callable[[Any], Any] | None = None) -> None:
-        """Open a file, or nothing."""
+        """Start without reading or writing anything."""
         toml = path is not None and path.suffix.lower() == toml_file.SUFFIX
         self.path = path if toml else None
-        self.new = self.path is None or not self.path.exists()  # there is no file of it yet
+        self.new = self.path is None or not self.path.exists()  # no file exists yet
         self.control = control
         wanted = Path("scenario.toml") if path is None else path
         self._wanted = wanted.with_suffix(toml_file.SUFFIX)
 
     @property
     def name(self) -> str:
-        """What it is called now, or would be."""
+        """The file's name, or a proposal."""
         return self._wanted.name if self.path is None else self.path.name
 
     @property
     def proposal(self) -> str:
-        """A name for it that is still free."""
+        """A path that is still free."""
         stem, k = self._wanted.stem, 1
         path = self._wanted
         while path.exists():
@@ -50,7 +50,7 @@ class Document:
         return str(path)
 
     def named(self, text: str) -> Path:
-        """Return the path that a person has typed. Raises InputError for what is none."""
+        """Return the path for a typed text. Raises InputError if it is no path of a file."""
         if not text.strip():
             raise InputError("expected a name, as room.toml")
         path = Path(text.strip()).expanduser()
@@ -63,12 +63,12 @@ class Document:
         return path
 
     def is_another(self, path: Path) -> bool:
-        """Return whether a path is a file that is there and is not the one opened."""
+        """Return whether a path is an existing file other than the one that was opened."""
         mine = self.path is not None and path.absolute() == self.path.absolute()
         return path.exists() and (self.new or not mine)
 
     def rescue(self, scenario: Scenario) -> Path | None:
-        """Write a scenario to a new file, beside its own or where there is room; return which."""
+        """Save to a new file, beside the own one or in the temporary folder; return its path."""
         wanted = self.path or self._wanted
         for folder in (wanted.parent, Path(tempfile.gettempdir())):
             with suppress(InputError):
@@ -78,7 +78,7 @@ class Document:
         return None
 
     def save(self, scenario: Scenario, path: Path) -> str:
-        """Write a scenario to a file, which is open from now on; return what to say of it."""
+        """Save a scenario to a file, which is the open one from now on; return a text about it."""
         if scenario.title == UNTITLED:
             scenario = scenario.replace(title=path.stem.replace("_", " ").capitalize())
         missing = toml_file.save(scenario, path, self.control)

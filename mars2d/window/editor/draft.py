@@ -1,4 +1,4 @@
-"""What is being drawn: the things of a scenario that have a place, each sound by itself."""
+"""The draft that the editor works on: the items of a scenario, each valid by itself."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import count
-from math import atan2, cos, sin
-from typing import Any, Literal, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -26,66 +25,23 @@ from mars2d.core.plane import Outline, Point, bounds_of
 from mars2d.record.frame import Frame
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
+from mars2d.window.editor.item import FIELDS, Item, Kind, Motion
 
-__all__ = ["Draft", "Item", "Motion"]
+__all__ = ["Draft", "flaw"]
 
-Kind = Literal["robot", "prop", "outline", "wall", "waypoint", "beacon", "workspace"]
-
-FIELDS: dict[Kind, str] = {
-    "robot": "robots", "prop": "props", "outline": "outlines", "wall": "walls",
-    "waypoint": "routes", "beacon": "beacons",
-}  # fmt: skip
+DRAWN = (Map, Waypoints, Beacon)
+"""The add-ons that are drawn with the mouse."""
 
 BLANK: Outline = Scenario.__dataclass_fields__["workspace"].default
-"""What is seen of a draft that holds nothing, metres."""
-
-
-class Item(NamedTuple):
-    """One thing of a draft: its kind, its number there, and of a waypoint its place on the route.
-
-    The route of robot k has the number k.
-    """
-
-    kind: Kind
-    number: int = 0
-    part: int = 0
-
-
-class Motion(NamedTuple):
-    """A turn by `angle` [rad] about the point `about`, then a shift by `by` [m]."""
-
-    angle: float = 0.0
-    about: Point = (0.0, 0.0)
-    by: Point = (0.0, 0.0)
-
-    def point(self, point: Point) -> Point:
-        """Return where a point comes to."""
-        if not self.angle:
-            return tidy(point[0] + self.by[0]), tidy(point[1] + self.by[1])
-        (x, y), c, s = self.about, cos(self.angle), sin(self.angle)
-        dx, dy = point[0] - x, point[1] - y
-        return tidy(x + c * dx - s * dy + self.by[0]), tidy(y + s * dx + c * dy + self.by[1])
-
-    def pose(self, pose: tuple[float, float, float]) -> tuple[float, float, float]:
-        """Return what a pose becomes, its heading in (-pi, pi] if it turns."""
-        heading = pose[2]
-        if self.angle:
-            turned = heading + self.angle
-            heading = tidy(atan2(sin(turned), cos(turned)))
-        return (*self.point(pose[:2]), heading)
-
-
-def tidy(value: float) -> float:
-    """Return a length or angle without the last digits, which are those of rounding."""
-    return round(value, 9) + 0.0
+"""The area shown of an empty draft, metres."""
 
 
 @dataclass(frozen=True)
 class Draft:
-    """Robots, props, obstacles, waypoints, beacons and workspace of a scenario; `base` is the rest.
+    """The items of a scenario; `base` is the scenario that holds everything else.
 
-    Each thing is sound by itself, but for outlines, which may cross themselves while they are
-    drawn. outlines, walls: those of the first Map. routes: waypoints, one list for each robot.
+    Each item is valid by itself, except outlines, which may cross themselves while they are drawn.
+    outlines, walls: those of the first Map. routes: the waypoints, one list per robot.
     """
 
     base: Scenario
@@ -109,19 +65,19 @@ class Draft:
             outlines=() if chart is None else tuple(chart.outlines),
             walls=() if chart is None else tuple(chart.walls),
             routes=(*drawn, *[()] * (len(scenario.robots) - len(drawn))),
-            beacons=tuple(addon for addon in scenario.addons if isinstance(addon, Beacon)),
+            beacons=tuple(_all(Beacon, scenario.addons)),
             workspace=scenario.workspace,
         )
 
     @classmethod
     def empty(cls, scenario: Scenario) -> Self:
-        """Return the draft of a scenario without its robots, which no scenario can be yet."""
+        """Return the draft of a scenario without its robots; no scenario can be empty."""
         return replace(cls.of(scenario), robots=(), routes=())
 
-    # -- what it becomes ------------------------------------------------------------------------
+    # -- as a scenario --------------------------------------------------------------------------
 
     def scenario(self) -> Scenario:
-        """Return the scenario. Raises InputError where it would not be sound."""
+        """Return the scenario. Raises InputError if it is not valid."""
         return self.base.replace(
             robots=self.robots,
             props=self.props,
@@ -132,17 +88,13 @@ class Draft:
 
     @cached_property
     def sketch(self) -> Scenario:
-        """What can be drawn: the scenario, unchecked, without outlines that are not sound.
-
-        Nothing may be simulated with it.
-        """
+        """The scenario for drawing: unchecked, and without invalid outlines. Never simulate it."""
         return self._sketch(self.base.addons)
 
     @cached_property
     def bare_sketch(self) -> Scenario:
-        """The same without add-ons that can't be drawn with a mouse."""
-        drawn = (Map, Waypoints, Beacon)
-        return self._sketch([addon for addon in self.base.addons if isinstance(addon, drawn)])
+        """The sketch with only the add-ons that are drawn with the mouse."""
+        return self._sketch(_all(DRAWN, self.base.addons))
 
     def _sketch(self, addons: Sequence[Addon]) -> Scenario:
         sound = [outline for outline in self.outlines if flaw(outline) is None]
@@ -164,24 +116,26 @@ class Draft:
         return {robot.name for robot in self.robots} | {prop.name for prop in self.props}
 
     def _joints(self) -> tuple[Joint, ...]:
-        """Return the joints of the base whose bodies are still there."""
+        """Return the base's joints whose bodies still exist."""
         names = self._names() | {None}
         return tuple(joint for joint in self.base.joints if {joint.a, joint.b} <= names)
 
     def _addons(self, outlines: Sequence[Outline], addons: Sequence[Addon]) -> list[Addon]:
-        """Return add-ons of the base, with what was drawn in their places."""
+        """Return the base's add-ons, those that are drawn replaced by their present state."""
         drawn = self._drawn_addons(outlines)
-        own = {id(_first(Map, self.base.addons)), id(_first(Waypoints, self.base.addons))}
+        base = self.base.addons
+        edited = [_first(Map, base), _first(Waypoints, base), *_all(Beacon, base)]
+        ids = {id(addon) for addon in edited}
         result = []
         for addon in addons:
-            if id(addon) not in own and not isinstance(addon, Beacon):
+            if id(addon) not in ids:
                 result.append(addon)
             elif addon.key in drawn:
                 result.append(drawn.pop(addon.key))
         return [*result, *drawn.values()]
 
     def _drawn_addons(self, outlines: Sequence[Outline]) -> dict[str, Addon]:
-        """Return the map, the waypoints and the beacons by their keys, as far as there are any."""
+        """Return the map, the waypoints and the beacons that exist, by their keys."""
         result: dict[str, Addon] = {}
         if outlines or self.walls:
             own = _first(Map, self.base.addons)
@@ -197,10 +151,10 @@ class Draft:
             result[ways.key] = ways
         return result | {beacon.key: beacon for beacon in self.beacons}
 
-    # -- what is in it --------------------------------------------------------------------------
+    # -- its items ------------------------------------------------------------------------------
 
     def items(self) -> tuple[Item, ...]:
-        """Return all things but the workspace, what lies lowest first."""
+        """Return all items but the workspace, the lowest first."""
         plain: tuple[Kind, ...] = ("outline", "wall", "prop", "robot", "beacon")
         found = [Item(kind, i) for kind in plain for i in range(len(getattr(self, FIELDS[kind])))]
         ways = [
@@ -209,7 +163,7 @@ class Draft:
         return (*found, *ways)
 
     def holds(self, item: Item) -> bool:
-        """Return whether there is such a thing."""
+        """Return whether an item exists."""
         if item.kind == "workspace":
             return self.workspace is not None
         listed = getattr(self, FIELDS[item.kind])
@@ -218,7 +172,7 @@ class Draft:
         return item.kind != "waypoint" or item.part < len(listed[item.number])
 
     def name(self, item: Item) -> str:
-        """Return what a thing is called in words."""
+        """Return an item's name in words."""
         if item.kind == "robot":
             return str(self.robots[item.number].name)
         if item.kind == "prop":
@@ -232,7 +186,7 @@ class Draft:
         return f"{'obstacle' if item.kind == 'outline' else 'wall'} {item.number}"
 
     def corners(self, item: Item) -> Outline | None:
-        """Return the corners of an outline, a wall or the workspace; None of all else."""
+        """Return the corners of an outline, a wall or the workspace; None for other items."""
         if item.kind == "workspace":
             return self.workspace
         if item.kind in ("outline", "wall"):
@@ -241,19 +195,19 @@ class Draft:
         return None
 
     def pose(self, item: Item) -> tuple[float, float, float] | None:
-        """Return the pose of a robot or prop; None of all else."""
+        """Return the pose of a robot or prop; None for other items."""
         if item.kind == "robot":
             return self.robots[item.number].pose
         return self.props[item.number].pose if item.kind == "prop" else None
 
     def body(self, item: Item) -> Rigid | None:
-        """Return the body of a robot or prop; None of all else."""
+        """Return the body of a robot or prop; None for other items."""
         if item.kind == "robot":
             return self.robots[item.number].rigid
         return self.props[item.number].rigid if item.kind == "prop" else None
 
     def place(self, item: Item) -> Point:
-        """Return the point that a thing is held by when it is put on the grid."""
+        """Return the point of an item that snaps to the grid."""
         pose = self.pose(item)
         if pose is not None:
             return pose[:2]
@@ -264,7 +218,7 @@ class Draft:
         return (self.corners(item) or ((0.0, 0.0),))[0]
 
     def bounds(self, items: Collection[Item]) -> tuple[float, float, float, float]:
-        """Return (xmin, xmax, ymin, ymax) of things, metres."""
+        """Return (xmin, xmax, ymin, ymax) of items, metres."""
         points: list[Point] = []
         for item in items:
             body = self.body(item)
@@ -275,10 +229,10 @@ class Draft:
                 points += [(x - r, y - r), (x + r, y + r)]
         return bounds_of(points)
 
-    # -- what is done to it ---------------------------------------------------------------------
+    # -- changes --------------------------------------------------------------------------------
 
     def moved(self, items: Collection[Item], motion: Motion) -> Self:
-        """Return the draft with things moved."""
+        """Return the draft with items moved."""
         draft = self
         for item in items:
             draft = draft._with(item, draft._moved_one(item, motion))
@@ -303,7 +257,7 @@ class Draft:
         return self._with(item, tuple(corners))
 
     def with_prop(self, index: int, prop: Prop) -> Self:
-        """Return the draft with another prop in the place of one."""
+        """Return the draft with one prop replaced."""
         return self._with(Item("prop", index), prop)
 
     def _with(self, item: Item, value: Any) -> Self:
@@ -320,61 +274,58 @@ class Draft:
         return replace(self, **changes)
 
     def with_robot(self, robot: Robot) -> tuple[Self, Item]:
-        """Return the draft with one more robot, which gets a name, and that robot."""
+        """Return the draft with one more robot, which gets a new name, and its item."""
         named = robot.replace(name=self.free_name("robot"))
         draft = replace(self, robots=(*self.robots, named), routes=(*self.routes, ()))
         return draft, Item("robot", len(self.robots))
 
     def with_new_prop(self, prop: Prop) -> tuple[Self, Item]:
-        """Return the draft with one more prop, which gets a name, and that prop."""
+        """Return the draft with one more prop, which gets a new name, and its item."""
         named = prop.replace(name=self.free_name(snake_case(type(prop).__name__)))
         return replace(self, props=(*self.props, named)), Item("prop", len(self.props))
 
     def with_outline(self, corners: Outline) -> tuple[Self, Item]:
-        """Return the draft with one more solid obstacle, and that one."""
+        """Return the draft with one more solid obstacle, and its item."""
         outlines = (*self.outlines, tuple(corners))
         return replace(self, outlines=outlines), Item("outline", len(self.outlines))
 
     def with_wall(self, corners: Outline) -> tuple[Self, Item]:
-        """Return the draft with one more wall of two or more corners, and that one."""
+        """Return the draft with one more wall of two or more corners, and its item."""
         return replace(self, walls=(*self.walls, tuple(corners))), Item("wall", len(self.walls))
 
     def with_waypoint(self, robot: int, point: Point) -> tuple[Self, Item]:
-        """Return the draft with one more waypoint at the end of a robot's route, and that one."""
+        """Return the draft with one more waypoint at the end of a robot's route, and its item."""
         route = self.routes[robot]
         routes = (*self.routes[:robot], (*route, point), *self.routes[robot + 1 :])
         return replace(self, routes=routes), Item("waypoint", robot, len(route))
 
     def with_beacon(self, beacon: Beacon) -> tuple[Self, Item]:
-        """Return the draft with one more beacon, which gets a name, and that one."""
+        """Return the draft with one more beacon, which gets a new name, and its item."""
         taken = {addon.key for addon in (*self.base.addons, *self.beacons)}
         names = ("beacon" if k == 0 else f"beacon{k}" for k in count())
         named = beacon.replace(name=next(name for name in names if name not in taken))
         return replace(self, beacons=(*self.beacons, named)), Item("beacon", len(self.beacons))
 
     def without(self, items: Collection[Item]) -> Self:
-        """Return the draft without things; with a robot goes its route."""
+        """Return the draft without items; a robot's route goes with it."""
         gone = set(items)
-        gone |= {
-            Item("waypoint", i.number, k) for i in gone if i.kind == "robot" for k in range(999)
-        }
+
+        def left(kind: Kind) -> tuple[Any, ...]:
+            listed = enumerate(getattr(self, FIELDS[kind]))
+            return tuple(value for i, value in listed if Item(kind, i) not in gone)
+
         routes = tuple(
             tuple(p for k, p in enumerate(route) if Item("waypoint", i, k) not in gone)
             for i, route in enumerate(self.routes)
+            if Item("robot", i) not in gone
         )
-        left: dict[str, Any] = {
-            field: tuple(
-                value
-                for i, value in enumerate(routes if kind == "waypoint" else getattr(self, field))
-                if Item("robot" if kind == "waypoint" else kind, i) not in gone
-            )
-            for kind, field in FIELDS.items()
-        }
+        plain: tuple[Kind, ...] = ("robot", "prop", "outline", "wall", "beacon")
+        kept: dict[str, Any] = {FIELDS[kind]: left(kind) for kind in plain}
         workspace = None if Item("workspace") in gone else self.workspace
-        return replace(self, workspace=workspace, **left)
+        return replace(self, workspace=workspace, routes=routes, **kept)
 
     def copied(self, items: Collection[Item], motion: Motion) -> tuple[Self, list[Item]]:
-        """Return the draft with moved copies of things, and the copies."""
+        """Return the draft with moved copies of items, and the copies."""
         draft, copies = self, []
         for item in sorted(items):
             value: Any = draft._moved_one(item, motion)
@@ -391,12 +342,12 @@ class Draft:
         return draft, copies
 
     def free_name(self, kind: str) -> str:
-        """Return the first name of a kind that no robot and no prop has, as ``robot2``."""
+        """Return the first name of a kind that no body has, for example ``robot2``."""
         taken = self._names()
         return next(name for name in map(f"{kind}{{}}".format, count()) if name not in taken)
 
     def frame(self, sketch: Scenario | None = None) -> Frame:
-        """Return the instant before the start, of this draft's sketch or one like it."""
+        """Return the instant before the start; sketch: the scenario to draw, by default its own."""
         pose = np.array([robot.pose for robot in self.robots], dtype=float).reshape(-1, 3).T
         prop_pose = np.array([prop.pose for prop in self.props], dtype=float).reshape(-1, 3).T
         nothing = np.empty((0, 3, len(self.robots)))
@@ -405,14 +356,14 @@ class Draft:
 
 @lru_cache(maxsize=8)
 def _chart(own: Map | None, outlines: tuple[Outline, ...], walls: tuple[Outline, ...]) -> Map:
-    """Return the map, which takes long to check, once."""
+    """Return the map. It is cached, since checking a map takes long."""
     parts: dict[str, Any] = {"outlines": outlines, "walls": walls}
     return Map(**parts) if own is None else own.replace(**parts)
 
 
 @lru_cache(maxsize=4096)
 def flaw(outline: Outline, name: str = "it") -> str | None:
-    """Return what is wrong with an obstacle's outline, in words; None if it is sound."""
+    """Return what is wrong with an obstacle's outline, in words; None if it is valid."""
     try:
         checks.outline(name, outline)
     except InputError as error:
@@ -420,5 +371,9 @@ def flaw(outline: Outline, name: str = "it") -> str | None:
     return None
 
 
+def _all(kind: type[Any] | tuple[type[Any], ...], addons: Sequence[Addon]) -> list[Any]:
+    return [addon for addon in addons if isinstance(addon, kind)]
+
+
 def _first(kind: type[Any], addons: Sequence[Addon]) -> Any:
-    return next((addon for addon in addons if isinstance(addon, kind)), None)
+    return next(iter(_all(kind, addons)), None)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import radians
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import pygame
 
@@ -21,22 +21,26 @@ from mars2d.output.raster.layout import Layout, next_text_size
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import theme_of
-from mars2d.scenario.changes import check_same
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.boundary import Boundary
-from mars2d.window.editor.chrome import Button, Header, draw_footer, draw_plate, draw_prompt
+from mars2d.window.editor.chrome import (
+    Button,
+    Header,
+    Prompt,
+    draw_footer,
+    draw_plate,
+    draw_prompt,
+)
 from mars2d.window.editor.desk import Desk
+from mars2d.window.editor.dialogs import Dialogs, Outcome
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.keys import action_of, chord, groups
-from mars2d.window.editor.marks import draw_culprits, draw_selected
-from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall
+from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall, Workspace
 from mars2d.window.editor.placing import PlaceBall, PlaceBeacon, PlaceBox, PlaceRobot, PlaceWaypoint
-from mars2d.window.editor.prompt import Prompt
-from mars2d.window.editor.readout import described
+from mars2d.window.editor.readout import described, minus
 from mars2d.window.editor.select import Select
-from mars2d.window.editor.sketch import Sketch
-from mars2d.window.editor.tool import Tool, minus
+from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_selected
+from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.toolbar import WIDTH, Toolbar
 from mars2d.window.editor.verdict import Judge
 from mars2d.window.help import Help
@@ -54,29 +58,21 @@ TOOLS: dict[str, type[Tool]] = {
     "rectangle": DrawRectangle,
     "waypoint": PlaceWaypoint,
     "beacon": PlaceBeacon,
-    "workspace": Boundary,
+    "workspace": Workspace,
 }
 NUDGES = {"left": (-1, 0), "right": (1, 0), "up": (0, 1), "down": (0, -1)}
 LAYERS = Layers(trails=False, sensors=False, messages=False)
-FEW = 40
-"""The names of so many robots and props are shown, unless a person wants others, too."""
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What was drawn in a paused run, and whether it goes on from now or from the start."""
-
-    scenario: Scenario
-    when: Literal["now", "start"]
+MAX_NAMED = 40
+"""With more robots and props than this, names are hidden at first."""
 
 
 class Editor:
-    """Draws a scenario: takes events, draws itself, and at the end has saved or has an outcome.
+    """Edits a scenario: handles pygame's events, and draws itself on any surface.
 
-    path: the file that it is kept in; one that is no .toml only lends its name. live: opened from a
-    paused run, which can go on with the outcome. control: the team's law, for the file. empty:
-    start without robots. changed: the scenario is not as it is in the file. text, scale: as for
-    `Layout.of`.
+    path: the scenario's file; one that is not .toml only lends its name. live: whether a paused run
+    is edited, which can continue with the outcome. control: the team's law, for the file. empty:
+    start without robots. changed: the scenario differs from the file. text, scale: as for
+    `Layout.of`. dialogs: what becomes of the draft.
     """
 
     def __init__(
@@ -93,26 +89,25 @@ class Editor:
         """Open a scenario; nothing is drawn yet."""
         self.painter, self.live = painter, live
         self.text = self.scale = 1.0
-        self.done = False
-        self.outcome: Outcome | None = None
-        self.to_run: Path | None = None
         self.help = Help()
-        self.prompt: Prompt | None = None
         self.document = Document(path, control)
-        self._before = scenario
         draft = Draft.empty(scenario) if empty else Draft.of(scenario)
         self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
-            self.desk.history.lose()
+            self.desk.history.mark_unsaved()
         self.judge = Judge(draft)
+        self.dialogs = Dialogs(
+            self.desk, self.document, self.judge, scenario,
+            live=live, complete=self._complete,
+        )  # fmt: skip
         self._stage, self._sketch = Stage(painter), Sketch()
         self._header, self._toolbar = Header(painter), Toolbar(painter)
         self._pointer = (-1, -1)
         self._dragging = self._panning = self._space = False
         self._held: set[int] = set()
-        self._names = len(draft.robots) + len(draft.props) <= FEW
-        self._plain = False  # other add-ons than those drawn here are not shown
+        self._names = len(draft.robots) + len(draft.props) <= MAX_NAMED
+        self._plain = False  # whether only the add-ons that can be edited are drawn
         self.tool_name, self.tool = "select", TOOLS["select"](self.desk)
         self._actions: dict[str, Callable[[], None]] = {
             **{name: lambda name=name: self._choose(name) for name in TOOLS},  # type: ignore[misc]
@@ -129,26 +124,26 @@ class Editor:
             "text": self._next_text_size,
             "help": self.help.turn,
             "leave": self._leave,
-            "save": self._save,
-            "run": self._run,
-            "now": lambda: self._apply("now"),
-            "start": lambda: self._apply("start"),
+            "save": self.dialogs.save,
+            "run": self.dialogs.run,
+            "now": lambda: self.dialogs.apply("now"),
+            "start": lambda: self.dialogs.apply("start"),
         }
 
     @property
     def title(self) -> str:
-        """What stands in the header."""
+        """The text of the header."""
         return self.desk.draft.base.title if self.live else self.document.name
 
     @property
     def layout(self) -> Layout:
-        """Where everything lies."""
+        """The layout."""
         return self.viewpoint.layout
 
     # -- events ---------------------------------------------------------------------------------
 
     def handle(self, event: pygame.Event) -> None:
-        """Take one event of pygame."""
+        """Handle an event of pygame."""
         if event.type == pygame.KEYDOWN:
             self._press_key(event)
         elif event.type == pygame.KEYUP:
@@ -169,8 +164,8 @@ class Editor:
 
     def _press_key(self, event: pygame.Event) -> None:
         name = chord(event.key, event.mod)
-        if self.prompt is not None:
-            self._answer(self.prompt, name, event.unicode)
+        if self.dialogs.prompt is not None:
+            self.dialogs.press(self.dialogs.prompt, name, event.unicode)
             return
         if event.key == pygame.K_SPACE:
             self._space = True
@@ -198,14 +193,8 @@ class Editor:
         else:
             self._actions[key.action]()
 
-    def _answer(self, prompt: Prompt, name: str, character: str) -> None:
-        """Give a key to a prompt; it is gone when it has its answer, unless that asks anew."""
-        prompt.press(name, character)
-        if not prompt.open and self.prompt is prompt:
-            self.prompt = None
-
     def _press(self, event: pygame.Event) -> None:
-        if self.prompt is not None:
+        if self.dialogs.prompt is not None:
             return
         if self.help.is_open:
             self.help.close()
@@ -248,7 +237,7 @@ class Editor:
             self.tool.release(self._world(event.pos), shift=self._shift)
 
     def _let_go(self) -> None:
-        """Put back what is being dragged."""
+        """Cancel the drag."""
         if self._dragging:
             self.tool.cancel()
         self._dragging = self._panning = self._space = False
@@ -273,15 +262,19 @@ class Editor:
         self._choose("select")
         self.desk.select(self.desk.draft.items())
 
+    def _complete(self) -> None:
+        """Finish the outline that is being drawn."""
+        self.tool.confirm()
+
     def _ask_pose(self) -> None:
         if not (self.desk.selection or self.tool.puts):
-            self.desk.say("select something first, or choose a tool that puts things", warns=True)
+            self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
-        label, hint = "x y [degrees] =", "as 1.5 2 90   Enter takes it   Esc cancels"
-        self.prompt = Prompt(label, hint, {"return": self._put}, field=True)
+        label, hint = "x y [degrees] =", "for example 1.5 2 90   Enter applies it   Esc cancels"
+        self.dialogs.prompt = Prompt(label, hint, {"return": self._put}, field=True)
 
     def _put(self, text: str) -> None:
-        """Put what is selected, or the next thing, at typed numbers."""
+        """Put the selection, or a new item, at typed numbers."""
         try:
             x, y, *rest = map(float, text.replace(",", " ").split())
             (angle,) = rest or (None,)
@@ -290,7 +283,7 @@ class Editor:
         self.tool.put(x, y, None if angle is None else radians(angle))
 
     def _undo(self) -> None:
-        """Undo the last change, or take the last corner back of what is being drawn."""
+        """Remove the last corner of the outline being drawn, or else undo the last change."""
         if not self.tool.back():
             self.desk.undo()
 
@@ -306,7 +299,7 @@ class Editor:
     def _next_text_size(self) -> None:
         self.text = next_text_size(self.text)
 
-    # -- looking --------------------------------------------------------------------------------
+    # -- the view -------------------------------------------------------------------------------
 
     def _zoom(self, notches: float) -> None:
         pixel = self._pointer if self._pointer[0] >= 0 else self.layout.plot.center
@@ -322,94 +315,11 @@ class Editor:
     def _arrange(self, size: tuple[int, int]) -> None:
         layout = self._laid_out(size)
         self.painter.ui = layout.ui
-        if layout != self.layout:  # the picture stays in place while the workspace is drawn
+        if layout != self.layout:  # it does not follow the workspace while that is drawn
             self.viewpoint.arrange(layout, self.desk.draft.sketch)
 
-    # -- keeping --------------------------------------------------------------------------------
-
-    def _sound(self, doing: str) -> Scenario | None:
-        """Return the scenario if it is one, else say why it can't be."""
-        self.tool.confirm()
-        verdict = self.judge.of(self.desk.draft)
-        if verdict.scenario is None:
-            self.desk.say(f"{doing}: {verdict.text}", warns=True)
-        return verdict.scenario
-
-    def _save(self, then: Callable[[], None] | None = None) -> None:
-        if self._sound("Not saved") is None:
-            return
-        if self.document.path is None:
-            self.prompt = Prompt(
-                "Save as", "Enter saves   Esc cancels",
-                {"return": lambda text: self._save_as(text, then)},
-                text=self.document.proposal, field=True,
-            )  # fmt: skip
-        elif self.document.new:
-            self._save_as(str(self.document.path), then)
-        else:
-            self._write(self.document.path, then)
-
-    def _save_as(self, text: str, then: Callable[[], None] | None) -> None:
-        path = self.document.named(text)
-        if not self.document.is_another(path):
-            self._write(path, then)
-            return
-        self.prompt = Prompt(
-            f"{path} is there already.", "Enter overwrites it   Esc cancels",
-            {"return": lambda _: self._write(path, then)},
-        )  # fmt: skip
-
-    def _write(self, path: Path, then: Callable[[], None] | None = None) -> None:
-        scenario = self._sound("Not saved")
-        if scenario is None:
-            return
-        try:
-            said = self.document.save(scenario, path)
-        except InputError as error:
-            self.desk.say(str(error), warns=True)
-            return
-        if not self.live:
-            self.desk.history.keep()
-        self.desk.say(said)
-        if then is not None:
-            then()
-
-    def rescue(self) -> Path | None:
-        """Keep what is not saved yet, as far as it is a scenario, in a new file beside its own.
-
-        Return that file; None if nothing would be lost, or nothing can be kept. For where there is
-        nobody any more who could be asked.
-        """
-        history = self.desk.history
-        if self.live or not history.changed:
-            return None
-        self.desk.drop()
-        while (scenario := self.judge.of(history.draft).scenario) is None:
-            if not history.undo():
-                return None
-        return self.document.rescue(scenario)
-
-    def _run(self) -> None:
-        """Ask for a run of the file, saved first if need be."""
-        if self.desk.history.changed or self.document.new:
-            self._save(then=self._run)
-        else:
-            self.to_run = self.document.path
-
-    def _apply(self, when: Literal["now", "start"]) -> None:
-        scenario = self._sound("Not yet")
-        if scenario is None:
-            return
-        if when == "now":
-            try:
-                check_same(self._before, scenario)
-            except InputError as error:
-                self.desk.say(f"{error} (Shift+Enter)", warns=True)
-                return
-        self.outcome, self.done = Outcome(scenario, when), True
-
     def _leave(self) -> None:
-        """Close the help, leave the tool, select none, or leave."""
+        """Close the help, leave the tool, select nothing, or leave."""
         if self.help.is_open:
             self.help.close()
         elif self.tool.cancel():
@@ -420,31 +330,12 @@ class Editor:
         elif self.desk.selection:
             self.desk.select()
         else:
-            self.close()
-
-    def close(self) -> None:
-        """Leave; ask first if something would be lost."""
-        if not self.desk.history.changed:
-            self.done = True
-            return
-        discard: dict[str, Callable[[str], None]] = {"backspace": lambda _: self._discard()}
-        if self.live:
-            hint = "Enter goes on from now   Shift+Enter from the start   Backspace discards"
-            answers = {"return": lambda _: self._apply("now")}
-            answers["shift+return"] = lambda _: self._apply("start")
-            self.prompt = Prompt("Use what was drawn?", f"{hint}   Esc stays", answers | discard)
-        else:
-            hint = "Enter saves   Backspace discards   Esc stays"
-            answers = {"return": lambda _: self._save(then=self._discard)}
-            self.prompt = Prompt("Not saved yet.", hint, answers | discard)
-
-    def _discard(self) -> None:
-        self.done = True
+            self.dialogs.leave()
 
     # -- drawing --------------------------------------------------------------------------------
 
     def draw(self, surface: pygame.Surface) -> None:
-        """Draw everything; the layout follows the surface's size."""
+        """Draw the editor; the layout follows the surface's size."""
         self._arrange(surface.get_size())
         self.judge.of(self.desk.draft, at_once=not self._dragging)
         self._draw_plot(surface)
@@ -456,11 +347,11 @@ class Editor:
             snaps=self.desk.snaps, step=f"{self.desk.step:g} m",
         )  # fmt: skip
         self._header.draw(surface, bar, self.title, self._note(), self._buttons(), self._pointer)
-        if self.prompt is None:
+        if self.dialogs.prompt is None:
             self._draw_foot(surface)
         else:
             blink = time.monotonic() % 1.0 < 0.6
-            draw_prompt(surface, self.layout, self.painter, self.prompt, blink=blink)
+            draw_prompt(surface, self.layout, self.painter, self.dialogs.prompt, blink=blink)
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self._pointer, surface.get_rect())
         self.help.draw(surface, self.layout, self.painter, groups(live=self.live))
@@ -478,7 +369,7 @@ class Editor:
         draw = partial(self._stage.draw, marks=marks, hurried=hurried)
         try:
             draw(surface, frame, camera, LAYERS, plot)
-        except Mars2dError as error:  # of what other add-ons draw
+        except Mars2dError as error:  # raised by another add-on's drawing
             if self._plain:
                 raise
             self._plain = True

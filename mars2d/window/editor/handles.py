@@ -1,44 +1,54 @@
-"""The handles of what is selected: corners, the dots between them, a ring that turns."""
+"""The handles of the selection (corners, dots between them, a ring), and what drags of it do."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan2, cos, hypot, pi, sin
+from math import cos, degrees, hypot, pi, radians, sin
 from typing import Literal
 
-from mars2d.bodies.props.box import Box
+from mars2d.bodies.props.base import Prop
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.core.scene import Scene
 from mars2d.output.raster.theme import LIGHT
-from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Draft, Item
+from mars2d.window.editor.desk import Desk, Gesture
+from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.item import Item, Motion, angle_of, tidy
+from mars2d.window.editor.readout import size_of, stretch, turned
 
 __all__ = [
     "MARK",
+    "NOTCH",
     "PAPER",
+    "Cornering",
     "Handle",
-    "Ring",
-    "angle_of",
-    "box_corners",
+    "Moving",
+    "Sizing",
+    "Turning",
     "draw_handles",
     "handle_at",
-    "handles",
     "ring_of",
+    "spanned",
 ]
 
 REACH = 9.0
-"""So many points beside its middle a handle is hit."""
+"""The radius in which a handle is hit, points."""
 
 MARK, PAPER = LIGHT.selected, LIGHT.paper
 
-SMALLEST, LARGEST = 30.0, 150.0
-"""Of the ring that turns: its radius on the screen, points."""
+MIN_RING, MAX_RING = 30.0, 150.0
+"""The radius of the ring on the screen, points."""
+
+NOTCH = 15.0
+"""The steps of a turn with Shift, degrees."""
+
+MIN_SIDE = 0.01
+"""The shortest side of a rectangle that is drawn, metres."""
 
 
 @dataclass(frozen=True)
 class Handle:
-    """Something to be dragged; `number`: that of a corner, or of the corner before a dot."""
+    """A handle at a point [m]; number: the index of its corner, or of the corner before a dot."""
 
     kind: Literal["corner", "dot", "size", "turn"]
     number: int
@@ -47,7 +57,7 @@ class Handle:
 
 @dataclass(frozen=True)
 class Ring:
-    """The ring round what is selected, in metres; `heading`: where its handle sits, radians."""
+    """The ring round the selection, metres; heading: the direction of its handle, radians."""
 
     center: Point
     radius: float
@@ -55,13 +65,13 @@ class Ring:
 
     @property
     def handle(self) -> Point:
-        """Where its handle lies."""
+        """The position of its handle."""
         x, y = self.center
         return x + self.radius * cos(self.heading), y + self.radius * sin(self.heading)
 
 
 def ring_of(desk: Desk) -> Ring | None:
-    """Return the ring; None if there is nothing to turn."""
+    """Return the ring, None if the selection can't be turned."""
     draft = desk.draft
     items = [item for item in desk.selection if item.kind != "workspace"]
     pose = None if desk.only is None else draft.pose(desk.only)
@@ -74,12 +84,12 @@ def ring_of(desk: Desk) -> Ring | None:
     heading = pi / 2
     if pose is not None:
         center, heading, radius = pose[:2], pose[2], max(xmax - xmin, ymax - ymin) / 2
-    low, high = desk.metres(SMALLEST), desk.metres(LARGEST)
+    low, high = desk.metres(MIN_RING), desk.metres(MAX_RING)
     return Ring(center, min(max(radius + desk.metres(16.0), low), high), heading)
 
 
 def handles(desk: Desk) -> list[Handle]:
-    """Return all handles of the selection, the uppermost last."""
+    """Return the handles of the selection, the uppermost last."""
     found = []
     ring, item = ring_of(desk), desk.only
     if ring is not None:
@@ -90,12 +100,12 @@ def handles(desk: Desk) -> list[Handle]:
     if corners is not None:
         found += [Handle("dot", k, point) for k, point in _dots(desk, item, corners)]
         found += [Handle("corner", k, point) for k, point in enumerate(corners)]
-    found += [Handle("size", k, point) for k, point in enumerate(box_corners(desk.draft, item))]
+    found += [Handle("size", k, point) for k, point in enumerate(size_corners(desk.draft, item))]
     return found
 
 
 def _dots(desk: Desk, item: Item, corners: Outline) -> list[tuple[int, Point]]:
-    """Return the middles of the edges that are long enough on the screen for a dot."""
+    """Return the middles of the edges that are long enough for a dot."""
     edges = edges_of(corners)
     if item.kind == "wall":
         edges = list(pairwise(corners))
@@ -106,16 +116,16 @@ def _dots(desk: Desk, item: Item, corners: Outline) -> list[tuple[int, Point]]:
     ]
 
 
-def box_corners(draft: Draft, item: Item) -> list[Point]:
-    """Return the corners of a Box, counter-clockwise from behind on the right; else none."""
+def size_corners(draft: Draft, item: Item) -> list[Point]:
+    """Return a rectangular prop's corners, counter-clockwise from the right rear; else none."""
     body = draft.body(item)
-    if item.kind != "prop" or body is None or not isinstance(draft.props[item.number], Box):
+    if item.kind != "prop" or body is None or draft.props[item.number].side_lengths is None:
         return []
     return [body.to_world(point) for point in body.shape.rims[0].points]
 
 
 def handle_at(desk: Desk, point: Point) -> Handle | None:
-    """Return the handle at a point [m]."""
+    """Return the uppermost handle at a point [m]."""
     hit = (h for h in reversed(handles(desk)) if desk.near(point, h.point, REACH))
     return next(hit, None)
 
@@ -141,6 +151,106 @@ def draw_handles(desk: Desk, scene: Scene) -> None:
             scene.polygon(square, fill=fill, stroke=color, width=2.0)
 
 
-def angle_of(center: Point, point: Point) -> float:
-    """Return the direction from one point to another, radians."""
-    return atan2(point[1] - center[1], point[0] - center[0])
+# -- drags ------------------------------------------------------------------------------------
+
+
+class Moving(Gesture):
+    """Moves the selection; the item that was grabbed snaps to the grid."""
+
+    def __init__(self, desk: Desk, grabbed: Item, start: Point) -> None:
+        """Begin where the button was pressed."""
+        self.desk, self.start = desk, start
+        self.draft, self.items = desk.draft, desk.selection
+        self.place = desk.draft.place(grabbed)
+
+    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
+        """Move the selection to the pointer."""
+        (x, y), (ax, ay) = self.place, self.start
+        goal = self.desk.snapped((x + point[0] - ax, y + point[1] - ay))
+        return self.draft.moved(self.items, Motion(by=(goal[0] - x, goal[1] - y)))
+
+
+class Turning(Gesture):
+    """Turns the selection about the middle of its ring, with Shift in notches."""
+
+    def __init__(self, desk: Desk, ring: Ring) -> None:
+        """Begin with the handle where it is."""
+        self.desk, self.ring = desk, ring
+        self.draft, self.items = desk.draft, desk.selection
+        pose = None if desk.only is None else desk.draft.pose(desk.only)
+        self.zero = ring.heading if pose is None else 0.0  # from where notches are counted
+
+    def to(self, point: Point, *, shift: bool) -> Draft:
+        """Turn the handle towards the pointer."""
+        step = NOTCH if shift else 1.0 if self.desk.snaps else 0.1
+        wanted = degrees(angle_of(self.ring.center, point) - self.zero)
+        angle = radians(round(wanted / step) * step) - (self.ring.heading - self.zero)
+        if abs(angle) < 1e-12:
+            return self.draft
+        return self.draft.moved(self.items, Motion(angle, self.ring.center))
+
+    @property
+    def remark(self) -> str:
+        """The heading of the one item that is selected."""
+        return "" if self.desk.only is None else turned(self.desk.draft, self.desk.only)
+
+
+class Cornering(Gesture):
+    """Moves a corner of an outline, a wall or the workspace; or adds one first."""
+
+    def __init__(self, desk: Desk, item: Item, number: int, *, new: bool = False) -> None:
+        """Begin with a corner; new: add one after it, and move that."""
+        self.desk, self.item = desk, item
+        self.draft = desk.draft
+        corners = list(desk.draft.corners(item) or ())
+        self.corner: int = number + 1 if new else number
+        if new:
+            corners.insert(self.corner, corners[number])
+        self.corners = corners
+
+    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
+        """Put the corner at the pointer."""
+        corners = self.corners.copy()
+        corners[self.corner] = self.desk.snapped(point)
+        return self.draft.with_corners(self.item, corners)
+
+    @property
+    def remark(self) -> str:
+        """The edges at the corner."""
+        k, corners = self.corner, self.desk.draft.corners(self.item) or ()
+        edges = [(k - 1, k)] if k or self.item.kind != "wall" else []
+        edges += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not edges else []
+        return "   ".join(stretch(corners[a], corners[b]) for a, b in edges)
+
+
+class Sizing(Gesture):
+    """Resizes a rectangular prop by a corner; the opposite corner stays."""
+
+    def __init__(self, desk: Desk, item: Item, number: int) -> None:
+        """Begin with a corner."""
+        self.desk, self.item, self.draft = desk, item, desk.draft
+        self.fixed = size_corners(desk.draft, item)[(number + 2) % 4]
+
+    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
+        """Put the corner at the pointer."""
+        k = self.item.number
+        prop = spanned(self.draft.props[k], self.fixed, self.desk.snapped(point))
+        return self.draft.with_prop(k, prop)
+
+    @property
+    def remark(self) -> str:
+        """The length and width."""
+        return size_of(self.desk.draft, self.item)
+
+
+def spanned(prop: Prop, a: Point, b: Point) -> Prop:
+    """Return a rectangular prop between two opposite corners, with the same heading."""
+    x, y, theta = prop.pose
+    c, s = cos(theta), sin(theta)
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    along, across = c * dx + s * dy, c * dy - s * dx
+    length, width = (tidy(max(abs(side), MIN_SIDE)) for side in (along, across))
+    along, across = (side / 2 if v >= 0 else -side / 2
+                     for side, v in ((length, along), (width, across)))  # fmt: skip
+    x, y = a[0] + c * along - s * across, a[1] + s * along + c * across
+    return prop.with_side_lengths(length, width).replace(pose=(tidy(x), tidy(y), theta))

@@ -1,4 +1,4 @@
-"""The keys of the editor: one table for what they do and for the page of help."""
+"""The keys of the editor: one table for commands and for the help."""
 
 from __future__ import annotations
 
@@ -69,16 +69,16 @@ GROUPS = (
     ("Tools", TOOLS),
     ("Change", EDIT),
     ("Look", VIEW),
-    ("Keep", (*FILE, *RUN)),
+    ("File", (*FILE, *RUN)),
     ("In a paused run", LIVE),
     ("Mouse", MOUSE),
 )
 
 
 def groups(*, live: bool) -> tuple[tuple[str, tuple[Key, ...]], ...]:
-    """Return the groups for the page of help; live: in a paused run."""
-    keep = ("Keep", (*LIVE, *FILE) if live else (*FILE, *RUN))
-    return (("Tools", TOOLS), ("Change", EDIT), ("Look", VIEW), keep, ("Mouse", MOUSE))
+    """Return the groups of the help; live: whether a paused run is edited."""
+    file = ("File", (*LIVE, *FILE) if live else (*FILE, *RUN))
+    return (("Tools", TOOLS), ("Change", EDIT), ("Look", VIEW), file, ("Mouse", MOUSE))
 
 
 _COMMON = {name: key for group in (TOOLS, EDIT, VIEW, FILE) for key in group for name in key.names}
@@ -87,7 +87,7 @@ _LIVE = {name: key for key in LIVE for name in key.names}
 
 
 def chord(code: int, modifiers: int) -> str:
-    """Return the name of a key with what is held beside it, as ``ctrl+shift+z``."""
+    """Return the name of a key with its modifiers, for example ``ctrl+shift+z``."""
     parts = []
     if modifiers & (pygame.KMOD_CTRL | pygame.KMOD_META):
         parts.append("ctrl")
@@ -97,9 +97,10 @@ def chord(code: int, modifiers: int) -> str:
 
 
 def action_of(name: str, character: str, *, live: bool) -> Key | None:
-    """Return the command that a key gives, or None.
+    """Return the command of a key, or None.
 
-    name: as `chord` returns it. character: what it types, which tells an = on any keyboard.
+    name: as `chord` returns it. character: the text that it types, which identifies = on every
+    keyboard. live: whether a paused run is edited.
     """
     if character == "=":
         return _COMMON["="]

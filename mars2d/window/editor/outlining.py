@@ -1,4 +1,4 @@
-"""The tools that draw obstacles: walls, polygons, rectangles."""
+"""The tools that draw outlines: walls, polygons, rectangles, the workspace."""
 
 from __future__ import annotations
 
@@ -8,14 +8,20 @@ from mars2d.core.plane import Outline, Point, rectangle
 from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.bodies import INK
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Draft, Item
-from mars2d.window.editor.handles import MARK, PAPER
-from mars2d.window.editor.tool import Maker, Making, Tool, sides, stretch
+from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.handles import MARK, PAPER, Handle, handle_at
+from mars2d.window.editor.item import Item
+from mars2d.window.editor.picking import edge_at, foot_on
+from mars2d.window.editor.readout import sides, stretch
+from mars2d.window.editor.select import Handling
+from mars2d.window.editor.tool import Maker, Making, Tool
 
-__all__ = ["DrawPolygon", "DrawRectangle", "DrawWall"]
+__all__ = ["DrawPolygon", "DrawRectangle", "DrawWall", "Workspace"]
 
 CLOSE = 10.0
-"""So many points beside the first corner a click closes a polygon."""
+"""A click this near to the first corner closes a polygon, points."""
+NEAR = 8.0
+"""A click this near to an edge of the workspace adds a corner, points."""
 
 
 class Chain(Tool):
@@ -33,20 +39,20 @@ class Chain(Tool):
         self.add(self.desk.snapped(point))
 
     def move(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """Follow the pointer with the next edge."""
+        """Draw the next edge to the pointer."""
         self.pointer = point
 
     def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
-        """Add a corner at a typed place."""
+        """Add a corner at a typed point."""
         self.add((x, y))
 
     def add(self, corner: Point) -> None:
-        """Add a corner, unless it is there already."""
+        """Add a corner, unless it is the same as the last one."""
         if not self.corners or corner != self.corners[-1]:
             self.corners.append(corner)
 
     def confirm(self) -> bool:
-        """Keep what was drawn, if it is enough."""
+        """Keep the outline if it has enough corners."""
         corners, self.corners = self.corners, []
         if len(corners) < self.least:
             return bool(corners)
@@ -56,26 +62,26 @@ class Chain(Tool):
         return True
 
     def made(self, corners: Outline) -> tuple[Draft, Item]:
-        """Return the draft with what was drawn, and that thing."""
+        """Return the draft with the outline, and its item."""
         raise NotImplementedError
 
     def back(self) -> bool:
-        """Take the last corner back."""
+        """Remove the last corner."""
         return bool(self.corners) and self.corners.pop() is not None
 
     def cancel(self) -> bool:
-        """Forget what was drawn."""
+        """Remove all corners."""
         corners, self.corners = self.corners, []
         return bool(corners)
 
     @property
     def next(self) -> Point | None:
-        """Where the next corner would be."""
+        """The place of the next corner."""
         return None if self.pointer is None else self.desk.snapped(self.pointer)
 
     @property
     def remark(self) -> str:
-        """The length and direction of the edge that is being drawn."""
+        """The length and direction of the next edge."""
         if not self.corners or self.next is None:
             return ""
         return stretch(self.corners[-1], self.next)
@@ -100,7 +106,7 @@ class DrawWall(Chain):
         return self.desk.draft.with_wall(corners)
 
     def cancel(self) -> bool:
-        """Keep the wall as far as it goes."""
+        """Keep the wall as far as it is drawn."""
         return self.confirm()
 
 
@@ -113,7 +119,7 @@ class DrawPolygon(Chain):
     least: ClassVar[int] = 3
 
     def press(self, point: Point, *, shift: bool) -> None:
-        """Add a corner; at the first one, close."""
+        """Add a corner; close the polygon at the first one."""
         if len(self.corners) > 2 and self._closes(point):
             self.confirm()
         else:
@@ -128,7 +134,7 @@ class DrawPolygon(Chain):
         return self.desk.draft.with_outline(corners)
 
     def draw(self, scene: Scene) -> None:
-        """Draw the area, too."""
+        """Draw the corners and the area."""
         place = self.next
         ring = [*self.corners, *([] if place is None else [place])]
         if self.corners and len(ring) > 2:
@@ -138,39 +144,47 @@ class DrawPolygon(Chain):
             scene.circle(self.corners[0], 0.0, stroke=MARK, width=2.0, pixels=8.0)
 
 
-class Across(Making):
-    """Draws a rectangle from corner to corner."""
+class Rectangle(Making):
+    """A drag from corner to corner that makes an obstacle; min_side: points."""
+
+    min_side: ClassVar[float] = 0.0
 
     def __init__(self, desk: Desk, start: Point) -> None:
         """Begin with a corner."""
         self.desk, self.draft, self.start = desk, desk.draft, desk.snapped(start)
 
-    @property
-    def area(self) -> Outline:
-        """The rectangle, of which nothing may be there yet."""
-        corners = None if self.item is None else self.desk.draft.corners(self.item)
-        return corners or ()
-
     def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
         """Put the opposite corner at the pointer."""
         (ax, ay), (bx, by) = self.start, self.desk.snapped(point)
-        if ax == bx or ay == by:
+        if min(abs(ax - bx), abs(ay - by)) <= self.desk.metres(self.min_side):
             self.item = None
             return self.draft
-        ring = rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by))
-        draft, self.item = self.draft.with_outline(ring)
+        draft, self.item = self.made(rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)))
         return draft
+
+    def made(self, ring: Outline) -> tuple[Draft, Item]:
+        """Return the draft with the rectangle, and its item."""
+        return self.draft.with_outline(ring)
+
+    @property
+    def remark(self) -> str:
+        """The length and width, "" if there is no rectangle yet."""
+        ring = None if self.item is None else self.desk.draft.corners(self.item)
+        if not ring:
+            return ""
+        (ax, ay), (bx, by) = ring[0], ring[2]
+        return sides(bx - ax, by - ay)
 
 
 class DrawRectangle(Maker):
     """Draws rectangular obstacles."""
 
     hint: ClassVar[str] = "Drag from corner to corner"
-    gesture: Across | None = None
+    gesture: Rectangle | None = None
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Begin with a corner."""
-        self.pressed, self.gesture = point, Across(self.desk, point)
+        self.pressed, self.gesture = point, Rectangle(self.desk, point)
 
     def move(self, point: Point, *, shift: bool) -> None:
         """Draw up to the pointer."""
@@ -178,16 +192,63 @@ class DrawRectangle(Maker):
         if self.gesture is not None:
             self.desk.drag(self.gesture, point, shift=shift)
 
-    @property
-    def remark(self) -> str:
-        """The size."""
-        if self.gesture is None or not self.gesture.area:
-            return ""
-        (ax, ay), (bx, by) = self.gesture.area[0], self.gesture.area[2]
-        return sides(bx - ax, by - ay)
-
     def draw(self, scene: Scene) -> None:
-        """Draw where the corner would be."""
+        """Draw the place of the first corner."""
         if self.pointer is not None and self.gesture is None:
             place = self.desk.snapped(self.pointer)
             scene.circle(place, 0.0, fill=PAPER, stroke=MARK, width=1.5, pixels=3.5)
+
+
+class WorkspaceRectangle(Rectangle):
+    """A drag from corner to corner that makes the workspace."""
+
+    min_side: ClassVar[float] = 2.0
+
+    def made(self, ring: Outline) -> tuple[Draft, Item]:
+        """Return the draft with the rectangle as its workspace."""
+        item = Item("workspace")
+        return self.draft.with_corners(item, ring), item
+
+
+class Workspace(Handling):
+    """Draws the workspace; moves, adds and removes its corners."""
+
+    hint: ClassVar[str] = "Drag corners; click an edge for a new one, Del removes one"
+
+    def __init__(self, desk: Desk) -> None:
+        """Select the workspace."""
+        super().__init__(desk)
+        self._hold()
+
+    def _hold(self) -> None:
+        corner = self.desk.corner
+        self.desk.select([Item("workspace")] if self.desk.draft.workspace is not None else [])
+        self.desk.corner = corner if self.desk.selection else None
+
+    def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
+        """Begin to drag a corner, or add one on an edge."""
+        desk, corners = self.desk, self.desk.draft.workspace
+        self.pressed = point
+        if corners is None:
+            self.gesture = WorkspaceRectangle(desk, point)
+            return
+        self._hold()
+        handle = handle_at(desk, point)
+        if handle is None:
+            k = edge_at(point, corners, desk.metres(NEAR))
+            if k is None:
+                desk.corner = None
+                return
+            foot = foot_on(point, corners[k], corners[(k + 1) % len(corners)])
+            handle = Handle("dot", k, foot)
+        self.take(handle, point)
+
+    def release(self, point: Point, *, shift: bool) -> None:
+        """End the drag."""
+        super().release(point, shift=shift)
+        self._hold()
+
+    def draw(self, scene: Scene) -> None:
+        """Draw the handles."""
+        self._hold()
+        super().draw(scene)

@@ -1,4 +1,4 @@
-"""The tools that put one thing after the other: robots, boxes, balls, beacons, waypoints."""
+"""The tools that place new items: robots, boxes, balls, beacons, waypoints."""
 
 from __future__ import annotations
 
@@ -16,87 +16,93 @@ from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.bodies import draw_prop, draw_robot
 from mars2d.scenario.robot import Robot
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Draft, Item, Motion, tidy
-from mars2d.window.editor.gestures import NOTCH, spanned
-from mars2d.window.editor.handles import MARK, angle_of
-from mars2d.window.editor.target import item_at
-from mars2d.window.editor.tool import Maker, Making, minus, sides
+from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.handles import MARK, NOTCH, spanned
+from mars2d.window.editor.item import Item, Motion, angle_of, tidy
+from mars2d.window.editor.picking import item_at
+from mars2d.window.editor.readout import size_of, turned
+from mars2d.window.editor.tool import Maker, Making
 
 __all__ = ["PlaceBall", "PlaceBeacon", "PlaceBox", "PlaceRobot", "PlaceWaypoint"]
 
 GHOST = faded(MARK, 0.7)
 
 
-class New(Making):
-    """Puts a new thing, which the drag shapes."""
+class Placing(Making):
+    """The drag that places a new item and shapes it."""
 
     def __init__(self, place: Place, start: Point) -> None:
-        """Begin where the button went down."""
+        """Begin where the button was pressed."""
         self.place, self.start, self.draft = place, place.desk.snapped(start), place.desk.draft
         self.begun = False
 
     def to(self, point: Point, *, shift: bool) -> Draft:
-        """Return the draft with the thing."""
+        """Return the draft with the new item."""
         end = point if self.begun else self.start
         draft, self.item = self.place.added(self.draft, self.start, end, shift=shift)
         return draft
 
 
 class Place(Maker):
-    """The base of them: a click puts a thing, a drag shapes it, if it has a shape."""
+    """The base of tools that place an item by a click, and shape it by a drag."""
 
-    gesture: New | None = None
+    gesture: Placing | None = None
 
     def press(self, point: Point, *, shift: bool) -> None:
-        """Put a thing."""
+        """Place an item."""
         self.pressed = point
-        self.gesture = New(self, point)
+        self.gesture = Placing(self, point)
         self.desk.drag(self.gesture, point, shift=shift)
 
     def move(self, point: Point, *, shift: bool) -> None:
-        """Shape it."""
+        """Shape the new item."""
         self.pointer = point
         if self.gesture is not None and (self.gesture.begun or self.dragged(point)):
             self.gesture.begun = True
             self.desk.drag(self.gesture, point, shift=shift)
 
     def put(self, x: float, y: float, heading: float | None) -> None:
-        """Put a thing at a typed place."""
+        """Place an item at a typed point."""
         draft, item = self.added(self.desk.draft, (x, y), (x, y), shift=False)
-        turned = draft.pose(item)
-        if heading is not None and turned is not None:
-            draft = draft.moved([item], Motion(heading - turned[2], (x, y)))
+        pose = draft.pose(item)
+        if heading is not None and pose is not None:
+            draft = draft.moved([item], Motion(heading - pose[2], (x, y)))
         self.desk.put(draft)
         self.desk.select([item])
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:
-        """Return a draft with one more thing, dragged from start to end, and that thing."""
+        """Return a draft with a new item that was dragged from start to end, and the item."""
         raise NotImplementedError
 
     def ghost(self, scene: Scene, place: Point) -> None:
-        """Draw what a click would put."""
+        """Draw the item that a click would place."""
         scene.circle(place, 0.0, fill=GHOST, pixels=5.0)
 
     def draw(self, scene: Scene) -> None:
-        """Draw what a click would put at the pointer."""
+        """Draw the item that a click would place at the pointer."""
         if self.gesture is None and self.pointer is not None:
             self.ghost(scene, self.desk.snapped(self.pointer))
 
+    @property
+    def new(self) -> Item | None:
+        """The item that the drag shapes."""
+        return self.gesture.item if self.gesture is not None and self.gesture.begun else None
+
 
 class PlaceRobot(Place):
-    """Puts robots, each like the one selected, or like the last one."""
+    """Places robots that are like the selected one, or like the last one."""
 
-    hint: ClassVar[str] = "Click puts a robot, a drag turns it; it is like the selected one"
+    hint: ClassVar[str] = "Click places a robot, a drag turns it; it is like the selected one"
 
     def model(self, draft: Draft) -> Robot:
-        """Return what the next robot is like."""
+        """Return the robot that the next one is a copy of."""
         chosen = next((i for i in reversed(self.desk.selection) if i.kind == "robot"), None)
         if chosen is not None and draft.holds(chosen):
             return draft.robots[chosen.number]
         return draft.robots[-1] if draft.robots else Robot()
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:
-        """Put a robot, its heading towards the pointer."""
+        """Place a robot that heads towards the pointer."""
         robot = self.model(draft)
         heading = robot.pose[2]
         if end != start:
@@ -112,74 +118,71 @@ class PlaceRobot(Place):
     @property
     def remark(self) -> str:
         """The heading."""
-        item = None if self.gesture is None or not self.gesture.begun else self.gesture.item
-        pose = None if item is None else self.desk.draft.pose(item)
-        return "" if pose is None else minus(f"{degrees(pose[2]):.4g}°")
+        return "" if self.new is None else turned(self.desk.draft, self.new)
 
 
-class PlaceBox(Place):
-    """Puts boxes."""
+class PlaceProp(Place):
+    """The base of tools that place props of one kind."""
 
-    hint: ClassVar[str] = "Click puts a box, a drag gives it its size"
+    kind: ClassVar[type[Prop]]
+
+    def ghost(self, scene: Scene, place: Point) -> None:
+        """Draw a hollow prop."""
+        draw_prop(scene, self.kind(), np.array((*place, 0.0)), MARK, hollow=True)
+
+    @property
+    def remark(self) -> str:
+        """The size."""
+        return "" if self.new is None else size_of(self.desk.draft, self.new)
+
+
+class PlaceBox(PlaceProp):
+    """Places boxes."""
+
+    kind: ClassVar[type[Prop]] = Box
+
+    hint: ClassVar[str] = "Click places a box, a drag gives it its size"
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
-        """Put a box between two corners."""
+        """Place a box between two corners."""
         corner = self.desk.snapped(end)
         if end == start or start[0] == corner[0] or start[1] == corner[1]:
             return draft.with_new_prop(Box(pose=(*start, 0.0)))
         return draft.with_new_prop(spanned(Box(), start, corner))
 
-    def ghost(self, scene: Scene, place: Point) -> None:
-        """Draw a hollow box."""
-        draw_prop(scene, Box(), np.array((*place, 0.0)), MARK, hollow=True)
 
-    @property
-    def remark(self) -> str:
-        """The size."""
-        prop = _new_prop(self)
-        return sides(prop.length, prop.width) if isinstance(prop, Box) else ""
+class PlaceBall(PlaceProp):
+    """Places balls."""
 
+    kind: ClassVar[type[Prop]] = Ball
 
-class PlaceBall(Place):
-    """Puts balls."""
-
-    hint: ClassVar[str] = "Click puts a ball, a drag gives it its size"
+    hint: ClassVar[str] = "Click places a ball, a drag gives it its size"
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
-        """Put a ball about its centre."""
+        """Place a ball with its centre at `start`."""
         x, y = self.desk.snapped(end)
         ball, radius = Ball(pose=(*start, 0.0)), hypot(x - start[0], y - start[1])
         sized = end != start and radius > 0
         return draft.with_new_prop(ball.replace(diameter=tidy(2 * radius)) if sized else ball)
 
-    def ghost(self, scene: Scene, place: Point) -> None:
-        """Draw a hollow ball."""
-        draw_prop(scene, Ball(), np.array((*place, 0.0)), MARK, hollow=True)
-
-    @property
-    def remark(self) -> str:
-        """The size."""
-        prop = _new_prop(self)
-        return f"diameter {prop.diameter:.3g} m" if isinstance(prop, Ball) else ""
-
 
 class PlaceBeacon(Place):
-    """Puts beacons."""
+    """Places beacons."""
 
-    hint: ClassVar[str] = "Click puts a beacon"
+    hint: ClassVar[str] = "Click places a beacon"
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
-        """Put a beacon where the pointer is."""
+        """Place a beacon at the pointer."""
         return draft.with_beacon(Beacon(at=self.desk.snapped(end)))
 
 
 class PlaceWaypoint(Place):
-    """Puts waypoints, each at the end of a robot's route."""
+    """Places waypoints, each at the end of a robot's route."""
 
-    hint: ClassVar[str] = "Click puts a waypoint for the robot in the ring; click another robot"
+    hint: ClassVar[str] = "Click places a waypoint for the robot in the ring; click another robot"
 
     def __init__(self, desk: Desk) -> None:
-        """Take the selected robot, or else the first one."""
+        """Start with the selected robot, or else the first one."""
         super().__init__(desk)
         owner = (i.number for i in desk.selection if i.kind in ("robot", "waypoint"))
         self._robot = next(owner, 0)
@@ -191,23 +194,23 @@ class PlaceWaypoint(Place):
         return item if self.desk.draft.holds(item) else None
 
     def press(self, point: Point, *, shift: bool) -> None:
-        """Put a waypoint, or take another robot."""
+        """Place a waypoint, or choose another robot."""
         under = item_at(self.desk, point)
         if under is not None and under.kind == "robot":
             self._robot = under.number
             self.desk.select([under])
         elif self.robot is None:
-            self.desk.say("waypoints are a robot's: first put one (R)", warns=True)
+            self.desk.say("waypoints belong to a robot: place one first (R)", warns=True)
         else:
             super().press(point, shift=shift)
 
     def put(self, x: float, y: float, heading: float | None) -> None:
-        """Put a waypoint at a typed place."""
+        """Place a waypoint at a typed point."""
         if self.robot is not None:
             super().put(x, y, heading)
 
     def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
-        """Put a waypoint where the pointer is."""
+        """Place a waypoint at the pointer."""
         return draft.with_waypoint(self._robot, self.desk.snapped(end))
 
     def draw(self, scene: Scene) -> None:
@@ -219,8 +222,3 @@ class PlaceWaypoint(Place):
             assert body is not None
             center, radius = body.bound
             scene.circle(center, radius, stroke=MARK, width=2.0, pixels=7.0)
-
-
-def _new_prop(tool: Place) -> Prop | None:
-    item = None if tool.gesture is None or not tool.gesture.begun else tool.gesture.item
-    return None if item is None else tool.desk.draft.props[item.number]

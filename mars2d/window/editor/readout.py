@@ -1,23 +1,21 @@
-"""What is said of the selection."""
+"""Measures in words: of the selection, of edges, of rectangles."""
 
 from __future__ import annotations
 
 from itertools import pairwise
 from math import degrees, hypot
 
-from mars2d.bodies.props import Ball, Box, Puck
-from mars2d.bodies.props.base import Prop
 from mars2d.core.errors import counted
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Item
-from mars2d.window.editor.tool import minus, sides
+from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.item import Item, angle_of
 
-__all__ = ["described"]
+__all__ = ["described", "minus", "sides", "size_of", "stretch", "turned"]
 
 
 def described(desk: Desk) -> list[str]:
-    """Return what is selected, where it is and how large, in lines."""
+    """Return lines about the selection: name, position, size."""
     draft, items = desk.draft, desk.selection
     if not items:
         return []
@@ -34,8 +32,9 @@ def described(desk: Desk) -> list[str]:
         lines.append(f"corner {desk.corner}   {_place(corners[desk.corner])}")
     else:
         lines.append(f"{counted(len(corners), 'corner')}, {_length(item, corners)}")
-    if item.kind == "prop":
-        lines += _size(draft.props[item.number])
+    size = size_of(draft, item)
+    if size:
+        lines.append(size)
     return [minus(line) for line in lines]
 
 
@@ -44,15 +43,41 @@ def _place(point: Point) -> str:
 
 
 def _length(item: Item, corners: Outline) -> str:
-    """Return how long a wall is, or the way round an outline."""
+    """Return the length of a wall, or of the way round an outline."""
     edges = pairwise(corners) if item.kind == "wall" else edges_of(corners)
     length = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in edges)
     return f"{length:.4g} m {'long' if item.kind == 'wall' else 'round'}"
 
 
-def _size(prop: Prop) -> list[str]:
-    if isinstance(prop, Box):
-        return [sides(prop.length, prop.width)]
-    if isinstance(prop, (Ball, Puck)):
-        return [f"diameter {prop.diameter:.4g} m"]
-    return []
+def size_of(draft: Draft, item: Item) -> str:
+    """Return the size of a rectangular or round prop, "" for other items."""
+    body = draft.body(item)
+    if item.kind != "prop" or body is None:
+        return ""
+    lengths = draft.props[item.number].side_lengths
+    if lengths is not None:
+        return sides(*lengths)
+    return f"diameter {2 * body.bound[1]:.4g} m" if body.is_disc else ""
+
+
+def turned(draft: Draft, item: Item) -> str:
+    """Return the heading of a robot or prop, "" for other items."""
+    pose = draft.pose(item)
+    return "" if pose is None else minus(f"{degrees(pose[2]):.4g}°")
+
+
+def stretch(a: Point, b: Point) -> str:
+    """Return the length and direction of an edge."""
+    length = hypot(b[0] - a[0], b[1] - a[1])
+    turn = round(degrees(angle_of(a, b)), 1) + 0.0
+    return minus(f"{length:.4g} m   {turn:g}°") if length else ""
+
+
+def sides(length: float, width: float) -> str:
+    """Return the length and width of a rectangle."""
+    return f"{length:.4g} m x {width:.4g} m"
+
+
+def minus(text: str) -> str:
+    """Return a text with true minus signs in place of hyphens."""
+    return text.replace("-", "\N{MINUS SIGN}")

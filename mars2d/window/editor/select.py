@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
-from math import degrees
 from typing import ClassVar
 
-from mars2d.bodies.props.box import Box
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point, rectangle
 from mars2d.core.scene import Scene, faded
-from mars2d.window.editor.desk import Gesture
-from mars2d.window.editor.draft import Item, Motion
-from mars2d.window.editor.gestures import Cornering, Moving, Sizing, Turning
-from mars2d.window.editor.handles import MARK, Handle, draw_handles, handle_at, ring_of
-from mars2d.window.editor.target import item_at, items_within
-from mars2d.window.editor.tool import Tool, minus, sides, stretch
+from mars2d.window.editor.handles import (
+    MARK,
+    Cornering,
+    Handle,
+    Moving,
+    Sizing,
+    Turning,
+    draw_handles,
+    handle_at,
+    ring_of,
+)
+from mars2d.window.editor.item import Item, Motion
+from mars2d.window.editor.picking import item_at, items_within
+from mars2d.window.editor.tool import Tool
 
-__all__ = ["Select", "Taking"]
+__all__ = ["Handling", "Select"]
 
 
-class Taking(Tool):
-    """The base of tools that take hold of things by their handles."""
+class Handling(Tool):
+    """The base of tools that drag handles."""
 
     puts: ClassVar[bool] = False
-    gesture: Gesture | None = None
     moved = False
 
     def move(self, point: Point, *, shift: bool) -> None:
@@ -34,15 +39,15 @@ class Taking(Tool):
             self.desk.drag(self.gesture, point, shift=shift)
 
     def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """Keep what the drag has made."""
-        corner = self.gesture.number if isinstance(self.gesture, Cornering) else None
+        """End the drag, and keep what it has made."""
+        corner = None if self.gesture is None else self.gesture.corner
         self.gesture, self.pressed, self.moved = None, None, False
         self.desk.settle()
         if corner is not None and self.desk.only is not None:
             self.desk.corner = corner
 
     def cancel(self) -> bool:
-        """Put back what is being dragged."""
+        """Cancel the drag."""
         busy = self.gesture is not None
         self.gesture, self.pressed, self.moved = None, None, False
         return self.desk.drop() or busy
@@ -59,12 +64,12 @@ class Taking(Tool):
             new = handle.kind == "dot"
             self.gesture = Cornering(desk, item, handle.number, new=new)
             if new:
-                self.moved = True  # a click on a dot adds the corner as well
+                self.moved = True  # a mere click on a dot adds the corner, too
                 desk.drag(self.gesture, handle.point, shift=False)
-            desk.corner = self.gesture.number
+            desk.corner = self.gesture.corner
 
     def put(self, x: float, y: float, heading: float | None) -> None:
-        """Put what is selected at a place: the corner, a body's pose, an outline's first corner."""
+        """Put the selection at a point: its corner, a body's pose, or an outline's first corner."""
         desk, draft = self.desk, self.desk.draft
         if not desk.selection:
             raise InputError("nothing is selected")
@@ -84,31 +89,9 @@ class Taking(Tool):
         """Draw the handles."""
         draw_handles(self.desk, scene)
 
-    @property
-    def remark(self) -> str:
-        """The size of what is being dragged, or how far it turns."""
-        item, gesture = self.desk.only, self.gesture
-        if isinstance(gesture, Turning):
-            ring = ring_of(self.desk)
-            return "" if ring is None or item is None else self._heading(item)
-        if isinstance(gesture, Sizing) and item is not None:
-            box = self.desk.draft.props[item.number]
-            return sides(box.length, box.width) if isinstance(box, Box) else ""
-        corners = None if item is None else self.desk.draft.corners(item)
-        if isinstance(gesture, Cornering) and corners is not None and item is not None:
-            k = gesture.number
-            edges = [(k - 1, k)] if k or item.kind != "wall" else []
-            edges += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not edges else []
-            return "   ".join(stretch(corners[a], corners[b]) for a, b in edges)
-        return ""
 
-    def _heading(self, item: Item) -> str:
-        pose = self.desk.draft.pose(item)
-        return "" if pose is None else minus(f"{degrees(pose[2]):.4g}°")
-
-
-class Select(Taking):
-    """Selects and moves."""
+class Select(Handling):
+    """Selects and moves items."""
 
     hint: ClassVar[str] = "Click or drag to select; drag moves, the ring turns"
     _band: tuple[Point, Point] | None = None
@@ -116,7 +99,7 @@ class Select(Taking):
     _clicked: Item | None = None
 
     def press(self, point: Point, *, shift: bool) -> None:
-        """Take a handle, or a thing, or begin to draw a rectangle round things."""
+        """Begin to drag a handle, an item, or a rectangle round items."""
         desk = self.desk
         handle = handle_at(desk, point)
         if handle is not None:
@@ -141,14 +124,14 @@ class Select(Taking):
             self.gesture = Moving(desk, item, point)
 
     def move(self, point: Point, *, shift: bool) -> None:
-        """Drag what was taken, or select what lies within the rectangle."""
+        """Drag the handle or item, or select the items within the rectangle."""
         super().move(point, shift=shift)
         if self._band is not None:
             self._band = self._band[0], point
             self.desk.select([*self._kept, *items_within(self.desk, *self._band)])
 
     def release(self, point: Point, *, shift: bool) -> None:
-        """End the drag; a click on one of several things selects it alone."""
+        """End the drag; a click on one of several selected items selects it alone."""
         alone = self._clicked if not self.moved and not shift else None
         super().release(point, shift=shift)
         if alone is not None and len(self.desk.selection) > 1:
@@ -156,12 +139,12 @@ class Select(Taking):
         self._band = self._clicked = None
 
     def cancel(self) -> bool:
-        """Put back what is being dragged."""
+        """Cancel the drag."""
         band, self._band = self._band, None
         return super().cancel() or band is not None
 
     def draw(self, scene: Scene) -> None:
-        """Draw the handles, and the rectangle that is being drawn."""
+        """Draw the handles and the rectangle."""
         super().draw(scene)
         if self._band is not None:
             (ax, ay), (bx, by) = self._band

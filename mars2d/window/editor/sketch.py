@@ -1,21 +1,28 @@
-"""A draft as it is drawn."""
+"""How a draft is drawn: its frame, what is selected in it, and what is wrong with it."""
 
 from __future__ import annotations
 
 import copy
+from collections.abc import Iterable
 
+from mars2d.core.scene import Scene, faded
+from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.handles import MARK, PAPER
+from mars2d.window.editor.item import Item
 
-__all__ = ["Sketch"]
+__all__ = ["Sketch", "draw_culprits", "draw_selected"]
+
+RED = LIGHT.error.ink
 
 
 class Sketch:
-    """Returns frames of one draft after the other.
+    """Makes frames of drafts that follow each other.
 
-    Their scenario stays the same object as long as nothing has changed but robots, props,
-    waypoints and beacons: so what stands still need not be drawn again while they are dragged.
+    The frame's scenario is the same object as long as only robots, props, waypoints and beacons
+    change, so that the unchanged ground need not be drawn again while they are dragged.
     """
 
     def __init__(self) -> None:
@@ -25,12 +32,12 @@ class Sketch:
         self._scenario: Scenario | None = None
 
     def frame(self, draft: Draft, *, bare: bool) -> Frame:
-        """Return the instant before the start; bare: without add-ons that no mouse can draw."""
+        """Return the instant before the start; bare: with only the add-ons that can be edited."""
         if self._scenario is None or draft is not self._draft or bare is not self._bare:
             fresh = copy.copy(draft.bare_sketch if bare else draft.sketch)
             if self._scenario is None or not self._same_ground(draft, bare=bare):
                 self._scenario = fresh
-            else:  # a copy of our own, which nobody else has
+            else:  # a copy that nobody else holds
                 self._scenario.__dict__.clear()
                 self._scenario.__dict__.update(fresh.__dict__)
             self._draft, self._bare = draft, bare
@@ -47,3 +54,37 @@ class Sketch:
             and last.walls is draft.walls
             and last.workspace is draft.workspace
         )
+
+
+def draw_selected(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
+    """Draw the outlines of selected items."""
+    for item in items:
+        _outline(draft, item, scene, PAPER, 4.5)
+        _outline(draft, item, scene, MARK, 2.2)
+
+
+def draw_culprits(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
+    """Draw in red the items that something is wrong with."""
+    for item in items:
+        if draft.holds(item):
+            _outline(draft, item, scene, RED, 3.0, faded(RED, 0.3))
+
+
+def _outline(
+    draft: Draft, item: Item, scene: Scene, stroke: str, width: float, fill: str | None = None
+) -> None:
+    corners, body = draft.corners(item), draft.body(item)
+    if body is not None:
+        for rim in body.shape.rims:
+            points = [body.to_world(point) for point in rim.points]
+            if rim.radius:
+                scene.circle(points[0], rim.radius, stroke=stroke, fill=fill, width=width)
+            else:
+                scene.polygon(points, stroke=stroke, fill=fill, width=width)
+    elif corners is None:
+        scene.circle(draft.place(item), 0.0, stroke=stroke, width=width, pixels=9.0)
+    elif item.kind == "wall" or len(corners) == 2:
+        scene.line(corners, stroke=stroke, width=width)
+    else:
+        inside = None if item.kind == "workspace" else fill
+        scene.polygon(corners, stroke=stroke, fill=inside, width=width)

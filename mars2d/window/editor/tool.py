@@ -1,110 +1,92 @@
-"""What a tool is: what the mouse does while it is chosen."""
+"""The base of the editor's tools, which say what the mouse does."""
 
 from __future__ import annotations
 
-from math import degrees, hypot
 from typing import ClassVar
 
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
 from mars2d.window.editor.desk import Desk, Gesture
-from mars2d.window.editor.draft import Item
-from mars2d.window.editor.handles import angle_of
+from mars2d.window.editor.item import Item
 
-__all__ = ["Maker", "Making", "Tool", "minus", "sides", "stretch"]
+__all__ = ["Maker", "Making", "Tool"]
 
 CLICK = 5.0
-"""A press of the mouse that moves by less, in points, is a click."""
+"""A press that moves by less than this is a click, points."""
 
 
 class Tool:
-    """The base of all tools: the mouse at points of the world, metres; a few keys.
+    """The base of all tools: methods for the mouse, at points of the world [m], and a few keys.
 
-    hint: what to do, in one line. puts: whether it makes new things.
+    hint: a line that says what to do. puts: whether the tool makes new items.
     """
 
     hint: ClassVar[str] = ""
     puts: ClassVar[bool] = True
+    gesture: Gesture | None = None
 
     def __init__(self, desk: Desk) -> None:
-        """Take the desk to work at."""
+        """Start with nothing pressed."""
         self.desk = desk
         self.pointer: Point | None = None
         self.pressed: Point | None = None
 
     def press(self, point: Point, *, shift: bool) -> None:
-        """Do what the mouse's left button does when it goes down."""
+        """Press the left button."""
 
     def move(self, point: Point, *, shift: bool) -> None:
-        """Follow the mouse, be its button down or not."""
+        """Move the mouse, with or without the button."""
 
     def release(self, point: Point, *, shift: bool) -> None:
-        """Do what is done when the button goes up."""
+        """Release the button."""
 
     def put(self, x: float, y: float, heading: float | None) -> None:
-        """Do at a typed place what a click does; heading: in radians, if there is one."""
+        """Do what a click does at a typed point; heading: radians, None if none was typed."""
 
     def confirm(self) -> bool:
-        """Do what Enter and the right button do; return whether there was anything to do."""
+        """Handle Enter and the right button; return whether there was anything to do."""
         return False
 
     def back(self) -> bool:
-        """Take one corner back; return whether there was one."""
+        """Remove the last corner; return whether there was one."""
         return False
 
     def cancel(self) -> bool:
-        """Leave what was begun; return whether there was anything."""
+        """Cancel a drag; return whether there was one."""
         return self.desk.drop()
 
     def draw(self, scene: Scene) -> None:
-        """Draw what is about to be."""
+        """Draw a preview, or handles."""
 
     @property
     def remark(self) -> str:
-        """What there is to measure, as ``1.50 m, 90°``."""
-        return ""
+        """A measure to show beside the pointer."""
+        return "" if self.gesture is None else self.gesture.remark
 
     def dragged(self, point: Point) -> bool:
-        """Return whether the pointer has moved since the button went down."""
+        """Return whether the pointer has moved since the button was pressed."""
         return self.pressed is not None and not self.desk.near(self.pressed, point, CLICK)
 
 
 class Making(Gesture):
-    """A drag that makes a thing; item: that thing, while there is one."""
+    """A drag that makes an item; item: None while there is none."""
 
     item: Item | None = None
 
 
 class Maker(Tool):
-    """The base of tools whose drag makes a thing."""
+    """The base of tools whose drag makes an item."""
 
     gesture: Making | None = None
 
     def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """Keep it, and select it."""
+        """Keep the new item, and select it."""
         gesture, self.gesture, self.pressed = self.gesture, None, None
         self.desk.settle()
         if gesture is not None and gesture.item is not None:
             self.desk.select([gesture.item])
 
     def cancel(self) -> bool:
-        """Take it away again."""
+        """Remove the new item."""
         busy, self.gesture, self.pressed = self.gesture is not None, None, None
         return self.desk.drop() or busy
-
-
-def stretch(a: Point, b: Point) -> str:
-    """Return how long an edge is, and where it points."""
-    length = hypot(b[0] - a[0], b[1] - a[1])
-    turn = round(degrees(angle_of(a, b)), 1) + 0.0
-    return minus(f"{length:.4g} m   {turn:g}°") if length else ""
-
-
-def sides(length: float, width: float) -> str:
-    """Return how long and wide a rectangle is."""
-    return f"{length:.4g} m x {width:.4g} m"
-
-
-def minus(text: str) -> str:
-    """Return a text of numbers with true minus signs."""
-    return text.replace("-", "\N{MINUS SIGN}")

@@ -1,4 +1,4 @@
-"""Whether a draft is a scenario, and if not, in words what is wrong and with whom."""
+"""Whether a draft is a valid scenario; if not, what is wrong, and with which items."""
 
 from __future__ import annotations
 
@@ -15,22 +15,23 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Outline, outside_polygon
 from mars2d.scenario import starts
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.draft import Draft, Item, flaw
-from mars2d.window.editor.target import inside
+from mars2d.window.editor.draft import Draft, flaw
+from mars2d.window.editor.item import Item
+from mars2d.window.editor.picking import inside
 
 __all__ = ["Fault", "Judge", "Verdict", "judge"]
 
-MOST = 50
-"""So many faults are looked for."""
-PATIENCE = 0.1
-"""During a drag a draft is judged no sooner than this after the last time, seconds."""
-SHARE = 8.0
-"""Nor sooner than after so many times as long as that took."""
+MAX_FAULTS = 50
+"""The search stops after this many faults."""
+MIN_INTERVAL = 0.1
+"""The shortest time between two judgements during a drag, seconds."""
+MIN_INTERVAL_COSTS = 8.0
+"""The same as a multiple of the time that the last judgement took."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing that is wrong: in words, and the things it is wrong with."""
+    """A fault in words, and the items that it concerns."""
 
     text: str
     culprits: tuple[Item, ...] = ()
@@ -38,14 +39,14 @@ class Fault:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The scenario that a draft is, or what is wrong with it."""
+    """The scenario of a draft, None if the draft is not valid; and its faults."""
 
     scenario: Scenario | None
     faults: tuple[Fault, ...] = ()
 
     @property
     def text(self) -> str:
-        """What is wrong, in one line; empty if nothing is."""
+        """The faults in one line, "" if there are none."""
         if not self.faults:
             return ""
         more = len(self.faults) - 1
@@ -54,12 +55,12 @@ class Verdict:
 
     @property
     def culprits(self) -> frozenset[Item]:
-        """All things that something is wrong with."""
+        """All items that something is wrong with."""
         return frozenset(item for fault in self.faults for item in fault.culprits)
 
 
 def judge(draft: Draft) -> Verdict:
-    """Return what a draft is worth. What the Scenario accepts and can be run is sound."""
+    """Return the verdict on a draft: the Scenario itself decides whether it is valid."""
     faults = list(_flaws(draft))
     if faults:
         return Verdict(None, tuple(faults))
@@ -68,27 +69,24 @@ def judge(draft: Draft) -> Verdict:
     try:
         scenario = draft.scenario()
     except Mars2dError as error:
-        found = tuple(fault for fault, _ in zip(_misplaced(draft), range(MOST), strict=False))
+        found = tuple(fault for fault, _ in zip(_misplaced(draft), range(MAX_FAULTS), strict=False))
         return Verdict(None, found or (Fault(str(error)),))
     stray = tuple(_stray(draft))
     return Verdict(None if stray else scenario, stray)
 
 
 class Judge:
-    """Judges drafts that change all the time, and each only once.
-
-    verdict: the last one.
-    """
+    """Judges drafts as they change, each only once; verdict: the last verdict."""
 
     def __init__(self, draft: Draft) -> None:
-        """Judge a first draft."""
+        """Judge the first draft."""
         self.verdict = judge(draft)
         self._draft, self._when, self._cost = draft, 0.0, 0.0
 
     def of(self, draft: Draft, *, at_once: bool = True) -> Verdict:
-        """Return the verdict on a draft; if that has time, perhaps the one before."""
+        """Return the verdict on a draft; without `at_once` it may be that on an earlier draft."""
         now = time.perf_counter()
-        wait = 0.0 if at_once else max(PATIENCE, SHARE * self._cost)
+        wait = 0.0 if at_once else max(MIN_INTERVAL, MIN_INTERVAL_COSTS * self._cost)
         if draft is not self._draft and now - self._when >= wait:
             self.verdict, self._draft = judge(draft), draft
             self._when = time.perf_counter()
@@ -97,7 +95,7 @@ class Judge:
 
 
 def _flaws(draft: Draft) -> Iterator[Fault]:
-    """Find outlines that are none."""
+    """Find invalid outlines."""
     for i, outline in enumerate(draft.outlines):
         wrong = flaw(outline, f"obstacle {i}")
         if wrong is not None:
@@ -115,7 +113,7 @@ def _flaws(draft: Draft) -> Iterator[Fault]:
 
 
 def _misplaced(draft: Draft) -> Iterator[Fault]:
-    """Find bodies that start where they can't, as the Scenario sees it."""
+    """Find bodies that start where the Scenario does not allow it."""
     items = [item for item in draft.items() if item.kind in ("robot", "prop")]
     items.sort(key=lambda item: item.kind == "prop")  # as in Scenario.bodies
     bodies = [body for item in items if (body := draft.body(item)) is not None]
@@ -125,7 +123,7 @@ def _misplaced(draft: Draft) -> Iterator[Fault]:
 
 
 def _outside(draft: Draft, items: list[Item], bodies: list[Rigid]) -> Iterator[Fault]:
-    """Find robots outside the workspace, and whatever stands in its wall."""
+    """Find robots outside the workspace, and bodies in its wall."""
     base, workspace = draft.base, draft.workspace
     if workspace is None or base.on_exit == "ignore":
         return
@@ -170,7 +168,7 @@ def _in_obstacles(draft: Draft, items: list[Item], bodies: list[Rigid]) -> Itera
 
 
 def _obstacles(draft: Draft) -> Iterator[tuple[Outline, Item | None]]:
-    """Return what stands in the way, with the thing that was drawn, if it was."""
+    """Return the obstacles with their items; None for those that other add-ons make."""
     mine: set[Outline] = set()
     for i, outline in enumerate(draft.outlines):
         mine.add(outline)
@@ -185,7 +183,7 @@ def _obstacles(draft: Draft) -> Iterator[tuple[Outline, Item | None]]:
 
 
 def _overlapping(draft: Draft, items: list[Item], bodies: list[Rigid]) -> Iterator[Fault]:
-    """Find bodies in each other, unless a hinge joins them."""
+    """Find bodies that overlap, unless a hinge joins them."""
     joined = draft.sketch.joined
     centers = np.array([body.bound[0] for body in bodies])
     radii = np.array([body.bound[1] for body in bodies])
@@ -203,7 +201,7 @@ def _overlapping(draft: Draft, items: list[Item], bodies: list[Rigid]) -> Iterat
 
 
 def _depth(a: Rigid, b: Rigid, of_bounds: float) -> float:
-    """Return about how deep two bodies overlap, metres; of_bounds: the circles round them."""
+    """Return about how deep two bodies overlap, metres; of_bounds: the same for their bounds."""
     if a.is_disc and b.is_disc:
         return of_bounds
     import shapely

@@ -8,21 +8,25 @@ from mars2d.core.errors import Mars2dError
 from mars2d.output.raster.theme import theme_of
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.desktop import desktop_scale, opening_size
-from mars2d.window.display import PICTURES_A_SECOND, open_window, show_drawn, started_display
+from mars2d.window.display import (
+    PICTURES_A_SECOND,
+    Preferences,
+    open_window,
+    show_drawn,
+    started_display,
+)
 from mars2d.window.editor.editor import Editor
-from mars2d.window.icon import icon
-from mars2d.window.preferences import Preferences
 
 __all__ = ["EditorWindow"]
 
-REST = 100
-"""Without anything to do it looks again after so many milliseconds."""
+IDLE_WAIT = 100
+"""How long to wait for an event before the editor is drawn again, milliseconds."""
 
 
 class EditorWindow:
-    """Shows an editor until it is left; F5 runs what was saved, and comes back.
+    """Shows an editor until it is left; F5 runs the saved file in between.
 
-    size: points, at first. preferences: how it looks.
+    size: of the window at first, points. preferences: how it looks.
     """
 
     def __init__(
@@ -38,7 +42,7 @@ class EditorWindow:
         editor.painter.theme = theme_of(dark=likes.dark)
 
     def run(self) -> None:
-        """Open the window and wait until it is left. Raises InputError without a display."""
+        """Open the window, and return when it is left. Raises InputError without a display."""
         with started_display():
             self.editor.scale = desktop_scale()
             self.size = opening_size(self.size, self.editor.scale)
@@ -46,23 +50,23 @@ class EditorWindow:
             self._loop()
 
     def _show(self) -> None:
-        open_window(self.size, icon(self.editor.painter))
+        open_window(self.size, self.editor.painter)
 
     def _loop(self) -> None:
         clock, editor = pygame.time.Clock(), self.editor
-        while not editor.done:
+        while not editor.dialogs.done:
             pygame.display.set_caption(f"{editor.title} - MARS2D")
             surface = pygame.display.get_surface()
             assert surface is not None
             self.draw(surface)
             show_drawn()
             clock.tick(PICTURES_A_SECOND)
-            for event in (pygame.event.wait(REST), *pygame.event.get()):
+            for event in (pygame.event.wait(IDLE_WAIT), *pygame.event.get()):
                 if event.type == pygame.QUIT:
                     self._quit()
                 else:
                     editor.handle(event)
-            if editor.to_run is not None:
+            if editor.dialogs.to_run is not None:
                 self._play()
 
     def draw(self, surface: pygame.Surface) -> None:
@@ -70,20 +74,20 @@ class EditorWindow:
         self.editor.draw(surface)
 
     def _quit(self) -> None:
-        """Leave; asked a second time, without asking back."""
-        asked = self.editor.prompt is not None
+        """Close the editor; without a question the second time."""
+        asked = self.editor.dialogs.prompt is not None
         if asked:
-            self.editor.done = True
+            self.editor.dialogs.done = True
         else:
-            self.editor.close()
+            self.editor.dialogs.leave()
 
     def _play(self) -> None:
-        """Run the file in a window, and come back."""
+        """Run the file in a window, then open the editor's window again."""
         from mars2d.window.show import show_experiment
 
         editor, surface = self.editor, pygame.display.get_surface()
-        assert editor.to_run is not None
-        path, editor.to_run = editor.to_run, None
+        path, editor.dialogs.to_run = editor.dialogs.to_run, None
+        assert path is not None
         size = self.size if surface is None else surface.get_size()
         try:
             experiment = open_experiment(path)

@@ -32,7 +32,7 @@ PRELOADED = (
     "mars2d.addons.maps.dxf",
     "mars2d.addons.maps.svg",
     "mars2d.output.films.film",
-    "mars2d.study.tournament.playing",
+    "mars2d.study.tournament.tournament",
     "mars2d.window.show",
     "matplotlib.backends.backend_agg",
     "scipy.io",

@@ -1,4 +1,4 @@
-"""A tournament as one HTML page: its table, who beat whom, and a replay of each match."""
+"""A tournament as one HTML page: league table, who beat whom, and a replay of each match."""
 
 from __future__ import annotations
 
@@ -7,30 +7,32 @@ import zlib
 from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
 
-from mars2d.output.pages.replay import page_script, page_style, player, replay_data
+from mars2d.output.pages.replay import page_script, page_style, player
 from mars2d.output.pages.replay.template import colors, filled, policy
-from mars2d.study.tournament.page.facts import facts
-from mars2d.study.tournament.page.matches import choices, details, match_table
-from mars2d.study.tournament.page.matrix import matrix, shades
-from mars2d.study.tournament.page.standings import standing_tables
-from mars2d.study.tournament.page.text import clean, escaped
+from mars2d.study.tournament.league import Tournament
+from mars2d.study.tournament.match import Played
+from mars2d.study.tournament.page.tables import (
+    choices,
+    details,
+    match_table,
+    matrix,
+    shades,
+    standing_tables,
+)
+from mars2d.study.tournament.page.words import clean, escaped, facts
 
-if TYPE_CHECKING:
-    from mars2d.study.tournament.match import Played
-    from mars2d.study.tournament.tournament import Tournament
+__all__ = ["MAX_REPLAYS_SIZE", "league_page"]
 
-__all__ = ["LARGEST", "league_page", "replay_data"]
-
-LARGEST = 40_000_000
-"""Characters of all replays of a page at most: a larger one is slow to load."""
+MAX_REPLAYS_SIZE = 40_000_000
+"""How many characters the replays of a page may have; a larger page is slow to load."""
 
 
 def league_page(tournament: Tournament) -> str:
-    """Return a tournament as the text of an HTML file, the same text for the same tournament.
+    """Return a tournament as the text of an HTML file; equal tournaments give equal texts.
 
-    Replays are left out from the first one on that makes it larger than `LARGEST`, and it says so.
+    From the first replay on that would exceed `MAX_REPLAYS_SIZE`, replays are left out; the page
+    says so.
     """
     matches = tournament.matches
     kept = _kept(matches)
@@ -58,17 +60,17 @@ def league_page(tournament: Tournament) -> str:
 
 
 def _kept(matches: Sequence[Played]) -> int:
-    """Return the number of the first matches whose replays fit into a page."""
+    """Return how many matches, from the first, have replays that fit into a page."""
     size = 0
     for count, played in enumerate(matches):
         size += len(played.replay)
-        if size > LARGEST:
+        if size > MAX_REPLAYS_SIZE:
             return count
     return len(matches)
 
 
 def _player(title: str, inside: str) -> str:
-    """Return the page that plays a replay, packed: what stands before its data, and what after."""
+    """Return the page that plays a replay, packed: the parts before and after its data."""
     parts = player(title, "\0", inside).split("\0")
     return " ".join(base64.b64encode(zlib.compress(part.encode(), 9)).decode() for part in parts)
 

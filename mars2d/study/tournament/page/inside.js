@@ -1,19 +1,19 @@
-// Runs before the player of a replay where it stands in the page of a tournament.
+// Runs before a replay's player inside the page of a tournament.
 (() => {
   "use strict";
   const outside = window.parent, dark = document.documentElement.classList.contains("dark");
   const asked = window.matchMedia.bind(window);
 
-  // The player takes itself for a page of its own, which plays at once, as dark as the one outside.
+  // Make the player behave like a page of its own, which plays at once with the outer page's theme.
   window.parent = window;
   window.matchMedia = (query) =>
     query.includes("color-scheme") ? { matches: dark, addEventListener() {} } : asked(query);
 
-  // What is played stands outside already.
+  // The outer page shows the title already.
   document.querySelector(".what").hidden = true;
   document.querySelector(".tools").style.marginLeft = "auto";
 
-  // Keys that the player has no use for are told outside: Escape, up and down.
+  // Pass keys that the player does not use to the outer page: Escape, up and down.
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
     if (document.querySelector("dialog[open]")) return;

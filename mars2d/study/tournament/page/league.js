@@ -1,4 +1,4 @@
-// The page of a tournament: its tables are there, here they are sorted, chosen from and replayed.
+// The page of a tournament: sorts its tables, filters its matches and plays its replays.
 (() => {
 "use strict";
 
@@ -21,7 +21,7 @@ setDark(scheme.matches);
 
 const collator = new Intl.Collator("en", { numeric: true, sensitivity: "base" });
 
-// What a cell is sorted by: a number, or words; null where there is a dash.
+// The sort key of a cell: a number, a text, or null for a dash.
 function valueOf(cell) {
   const value = cell.dataset.value ?? cell.textContent.trim();
   if (value === "\u2013" || value === "") return null;
@@ -33,7 +33,7 @@ function compared(a, b) {
   return collator.compare(a, b);
 }
 
-// Sort a table by a column: first upwards, on the second click downwards; dashes stay at the end.
+// Sort a table by a column: ascending first, descending on the second click; dashes stay last.
 function sort(header) {
   const table = header.closest("table"), body = table.tBodies[0], column = header.cellIndex;
   const down = header.getAttribute("aria-sort") === "ascending";
@@ -84,7 +84,7 @@ find("all").addEventListener("click", () => {
 });
 choose();
 
-// A cell of the matrix chooses its matches. Arrows go from cell to cell: one of them is a tab stop.
+// A cell of the matrix selects its matches. Arrow keys move between cells; only one is a tab stop.
 const cells = all("table.matrix button");
 const grid = all("table.matrix tbody tr").map((row) => [...row.cells].map((cell) => cell.firstChild));
 cells.forEach((cell, k) => (cell.tabIndex = k ? -1 : 0));
@@ -94,7 +94,7 @@ function step(cell, down, right) {
   for (let k = 1; ; k++) {
     const there = grid[y + k * down]?.[x + k * right];
     if (!there || there.nodeName === "SPAN") return;
-    if (there.nodeName !== "BUTTON") continue; // nobody has played there
+    if (there.nodeName !== "BUTTON") continue; // an empty cell
     cells.forEach((each) => (each.tabIndex = each === there ? 0 : -1));
     there.focus();
     return;
@@ -127,13 +127,13 @@ async function unpacked(text) {
   return new Response(stream).text();
 }
 
-// A replay is a page in a frame that has no part in this one: the player, with the match's data.
+// A replay is a page in a sandboxed frame: the player, with the match's data.
 async function frameOf(data) {
   const [before, after] = await Promise.all(find("player").textContent.split(" ").map(unpacked));
   const frame = document.createElement("iframe");
   frame.setAttribute("sandbox", "allow-scripts");
   frame.title = `Replay of match ${find("showTitle").textContent}`;
-  frame.addEventListener("load", () => frame.focus()); // so that keys are the replay's
+  frame.addEventListener("load", () => frame.focus()); // so that keys go to the replay
   const dark = document.documentElement.classList.contains("dark");
   frame.srcdoc = before.replace("<html ", dark ? '<html class="dark" ' : "<html ") + data + after;
   return frame;
@@ -202,7 +202,7 @@ addEventListener("message", (event) => {
   if (frame && event.source === frame.contentWindow && Object.hasOwn(keys, event.data)) keys[event.data]();
 });
 find("show").addEventListener("close", () => {
-  find("stage").replaceChildren(); // which ends the replay
+  find("stage").replaceChildren(); // ends the replay
   history.replaceState(null, "", location.href.split("#")[0]);
   shown.scrollIntoView({ block: "nearest" });
   shown.querySelector("button").focus();

@@ -1,0 +1,124 @@
+"""The controls below the picture: the time bar with its marks, and the slider of the speed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+import pygame
+
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.painter import Painter
+from mars2d.window.mouse import Handle, Pixel
+from mars2d.window.player import SPEEDS, Player
+from mars2d.window.slider import SpeedSlider
+from mars2d.window.timebar import MarkKind, TimeBar, TimeState
+from mars2d.world.timeline import Timeline
+from mars2d.world.world import World
+
+__all__ = ["Controls", "Marks"]
+
+MARK_INTERVAL = 0.25
+"""How often the log of contacts is read for collisions, seconds."""
+
+
+class Controls:
+    """Shows a player's time and speed, and lets the mouse change them.
+
+    marks: of the time bar; None for a recording. handles: for the mouse.
+    """
+
+    def __init__(self, player: Player, marks: Marks | None) -> None:
+        """Start with nothing drawn."""
+        self._player, self._marks = player, marks
+        self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
+        self.handles: list[Handle] = [
+            (self.time_bar.hit, self._scrub),
+            (self.slider.hit, self._choose_speed),
+        ]
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        layout: Layout,
+        painter: Painter,
+        pointer: Pixel | None,
+        drags: Callable[[Callable[[Pixel], None]], bool],
+    ) -> None:
+        """Draw both; drags: whether the mouse drags the handle with a given function."""
+        player = self._player
+        self.time_bar.draw(
+            surface, layout.timebar, painter, self.time_state(), pointer=pointer,
+            held=drags(self._scrub),
+        )  # fmt: skip
+        self.slider.draw(
+            surface, layout.slider, painter, player.speed, player.factor, pointer=pointer,
+            held=drags(self._choose_speed),
+        )  # fmt: skip
+
+    def time_state(self) -> TimeState:
+        """Return the state that the time bar shows."""
+        source = self._player.source
+        last = source.scenario.last_iteration
+        if self._marks is None:  # a recording ends with its last row
+            last = source.newest
+        marks = {} if self._marks is None else self._marks.rows()
+        return TimeState(source.row, source.newest, last, source.scenario.sampling_time, marks)
+
+    def _scrub(self, pixel: Pixel) -> None:
+        """Go to the row at a pixel of the time bar."""
+        row = self.time_bar.row_at(pixel[0])
+        if row is not None:
+            self._player.go(row)
+
+    def _choose_speed(self, pixel: Pixel) -> None:
+        """Play at the speed at a pixel of the slider."""
+        speed = self.slider.speed_at(pixel[0])
+        if speed is not None and speed != self._player.speed:
+            self._player.set_speed(speed)
+
+
+class Marks:
+    """The rows of a run with collisions, interventions, branches and errors."""
+
+    def __init__(self, timeline: Timeline) -> None:
+        """Start with nothing read."""
+        self._timeline = timeline
+        self._world: World | None = None
+        self._seen = 0  # rows of the contact log
+        self._next = 0.0
+        self._touched: list[int] = []
+        self._handled: tuple[World | None, int, list[int]] = None, 0, []
+
+    def rows(self) -> Mapping[MarkKind, Sequence[int]]:
+        """Return the rows of each kind in ascending order; collisions may lag by a moment."""
+        timeline, world = self._timeline, self._timeline.world
+        self._look(world, time.monotonic())
+        return {
+            "collision": self._touched,
+            "hand": self._by_hand(world),
+            "branch": sorted({timeline.parted(other) for other in timeline.branches}),
+            "error": [world.iteration] if world.over and not world.finished else [],
+        }
+
+    def _by_hand(self, world: World) -> list[int]:
+        """Return the rows at which a person intervened."""
+        log = world.hands.log
+        if self._handled[:2] != (world, len(log)):
+            self._handled = world, len(log), sorted({each.row for each in log})
+        return self._handled[2]
+
+    def _look(self, world: World, now: float) -> None:
+        """Read the contacts that began since the last reading."""
+        if world is not self._world:
+            self._world, self._seen, self._next, self._touched = world, 0, 0.0, []
+        if now < self._next:
+            return
+        self._next = now + MARK_INTERVAL
+        contacts = world.frame.contact_log()
+        new = contacts[self._seen :]
+        self._seen = len(contacts)
+        steps = new["time"][new["began"]] / world.sampling_time
+        rows = np.ceil(steps - 1e-6).astype(int).tolist()
+        self._touched += sorted(set(rows) - set(self._touched[-1:]))

@@ -1,0 +1,389 @@
+"""The mouse on the picture: what it is over, what it pulls, puts elsewhere and turns."""
+
+from math import pi
+
+import numpy as np
+import pygame
+import pytest
+
+from mars2d import InputError, Robot, Scenario, World
+from mars2d.addons import Addon, Beacon, Map, Waypoints
+from mars2d.bodies.joints import Rope
+from mars2d.bodies.props import Box
+from mars2d.core.scene import Circle, Line, Text
+from mars2d.output.raster.camera import Camera
+from mars2d.window import drags, grab
+from mars2d.window.drags import pull_of
+from mars2d.window.grab import Grab
+
+LEFT, RIGHT = pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT
+SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL
+CAMERA = Camera(100.0, 300.0, 200.0)
+
+SCENARIO = Scenario(
+    robots=[Robot(name="red"), Robot(name="blue", pose=(1, 0, 0))],
+    props=[Box(pose=(-1, 0, 0), length=0.4, width=0.4, mass=2.0, name="crate")],
+    addons=[
+        Map([[(0, 1), (0.5, 1), (0.5, 1.5)], [(2, 1), (2, -1)]]),
+        Beacon((-1, 1), name="lamp"),
+        Waypoints([[(2.5, 1.2), (2.5, 1.5)]]),
+    ],
+    on_exit="ignore",
+)
+
+
+class Person:
+    """Somebody with a mouse before a world; time stands still or passes."""
+
+    def __init__(self, scenario=SCENARIO, running=False, recording=False):
+        self.world, self.running, self.recording = World(scenario), running, recording
+        self.said, self.now = [], 0.0
+        self.grab = Grab(self.change, self.said.append, clock=lambda: self.now)
+
+    def change(self, act):
+        if self.recording:
+            self.said.append("a recording")
+            return False
+        act(self.world)
+        return True
+
+    def pixel(self, x, y):
+        return tuple(np.rint(CAMERA.to_pixels([(x, y)])[0]).astype(int).tolist())
+
+    def move(self, x, y):
+        self.grab.move(self.world.frame, CAMERA, self.pixel(x, y), self.running)
+
+    def press(self, x, y, button=LEFT, mods=0):
+        pixel = self.pixel(x, y)
+        return self.grab.press(self.world.frame, CAMERA, pixel, button, mods, self.running)
+
+    def release(self, x, y):
+        return self.grab.release(self.world.frame, CAMERA, self.pixel(x, y), self.running)
+
+    def wait(self, steps, camera=CAMERA):
+        """Let time pass, with a picture at each step."""
+        for _ in range(steps):
+            self.grab.tick(self.world.frame, camera, self.running)
+            self.world.step()
+            self.now += 0.1
+
+    def shown(self):
+        return self.grab.shown(self.world.frame)
+
+    def marks(self, kind):
+        shapes = self.grab.marks(self.shown(), CAMERA)
+        return [shape for shape in shapes if isinstance(shape, kind)]
+
+    def words(self):
+        return [text.text for text in self.marks(Text)]
+
+
+# -- what it is over -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("place", "over", "words"),
+    [
+        ((0.1, 0.05), 0, "red"),
+        ((1.0, -0.14), 1, "blue"),
+        ((-1.1, 0.15), 2, "crate (Box)"),
+        ((0.45, 1.2), None, "obstacle 0"),
+        ((2.0, 0.3), None, "wall 1"),
+        ((-1.0, 1.0), None, "beacon lamp"),
+        ((2.5, 1.5), None, "waypoint 1 of red"),
+    ],
+)
+def test_it_shows_what_it_is_over_and_its_name(place, over, words):
+    person = Person()
+    person.move(*place)
+    assert person.grab.over == over
+    assert person.words() == [words]
+    assert bool(person.marks(Circle)) == (over is not None)
+
+
+def test_beside_all_there_is_nothing_to_show():
+    person = Person()
+    person.move(0.5, 0.5)
+    assert person.grab.over is None
+    assert person.grab.marks(person.world.frame, CAMERA) == []
+    assert not person.press(0.5, 0.5)
+
+
+def test_what_moves_away_under_a_pointer_at_rest_is_no_longer_shown():
+    red = Robot(name="red", controller=lambda robot: (0.5, 0.0))
+    person = Person(Scenario(robots=[red]), running=True)
+    person.move(0, 0)
+    assert person.grab.over == 0
+    person.wait(6)
+    assert person.grab.over is None
+
+
+def test_nothing_is_shown_once_the_pointer_has_left_the_picture():
+    person = Person()
+    person.move(0, 0)
+    person.grab.leave()
+    for running in (False, True):
+        person.grab.tick(person.world.frame, CAMERA, running)
+        assert person.grab.over is None
+
+
+# -- clicks ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("running", [True, False])
+def test_a_click_is_left_to_others_and_changes_nothing(running):
+    person = Person(running=running)
+    assert person.press(0, 0)
+    assert person.grab.busy
+    person.move(0.02, 0.0)
+    assert not person.release(0.02, 0.0)  # no more than a click
+    assert not person.grab.busy
+    assert person.world.hands.log == []
+
+
+def test_other_buttons_are_not_its_business():
+    person = Person()
+    assert not person.press(0, 0, pygame.BUTTON_MIDDLE)
+    running = Person(running=True)
+    assert not running.press(0, 0, RIGHT)  # what moves can't be turned
+
+
+# -- while time passes: pulling ----------------------------------------------------------------
+
+
+def test_a_drag_pulls_a_robot_to_the_pointer_and_a_line_shows_how_strongly():
+    person = Person(running=True)
+    assert person.press(0.05, 0.0)
+    person.move(0.0, -1.0)
+    person.wait(2)
+    lines, (label,) = person.marks(Line), person.words()
+    assert lines[0].points[1].tolist() == pytest.approx([0.0, -1.0], abs=0.01)
+    assert float(label.removesuffix(" N")) > 1
+    person.wait(20)
+    assert person.world.pose[:2, 0] == pytest.approx((0, -1), abs=0.06)
+    assert person.release(0.0, -1.0)
+    assert person.world.hands.pulls == ()
+    person.wait(3)
+    assert person.grab.marks(person.world.frame, CAMERA) != []  # it is over the robot
+
+
+def test_it_pulls_to_where_the_pointer_is_though_the_camera_moves():
+    person = Person(running=True)
+    person.press(0, 0)
+    person.move(0.0, -0.5)
+    person.wait(1, CAMERA.panned(0.0, 50.0))
+    (pull,) = person.world.hands.pulls
+    assert pull.target == pytest.approx((0.0, 0.0))
+    person.wait(1)
+    (pull,) = person.world.hands.pulls
+    assert pull.target == pytest.approx((0.0, -0.5))
+
+
+def test_a_small_robot_that_is_gripped_beside_its_edge_is_held_at_the_edge():
+    person = Person(Scenario(robots=[Robot(diameter=0.02)]), running=True)
+    person.press(0.04, 0.0)
+    person.move(0.5, 0.0)
+    (pull,) = person.world.hands.pulls
+    assert pull.grip == pytest.approx((0.01, 0.0))
+
+
+def test_a_button_that_is_held_long_holds_what_moves():
+    red = Robot(name="red", controller=lambda robot: (0.2, 0.0))
+    person = Person(Scenario(robots=[red]), running=True)
+    person.press(0, 0)
+    person.wait(5)
+    assert len(person.world.hands.pulls) == 1
+    person.wait(10)
+    there = person.world.pose[0, 0]
+    person.wait(5)
+    assert person.world.pose[0, 0] == pytest.approx(there, abs=1e-3)
+    assert person.release(0, 0)
+
+
+def test_what_is_pulled_is_held_where_it_was_pressed_though_it_has_moved_since():
+    red = Robot(name="red", controller=lambda robot: (0.5, 0.0))
+    person = Person(Scenario(robots=[red]), running=True)
+    person.press(0.1, 0.0)
+    person.wait(2)
+    person.move(0.1, 0.5)
+    (pull,) = person.world.hands.pulls
+    assert pull.grip == pytest.approx((0.1, 0.0))
+
+
+def test_once_time_stands_still_it_lets_go():
+    person = Person(running=True)
+    person.press(0, 0)
+    person.move(0.0, -1.0)
+    person.running = False
+    person.grab.tick(person.world.frame, CAMERA, running=False)
+    assert person.world.hands.pulls == ()
+    assert not person.grab.busy
+
+
+def test_the_pull_wins_against_drives_and_floors_and_stays_bounded():
+    force, speed = pull_of(SCENARIO, 0)
+    assert force == pytest.approx(1.5 * 5.0 + 10.0)
+    assert speed == pytest.approx(2.0)
+    force, _ = pull_of(SCENARIO, 2)
+    assert force == pytest.approx(1.5 * 0.5 * 2.0 * 9.81 + 20.0)
+    _, speed = pull_of(Scenario(robots=[Robot()], workspace=None, on_exit="ignore"), 0)
+    assert speed == pytest.approx(0.75)
+    huge = [(-500, -500), (500, -500), (500, 500), (-500, 500)]
+    assert pull_of(SCENARIO.replace(workspace=huge), 0)[1] == 5.0
+
+
+@pytest.mark.parametrize("physics", ["stop", "ideal"])
+def test_where_no_forces_act_it_says_what_to_do_instead_once_a_drag(physics):
+    person = Person(SCENARIO.replace(physics=physics), running=True)
+    person.press(0, 0)
+    person.move(0.0, -0.5)
+    person.move(0.0, -0.6)
+    (words,) = person.said
+    assert words.startswith("red can't be pulled: with physics =")
+    assert "pause, and put it elsewhere" in words
+    assert not person.grab.busy
+    assert person.world.hands.log == []
+
+
+def test_in_a_recording_nothing_is_pulled_and_the_drag_ends():
+    person = Person(running=True, recording=True)
+    person.press(0, 0)
+    person.move(0.0, -0.5)
+    person.move(0.0, -0.6)
+    assert person.said == ["a recording"]
+    assert not person.grab.busy
+
+
+# -- while it stands still: putting elsewhere --------------------------------------------------
+
+
+def test_a_drag_shows_a_body_elsewhere_and_puts_it_there_when_it_ends():
+    person = Person()
+    person.press(-1.05, 0.0)
+    person.move(-1.05, -1.0)
+    assert person.shown().prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
+    assert person.world.prop_pose[:, 0].tolist() == [-1, 0, 0]
+    assert person.words() == ["(\N{MINUS SIGN}1.00, \N{MINUS SIGN}1.00) m"]
+    assert person.release(-1.05, -1.0)
+    assert person.world.prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
+    assert person.shown().prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
+    assert [type(i).__name__ for i in person.world.hands.log] == ["Place"]
+
+
+def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
+    person = Person()
+    person.press(0, 0)
+    person.now = 1.0
+    person.move(0.9, 0.0)
+    assert person.words() == ["would overlap blue"]
+    assert drags.BAD in {ring.stroke for ring in person.marks(Circle)}
+    assert person.release(0.9, 0.0)
+    assert person.said == ["red can't be put there: it would overlap blue"]
+    assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
+
+
+def test_whether_a_place_is_free_is_not_asked_more_often_than_needed(monkeypatch):
+    asked = []
+    monkeypatch.setattr(drags, "obstruction", lambda *a: asked.append(a) or "")
+    person = Person()
+    person.press(0, 0)
+    for k in range(20):
+        person.now = 1.0 + 0.01 * k
+        person.move(0.0, -0.1 - 0.01 * k)
+        person.words()
+    assert len(asked) == 4
+
+
+def test_once_time_passes_again_what_was_carried_is_back():
+    person = Person()
+    person.press(0, 0)
+    person.move(0, -1)
+    person.running = True
+    person.grab.tick(person.world.frame, CAMERA, running=True)
+    assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
+    person.release(0, -1)
+    assert person.world.hands.log == []
+
+
+def test_what_a_joint_holds_is_not_carried_and_this_is_said():
+    rope = Rope(a="red", b="blue", length=2.0)
+    person = Person(Scenario(robots=SCENARIO.robots, joints=[rope]))
+    person.press(0, 0)
+    person.move(0, -1)
+    assert person.said == ["red can't be put elsewhere: a joint holds it; it can be pulled"]
+    assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
+
+
+def test_in_a_recording_it_is_said_and_it_springs_back():
+    person = Person(recording=True)
+    person.press(0, 0)
+    person.move(0, -1)
+    person.release(0, -1)
+    assert person.said == ["a recording"]
+    assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
+
+
+# -- turning -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("button", "mods"), [(RIGHT, 0), (LEFT, SHIFT)])
+def test_a_right_drag_or_one_with_shift_turns_a_body_to_the_pointer(button, mods):
+    person = Person()
+    person.press(0, 0, button, mods)
+    person.move(-0.5, 0.5)
+    assert person.words() == ["135\N{DEGREE SIGN}"]
+    person.release(-0.5, 0.5)
+    assert person.world.pose[:, 0] == pytest.approx((0, 0, 3 * pi / 4))
+
+
+def test_with_ctrl_it_is_turned_by_fifteen_degrees(monkeypatch):
+    monkeypatch.setattr(grab, "_mods", lambda: CTRL)
+    person = Person()
+    person.press(0, 0, RIGHT)
+    person.move(0.5, 0.3)
+    assert person.words() == ["30\N{DEGREE SIGN}"]
+    person.release(0.5, 0.3)
+    assert person.world.pose[2, 0] == pytest.approx(pi / 6)
+
+
+def test_it_is_turned_the_shorter_way_whatever_its_angle_was():
+    person = Person(Scenario(robots=[Robot(pose=(0, 0, 10 * pi + 0.1))]))
+    person.press(0, 0, RIGHT)
+    person.move(0.5, 0.0)
+    person.release(0.5, 0.0)
+    assert person.world.pose[2, 0] == pytest.approx(10 * pi)
+
+
+# -- faults --------------------------------------------------------------------------------------
+
+
+def test_what_a_change_refuses_is_said():
+    said = []
+
+    def refuse(act):
+        raise InputError("not now")
+
+    mouse, frame = Grab(refuse, said.append), World(SCENARIO).frame
+    mouse.press(frame, CAMERA, (300, 200), LEFT, 0, running=True)
+    mouse.move(frame, CAMERA, (300, 250), running=True)
+    assert said == ["not now"]
+    assert not mouse.busy
+
+
+def test_points_that_an_addon_names_are_shown_under_the_pointer():
+    class Door(Addon):
+        def named_points(self, frame):
+            return [(f"door at {frame.time:g} s", (2.0, 0.5))]
+
+    person = Person(SCENARIO.replace(addons=[*SCENARIO.addons, Door()]))
+    person.move(2.0, 0.5)
+    assert person.grab.over is None
+    assert [text.text for text in person.marks(Text)] == ["door at 0 s"]
+
+
+def test_the_former_name_of_the_class_works_and_warns():
+    module = pytest.warns(FutureWarning, match="mars2d.window.hand is mars2d.window.grab now")
+    with module, pytest.warns(FutureWarning, match="Hand is mars2d.window.grab.Grab now"):
+        from mars2d.window.hand import Hand
+    assert Hand is Grab
+    assert not hasattr(grab, "Arm")

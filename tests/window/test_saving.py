@@ -1,0 +1,257 @@
+"""What is kept of a window: never over another file, and films that show what was shown."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pygame
+import pytest
+from PIL import Image
+
+from mars2d import InputError, Robot, Scenario
+from mars2d.output.films.filming import FPS, Filming
+from mars2d.scenario.experiment import open_experiment
+from mars2d.window.saving import free_name, save_picture, save_python, start_film
+from tests.processes import PATIENCE, bare_environment
+from tests.window.person import needs_screen
+
+SIZE = (160, 120)
+
+
+def painted(color, size=SIZE):
+    surface = pygame.Surface(size, 0, 32)
+    surface.fill(color)
+    return surface
+
+
+class Clock:
+    """A clock that goes when it is told to."""
+
+    now = 100.0
+
+    def __call__(self):
+        return self.now
+
+
+def frames_of(path):
+    """Return the frames of a film with when each begins: (seconds, (height, width, 3))."""
+    if path.suffix == ".mp4":
+        import av
+
+        with av.open(str(path)) as film:
+            return [
+                (f.time, f.to_ndarray(format="rgb24").astype(int)) for f in film.decode(video=0)
+            ]
+    found, time = [], 0.0
+    with Image.open(path) as film:
+        for k in range(film.n_frames):
+            film.seek(k)
+            found.append((time, np.asarray(film.convert("RGB")).astype(int)))
+            time += film.info["duration"] / 1000
+    return found
+
+
+def waited(film):
+    """Wait until a film has written what it was given."""
+    while not film._shots.empty():
+        time.sleep(0.001)
+
+
+# -- names, pictures, listings --------------------------------------------------------------------
+
+
+def test_names_are_numbered_and_made_at_once(tmp_path):
+    names = [free_name(tmp_path, "Random walk: 2 robots!", ".png").name for _ in range(3)]
+    assert names == [f"random_walk_2_robots_{k}.png" for k in (1, 2, 3)]
+    assert free_name(tmp_path, "../..", ".py").parent == tmp_path
+    assert free_name(tmp_path, "x" * 500, ".py").name == f"{'x' * 60}_1.py"
+
+
+def test_a_folder_that_cannot_be_written_is_told_in_words(tmp_path):
+    with pytest.raises(InputError, match="nowhere: no file can be made here, No such file"):
+        save_picture(painted("red"), tmp_path / "nowhere", "walk")
+
+
+def test_a_picture_is_kept_beside_others(tmp_path):
+    (tmp_path / "walk_1.png").write_text("mine")
+    path = save_picture(painted("red"), tmp_path, "walk")
+    assert path == tmp_path / "walk_2.png"
+    assert (tmp_path / "walk_1.png").read_text() == "mine"
+    with Image.open(path) as picture:
+        assert picture.size == SIZE
+        assert picture.getpixel((5, 5)) == (255, 0, 0)
+
+
+def test_a_scenario_is_kept_as_python(tmp_path):
+    scenario = Scenario(title="Kept", robots=[Robot(pose=(1, 2, 3))])
+    path, copied = save_python(scenario, tmp_path, scenario.title)
+    assert (path, copied) == (tmp_path / "kept_1.py", False)  # there is no window
+    assert open_experiment(path).scenario == scenario
+
+
+def test_nothing_stays_where_writing_fails(tmp_path, monkeypatch):
+    def fail(*_):
+        raise InputError("full")
+
+    monkeypatch.setattr("mars2d.window.saving.save_png", fail)
+    with pytest.raises(InputError, match="full"):
+        save_picture(painted("red"), tmp_path, "walk")
+    assert list(tmp_path.iterdir()) == []
+
+
+@needs_screen
+def test_a_listing_is_on_the_clipboard_of_a_window(screen, tmp_path):
+    code = (
+        "import pygame; from pathlib import Path; from mars2d import Scenario\n"
+        "from mars2d.window.saving import save_python\n"
+        "pygame.display.init(); pygame.display.set_mode((80, 60))\n"
+        "path, copied = save_python(Scenario(title='caf\\u00e9'), Path(), 'kept')\n"
+        "print(copied, pygame.scrap.get_text() == path.read_text(encoding='utf-8'))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=bare_environment(DISPLAY=screen),
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        check=False,
+    )
+    assert done.stdout.splitlines()[-1] == "True True", done.stderr
+
+
+# -- films ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".gif"])
+def test_a_film_goes_by_the_clock(suffix, tmp_path):
+    clock = Clock()
+    film = Filming(tmp_path / f"film{suffix}", clock)
+    for k in range(60):  # more often than there are frames
+        film.take(painted("red" if k < 30 else "blue"))
+        waited(film)
+        clock.now += 1 / 60
+    clock.now = 102.0  # a second for which nothing is drawn
+    film.take(painted("green"))
+    assert film.seconds == pytest.approx(2.0, abs=2 / FPS)
+    found = frames_of(film.stop())
+    for at, color in {0.0: "red", 0.4: "red", 0.6: "blue", 1.9: "blue", 2.0: "green"}.items():
+        frame = [picture for begin, picture in found if begin <= at + 0.001][-1]
+        assert np.abs(frame[60, 80] - pygame.Color(color)[:3]).max() < 30, at
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".gif"])
+def test_another_size_is_fitted_into_the_first(suffix, tmp_path):
+    clock = Clock()
+    film = Filming(tmp_path / f"film{suffix}", clock)
+    for size in (SIZE, (320, 120), (1, 400), SIZE):
+        film.take(painted("red", size))
+        waited(film)
+        clock.now += 1 / FPS
+    found = [picture for _, picture in frames_of(film.stop())]
+    assert {picture.shape for picture in found} == {(120, 160, 3)}
+    wide = found[1][:, 80, 0] > 128  # one column: black, red, black
+    assert (wide[:25].any(), wide[40:80].all(), wide[95:].any()) == (False, True, False)
+
+
+def test_odd_sides_are_made_even(tmp_path):
+    film = Filming(tmp_path / "film.mp4", Clock())
+    film.take(painted("red", (161, 121)))
+    assert frames_of(film.stop())[0][1].shape == (122, 162, 3)
+
+
+def test_a_long_gap_is_cut_short(tmp_path):
+    clock = Clock()
+    film = Filming(tmp_path / "film.gif", clock)
+    film.take(painted("red"))
+    clock.now += 3600
+    film.take(painted("blue"))
+    assert film.seconds == pytest.approx(2, abs=2 / FPS)
+    film.stop()
+
+
+def test_pictures_that_come_too_fast_are_left_out_and_memory_stays(tmp_path, monkeypatch):
+    clock = Clock()
+    monkeypatch.setattr(
+        "mars2d.output.films.filming.write_gif", lambda file, shots, fps: time.sleep(0.2)
+    )
+    film = Filming(tmp_path / "film.gif", clock)
+    for _ in range(100):
+        film.take(painted("red"))
+        clock.now += 1 / FPS
+    assert film._shots.qsize() <= 4
+    film.stop()
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".gif"])
+def test_a_film_that_cannot_be_written_on_says_so(suffix, tmp_path):
+    clock = Clock()
+    film = Filming(tmp_path / f"film{suffix}", clock)
+    film._file.close()  # as a disk that is gone
+    with pytest.raises(InputError, match="the film can't be written, "):
+        for _ in range(1000):
+            film.take(painted("red"))
+            clock.now += 1 / FPS
+            time.sleep(0.001)
+    with pytest.raises(InputError, match="the film can't be written, "):
+        film.stop()
+
+
+def test_a_film_of_nothing_is_no_file(tmp_path):
+    film = start_film(tmp_path, "walk")
+    with pytest.raises(InputError, match="at least one picture"):
+        film.stop()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monkeypatch):
+    assert start_film(tmp_path, "walk").path.name == "walk_1.mp4"
+    monkeypatch.setitem(sys.modules, "av", None)
+    film = start_film(tmp_path, "walk")
+    assert film.path.name == "walk_1.gif"
+    film.take(painted("red"))
+    assert frames_of(film.stop())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("suffix", [".mp4", pytest.param(".gif", marks=pytest.mark.soak)])
+def test_a_film_of_a_program_that_is_killed_can_be_seen(suffix, tmp_path):
+    code = (
+        "import sys, time, pygame; from pathlib import Path\n"
+        "from mars2d.output.films.filming import Filming\n"
+        "film = Filming(Path(sys.argv[1])); surface = pygame.Surface((320, 240), 0, 32)\n"
+        "start = time.time()\n"
+        "while True:\n"
+        "    surface.fill((int(60 * (time.time() - start)) % 256, 90, 200))\n"
+        "    film.take(surface); time.sleep(0.01)\n"
+        "    if film.seconds > 3: print('now', flush=True)\n"
+    )
+    path = tmp_path / f"film{suffix}"
+    process = subprocess.Popen(
+        [sys.executable, "-c", code, str(path)],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1"},
+    )
+    assert process.stdout.readline() == "now\n"
+    process.send_signal(signal.SIGKILL)
+    process.wait(PATIENCE)
+    process.stdout.close()
+    assert frames_of(path)[-1][0] > 1.0
+
+
+def test_to_take_a_picture_is_quick(tmp_path):
+    picture = painted("white", (1280, 720))
+    film = Filming(tmp_path / "film.mp4")
+    took = []
+    for k in range(60):
+        picture.fill("red", (20 * k, 300, 80, 80))
+        start = time.thread_time()  # the film is written in another thread
+        film.take(picture)
+        took.append(time.thread_time() - start)
+        time.sleep(1 / 60)
+    film.stop()
+    assert np.median(took) < 0.008
