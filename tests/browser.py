@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.processes import PATIENCE
+
 CHROMIUM = os.environ.get("MARS2D_CHROMIUM") or shutil.which("chromium")
 
 
@@ -39,6 +41,7 @@ class Tab:
         self.context = browser.new_context(
             viewport={"width": size[0], "height": size[1]}, offline=True, **how
         )
+        self.context.set_default_timeout(PATIENCE * 1000)
         self.page = self.context.new_page()
         self.asked: list[str] = []
         self.complaints: list[str] = []
@@ -91,7 +94,7 @@ class Tab:
         send("touchEnd", after)
         self.settle()
 
-    def until(self, done: Callable[[], bool], seconds: float = 10.0) -> None:
+    def until(self, done: Callable[[], bool], seconds: float = PATIENCE) -> None:
         """Wait until something is so."""
         end = time.monotonic() + seconds
         while not done():

@@ -1,8 +1,9 @@
-"""What the tests share: a Python in a child process, a browser, settings that never flicker."""
+"""Fixtures and settings that all tests share."""
 
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -22,6 +23,29 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("stable")
+
+SLOW_FIXTURES = {"browser", "screen"}
+"""Fixtures whose tests are marked `slow`: they start Chromium or an X server."""
+
+
+def pytest_configure() -> None:
+    """Handle signals as in a terminal, even where a job runner or `nohup` has them ignored.
+
+    Child processes inherit ignored signals, but never a handler: with one, they start with the
+    default. SIGHUP keeps having no effect on the tests themselves.
+    """
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    if hasattr(signal, "SIGHUP"):
+        if signal.getsignal(signal.SIGHUP) == signal.SIG_IGN:
+            signal.signal(signal.SIGHUP, lambda *_: None)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT, signal.SIGHUP, signal.SIGTERM})
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests of slow fixtures."""
+    for item in items:
+        if SLOW_FIXTURES.intersection(getattr(item, "fixturenames", ())):
+            item.add_marker("slow")
 
 
 def pytest_xdist_auto_num_workers() -> int:
@@ -44,13 +68,13 @@ Child = Callable[..., subprocess.CompletedProcess[str]]
 
 @pytest.fixture
 def child() -> Child:
-    """Run code in a Python process of its own: what aborts it is seen, what hangs is ended.
+    """Run code in a Python process of its own, which may abort; one that hangs is killed.
 
-    It imports what is installed, not what lies in the folder (-P).
+    It imports the installed package, not what lies in the folder (-P).
     """
 
     def run(
-        code: str, *flags: str, timeout: float = 60, **environment: str
+        code: str, *flags: str, timeout: float = 120, **environment: str
     ) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
             [sys.executable, "-P", *flags, "-c", code],

@@ -567,6 +567,7 @@ def lost_over(talk: Communication, steps: int, every: int = 1) -> np.ndarray:
     return lost(talking(scenario, say)).reshape(-1, LINKS)
 
 
+@pytest.mark.slow
 def test_bursts_lose_as_much_and_last_as_long_as_the_chain_of_gilbert():
     gone = lost_over(Communication(burst=BURST), 1500)
     assert BURST.mean_loss == pytest.approx(0.04 / 0.24)

@@ -46,6 +46,7 @@ def test_a_straight_way_makes_one_unsure_of_the_heading_first():
     assert spread[1, 1] == pytest.approx(DRIFT**2 * 4**3 / (6 * AXLE**2), rel=1e-2)
 
 
+@pytest.mark.slow
 def test_the_covariance_is_that_of_many_robots():
     """A curve, driven 300 times: the sample's covariance is the predicted one."""
     robots = [runner(pose=(3.0 * k, 0, 0.3), drift=0.004) for k in range(300)]

@@ -356,6 +356,7 @@ def test_an_image_that_can_not_be_drawn_is_an_error(pixels, bounds):
         Scene().image(pixels, bounds)
 
 
+@pytest.mark.slow
 def test_the_floor_lies_beneath_obstacles_grid_and_robots_and_is_in_every_picture():
     patch = [(-4, -4), (4, -4), (4, 4), (-4, 4)]
     scenario = Scenario(

@@ -11,6 +11,7 @@ from mars2d.addons import Game
 from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.testing import check_addon
 from mars2d.world.verify import rerun
+from tests.worlds import finished
 
 ROLES = {"pursuer": ["red"], "evader": ["blue"]}
 
@@ -42,19 +43,12 @@ def chase(game=None, evaders=((2.0, 0.0),), stop_time=10.0, **fields):
     )
 
 
-def played(scenario, seed=0):
-    world = World(scenario, seed=seed)
-    while not world.over:
-        world.step()
-    return world
-
-
 # -- captures -----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
 def test_contact_is_a_capture_when_the_robots_touch(physics):
-    world = played(chase(physics=physics))
+    world = finished(chase(physics=physics))
     game = world.addons.game
     assert game.capture_times == pytest.approx([(2.0 - 0.3) / 0.5], abs=1e-3)
     assert game.captures[0][1:] == (0, 1)
@@ -64,13 +58,13 @@ def test_contact_is_a_capture_when_the_robots_touch(physics):
 
 
 def test_a_distance_is_a_capture_at_the_first_control_step_within_it():
-    world = played(chase(Game(ROLES, capture=1.02)))
+    world = finished(chase(Game(ROLES, capture=1.02)))
     assert world.addons.game.capture_times == (2.0,)  # 1 m away; one step before it was 1.05
     assert world.over_message == "red catches blue after 2 s: pursuer wins"
 
 
 def test_who_is_free_at_the_stop_time_has_won():
-    world = played(chase(stop_time=3.0))
+    world = finished(chase(stop_time=3.0))
     assert world.over_message == "blue was not caught in 3 s: evader wins"
     assert world.addons.game.winner == "evader"
     assert world.addons.game.score == {"pursuer": 0, "evader": 1}
@@ -92,7 +86,7 @@ def test_the_caught_stand_still_while_the_game_goes_on():
     robots = [fleeing.robots[0], *(r.replace(controller=right) for r in fleeing.robots[1:])]
     slow = Holonomic(max_linear_speed=0.2)
     robots = [robots[0], *(r.replace(drive=slow) for r in robots[1:])]
-    world = played(fleeing.replace(robots=robots))
+    world = finished(fleeing.replace(robots=robots))
     game, record = world.addons.game, world.record
     assert game.caught == (1, 2)
     caught, over = np.searchsorted(record.time, game.capture_times)
@@ -105,7 +99,7 @@ def test_the_caught_stand_still_while_the_game_goes_on():
 
 
 def test_some_caught_and_some_free_at_the_stop_time_is_a_win_of_the_evaders():
-    world = played(chase(evaders=[(1.0, 0.0), (1.5, 5.0), (9.0, 0.0)], stop_time=5.0))
+    world = finished(chase(evaders=[(1.0, 0.0), (1.5, 5.0), (9.0, 0.0)], stop_time=5.0))
     assert world.addons.game.score == {"pursuer": 1, "evader": 2}
     assert world.over_message == "2 of 3 were not caught in 5 s: evader wins"
 
@@ -117,7 +111,7 @@ def test_the_nearest_of_several_hunters_is_the_one_who_catches():
         addons=[Game({"hunters": range(2), "prey": [2]}, capture=1.5)],
     )
     assert World(scenario).over is False
-    world = played(scenario)
+    world = finished(scenario)
     assert world.over_message == "robot1 catches robot2 after 0 s: hunters wins"
 
 
@@ -130,7 +124,7 @@ def test_contacts_with_others_are_no_captures():
         addons=[Game({"pursuer": [0, 1], "evader": [2, 3]})],
         stop_time=3.0,
     )
-    record = played(scenario).record
+    record = finished(scenario).record
     assert record.collisions == 2
     assert scenario.addons[0].outcome(record).captures == ()
 
@@ -142,7 +136,7 @@ def test_contacts_with_others_are_no_captures():
 def test_a_loaded_record_tells_the_same_and_runs_again(tmp_path, capture):
     evaders = [(1.0, 0.28), (2.0, -0.28), (2.6, 0.28)]
     roles = {"pursuer": ["red"], "evader": ["blue", "green", "pink"]}
-    world = played(chase(Game(roles, capture=capture), evaders))
+    world = finished(chase(Game(roles, capture=capture), evaders))
     game = world.addons.game
     assert len(game.captures) == 3
     loaded = mars2d.load(world.record.save(tmp_path / "game.npz"))
@@ -163,7 +157,7 @@ def test_a_loaded_record_tells_the_same_and_runs_again(tmp_path, capture):
 @pytest.mark.parametrize(("later", "winner"), [(1e-14, "pursuer"), (0.05, None)])
 def test_a_capture_at_the_last_instant_counts_whose_time_is_rounded_up(later, winner):
     """The last row is that of 3.4 s; what comes in the control step after it is in no row."""
-    record = played(chase()).record
+    record = finished(chase()).record
     contacts = record.contacts.copy()
     assert len(contacts) == 1
     contacts["time"] = record.time[-1] + later
@@ -172,7 +166,7 @@ def test_a_capture_at_the_last_instant_counts_whose_time_is_rounded_up(later, wi
 
 
 def test_captures_are_drawn_from_a_record_as_they_were_live(tmp_path):
-    world = played(chase(Game(ROLES, capture=1.02)))
+    world = finished(chase(Game(ROLES, capture=1.02)))
     loaded = mars2d.load(world.record.save(tmp_path / "game.npz"))
     scenes = []
     for frame in (world.frame, loaded.frame(-1), loaded.frame(5)):

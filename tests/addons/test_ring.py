@@ -1,4 +1,4 @@
-"""The add-on Ring: who has left it, who has won; and the sumo that is played in it."""
+"""The add-on Ring: who has left it, who has won; and the sumo that is finished in it."""
 
 import numpy as np
 import pytest
@@ -10,6 +10,7 @@ from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.scenario.registry import members
 from mars2d.world.teleop import robot_of
 from mars2d.world.verify import rerun
+from tests.worlds import finished
 
 ROLES = {"red": ["r1", "r2"], "blue": ["b1", "b2"]}
 
@@ -30,18 +31,11 @@ def bout(speeds, *, starts=(0.0, 0.0, 0.0, 0.0), stop_time=10.0, ring=None, **fi
     return Scenario(robots=robots, addons=[ring], workspace=None, stop_time=stop_time, **fields)
 
 
-def played(scenario):
-    world = World(scenario)
-    while not world.over:
-        world.step()
-    return world
-
-
 # -- who is out ---------------------------------------------------------------------------------
 
 
 def test_a_role_has_lost_when_all_of_its_robots_are_out():
-    world = played(bout([1.0, 0.5, 0.6, 0.0]))
+    world = finished(bout([1.0, 0.5, 0.6, 0.0]))
     ring = world.addons.ring
     assert ring.out == (0, 2, 1)  # r1, b1, then r2: so red has lost
     assert (ring.winner, ring.score) == ("blue", {"red": 0, "blue": 1})
@@ -49,7 +43,7 @@ def test_a_role_has_lost_when_all_of_its_robots_are_out():
 
 
 def test_who_is_out_stands_still_and_stays_out_while_the_others_go_on():
-    world = played(bout([1.0, 0.5, 0.0, 0.0]))
+    world = finished(bout([1.0, 0.5, 0.0, 0.0]))
     x, command = world.record.pose[:, 0, 0], world.record.command[:, 0, 0]
     left = int(np.argmax(x > 1.93))
     assert (command[:left] == 1.0).all()
@@ -80,7 +74,7 @@ def test_the_ring_is_where_its_center_is():
     ],
 )
 def test_it_is_a_draw_when_time_is_over_or_the_last_ones_leave_at_once(speeds, stop_time, score):
-    world = played(bout(speeds, stop_time=stop_time, physics="ideal"))
+    world = finished(bout(speeds, stop_time=stop_time, physics="ideal"))
     assert world.over_message == "a draw"
     assert (world.addons.ring.winner, world.addons.ring.score) == (None, score)
     assert world.addons.ring.outcome(world.record) == ((), score, None)
@@ -97,7 +91,7 @@ def test_nobody_has_won_when_something_else_ends_it():
 
 
 def test_a_loaded_record_tells_the_same_and_runs_again(tmp_path):
-    world = played(bout([1.0, 0.5, 0.6, 0.0]))
+    world = finished(bout([1.0, 0.5, 0.6, 0.0]))
     ring = world.addons.ring
     loaded = mars2d.load(world.record.save(tmp_path / "bout.npz"))
     assert loaded.scenario.addons[0] == world.scenario.addons[0]

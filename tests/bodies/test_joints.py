@@ -7,28 +7,14 @@ from math import cos, exp, hypot, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
+from mars2d import Holonomic, InputError, Robot, Unicycle, World
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Puck
 from mars2d.physics.floor import GRAVITY
+from tests.worlds import drive, endless
 
 IDLE = Robot(pose=(50, 50, 0))
 MILLIMETRE = 1e-3
-
-
-def world_of(robots, props=(), joints=(), **fields) -> World:
-    """A world without limits."""
-    fields = {"workspace": None, "stop_time": 1e5} | fields
-    return World(Scenario(robots=robots, props=props, joints=joints, **fields))
-
-
-def drive(world: World, command, seconds: float) -> np.ndarray:
-    """Command the same for some seconds; returns poses of robots and props, (T, 3, n + p)."""
-    poses = []
-    for _ in range(round(seconds / world.scenario.sampling_time)):
-        world.step(command)
-        poses.append(np.hstack([world.pose, world.prop_pose]))
-    return np.array(poses)
 
 
 def coast(world: World, seconds: float) -> np.ndarray:
@@ -55,7 +41,7 @@ def apart(first: np.ndarray, second) -> np.ndarray:
 
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.4])
 def test_towing_a_box_by_a_rope_takes_the_effort_mu_m_g_over_the_force(mu):
-    world = world_of(
+    world = endless(
         [Robot()], [Box(pose=(-1, 0, 0), ground_friction=mu)], [Rope(a="robot0", b="box0")]
     )
     poses = drive(world, [[0.3], [0]], 6)
@@ -71,7 +57,7 @@ def test_a_rope_is_never_longer_than_its_length_and_a_millimetre(speed, sampling
     puller = Robot(drive=Unicycle(max_linear_speed=speed), mass=3)
     box = Box(pose=(-1, 0.3, 0), ground_friction=0.2)
     rope = Rope(a="robot0", b="box0", length=1.5, anchor_a=(-0.15, 0), anchor_b=(0.2, 0.2))
-    world = world_of([puller], [box], [rope], sampling_time=sampling_time)
+    world = endless([puller], [box], [rope], sampling_time=sampling_time)
     poses = drive(world, [[speed], [0]], max(1.5, 1 / speed))
     length = apart(at(poses[:, :, 0], rope.anchor_a), at(poses[:, :, 1], rope.anchor_b))
     assert length.max() < 1.5 + MILLIMETRE
@@ -81,7 +67,7 @@ def test_a_rope_is_never_longer_than_its_length_and_a_millimetre(speed, sampling
 
 def test_a_slack_rope_does_nothing():
     ball = Ball(pose=(1, 0, 0), velocity=(0.2, 0.1, 0))
-    world = world_of([Robot()], [ball], [Rope(a="robot0", b="ball0", length=5)])
+    world = endless([Robot()], [ball], [Rope(a="robot0", b="ball0", length=5)])
     drive(world, [[0.1], [0.2]], 5)
     assert world.prop_pose[:2, 0] == pytest.approx([2, 0.5], abs=1e-9)
     assert world.pose[2, 0] == pytest.approx(1, abs=1e-9)
@@ -90,7 +76,7 @@ def test_a_slack_rope_does_nothing():
 
 def test_a_jerk_on_a_rope_is_inelastic_and_keeps_the_momentum():
     balls = [Ball(velocity=(-1, 0, 0), mass=1), Ball(pose=(0.5, 0, 0), mass=3)]
-    world = world_of([IDLE], balls, [Rope(a="ball0", b="ball1", length=1)])
+    world = endless([IDLE], balls, [Rope(a="ball0", b="ball1", length=1)])
     coast(world, 2)
     assert world.prop_velocity[0] == pytest.approx([-0.25, -0.25], rel=0.01)
     momentum = world.prop_velocity[0] @ [1, 3]
@@ -99,7 +85,7 @@ def test_a_jerk_on_a_rope_is_inelastic_and_keeps_the_momentum():
 
 def test_two_equal_robots_at_a_rope_pull_in_vain():
     robots = [Robot(pose=(-1, 0, pi)), Robot(pose=(1, 0, 0))]
-    world = world_of(robots, [], [Rope(a="robot0", b="robot1", length=2.5)])
+    world = endless(robots, [], [Rope(a="robot0", b="robot1", length=2.5)])
     poses = drive(world, [[0.3, 0.3], [0, 0]], 20)
     assert np.abs(poses[:, :2].mean(axis=2)).max() < 1e-6
     assert world.effort == pytest.approx([1, 1])
@@ -111,7 +97,7 @@ def test_the_stronger_of_two_robots_at_a_rope_wins_by_the_difference_of_their_fo
         Robot(pose=(-1, 0, pi), drive=Unicycle(max_force=0.5)),
         Robot(pose=(1, 0, 0), drive=Unicycle(max_force=0.6), mass=2),
     ]
-    world = world_of(robots, [], [Rope(a="robot0", b="robot1")])
+    world = endless(robots, [], [Rope(a="robot0", b="robot1")])
     drive(world, [[0.5, 0.5], [0, 0]], 2)
     before = world.velocity[0, 1]
     drive(world, [[0.5, 0.5], [0, 0]], 2)
@@ -123,7 +109,7 @@ def test_the_stronger_of_two_robots_at_a_rope_wins_by_the_difference_of_their_fo
 
 def test_a_rod_keeps_its_length_and_a_stone_at_it_its_speed():
     ball = Ball(pose=(1, 0, 0), velocity=(0, 1, 0))
-    world = world_of([IDLE], [ball], [Rod(a="ball0")], sampling_time=0.05)
+    world = endless([IDLE], [ball], [Rod(a="ball0")], sampling_time=0.05)
     poses = coast(world, 2 * pi)[:, :2, 1]
     assert np.abs(np.hypot(*poses.T) - 1).max() < MILLIMETRE
     assert hypot(*world.prop_velocity[:2, 0]) == pytest.approx(1, rel=0.01)
@@ -132,7 +118,7 @@ def test_a_rod_keeps_its_length_and_a_stone_at_it_its_speed():
 
 
 def test_a_rod_pushes_as_well_as_it_pulls():
-    world = world_of(
+    world = endless(
         [Robot()], [Box(pose=(1, 0, 0), ground_friction=0.3)], [Rod(a="robot0", b="box0")]
     )
     poses = drive(world, [[0.2], [0]], 3)
@@ -157,7 +143,7 @@ def test_a_mass_at_a_spring_swings_with_the_period_two_pi_root_m_over_k(stiffnes
     period = 2 * pi * sqrt(mass / stiffness)
     ball = Ball(pose=(1.2, 0, 0), mass=mass)
     spring = Spring(a="ball0", rest_length=1, stiffness=stiffness)
-    world = world_of([IDLE], [ball], [spring], sampling_time=period / 50)
+    world = endless([IDLE], [ball], [spring], sampling_time=period / 50)
     x = coast(world, 5.5 * period)[:, 0, 1] - 1
     times = world.scenario.sampling_time * np.arange(1, len(x) + 1)
     found = np.diff(crossings(times, x))
@@ -174,7 +160,7 @@ def test_a_damped_spring_decays_by_its_damping_ratio(ratio):
     damped = natural * sqrt(1 - ratio**2)
     ball = Ball(pose=(1.2, 0, 0), mass=mass)
     spring = Spring(a="ball0", rest_length=1, stiffness=stiffness, damping=damping)
-    world = world_of([IDLE], [ball], [spring], sampling_time=0.01)
+    world = endless([IDLE], [ball], [spring], sampling_time=0.01)
     x = coast(world, 4)[:, 0, 1] - 1
     t = 0.01 * np.arange(1, len(x) + 1)
     phase = np.cos(damped * t) + ratio * natural / damped * np.sin(damped * t)
@@ -186,7 +172,7 @@ def test_two_masses_at_a_spring_swing_with_their_reduced_mass():
     balls = [Ball(pose=(0, 0, 0), mass=1), Ball(pose=(1.2, 0, 0), mass=3)]
     spring = Spring(a="ball0", b="ball1", rest_length=1, stiffness=30)
     period = 2 * pi * sqrt((1 * 3 / 4) / 30)
-    world = world_of([IDLE], balls, [spring], sampling_time=period / 50)
+    world = endless([IDLE], balls, [spring], sampling_time=period / 50)
     x = coast(world, 4.5 * period)[:, 0, 1:]
     times = world.scenario.sampling_time * np.arange(1, len(x) + 1)
     assert np.diff(crossings(times, x[:, 1] - x[:, 0] - 1)) == pytest.approx(period, rel=0.01)
@@ -200,7 +186,7 @@ def test_two_masses_at_a_spring_swing_with_their_reduced_mass():
 def test_the_anchors_of_a_hinge_stay_together_under_load():
     trailer = Box(pose=(-0.5, 0, 0), length=0.3, width=0.2, ground_friction=0.3, name="trailer")
     hinge = Hinge(a="robot0", b="trailer", anchor_a=(-0.25, 0), anchor_b=(0.25, 0))
-    world = world_of([Robot(drive=Unicycle(max_force=8))], [trailer], [hinge])
+    world = endless([Robot(drive=Unicycle(max_force=8))], [trailer], [hinge])
     for command in ([[0.3], [0.5]], [[0.2], [-1]], [[-0.2], [0]], [[0.5], [0]]):
         poses = drive(world, command, 3)
         gap = apart(at(poses[:, :, 0], (-0.25, 0)), at(poses[:, :, 1], (0.25, 0)))
@@ -221,7 +207,7 @@ def test_the_links_of_a_chain_that_swings_freely_stay_together():
         Hinge(a=f"link{i}", b=f"link{i + 1}", anchor_a=(0.25, 0), anchor_b=(-0.25, 0))
         for i in range(n - 1)
     ]
-    world = world_of([IDLE], bars, hinges)
+    world = endless([IDLE], bars, hinges)
     poses = coast(world, 8)
     for i in range(n - 1):
         gap = apart(at(poses[:, :, 1 + i], (0.25, 0)), at(poses[:, :, 2 + i], (-0.25, 0)))
@@ -233,7 +219,7 @@ def test_the_links_of_a_chain_that_swings_freely_stay_together():
 def test_a_hinge_turns_as_far_as_its_limits(spin):
     bar = Bar(pose=(0.5, 0, 0), ground_friction=0, velocity=(0, 0.5 * spin, spin))
     hinge = Hinge(a="bar0", anchor_a=(-0.5, 0), limits=(-0.6, 0.4))
-    world = world_of([IDLE], [bar], [hinge], sampling_time=0.01)
+    world = endless([IDLE], [bar], [hinge], sampling_time=0.01)
     angle = coast(world, 3)[:, 2, 1]
     assert angle.max() < 0.4 + 0.02
     assert angle.min() > -0.6 - 0.02
@@ -251,7 +237,7 @@ def test_the_limits_of_a_hinge_are_angles_of_b_against_a(other):
         hinge = Hinge(a="arm", b="base", anchor_a=(-0.5, 0), limits=(-0.3, 0))
     else:
         hinge = Hinge(a="base", b="arm", anchor_b=(-0.5, 0), limits=(0, 0.3))
-    world = world_of([IDLE], [base, arm], [hinge], sampling_time=0.02)
+    world = endless([IDLE], [base, arm], [hinge], sampling_time=0.02)
     angle = coast(world, 2)[:, 2, 2]
     assert angle.max() == pytest.approx(0.3, abs=0.02)
     assert angle.min() > -0.02
@@ -262,7 +248,7 @@ def test_a_hinge_with_a_spring_swings_with_the_period_of_its_moment():
     hinge = Hinge(a="bar0", anchor_a=(-0.5, 0), stiffness=8)
     moment = bar.inertia.moment + 2 * 0.5**2
     period = 2 * pi * sqrt(moment / 8)
-    world = world_of([IDLE], [bar], [hinge], sampling_time=period / 50)
+    world = endless([IDLE], [bar], [hinge], sampling_time=period / 50)
     angle = coast(world, 4.5 * period)[:, 2, 1]
     times = world.scenario.sampling_time * np.arange(1, len(angle) + 1)
     assert np.diff(crossings(times, angle)) == pytest.approx(period, rel=0.01)
@@ -273,14 +259,14 @@ def test_a_damped_hinge_comes_to_rest_as_exponentials_do():
     bar = Bar(pose=(0.5, 0, 0), ground_friction=0, velocity=(0, 0.5, 1.0))
     hinge = Hinge(a="bar0", anchor_a=(-0.5, 0), damping=0.2)
     rate = 0.2 / (bar.inertia.moment + 0.5**2)
-    world = world_of([IDLE], [bar], [hinge], sampling_time=0.02)
+    world = endless([IDLE], [bar], [hinge], sampling_time=0.02)
     coast(world, 1)
     assert world.prop_velocity[2, 0] == pytest.approx(exp(-rate), rel=0.02)
 
 
 def test_a_puck_on_a_hinge_is_held_by_floor_and_hinge_at_once():
     puck = Puck(pose=(0, 0, 0), velocity=(0, 0, 8), ground_friction=0.2)
-    world = world_of([IDLE], [puck], [Hinge(a="puck0")], sampling_time=0.002)
+    world = endless([IDLE], [puck], [Hinge(a="puck0")], sampling_time=0.002)
     poses = coast(world, 0.5)
     assert np.abs(poses[:, :2, 1]).max() < 1e-6
     slowing = 0.2 * GRAVITY * (2 / 3 * 0.1) / (0.1**2 / 2)
@@ -308,7 +294,7 @@ def test_a_puck_on_a_hinge_is_held_by_floor_and_hinge_at_once():
 )
 def test_joints_that_cannot_be_are_refused_by_name(joint, said):
     with pytest.raises(InputError) as error:
-        world_of([Robot()], [Ball(pose=(1, 0, 0))], [joint()])
+        endless([Robot()], [Ball(pose=(1, 0, 0))], [joint()])
     assert said in str(error.value)
 
 
@@ -316,7 +302,7 @@ def test_a_strong_robot_tears_no_hinge_open():
     strong = Robot(pose=(0, 0, 0), drive=Holonomic(max_force=200, max_linear_speed=1))
     box = Box(pose=(0.5, 0, 0), length=0.2, width=0.2, ground_friction=1, mass=10)
     hinges = [Hinge(a="robot0", b="box0", anchor_a=(0.25, 0), anchor_b=(-0.25, 0))]
-    world = world_of([strong], [box], hinges)
+    world = endless([strong], [box], hinges)
     for command in ([[0], [1]], [[1], [0]], [[0], [-1]]):
         poses = drive(world, command, 1)
         gap = apart(at(poses[:, :, 0], (0.25, 0)), at(poses[:, :, 1], (-0.25, 0)))

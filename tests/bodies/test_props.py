@@ -7,27 +7,15 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from mars2d import Holonomic, Robot, Scenario, Unicycle, World
+from mars2d import Holonomic, Robot, Unicycle
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
-from mars2d.geometry.shapes import Compound, Disc, Polygon
+from mars2d.geometry.shapes import Compound, Disc
 from mars2d.physics.floor import GRAVITY
+from tests.worlds import ELL, drive, endless
 
 EXACT = 1e-9  # metres, radians
 IDLE = Robot(pose=(50, 50, 0))
-ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
-
-
-def world_of(robots, props=(), **fields) -> World:
-    """A world without limits."""
-    fields = {"workspace": None, "stop_time": 1e5} | fields
-    return World(Scenario(robots=robots, props=props, **fields))
-
-
-def drive(world: World, command, seconds: float) -> None:
-    """Command the same for some seconds."""
-    for _ in range(round(seconds / world.scenario.sampling_time)):
-        world.step(command)
 
 
 def glided(prop: Prop, t: float) -> list[float]:
@@ -56,7 +44,7 @@ PROPS = [
 
 @pytest.mark.parametrize("sampling_time", [1e-3, 0.02, 0.1, 1.0, 10.0])
 def test_props_glide_as_the_formula_says(sampling_time):
-    world = world_of([IDLE], PROPS, sampling_time=sampling_time)
+    world = endless([IDLE], PROPS, sampling_time=sampling_time)
     for _ in range(max(2, min(round(4 / sampling_time), 200))):
         world.step([[0], [0]])
         expected = np.transpose([glided(prop, world.time) for prop in PROPS])
@@ -64,7 +52,7 @@ def test_props_glide_as_the_formula_says(sampling_time):
 
 
 def test_a_sliding_box_stops_after_v_squared_over_2_mu_g():
-    world = world_of([IDLE], [Box(velocity=(2, 0, 0), ground_friction=0.4)])
+    world = endless([IDLE], [Box(velocity=(2, 0, 0), ground_friction=0.4)])
     drive(world, [[0], [0]], 2)
     assert world.prop_pose[0, 0] == pytest.approx(4 / (2 * 0.4 * GRAVITY), abs=EXACT)
     assert not world.prop_velocity.any()
@@ -72,7 +60,7 @@ def test_a_sliding_box_stops_after_v_squared_over_2_mu_g():
 
 def test_a_spinning_puck_stops_after_its_angular_momentum_over_the_torque_of_the_floor():
     puck = Puck(diameter=0.3, mass=2, velocity=(0, 0, 10), ground_friction=0.2)
-    world = world_of([IDLE], [puck], sampling_time=0.01)
+    world = endless([IDLE], [puck], sampling_time=0.01)
     # torque mu m g 2/3 r against the moment m r^2 / 2
     stop = 10 * (0.15**2 / 2) / (0.2 * GRAVITY * 2 / 3 * 0.15)
     drive(world, [[0], [0]], stop)
@@ -91,7 +79,7 @@ def test_props_glide_exactly_while_others_near_them_push_and_cause_substeps(samp
         Puck(pose=(1, -0.255, 0), velocity=(-0.8, 0, 0), ground_friction=0.05),
         Box(pose=(-1, 0.66, 0), velocity=(0.9, 0, 0), ground_friction=0.05, length=0.5),
     ]
-    world = world_of(robots, pucks, sampling_time=sampling_time)
+    world = endless(robots, pucks, sampling_time=sampling_time)
     for _ in range(round(4 / sampling_time)):
         world.step([[0.3, 0.3], [0, 0]])
         expected = np.transpose([glided(prop, world.time) for prop in pucks])
@@ -108,7 +96,7 @@ def test_props_glide_exactly_when_others_are_thrown_further_than_was_thought_pos
         Ball(pose=(0, -9, 0), velocity=(0.3, 0.2, 1)),
     ]
     wall = Map([[(2.3, -2), (2.3, 2)]])
-    world = world_of([heavy, light], far, addons=[wall], sampling_time=2.0)
+    world = endless([heavy, light], far, addons=[wall], sampling_time=2.0)
     for _ in range(5):
         world.step([[0.5, -0.5], [0, 0]])
         expected = np.transpose([glided(prop, world.time) for prop in far])
@@ -125,7 +113,7 @@ def moves(robots, prop: Prop) -> bool:
     What is too heavy coasts for less than 0.4 s after the impact, for a hundredth more than can be
     overcome.
     """
-    world = world_of(robots, [prop])
+    world = endless(robots, [prop])
     command = [[0.02] * len(robots), [0] * len(robots)]
     drive(world, command, 7.5)
     before = world.prop_pose[0, 0]
@@ -146,6 +134,7 @@ def threshold(robots, prop: Prop, low: float, high: float) -> float:
     return (low + high) / 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("force", "prop", "x"),
     [
@@ -162,6 +151,7 @@ def test_a_prop_moves_up_to_the_friction_that_the_force_overcomes(force, prop, x
     assert threshold([robot], prop, 0.8 * mu, 1.3 * mu) == pytest.approx(mu, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [2, 3])
 def test_the_forces_of_several_robots_on_one_box_add_up(count):
     robots = [
@@ -181,7 +171,7 @@ def test_the_forces_of_several_robots_on_one_box_add_up(count):
 @pytest.mark.parametrize("mass", [0.5, 2.0])
 def test_a_frictionless_prop_is_accelerated_by_force_over_both_masses(prop, mass):
     robot = Robot(pose=(-0.3501, 0, 0), drive=Unicycle(max_force=0.3))
-    world = world_of([robot], [prop.replace(mass=mass, restitution=0)])
+    world = endless([robot], [prop.replace(mass=mass, restitution=0)])
     drive(world, [[0.5], [0]], 0.2)  # the impact leaves the share 1 / (1 + mass) of the speed
     before = world.prop_velocity[0, 0]
     drive(world, [[0.5], [0]], 0.5)
@@ -191,14 +181,14 @@ def test_a_frictionless_prop_is_accelerated_by_force_over_both_masses(prop, mass
 
 @pytest.mark.parametrize("mu", [0.1, 0.3, 0.45])
 def test_the_effort_of_pushing_a_box_is_mu_m_g_over_the_force(mu):
-    world = world_of([Robot(pose=(-0.36, 0, 0))], [Box(ground_friction=mu)])
+    world = endless([Robot(pose=(-0.36, 0, 0))], [Box(ground_friction=mu)])
     drive(world, [[0.2], [0]], 3)
     assert world.prop_velocity[0, 0] == pytest.approx(0.2, abs=1e-9)
     assert world.effort[0] == pytest.approx(mu * GRAVITY / 5, rel=2e-3)
 
 
 def test_the_effort_is_nothing_in_free_motion_and_all_when_stalled():
-    world = world_of([Robot(pose=(-0.5, 0, 0))], [Box(ground_friction=1)])
+    world = endless([Robot(pose=(-0.5, 0, 0))], [Box(ground_friction=1)])
     world.step([[0.2], [0.1]])
     assert world.effort.tolist() == [0]
     drive(world, [[0.2], [0]], 5)
@@ -207,21 +197,21 @@ def test_the_effort_is_nothing_in_free_motion_and_all_when_stalled():
 
 
 def test_a_box_that_is_pushed_beside_its_centre_turns():
-    world = world_of([Robot(pose=(-0.4, 0.1, 0))], [Box()])
+    world = endless([Robot(pose=(-0.4, 0.1, 0))], [Box()])
     drive(world, [[0.2], [0]], 3)
     assert world.prop_pose[2, 0] < -0.3
 
 
 def test_a_box_pushed_at_both_ends_alike_keeps_its_heading():
     robots = [Robot(pose=(-0.4, y, 0)) for y in (-0.4, 0.4)]
-    world = world_of(robots, [Box(width=1.2, ground_friction=0.6)])
+    world = endless(robots, [Box(width=1.2, ground_friction=0.6)])
     drive(world, [[0.2, 0.2], [0, 0]], 5)
     assert abs(world.prop_pose[2, 0]) < 0.01  # the solver takes one contact after the other
     assert world.prop_pose[0, 0] > 0.8
 
 
 def test_a_box_stays_where_it_is_left():
-    world = world_of([Robot(pose=(-0.4, 0.05, 0))], [Box()])
+    world = endless([Robot(pose=(-0.4, 0.05, 0))], [Box()])
     drive(world, [[0.2], [0]], 2)
     drive(world, [[-0.2], [0]], 1)
     before = world.prop_pose
@@ -231,7 +221,7 @@ def test_a_box_stays_where_it_is_left():
 
 def test_a_gate_opens_to_its_limit_and_lets_a_robot_past():
     gate = Gate(pose=(0, 0, -pi / 2), limits=(0, pi / 2))
-    world = world_of([Robot(pose=(-1, -0.3, 0))], [gate])
+    world = endless([Robot(pose=(-1, -0.3, 0))], [gate])
     drive(world, [[0.3], [0]], 8)
     assert world.prop_pose[2, 0] <= 1e-3
     assert world.prop_pose[2, 0] > -pi / 2 + 1.0
@@ -243,7 +233,7 @@ def test_a_gate_opens_to_its_limit_and_lets_a_robot_past():
 
 def test_a_gate_with_a_spring_shuts_again():
     gate = Gate(pose=(0, 0, -pi / 2), stiffness=2, damping=1)
-    world = world_of([Robot(pose=(-1, -0.3, 0))], [gate])
+    world = endless([Robot(pose=(-1, -0.3, 0))], [gate])
     drive(world, [[0.3], [0]], 6)
     assert world.pose[0, 0] > 0.5
     drive(world, [[0.3], [0]], 6)

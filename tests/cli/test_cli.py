@@ -1,9 +1,7 @@
 """The command line as a student types it: real processes, their output and exit codes."""
 
-import functools
 import json
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -14,27 +12,12 @@ import pytest
 import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli import verbs
-from tests.forking import Nursery
+from tests.processes import PATIENCE, mars, wait_until, x_server
 
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
 
 
-@functools.cache
-def nursery():
-    """Start the process that command lines are forked from."""
-    return Nursery(dict(os.environ), "mars2d.cli.command_line", "matplotlib.figure")
-
-
-def mars(*arguments, cwd, **environment):
-    """Run the command line without a display and return the finished process."""
-    env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    process = nursery().fork(
-        "mars2d.cli.command_line", [*map(str, arguments)], env | environment, cwd
-    )
-    out, errors = process.communicate()
-    return subprocess.CompletedProcess(arguments, process.wait(120), out, errors)
-
-
+@pytest.mark.slow
 def test_demo_without_a_name_lists_the_examples(tmp_path):
     done = mars("demo", cwd=tmp_path)
     assert done.returncode == 0
@@ -42,6 +25,7 @@ def test_demo_without_a_name_lists_the_examples(tmp_path):
         assert name in done.stdout
 
 
+@pytest.mark.slow
 def test_demo_without_a_display_makes_a_picture_and_a_film_and_says_where(tmp_path):
     from PIL import Image
 
@@ -71,6 +55,7 @@ def test_run_prints_its_outcome_as_one_line_of_json(tmp_path):
     assert outcome["wall_s"] > 0
 
 
+@pytest.mark.slow
 def test_run_saves_record_figure_and_film(tmp_path):
     done = mars(
         "run", "go_to_point", "--headless", "--stop-time", 2, "--record", "a.npz",
@@ -144,6 +129,7 @@ def test_check_says_where_a_record_departs(tmp_path, capsys):
     assert "departs at row 30, at 3 s: follower1 is off by 0.25 m" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_check_describes_an_experiment_and_tries_its_laws(tmp_path):
     done = mars("check", "own_sensor_and_addon", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -302,7 +288,6 @@ def test_what_was_recorded_before_a_law_failed_is_kept(tmp_path):
 
 def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
     import signal
-    import time
 
     (tmp_path / "long.py").write_text(
         HEAD + "scenario = Scenario(stop_time=1e6)\n"
@@ -315,11 +300,9 @@ def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
         cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
     )  # fmt: skip
     try:
-        while not (tmp_path / "going").exists():
-            assert process.poll() is None
-            time.sleep(0.05)
+        wait_until((tmp_path / "going").exists, process)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=PATIENCE)
     finally:
         process.kill()  # whatever went wrong, nothing goes on for ever
     assert process.returncode == 130, errors
@@ -328,6 +311,7 @@ def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
     assert "Ctrl-C" in record.over_message
 
 
+@pytest.mark.slow
 def test_a_ctrl_c_that_got_lost_within_a_step_ends_the_run_all_the_same(child):
     code = (
         "import os, signal, mars2d\n"
@@ -348,6 +332,7 @@ def test_a_ctrl_c_that_got_lost_within_a_step_ends_the_run_all_the_same(child):
     assert child(code).stdout.split() == ["6", "True"]
 
 
+@pytest.mark.slow
 def test_a_long_run_shows_its_progress_on_a_terminal(tmp_path):
     import pty
 
@@ -446,6 +431,7 @@ def test_an_experiment_may_import_what_lies_beside_it_and_two_do_not_meet(tmp_pa
     assert "helper" not in sys.modules
 
 
+@pytest.mark.slow
 def test_a_laws_error_is_not_hidden_by_what_can_not_be_drawn(tmp_path):
     (tmp_path / "late.py").write_text(
         HEAD
@@ -458,6 +444,7 @@ def test_a_laws_error_is_not_hidden_by_what_can_not_be_drawn(tmp_path):
     assert (tmp_path / "a.png").exists()
 
 
+@pytest.mark.slow
 def test_a_run_without_a_control_step_is_filmed_as_the_one_picture_that_it_is(tmp_path):
     words = ["random_walk", "--headless", "--stop-time", "0", "--video", "still.gif"]
     done = mars("run", *words, cwd=tmp_path)
@@ -473,6 +460,7 @@ def test_a_film_of_too_many_frames_is_refused(tmp_path):
     assert "frames" in done.stderr
 
 
+@pytest.mark.slow
 def test_a_colour_that_is_none_is_refused_where_it_is_drawn(tmp_path):
     (tmp_path / "red.py").write_text(
         HEAD + "class Spot(Addon):\n"
@@ -592,6 +580,7 @@ def test_check_says_whether_an_experiment_has_checks(roll, capsys):
     assert "checks" not in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_a_demo_prints_its_checks_below_where_its_pictures_are(tmp_path):
     done = mars("demo", "push_box", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -605,21 +594,11 @@ def test_a_demo_prints_its_checks_below_where_its_pictures_are(tmp_path):
 @pytest.fixture
 def display():
     """The name of an X server of its own."""
-    if shutil.which("Xvfb") is None:
-        pytest.skip("Xvfb is not installed")
-    read, write = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-noreset"],
-        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        number = pipe.readline().strip()
-    yield f":{number}"
-    server.terminate()
-    server.wait(10)
+    with x_server() as (name, _):
+        yield name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("closes", "made"), [("on_stop", 3), ("on_step", 0)])
 def test_checks_are_made_once_a_window_closes_if_the_run_came_to_its_end(
     roll, tmp_path, display, closes, made

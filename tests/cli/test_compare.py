@@ -74,6 +74,7 @@ def written(code, name="walk.py"):
     return name
 
 
+@pytest.mark.slow
 def test_without_more_it_makes_a_picture_and_a_film_and_says_where(compare):
     code, out, err = compare(written(HEAD_ON))
     assert (code, err) == (0, "")

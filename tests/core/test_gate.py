@@ -64,7 +64,7 @@ def attempt(code):
     return "passed"
 """
 
-FLAGS = [(), ("-O",)]
+FLAGS = [(), pytest.param(("-O",), marks=pytest.mark.slow)]
 
 
 def outcomes(child, cases: list[str], flags: tuple[str, ...] = (), definitions: str = "") -> dict:
@@ -73,7 +73,7 @@ def outcomes(child, cases: list[str], flags: tuple[str, ...] = (), definitions: 
         PRELUDE + definitions + f"\nfor case in {cases!r}:\n"
         '    print(json.dumps([case, attempt(case)]), flush=True)\nprint(\'["end", ""]\')'
     )
-    result = child(code, *flags, timeout=50)
+    result = child(code, *flags)
     found = dict(json.loads(line) for line in result.stdout.splitlines())
     assert result.returncode == 0, (result.returncode, [*found][-1:], result.stderr[-500:])
     assert found.pop("end") == ""
@@ -494,6 +494,7 @@ class Unannotated(Addon):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flags", FLAGS, ids=["", "-O"])
 def test_what_users_write_themselves_cannot_break_the_engine_either(child, flags):
     cases = [
@@ -537,6 +538,7 @@ def test_what_users_write_themselves_cannot_break_the_engine_either(child, flags
     all_refused(child, cases, flags, USERS)
 
 
+@pytest.mark.slow
 def test_extreme_but_sound_inputs_run_and_stay_finite(child):
     cases = [
         "go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), commands=[[1], [1]])",
@@ -594,6 +596,7 @@ def test_extreme_but_sound_inputs_run_and_stay_finite(child):
     assert outcomes(child, cases) == dict.fromkeys(cases, "passed")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("flags", "code"),
     [((), "raise ValueError('in the law')"), (("-O",), "raise ValueError('in the law')")],

@@ -85,7 +85,7 @@ class Command:
         out, err = (path.read_text(errors="replace") for path in self._files)
         return Ended(code, out, err)
 
-    def left(self, patience: float = 5.0) -> list[str]:
+    def left(self, patience: float = 30.0) -> list[str]:
         """Return the processes that it has started and that have outlived it."""
         until = time.monotonic() + patience
         while (found := _marked(self._mark)) and time.monotonic() < until:

@@ -13,7 +13,7 @@ import pytest
 
 import mars2d
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="LD_PRELOAD")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="LD_PRELOAD")]
 
 JUMPING = """
 #define _GNU_SOURCE
@@ -101,7 +101,7 @@ def test_the_clock_really_jumps_and_a_run_keeps_its_pace_and_its_digest(
     )
     jumps, took, digest = python(shim, jump, tmp_path, "-c", code).split()
     assert int(jumps) >= 2
-    assert 1.0 <= float(took) < 20.0  # 30 simulated seconds at 30 times the pace
+    assert 1.0 <= float(took) < 60.0  # 30 simulated seconds at 30 times the pace
     assert digest == mars2d.run("random_walk", 30).digest
 
 
@@ -124,7 +124,7 @@ def test_an_innocent_law_has_no_verdict_and_a_slow_one_has(shim, jump, tmp_path)
             "2", "--workers", "1", "--out", "league"]  # fmt: skip
     begun = time.monotonic()
     python(shim, jump, tmp_path, *argv)
-    assert time.monotonic() - begun < 90
+    assert time.monotonic() - begun < 110
     rows = (tmp_path / "league" / "matches.csv").read_text().splitlines()
     verdicts = [("fair" in row, "blue: slow" in row, "red:" in row) for row in rows[1:]]
     assert len(verdicts) == 2

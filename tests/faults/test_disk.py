@@ -16,7 +16,10 @@ import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.cli import command_line as cli
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="disks of Linux")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform != "linux", reason="disks of Linux"),
+]
 
 ROOM = 200  # kB
 

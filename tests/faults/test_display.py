@@ -10,7 +10,10 @@ import pytest
 
 from mars2d.record.record import load
 from mars2d.scenario.experiment import open_experiment
-from tests.window.person import ROOM, bare_environment, needs_screen
+from tests.processes import PATIENCE, bare_environment, wait_until, x_server
+from tests.window.person import ROOM, needs_screen
+
+pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
 GONE = "mars2d: the display has gone away that the window was on\n"
@@ -36,13 +39,6 @@ def windows_on(display):
     return len(told.stdout.split())
 
 
-def wait_for(condition, seconds=60):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "it took too long"
-        time.sleep(0.1)
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("gone")
@@ -51,7 +47,7 @@ def folder(tmp_path_factory):
     experiment.scenario.replace(robots=experiment.scenario.robots[1:]).save(folder / "drawn.toml")
     short = ["run", "room.py", "--headless", "--stop-time", "5", "--record", "past.npz"]
     process = mars(folder, *short)
-    process.communicate(timeout=60)
+    process.communicate(timeout=PATIENCE)
     assert process.returncode == 0
     return folder
 
@@ -65,27 +61,20 @@ def left(folder):
         "replay": ["replay", "past.npz"],
         "editor": ["edit", "drawn.toml", "--set", "title=Another room"],
     }
-    read, write = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-noreset"],
-        pass_fds=[write],
-        stderr=subprocess.DEVNULL,
-    )
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        display = f":{pipe.readline().strip()}"
-    processes = {
-        name: mars(folder, *command, DISPLAY=display) for name, command in commands.items()
-    }
-    try:
-        wait_for(lambda: windows_on(display) == len(commands))
-        time.sleep(1.0)  # there is something to lose by then
-        server.kill()
-        said = {name: process.communicate(timeout=60) for name, process in processes.items()}
-    finally:
-        for process in (server, *processes.values()):
-            process.kill()
-            process.wait(10)
+    with x_server() as (display, server):
+        processes = {
+            name: mars(folder, *command, DISPLAY=display) for name, command in commands.items()
+        }
+        try:
+            wait_until(lambda: windows_on(display) == len(commands))
+            wait_until((folder / "live.mcap").exists)
+            time.sleep(1.0)  # there is something to lose by then
+            server.kill()
+            said = {name: each.communicate(timeout=PATIENCE) for name, each in processes.items()}
+        finally:
+            for process in processes.values():
+                process.kill()
+                process.wait(PATIENCE)
     return {name: (processes[name].returncode, *said[name]) for name in commands}
 
 
@@ -135,7 +124,7 @@ def test_a_display_that_is_not_there_is_said_in_one_line(folder):
         env=bare_environment(PYTHONPATH=str(ROOT), DISPLAY=":987"),
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=PATIENCE,
         check=False,
     )
     codes = [line for line in done.stdout.splitlines() if len(line) == 1]
@@ -165,7 +154,7 @@ def test_a_run_whose_terminal_is_closed_is_saved(folder):
     while b"steps/s" not in said:
         said += os.read(ours, 1000)
     os.close(ours)
-    assert process.wait(60) == 130
+    assert process.wait(PATIENCE) == 130
     assert len(load(folder / "closed.npz")) > 1
 
 
@@ -173,5 +162,5 @@ def test_a_run_whose_terminal_is_closed_is_saved(folder):
 def test_whoever_reads_may_stop_reading(folder, command):
     process = mars(folder, *command.split())
     process.stdout.close()
-    assert (process.stderr.read(), process.wait(60)) == ("", 0)
+    assert (process.stderr.read(), process.wait(PATIENCE)) == ("", 0)
     process.stderr.close()

@@ -9,7 +9,10 @@ import pytest
 import mars2d
 
 pytest.importorskip("xarray")
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX"),
+]
 
 DYING = """
 import os, signal, sys

@@ -148,6 +148,7 @@ def test_pairs_of_discs_measure_every_gap_within_reach(seed):
     assert np.abs(points - center[first]) == pytest.approx(radii[first])
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 2**32), depth=st.floats(1e-5, 1e-2))
 def test_until_the_time_to_touch_nothing_gets_deeper_than_allowed(seed, depth):
     rng = np.random.default_rng(seed)

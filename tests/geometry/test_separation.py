@@ -216,6 +216,7 @@ def random_motion(seed, spread, **kinds):
     return pair, pose, (velocity, spin, bend)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("depth", [1e-4, 1e-2])
 def test_before_the_time_to_touch_nothing_gets_deeper_than_allowed(depth):
     reached = 0

@@ -376,6 +376,7 @@ def check(data: Data, rng_seed: int, plain: bool) -> None:
     assert outcome.startswith(("ran", "refused: ")), outcome
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(any_scenario(), st.integers(0, 99), st.booleans())
 def test_any_scenario_is_refused_or_runs_finite_in_its_walls_and_in_bounds(data, rng_seed, plain):

@@ -22,6 +22,7 @@ MISSING = [name for name in NEEDED if importlib.util.find_spec(name) is None]
 COMPILER = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "").split()
 
 pytestmark = [
+    pytest.mark.slow,
     pytest.mark.skipif(bool(MISSING), reason=f"it is built by {', '.join(MISSING)}, not installed"),
     pytest.mark.skipif(os.name == "nt", reason="its compiler is found in another way"),
 ]

@@ -175,7 +175,26 @@ class Reader:
         return printed.getvalue() + errors
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda p: str(p.relative_to(ROOT)))
+SLOW = {
+    "README", "clusters", "commands", "communication", "contact", "figures", "information",
+    "own_sensor_and_addon", "sensing", "speed", "studies", "tournaments",
+    "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "herding",
+    "leader_following", "path_planning", "pursuit_corners", "pursuit_voronoi", "rendezvous",
+}  # fmt: skip
+"""Documents that take seconds."""
+
+
+@pytest.mark.parametrize(
+    "document",
+    [
+        pytest.param(
+            path,
+            id=str(path.relative_to(ROOT)),
+            marks=[pytest.mark.slow] if path.stem in SLOW else [],
+        )
+        for path in DOCUMENTS
+    ],
+)
 def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
@@ -299,6 +318,7 @@ LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi
 """Experiments whose model answers take seconds: `pytest -m soak`."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "page",
     [

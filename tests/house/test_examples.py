@@ -59,7 +59,17 @@ def test_every_example_is_pinned():
     assert set(examples()) == set(DIGESTS)
 
 
-@pytest.mark.parametrize("name", DIGESTS)
+SLOW = {
+    "circular_motion", "coverage_square", "dead_reckoning", "flocking", "obstacle_avoidance",
+    "pursuit_corners", "pursuit_voronoi",
+}  # fmt: skip
+"""Examples that take a second and more."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=[pytest.mark.slow] if n in SLOW else []) for n in DIGESTS],
+)
 def test_an_example_goes_its_golden_way_and_where_digests_are_pinned_has_its_own(name):
     record = mars2d.run(name)
     if ON_THE_PINNED_PLATFORM:

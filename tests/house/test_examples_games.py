@@ -11,17 +11,12 @@ import mars2d
 from mars2d.cli.command_line import main
 from mars2d.core.errors import LawError
 from mars2d.scenario.experiment import examples, open_experiment, open_module
-from mars2d.session import run
+from tests.worlds import predicted
+
+pytestmark = pytest.mark.slow
 
 PLAYERS = ("pusher", "flanker", "dodger")
 PURSUERS, EVADERS = ("straight", "ahead", "inside"), ("away", "corners", "round")
-
-
-def play(name, seed=0, **options):
-    """Run an example; return its record and its predictions by name."""
-    record = run(name, seed=seed, options=options)
-    found = open_experiment(name, options).predictions(record)
-    return record, {prediction.name: prediction for prediction in found}
 
 
 def bout(red, blue, seed=0):
@@ -44,13 +39,13 @@ def bout(red, blue, seed=0):
     ],
 )
 def test_a_game_agrees_with_its_predictions(name, options):
-    _, predictions = play(name, **options)
+    _, predictions = predicted(name, **options)
     assert predictions
     assert [p for p in predictions.values() if not p.ok] == []
 
 
 def test_a_blow_beside_the_middle_gives_less_speed_and_more_spin():
-    record, _ = play("shove_and_spin")
+    record, _ = predicted("shove_and_spin")
     end = np.diff(record.prop_pose[-2:], axis=0)[0]
     assert end[0, 1] < end[0, 0]
     assert end[2, 1] > 0.0
@@ -59,12 +54,12 @@ def test_a_blow_beside_the_middle_gives_less_speed_and_more_spin():
 
 @pytest.mark.parametrize(("blue", "winner"), [(5.0, "red"), (7.0, "blue")])
 def test_the_stronger_team_wins_the_tug_of_war(blue, winner):
-    record, _ = play("tug_of_war", blue=blue)
+    record, _ = predicted("tug_of_war", blue=blue)
     assert record.over_message.startswith(f"{winner} wins")
 
 
 def test_equal_teams_stand_still():
-    record, predictions = play("tug_of_war", blue=6.0)
+    record, predictions = predicted("tug_of_war", blue=6.0)
     assert predictions["end of the game"].ok
     assert np.abs(record.pose[-1, :, :3] - record.pose[0, :, :3]).max() < 1e-3
 
@@ -123,7 +118,7 @@ def test_players_lie_beside_the_examples_and_are_none(folder, players):
 
 
 def hunt(pursuer, evader, mu, seed=0, **options):
-    """Let two laws play corner_game; return the outcome and the record."""
+    """Let two laws predicted corner_game; return the outcome and the record."""
     laws = {"pursuer": f"corner_pursuers/{pursuer}.py", "evader": f"corner_evaders/{evader}.py"}
     record = mars2d.run("corner_game", seed=seed, options={**laws, "mu": mu, **options})
     return record.scenario.addons[0].outcome(record), record
@@ -191,7 +186,7 @@ def test_laws_of_the_corner_game_see_positions_only(tmp_path):
 
 
 def test_the_crowds_checks_see_who_overlaps_or_comes_through_a_wall():
-    record, _ = play("crowd", stop_time=12.0)
+    record, _ = predicted("crowd", stop_time=12.0)
     experiment = open_experiment("crowd", {"stop_time": 12.0})
     pose = record.pose.copy()
     pose[-1, :2, 49] = pose[-1, :2, 48] + [0.298, 0.0]

@@ -3,18 +3,12 @@
 import numpy as np
 import pytest
 
-import mars2d
 from mars2d.physics.floor import GRAVITY
-from mars2d.scenario.experiment import open_experiment
+from tests.worlds import predicted
+
+pytestmark = pytest.mark.slow
 
 NAMES = ["head_on", "push_box", "many_push_one", "wall_slide", "billiards"]
-
-
-def played(name, **options):
-    """Return the record of an example, and its predictions by their names."""
-    experiment = open_experiment(name, options)
-    record = mars2d.run(name, options=options)
-    return record, {p.name: p for p in experiment.predictions(record)}
 
 
 def wrong(predictions):
@@ -23,20 +17,20 @@ def wrong(predictions):
 
 @pytest.mark.parametrize("options", [{}, {"extra": 0}, {"extra": 3}, {"force": 2}, {"mass": 1}])
 def test_head_on(options):
-    _, predictions = played("head_on", **options)
+    _, predictions = predicted("head_on", **options)
     assert not wrong(predictions)
     assert len(predictions) == 8
 
 
 def test_head_on_equals_do_not_drift_at_any_time():
-    record, _ = played("head_on")
+    record, _ = predicted("head_on")
     middle = record.pose[:, :2, :2].mean(axis=2) - record.pose[0, :2, :2].mean(axis=1)
     assert np.abs(middle).max() < 1e-9
 
 
 @pytest.mark.parametrize("mu", [0.3, 0.4, 0.49, 0.5, 0.509, 0.51, 0.6, 0.7])
 def test_push_box(mu):
-    _, predictions = played("push_box", mu=mu)
+    _, predictions = predicted("push_box", mu=mu)
     assert not wrong(predictions)
     stays = [mass for mass in (0.5, 1, 1.04, 2) if mu * mass * GRAVITY > 5]
     assert [
@@ -48,7 +42,7 @@ def test_push_box(mu):
 @pytest.mark.parametrize("team", [1, 2, 3, 4])
 def test_many_push_one_near_the_threshold_of_each_team(team, share):
     mu = share * team * 7.0 / (10 * GRAVITY)
-    record, predictions = played("many_push_one", mu=mu)
+    record, predictions = predicted("many_push_one", mu=mu)
     assert not wrong(predictions)
     moved = record.prop_pose[-1, 0] - record.prop_pose[0, 0] > 0.1
     assert moved.tolist() == [k >= team + (share > 1) for k in (1, 2, 3, 4)]
@@ -56,7 +50,7 @@ def test_many_push_one_near_the_threshold_of_each_team(team, share):
 
 @pytest.mark.parametrize("angle", [10, 25, 40, 60, 80])
 def test_wall_slide(angle):
-    _, predictions = played("wall_slide", angle=angle)
+    _, predictions = predicted("wall_slide", angle=angle)
     assert not wrong(predictions)
     slides = [p.measured > 1e-4 for name, p in predictions.items() if "slides" in name]
     assert slides == [True, True, True, False]
@@ -65,18 +59,18 @@ def test_wall_slide(angle):
 @pytest.mark.parametrize("offset", [-0.12, 0, 0.05, 0.1])
 @pytest.mark.parametrize("speed", [0.25, 0.5, 2])
 def test_billiards(speed, offset):
-    _, predictions = played("billiards", speed=speed, offset=offset)
+    _, predictions = predicted("billiards", speed=speed, offset=offset)
     assert not wrong(predictions)
 
 
 @pytest.mark.parametrize("physics", ["ideal", "stop"])
 @pytest.mark.parametrize("name", NAMES)
 def test_without_forces_predictions_fail(name, physics):
-    _, predictions = played(name, physics=physics)
+    _, predictions = predicted(name, physics=physics)
     assert len(wrong(predictions)) >= len(predictions) / 2
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_run_that_is_cut_short_still_has_its_table(name):
-    _, predictions = played(name, stop_time=0.3)
+    _, predictions = predicted(name, stop_time=0.3)
     assert predictions

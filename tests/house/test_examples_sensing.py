@@ -7,22 +7,11 @@ import pytest
 
 import mars2d
 from mars2d.scenario.experiment import open_experiment
-from mars2d.session import run
+from tests.worlds import failing, predicted
+
+pytestmark = pytest.mark.slow
 
 EXAMPLES = ("braitenberg", "wall_follower", "obstacle_avoidance", "dead_reckoning")
-
-
-def play(name, seed=0, **options):
-    """Run an example; return its record and its predictions by name."""
-    record = run(name, seed=seed, options=options)
-    found = open_experiment(name, options).predictions(record)
-    return record, {prediction.name: prediction for prediction in found}
-
-
-def judged(name, record, **options):
-    """The names of the predictions that fail for a record."""
-    found = open_experiment(name, options).predictions(record)
-    return {prediction.name for prediction in found if not prediction.ok}
 
 
 @pytest.mark.parametrize(
@@ -44,7 +33,7 @@ def judged(name, record, **options):
     ],
 )
 def test_an_example_agrees_with_its_predictions(name, options):
-    _, predictions = play(name, **options)
+    _, predictions = predicted(name, **options)
     assert predictions
     assert [p for p in predictions.values() if not p.ok] == []
 
@@ -65,7 +54,7 @@ def test_options_that_an_example_can_not_be_run_with_are_refused_by_name(name, o
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("name", ["braitenberg", "wall_follower", "dead_reckoning"])
 def test_other_seeds_agree_too(name, seed):
-    _, predictions = play(name, seed=seed)
+    _, predictions = predicted(name, seed=seed)
     assert [p for p in predictions.values() if not p.ok] == []
 
 
@@ -80,7 +69,7 @@ def test_all_laws_see_sensors_only(name):
 
 
 def test_fear_and_the_explorer_go_away_and_aggression_and_love_come():
-    record, _ = play("braitenberg")
+    record, _ = predicted("braitenberg")
     names = [robot.name for robot in record.scenario.robots]
     assert names == ["fear", "aggression", "love", "explorer"]
     lamps = [addon.at for addon in record.scenario.addons]
@@ -96,12 +85,12 @@ def test_fear_and_the_explorer_go_away_and_aggression_and_love_come():
 
 
 def test_the_checks_of_braitenberg_see_a_vehicle_that_does_not_what_it_should():
-    record, _ = play("braitenberg")
+    record, _ = predicted("braitenberg")
     pose = record.pose.copy()
     pose[:, 0, 1] += 1.0
     pose[:, :2, 2] *= 1.2
     pose[-1, :, 0] = pose[-2, :, 0]
-    assert judged("braitenberg", dataclasses.replace(record, pose=pose)) == {
+    assert failing("braitenberg", dataclasses.replace(record, pose=pose)) == {
         "fear: pace in the dark",
         "aggression: nearest to a lamp",
         "love: rests before a lamp at",
@@ -112,7 +101,7 @@ def test_the_checks_of_braitenberg_see_a_vehicle_that_does_not_what_it_should():
 
 
 def test_the_wall_follower_comes_all_round_its_room():
-    record, _ = play("wall_follower")
+    record, _ = predicted("wall_follower")
     x, y, heading = record.pose[:, :, 0].T
     assert heading[-1] == pytest.approx(-2 * np.pi, abs=0.2)  # one turn to the right
     near_a_wall = [y > 2, x > 4, y < -2, x < -4]
@@ -122,17 +111,16 @@ def test_the_wall_follower_comes_all_round_its_room():
 
 
 def test_less_damping_comes_nearer_to_the_wall():
-    nearest = [
-        play("wall_follower", damping=z, stop_time=20.0)[0].pose[:, 1, 0].max() for z in (0.2, 0.5)
-    ]
+    records = [predicted("wall_follower", damping=z, stop_time=20.0)[0] for z in (0.2, 0.5)]
+    nearest = [record.pose[:, 1, 0].max() for record in records]
     assert nearest[0] > nearest[1] + 0.05
 
 
 def test_the_checks_of_the_wall_follower_see_another_path():
-    record, _ = play("wall_follower")
+    record, _ = predicted("wall_follower")
     pose = record.pose.copy()
     pose[:, 1] -= 0.05
-    assert judged("wall_follower", dataclasses.replace(record, pose=pose)) == {
+    assert failing("wall_follower", dataclasses.replace(record, pose=pose)) == {
         "least distance to the first wall",
         "farthest from the curve of theory",
     }
@@ -151,20 +139,21 @@ def test_the_robots_spread_over_the_hall():
 
 
 def test_one_that_uses_up_too_much_of_its_room_comes_too_near():
+    options = {"stop_time": 30.0, "horizon": 0.03}
     failed = [
-        name
+        each.name
         for seed in range(3)
-        for name, p in play("obstacle_avoidance", seed, stop_time=30.0, horizon=0.03)[1].items()
-        if not p.ok
+        for each in predicted("obstacle_avoidance", seed, **options)[1].values()
+        if not each.ok
     ]
     assert "robots nearer to each other than GAP, by" in failed
 
 
 def test_the_checks_of_obstacle_avoidance_see_who_stands_still():
-    record, _ = play("obstacle_avoidance", stop_time=20.0)
+    record, _ = predicted("obstacle_avoidance", stop_time=20.0)
     pose = record.pose.copy()
     pose[100:, :, 3] = pose[100, :, 3]
-    found = judged("obstacle_avoidance", dataclasses.replace(record, pose=pose), stop_time=20.0)
+    found = failing("obstacle_avoidance", dataclasses.replace(record, pose=pose), stop_time=20.0)
     assert "robots that come to a stop" in found
 
 
@@ -172,7 +161,7 @@ def test_the_checks_of_obstacle_avoidance_see_who_stands_still():
 
 
 def test_all_believe_to_be_home_and_none_is():
-    record, _ = play("dead_reckoning")
+    record, _ = predicted("dead_reckoning")
     belief, truth = record.sensors["odometry"][-1, :, :2], record.pose[-1, :2].T
     assert np.hypot(*belief.T).max() < 0.06
     assert np.hypot(*truth.T).mean() > 0.5
@@ -197,8 +186,8 @@ def test_the_ellipse_is_seen_to_grow():
 
 
 def test_the_checks_of_dead_reckoning_see_errors_of_another_size():
-    record, _ = play("dead_reckoning")
+    record, _ = predicted("dead_reckoning")
     odometry = record.sensors["odometry"]
     truth = record.pose.swapaxes(1, 2)
     sensors = {"odometry": truth + 1.5 * (odometry - truth)}
-    assert len(judged("dead_reckoning", dataclasses.replace(record, sensors=sensors))) == 2
+    assert len(failing("dead_reckoning", dataclasses.replace(record, sensors=sensors))) == 2

@@ -12,15 +12,11 @@ import mars2d
 from mars2d import Scenario
 from mars2d.geometry.voronoi import Tessellation
 from mars2d.scenario.experiment import examples, open_experiment, open_module
+from tests.worlds import predicted
+
+pytestmark = pytest.mark.slow
 
 SQUARE = ((0.0, 0.0), (5.0, 0.0), (5.0, 5.0), (0.0, 5.0))
-
-
-def played(name, **options):
-    """The record of an example, and its predictions by their names."""
-    experiment = open_experiment(examples()[name], options)
-    record = mars2d.run(experiment.scenario, control=experiment.control)
-    return record, {each.name: each for each in experiment.predictions(record)}
 
 
 def costs(record, rows):
@@ -30,7 +26,7 @@ def costs(record, rows):
 
 @pytest.mark.parametrize("holonomic", [pytest.param(False, marks=pytest.mark.soak), True])
 def test_in_a_square_the_cost_never_rises_and_robots_end_at_their_centroids(holonomic):
-    record, found = played("coverage_square", holonomic=holonomic)
+    record, found = predicted("coverage_square", holonomic=holonomic)
     assert [each.name for each in found.values() if not each.ok] == []
     assert found["largest rise of H"].measured == 0.0
     assert found["farthest from its centroid"].measured < 1e-3
@@ -42,7 +38,7 @@ def test_in_a_square_the_cost_never_rises_and_robots_end_at_their_centroids(holo
 
 
 def test_the_checks_see_a_law_that_goes_the_wrong_way():
-    _, found = played("coverage_circle", k=-0.2)
+    _, found = predicted("coverage_circle", k=-0.2)
     assert not found["largest rise of H"].ok
 
 
@@ -61,7 +57,7 @@ def test_the_checks_see_a_robot_that_stands_still(name):
 )
 @pytest.mark.parametrize("name", ["coverage_square", "coverage_circle"])
 def test_of_robots_that_are_still_on_their_way_only_H_is_checked(name, options):
-    _, found = played(name, **options)
+    _, found = predicted(name, **options)
     assert [(each.name, each.ok) for each in found.values()] == [("largest rise of H", True)]
 
 
@@ -93,7 +89,7 @@ def test_no_arrangement_is_better_than_regular_hexagons():
 def test_in_a_circle_one_start_moved_by_a_tenth_of_a_metre_ends_elsewhere():
     ends, inside = [], []
     for moved in (0.0, 0.1):
-        record, found = played("coverage_circle", moved=moved)
+        record, found = predicted("coverage_circle", moved=moved)
         assert [each.name for each in found.values() if not each.ok] == []
         assert len(found) == (2 if moved else 4)
         starts = record.scenario.initial_pose

@@ -14,6 +14,8 @@ from mars2d.output.layers import parts
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.sensors import Beacon, RangeBearing
 
+pytestmark = pytest.mark.slow
+
 
 def outcome(name, stop_time=None, **options):
     """The record of an example, and what its checks measured, by their names."""

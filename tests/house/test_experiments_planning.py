@@ -10,34 +10,24 @@ import pytest
 import shapely
 from scipy.optimize import brentq, minimize
 
-import mars2d
 from mars2d.addons import Map
 from mars2d.scenario.experiment import examples, open_experiment, open_module
+from tests.worlds import failing, predicted
+
+pytestmark = pytest.mark.slow
 
 FLOOR = examples()["path_planning"].with_name("maps") / "department.dxf"
 SOLUTIONS = FLOOR.parents[1] / "solutions"
 
 
-def play(name, **options):
-    """Run an example or a file; return its record and its predictions by name."""
-    experiment = open_experiment(name, options)
-    record = mars2d.run(experiment.scenario, control=experiment.control)
-    return record, {p.name: p for p in experiment.predictions(record)}
-
-
 @pytest.fixture(scope="module")
 def planned():
-    return play("path_planning")
+    return predicted("path_planning")
 
 
 @pytest.fixture(scope="module")
 def followed():
-    return play("leader_following")
-
-
-def failed(name, record, **options):
-    found = open_experiment(name, options).predictions(record)
-    return {prediction.name for prediction in found if not prediction.ok}
+    return predicted("leader_following")
 
 
 # -- the floor ------------------------------------------------------------------------------------
@@ -117,7 +107,7 @@ def test_the_predicted_minimum_is_one_of_the_potential_found_without_forces(plan
 
 @pytest.mark.parametrize("detour", [(22, 9.8), (24, 10)])
 def test_a_waypoint_by_the_door_frees_the_third(detour):
-    record, predictions = play("path_planning", detour=detour)
+    record, predictions = predicted("path_planning", detour=detour)
     assert record.scenario.addons[1].of(record.frame(-1)) == (6, 5, 6)
     assert [p for p in predictions.values() if not p.ok] == []
     assert "robot2 is stuck at x" not in predictions
@@ -133,13 +123,13 @@ def test_a_waypoint_by_the_door_frees_the_third(detour):
     ],
 )
 def test_what_is_set_otherwise_is_predicted_otherwise(option, end):
-    record, predictions = play("path_planning", **option)
+    record, predictions = predicted("path_planning", **option)
     assert [p for p in predictions.values() if not p.ok] == []
     assert record.pose[-1, :2, 2] == pytest.approx(end, abs=0.005)
 
 
 def test_of_robots_that_are_still_on_their_way_nothing_is_said():
-    _, predictions = play("path_planning", stop_time=30.0)
+    _, predictions = predicted("path_planning", stop_time=30.0)
     assert set(predictions) == {"contacts"}
 
 
@@ -148,7 +138,7 @@ def test_the_checks_of_path_planning_see_another_end(planned):
     pose = record.pose.copy()
     pose[-1, 1, 2] += 0.02
     pose[:, 0, 0] += 1.0
-    wrong = failed("path_planning", dataclasses.replace(record, pose=pose))
+    wrong = failing("path_planning", dataclasses.replace(record, pose=pose))
     assert wrong == {"robot2 is stuck at y", "waypoints that robot0 reaches"}
 
 
@@ -172,7 +162,7 @@ def test_the_numbers_of_the_model_answer_on_walls_and_doors(planned):
 
 
 def test_the_model_answer_brings_the_third_by_a_plan_that_is_hardly_longer():
-    record, predictions = play(SOLUTIONS / "path_planning.py")
+    record, predictions = predicted(SOLUTIONS / "path_planning.py")
     assert [p for p in predictions.values() if not p.ok] == []
     ways = record.scenario.addons[1]
     assert ways.of(record.frame(-1)) == tuple(map(len, ways.routes))
@@ -187,7 +177,7 @@ def test_the_model_answer_brings_the_third_by_a_plan_that_is_hardly_longer():
 
 @pytest.mark.parametrize("options", [{"radius": 1.5}, {"radius": -2.5}, {"speed": 0.15}])
 def test_the_followers_go_on_circles_that_geometry_tells(options):
-    _, predictions = play("leader_following", **options)
+    _, predictions = predicted("leader_following", **options)
     assert len(predictions) == 8
     assert [p for p in predictions.values() if not p.ok] == []
 
@@ -227,19 +217,19 @@ def test_the_checks_of_leader_following_see_another_circle(followed):
     pose, command = record.pose.copy(), record.command.copy()
     pose[-1, :2, 1] *= 1.02
     command[-1, 0, 4] *= 1.02
-    wrong = failed("leader_following", dataclasses.replace(record, pose=pose, command=command))
+    wrong = failing("leader_following", dataclasses.replace(record, pose=pose, command=command))
     assert wrong == {"radius of robot1", "speed of robot4"}
 
 
 def test_the_examples_followers_need_each_message_and_those_of_the_model_answer_do_not():
-    _, example = play("leader_following", **{"addons.0.loss": 0.5})
+    _, example = predicted("leader_following", **{"addons.0.loss": 0.5})
     assert not any(p.ok for p in example.values())
-    _, answer = play(SOLUTIONS / "leader_following.py", loss=0.8)
+    _, answer = predicted(SOLUTIONS / "leader_following.py", loss=0.8)
     assert all(p.ok for p in answer.values())
 
 
 def test_who_takes_the_leader_to_stand_still_lags_behind():
-    _, answer = play(SOLUTIONS / "leader_following.py")
+    _, answer = predicted(SOLUTIONS / "leader_following.py")
     lag = answer["robot3: distance"]
     assert lag.ok
     assert lag.predicted == pytest.approx(1.646, abs=1e-3)

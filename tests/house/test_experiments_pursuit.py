@@ -11,6 +11,8 @@ from mars2d.core.errors import LawError
 from mars2d.geometry.voronoi import Tessellation
 from mars2d.scenario.experiment import open_experiment
 
+pytestmark = pytest.mark.slow
+
 
 def played(name, seed=0, **options):
     """The experiment's record, its game's outcome and its predictions."""

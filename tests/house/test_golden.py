@@ -118,6 +118,7 @@ def check_elsewhere(folder: Path, names: tuple[str, ...]) -> None:
     assert {name: excess for name, _, excess in told if excess >= 1} == {}
 
 
+@pytest.mark.slow
 def test_golden_paths_hold_on_a_platform_that_rounds_otherwise(tmp_path):
     check_elsewhere(tmp_path, SHORT)
 

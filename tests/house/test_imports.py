@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import statistics
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -195,6 +194,7 @@ def test_importing_the_package_has_no_side_effects(child, tmp_path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_importing_mars2d_takes_less_than_one_and_a_half_times_numpy_and_pymunk(
     child, tmp_path
 ) -> None:
@@ -213,5 +213,5 @@ def test_importing_mars2d_takes_less_than_one_and_a_half_times_numpy_and_pymunk(
     times = [
         [float(each) for each in child(code, **threads, **written).stdout.split()] for _ in range(6)
     ]
-    ratios = [ours / theirs for theirs, ours in times[1:]]  # one right after the other: the clock
-    assert statistics.median(ratios) < 1.5  # of a processor changes within seconds
+    theirs, ours = map(min, zip(*times[1:], strict=True))  # a busy machine only adds to either
+    assert ours / theirs < 1.5

@@ -50,26 +50,43 @@ def test_each_promise_has_a_figure_a_command_and_a_day():
     assert len({row.promise for row in promises()}) == len(promises())
 
 
-def test_the_tests_named_are_there():
+@pytest.mark.slow
+def test_the_tests_named_are_there_and_slow_ones_are_not_left_out():
     asked = commands("pytest")
-    named = {word for words in asked for word in words[1:] if word.startswith("tests/")}
-    found = collected(sorted(named))
+    found = collected(sorted({word for words in asked for word in words if word[:6] == "tests/"}))
     for words in asked:
-        places = [word for word in words[1:] if word.startswith("tests/")] or ["tests/"]
-        chosen = [node for node in found if any(node.startswith(place) for place in places)]
-        if "-k" in words:
-            chosen = [node for node in chosen if words[words.index("-k") + 1] in node]
-        assert chosen, shlex.join(words)
+        places = tuple(word for word in words if word[:6] == "tests/") or ("tests/",)
+        part = words[words.index("-k") + 1] if "-k" in words else ""
+        chosen = [
+            marks for node, marks in found.items() if node.startswith(places) and part in node
+        ]
+        wanted = words[words.index("-m") + 1] if "-m" in words else "not slow and not soak"
+        told = [{"slow": "slow" in marks, "soak": "soak" in marks} for marks in chosen]
+        assert any(eval(wanted, marks) for marks in told), shlex.join(words)
+        if "-m" not in words:
+            assert not any(marks["slow"] for marks in told), f"slow: {shlex.join(words)}"
 
 
-def collected(places: list[str]) -> list[str]:
-    options = ["--collect-only", "-q", "-p", "no:cacheprovider", "-m", "soak or not soak"]
+LISTING = """
+import sys, pytest
+class Lister:
+    def pytest_collection_finish(self, session):
+        for item in session.items:
+            print("listed", *(mark.name for mark in item.iter_markers()), item.nodeid, sep="\\t")
+sys.exit(pytest.main(sys.argv[1:], plugins=[Lister()]))
+"""
+
+
+def collected(places: list[str]) -> dict[str, set[str]]:
+    """Return the names of tests, and their marks."""
+    options = ["--collect-only", "-q", "-p", "no:cacheprovider", "-m", ""]
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", *options, *places],
+        [sys.executable, "-c", LISTING, *options, *places],
         cwd=ROOT, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stdout[-2000:]
-    return done.stdout.splitlines()
+    rows = [line.split("\t") for line in done.stdout.splitlines() if line.startswith("listed\t")]
+    return {node: {*marks} for _, *marks, node in rows}
 
 
 @pytest.mark.parametrize(

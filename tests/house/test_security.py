@@ -305,6 +305,7 @@ print("read")
 """
 
 
+@pytest.mark.slow
 def test_reading_runs_nothing_imports_nothing_and_opens_nothing_else(tmp_path, child) -> None:
     """As Python itself reports it while sound files are read, and some that try to lead off."""
     from tests.fuzz.readers import seeds

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 _spec = importlib.util.spec_from_file_location("make_theory", ROOT / "docs" / "make_theory.py")
 make_theory = importlib.util.module_from_spec(_spec)

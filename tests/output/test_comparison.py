@@ -219,6 +219,7 @@ def test_a_run_of_no_step_is_drawn_too(tmp_path):
     assert path.stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_the_file_has_the_size_of_the_page_and_always_the_same_bytes(comparison, tmp_path):
     path = comparison.save_figure(tmp_path / "a.png")
     with Image.open(path) as picture:

@@ -79,6 +79,7 @@ def crowded_page(crowded):
     return page(crowded)
 
 
+@pytest.mark.slow
 def test_ten_robots_with_scanners_fit_into_two_megabytes_after_2000_steps(crowded, crowded_page):
     assert len(crowded) == 2000
     assert crowded.sensors["range_finder"].shape == (2000, 10, 180)
@@ -88,6 +89,7 @@ def test_ten_robots_with_scanners_fit_into_two_megabytes_after_2000_steps(crowde
     assert len(columns["messages:time"]) > 0
 
 
+@pytest.mark.slow
 def test_positions_are_within_micrometres_and_headings_within_a_hundredth_of_a_degree(
     crowded, crowded_page
 ):
@@ -254,6 +256,7 @@ def test_an_error_in_a_sensors_drawing_says_which():
         page(run_with(Broken()))
 
 
+@pytest.mark.slow
 def test_a_thousand_robots_fit_too():
     rows, n = 1501, 1000
     time = np.arange(rows) * 0.1

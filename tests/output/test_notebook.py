@@ -25,6 +25,7 @@ from mars2d.output.pages.replay import page
 from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.sensors import Sensor
 from mars2d.world.loop import simulate
+from tests.processes import PATIENCE
 
 MAKER = "make_notebook.py"
 NOTEBOOK = Path(__file__).parents[2] / "docs" / "notebook.ipynb"
@@ -129,7 +130,7 @@ def test_the_replay_plays_in_its_frame_and_covers_the_picture(browser, tmp_path)
     page.goto(path.as_uri())
     frame = page.frame_locator("iframe")
     frame.get_by_role("button", name="Play").click()
-    frame.get_by_text("3.0 / 3.0 s").wait_for(timeout=20_000)
+    frame.get_by_text("3.0 / 3.0 s").wait_for(timeout=PATIENCE * 1000)
     shape = page.locator("iframe").bounding_box()
     page.close()
     assert (shape["width"], shape["height"]) == pytest.approx((884, 480))
@@ -301,6 +302,7 @@ def test_the_notebook_in_the_documents_is_that_of_the_script_and_small(stored, m
     assert counts == list(range(1, len(maker.CELLS) + 1))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(
     (sys.platform, platform.machine()) != ("linux", "x86_64"),
     reason="another platform may round the last digit differently, and then digests differ",

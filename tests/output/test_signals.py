@@ -196,11 +196,11 @@ def test_a_million_rows_are_drawn_quickly_small_and_without_losing_a_peak(record
     effort = np.random.default_rng(1).uniform(0, 0.5, 1_000_000)
     effort[123_457] = 1.0
     run = with_effort(record, effort)
-    begin = time.perf_counter()
+    begin = time.process_time()
     (ax,) = run.plot_signals("effort")
     file = BytesIO()
     ax.figure.savefig(file, format="pdf")
-    assert time.perf_counter() - begin < 8  # it takes 0.4 s
+    assert time.process_time() - begin < 8  # it takes 0.4 s
     assert len(file.getvalue()) < 200_000
     points = data(ax)[0]
     assert len(points) < 6000

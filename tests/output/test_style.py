@@ -123,6 +123,7 @@ def test_the_users_settings_of_matplotlib_are_as_they_were(record, style):
         assert dict(mpl.rcParams) == before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("style", STYLES)
 def test_the_same_record_gives_the_same_bytes_in_each_style(record, tmp_path, style):
     for suffix in ("pdf", "svg"):

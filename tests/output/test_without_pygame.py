@@ -17,6 +17,9 @@ import pytest
 
 import mars2d
 from mars2d.scenario.experiment import examples
+from tests.processes import PATIENCE
+
+pytestmark = pytest.mark.slow
 
 BLOCKED = """
 import importlib.abc, os, signal, subprocess, sys, threading
@@ -43,7 +46,7 @@ def run_in_browser(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
         [sys.executable, "-P", "-c", BLOCKED + code],
         capture_output=True,
         text=True,
-        timeout=100,
+        timeout=PATIENCE,
         check=False,
         cwd=folder,
         env=os.environ | {"MARS2D_PLAIN": "1", "MPLBACKEND": "agg"},

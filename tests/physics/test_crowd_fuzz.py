@@ -385,6 +385,7 @@ def in_a_child(child, seeds: range, timeout: float):
     return child(code, timeout=timeout)
 
 
+@pytest.mark.slow
 def test_wild_crowds_end_neither_the_process_nor_in_nonsense(child):
     done = in_a_child(child, range(1, 4), 120)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -25,6 +25,7 @@ for discs in (False, True):
 """
 
 
+@pytest.mark.slow
 def test_processes_with_other_hash_seeds_give_the_same_digests(child):
     results = [child(CODE, PYTHONHASHSEED=seed) for seed in ("0", "1", "2", "4242", "random")]
     for result in results:
@@ -157,6 +158,7 @@ def test_an_addon_without_physics_and_chance_more_changes_nothing_else(name, pla
     assert changed(plain, record) == SHOWN_BY_OTHERS.get(name, set())
 
 
+@pytest.mark.slow
 def test_nor_do_all_of_them_among_props_joints_and_polygons():
     scenario = bustle()
     plain = mars2d.run(scenario, seed=3)

@@ -163,6 +163,7 @@ def restless(seed: int, n: int) -> Law:
     return lambda world: draws[world.iteration // 3 % len(draws)]
 
 
+@pytest.mark.slow
 @given(
     seed=st.integers(0, 2**32),
     n=st.integers(1, 40),
@@ -427,7 +428,7 @@ signal.signal(signal.SIGINT, late)
 
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise")
 def test_ctrl_c_ends_a_control_step_of_ten_million_substeps(child):
-    done = child(LONG, timeout=20)
+    done = child(LONG)
     assert done.stdout == "Interrupted by Ctrl-C\n"
     assert done.stderr == ""
 
@@ -435,6 +436,6 @@ def test_ctrl_c_ends_a_control_step_of_ten_million_substeps(child):
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise")
 def test_so_does_what_the_handler_of_another_signal_raises(child):
     code = LONG.replace("walls =", ALARM + "walls =").replace("KeyboardInterrupt", "TimeoutError")
-    done = child(code, timeout=20)
+    done = child(code)
     assert done.stdout == "Error: TimeoutError: too late\n"
     assert done.stderr == ""

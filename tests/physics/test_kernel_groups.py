@@ -221,6 +221,7 @@ print(max(turn() for _ in range(20)) / before)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="it does not tell how much memory a process takes")
 def test_worlds_that_end_give_their_memory_back(child):
     """In a process of its own: what counts is the most that it ever took."""

@@ -16,6 +16,8 @@ import pytest
 import mars2d
 from mars2d.physics.kernel.build import compile_into
 
+pytestmark = pytest.mark.slow
+
 SETUPTOOLS = importlib.util.find_spec("setuptools") is not None
 COMPILER = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "").split()
 

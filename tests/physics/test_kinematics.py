@@ -7,29 +7,16 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from mars2d import Holonomic, Robot, Scenario, Unicycle, World
+from mars2d import Holonomic, Robot, Unicycle
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box, Puck
 from mars2d.geometry.shapes import Polygon
 from mars2d.physics.floor import GRAVITY
+from tests.worlds import drive, endless
 
 SQUARE = Polygon([(-0.15, -0.15), (0.15, -0.15), (0.15, 0.15), (-0.15, 0.15)])
 DEEPEST = 2e-4  # metres
 IDLE = Robot(pose=(50, 50, 0))
-
-
-def world_of(physics, robots, props=(), **fields) -> World:
-    fields = {"workspace": None, "stop_time": 1e5} | fields
-    return World(Scenario(robots=robots, props=props, physics=physics, **fields))
-
-
-def drive(world: World, command, seconds: float) -> np.ndarray:
-    """Command the same for some seconds; returns poses of robots and props (T, 3, n + p)."""
-    poses = []
-    for _ in range(round(seconds / world.scenario.sampling_time)):
-        world.step(command)
-        poses.append(np.hstack([world.pose, world.prop_pose]))
-    return np.array(poses)
 
 
 def arc(pose, v: float, omega: float, t: float) -> list[float]:
@@ -59,7 +46,7 @@ def test_ideal_poses_are_those_of_free_motion_through_everything(sampling_time, 
     robots = [Robot(pose=pose, shape=shape) for pose in starts]
     walls = Map([[(-2, 0.3), (2, 0.3)], [(0.2, 0.2), (0.5, 0.2), (0.5, 0.5)]])
     props = [Box(pose=(0.3, -0.4, 0)), Puck(pose=(0, 0.6, 0), velocity=(0.5, -1, 0))]
-    world = world_of("ideal", robots, props, addons=[walls], sampling_time=sampling_time)
+    world = endless(robots, props, addons=[walls], sampling_time=sampling_time, physics="ideal")
     for _ in range(round(5 / sampling_time)):
         world.step(commands)
         expected = [
@@ -80,7 +67,7 @@ def test_ideal_poses_are_those_of_free_motion_through_everything(sampling_time, 
 @pytest.mark.parametrize("offset", [0.0, 0.1, 0.25])
 def test_ideal_contacts_of_discs_begin_and_end_at_the_right_times(sampling_time, offset):
     robots = [Robot(pose=(-1, 0, 0)), Robot(pose=(1, offset, pi))]
-    world = world_of("ideal", robots, sampling_time=sampling_time)
+    world = endless(robots, sampling_time=sampling_time, physics="ideal")
     drive(world, [[0.3, 0.2], [0, 0]], 6)
     # Centres come as near as 0.3 m when the way along x is sqrt(0.3^2 - offset^2).
     along = sqrt(0.09 - offset**2)
@@ -102,7 +89,7 @@ def test_ideal_contacts_of_discs_begin_and_end_at_the_right_times(sampling_time,
 
 def test_ideal_contacts_of_a_square_and_a_wall_have_the_middle_of_the_face():
     robot = Robot(pose=(0, 0.1, 0), shape=SQUARE)
-    world = world_of("ideal", [robot], addons=[Map([[(0.6, -1), (0.6, 1)]])])
+    world = endless([robot], addons=[Map([[(0.6, -1), (0.6, 1)]])], physics="ideal")
     drive(world, [[0.4], [0]], 1.2)
     row = world.record.contacts[0]
     assert (row["a"], row["b"]) == (0, -1)
@@ -114,7 +101,7 @@ def test_ideal_contacts_of_a_square_and_a_wall_have_the_middle_of_the_face():
 
 def test_ideal_contacts_of_a_corner_have_that_corner():
     robot = Robot(pose=(0, 0, pi / 4), shape=SQUARE, drive=Holonomic())
-    world = world_of("ideal", [robot], addons=[Map([[(0.6, -1), (0.6, 1)]])])
+    world = endless([robot], addons=[Map([[(0.6, -1), (0.6, 1)]])], physics="ideal")
     drive(world, [[0.4], [0.1]], 1.2)
     row = world.record.contacts[0]
     reach = 0.15 * sqrt(2)
@@ -132,7 +119,7 @@ def test_ideal_contacts_of_a_corner_have_that_corner():
 def test_stop_at_a_wall_and_away_again(sampling_time, shape):
     robot = Robot(pose=(0, 0, 0), shape=shape)
     wall = Map([[(0.6, -1), (0.6, 1)]])
-    world = world_of("stop", [robot], addons=[wall], sampling_time=sampling_time)
+    world = endless([robot], addons=[wall], sampling_time=sampling_time, physics="stop")
     drive(world, [[0.4], [0]], 4)
     assert world.pose[0, 0] == pytest.approx(0.45, abs=DEEPEST)
     drive(world, [[0.4], [0]], 4)
@@ -145,7 +132,7 @@ def test_stop_at_a_wall_and_away_again(sampling_time, shape):
 
 def test_stop_holds_one_that_goes_into_another_and_lets_the_other_go_away():
     robots = [Robot(pose=(-0.5, 0, 0)), Robot(pose=(0, 0, 0))]
-    world = world_of("stop", robots)
+    world = endless(robots, physics="stop")
     drive(world, [[0.4, 0.0], [0, 0]], 3)
     assert world.pose[0] == pytest.approx([-0.3, 0], abs=DEEPEST)
     drive(world, [[0.4, 0.3], [0, 0]], 3)
@@ -157,7 +144,7 @@ def test_stop_holds_one_that_goes_into_another_and_lets_the_other_go_away():
 def test_stop_lets_robots_turn_on_the_spot_and_slide_along():
     wall = Map([[(0.6, -5), (0.6, 5)]])
     robots = [Robot(drive=Holonomic()), Robot(pose=(0, 2, 0))]
-    world = world_of("stop", robots, addons=[wall])
+    world = endless(robots, addons=[wall], physics="stop")
     drive(world, [[0.3, 0.3], [0, 0]], 3)
     before = world.pose
     drive(world, [[0.0, 0.0], [0.3, 1.0]], 1)
@@ -168,7 +155,7 @@ def test_stop_lets_robots_turn_on_the_spot_and_slide_along():
 def test_stop_leaves_props_where_they_are_and_stops_those_that_slide():
     props = [Box(pose=(0.6, 0, 0)), Ball(pose=(3, 3, 0), velocity=(1, 0, 0))]
     wall = Map([[(4, 2), (4, 4)]])
-    world = world_of("stop", [Robot()], props, addons=[wall])
+    world = endless([Robot()], props, addons=[wall], physics="stop")
     drive(world, [[0.3], [0]], 4)
     assert world.prop_pose[:, 0].tolist() == [0.6, 0, 0]
     assert world.pose[0, 0] == pytest.approx(0.25, abs=DEEPEST)
@@ -178,8 +165,8 @@ def test_stop_leaves_props_where_they_are_and_stops_those_that_slide():
 
 def test_stop_is_exact_where_nothing_touches():
     starts = [(0, 0, 0.3), (3, 0, 1)]
-    world = world_of(
-        "stop", [Robot(pose=p) for p in starts], [Puck(pose=(0, -3, 0), velocity=(1, 0, 0))]
+    world = endless(
+        [Robot(pose=p) for p in starts], [Puck(pose=(0, -3, 0), velocity=(1, 0, 0))], physics="stop"
     )
     for _ in range(40):
         world.step([[0.3, 0.2], [0.4, -0.5]])
@@ -202,7 +189,9 @@ def test_stop_in_a_crowd_nothing_overlaps_and_none_is_held_for_good(seed, sampli
     ]
     h = 0.8
     room = [(-h, -h), (h, -h), (h, h), (-h, h)]
-    world = world_of("stop", robots, workspace=room, on_exit="wall", sampling_time=sampling_time)
+    world = endless(
+        robots, workspace=room, on_exit="wall", sampling_time=sampling_time, physics="stop"
+    )
     i, j = np.triu_indices(9, 1)
     moved = np.zeros(9)
     for _ in range(round(15 / sampling_time)):
@@ -222,7 +211,7 @@ def test_stop_with_squares_that_turn_keeps_them_apart(seed):
     rng = np.random.default_rng(seed)
     places = [(0.5 * (k % 3 - 1), 0.5 * (k // 3 - 1)) for k in range(9)]
     robots = [Robot(pose=(x, y, 0), shape=SQUARE) for x, y in places]
-    world = world_of("stop", robots, [], sampling_time=0.2)
+    world = endless(robots, [], sampling_time=0.2, physics="stop")
     for _ in range(40):
         command = rng.uniform(-1, 1, (2, 9)) * [[0.5], [4]]
         world.step(command)

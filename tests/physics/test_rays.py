@@ -181,6 +181,7 @@ BODIES = ("disc", "convex", "concave", "compound")
 OBSTACLES = ("wall", "thick wall", "room")
 
 
+@pytest.mark.slow
 @given(
     kinds=st.lists(st.sampled_from(["nothing", *BODIES, *OBSTACLES]), min_size=9, max_size=9),
     seed=st.integers(0, 2**32 - 1),
@@ -342,6 +343,7 @@ def test_no_ray_leaves_a_room_from_a_lattice_of_starts(turned):
             assert np.isfinite(world.surroundings.rays((x, y), angles, 40.0, 0)).all()
 
 
+@pytest.mark.slow
 def test_a_ray_aimed_exactly_at_a_bodys_corner_meets_it():
     shape = Polygon([(-0.3, -0.2), (0.4, -0.1), (0.2, 0.3), (-0.2, 0.25)])
     rng = np.random.default_rng(4)
@@ -397,6 +399,7 @@ def test_a_robot_never_sees_itself(kind, offset, mount):
 # -- bodies that have moved ---------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
 def test_rays_meet_bodies_where_they_are_at_that_instant(physics):
     rng = np.random.default_rng(7)

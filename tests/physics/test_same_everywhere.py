@@ -7,12 +7,10 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +22,9 @@ from mars2d.physics.kernel import reason_without
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
+from tests.processes import bare_environment, wait_until
+
+pytestmark = pytest.mark.slow
 
 FOLDER = Path(__file__).parent / "bustle"
 BUSTLE, SEED = FOLDER / "bustle.py", 3
@@ -141,27 +142,24 @@ class Person:
     KEYS = (
         (2, "space"), (0, "left"), (0, "left"), (0, "home"), (0, "right"), (0, "end"),
         (0, "right"), (0, "="), (0, "="), (0, "space"), (8, "page up"), (0, "s"), (0, "x"),
-        (0, "end"), (0, "page down"), (0, "-"), (0, "space"), (20, "tab"), (0, "home"),
+        (0, "end"), (0, "page down"), (0, "-"), (0, "space"), (12, "tab"), (0, "home"),
         (0, "space"),
     )  # fmt: skip
 
     def __init__(self, window, timeline: Timeline) -> None:
         self.window, self.timeline, self.rows = window, timeline, []
-        self.end = time.monotonic() + 60
         self.thread = threading.Thread(target=self.play)
 
     def play(self) -> None:
-        self.wait(lambda: self.window._open)
-        for row, key in self.KEYS:
-            self.wait(lambda row=row: self.timeline.newest >= row)
-            self.press(key)
-        self.wait(lambda: self.timeline.over)
-        self.press("end")
-        self.post("QUIT")
-
-    def wait(self, reached: Callable[[], bool]) -> None:
-        while not reached() and time.monotonic() < self.end:
-            time.sleep(0.002)
+        try:
+            wait_until(lambda: self.window._open)
+            for row, key in self.KEYS:
+                wait_until(lambda row=row: self.timeline.newest >= row)
+                self.press(key)
+            wait_until(lambda: self.timeline.over)
+            self.press("end")
+        finally:
+            self.post("QUIT")
 
     def press(self, name: str) -> None:
         import pygame
@@ -200,10 +198,6 @@ def test_a_window_in_which_somebody_pauses_goes_back_and_changes_the_speed(
 
 
 # -- in other processes ---------------------------------------------------------------------------
-
-
-def bare_environment(**more: str) -> dict[str, str]:
-    return {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")} | more
 
 
 def test_the_command_line_which_saves_it_and_says_so(digest, tmp_path):

@@ -20,6 +20,7 @@ from mars2d.record.contact import CONTACT
 from mars2d.scenario import serialize
 from mars2d.sensors import Proximity
 from mars2d.world.verify import rerun
+from tests.worlds import ELL, without_laws
 
 
 class Beams(Sensor):
@@ -268,7 +269,6 @@ def test_a_missing_file_and_a_folder_are_refused(tmp_path):
 
 # -- props, joints and shapes as plain data, and run again ----------------------------------------
 
-ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
 ARROW = Polygon([(-0.15, -0.1), (0.2, 0), (-0.15, 0.1), (-0.1, 0)])
 
 
@@ -305,10 +305,6 @@ def workshop(**fields) -> Scenario:
 
 def in_json(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
     return serialize.to_scenario(json.loads(json.dumps(serialize.from_description(scenario))))
-
-
-def without_laws(scenario: Scenario) -> Scenario:
-    return scenario.replace(robots=[robot.replace(controller=None) for robot in scenario.robots])
 
 
 @pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])

@@ -226,6 +226,7 @@ def test_a_saved_report_is_the_same_when_it_is_read(tmp_path):
     assert load_report(tmp_path / "a.json") == report
 
 
+@pytest.mark.slow
 def test_the_command_saves_and_compares(tmp_path, capsys):
     old = tmp_path / "old.json"
     code, out, err = bench(capsys, "S1", "--quick", "--save", old)
@@ -255,6 +256,7 @@ def test_the_command_prints_one_line_of_json(tmp_path, capsys):
     assert set(data["compared"]["S1 default"]) == {"times_as_fast", "noise"}
 
 
+@pytest.mark.slow
 def test_a_run_without_the_kernel_says_so(capsys, monkeypatch):
     monkeypatch.setenv("MARS2D_PLAIN", "1")
     _, out, _ = bench(capsys, "S1", "--quick")
@@ -328,6 +330,7 @@ def script(name, *arguments, cwd):
     return done.stdout
 
 
+@pytest.mark.slow
 def test_the_growth_is_measured_fitted_and_drawn(tmp_path):
     arguments = ("--sizes", 4, 16, "--time", 0, "--json", "a.json", "--figure", "a.png")
     printed = script("growth.py", *arguments, cwd=tmp_path)

@@ -31,6 +31,7 @@ from mars2d.reports.paper.result import Picture, Result
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
+from tests.processes import PATIENCE, mars, wait_until
 
 FAILS = """
 from mars2d import Prediction, Scenario
@@ -87,17 +88,9 @@ def paper(tmp_path, monkeypatch, capsys):
 def cheap(tmp_path_factory):
     """The page of Figure 2 alone, made by the command as it is typed."""
     folder = tmp_path_factory.mktemp("cheap") / "out"
-    done = command("paper", folder, "--only", "2")
+    done = mars("paper", folder, "--only", "2")
     assert (done.returncode, done.stderr) == (0, "")
     return folder
-
-
-def command(*arguments, timeout=300):
-    return subprocess.run(
-        [sys.executable, "-m", "mars2d", *map(str, arguments)],
-        capture_output=True, text=True, encoding="utf-8", timeout=timeout, check=False,
-        env=os.environ | {"PYTHONIOENCODING": "utf-8"},
-    )  # fmt: skip
 
 
 # -- a page, as a browser and a screen reader find it -----------------------------------------
@@ -192,6 +185,7 @@ def check_numbers(folder, seed=0):
     return {made["figure"]: made for made in numbers["figures"]}
 
 
+@pytest.mark.slow
 def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap):
     found = check_page(cheap, [2])
     (made,) = check_numbers(cheap).values()
@@ -203,6 +197,7 @@ def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap):
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, monkeypatch):
     (made,) = check_numbers(cheap).values()
     words = shlex.split(made["pictures"][0]["command"])
@@ -215,7 +210,7 @@ def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, 
 
 @pytest.mark.soak
 def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
-    done = command("paper", tmp_path / "out")
+    done = mars("paper", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
     folder, every = tmp_path / "out", list(range(2, 10))
     found = check_page(folder, every)
@@ -275,6 +270,7 @@ def test_the_index_of_the_experiments_states_each_ones_setting_and_figure():
 # -- the folder -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_seed_is_that_of_the_runs(paper):
     code, _, _ = paper("out", "--only", "2", "--seed", "7")
     assert code == 0
@@ -410,6 +406,7 @@ def test_a_number_that_is_not_finite_is_null_in_the_json_and_said_on_the_page():
     assert "not a number" in page([figure()], {2: result}, 0)
 
 
+@pytest.mark.slow
 def test_studies_get_the_records_in_order_and_the_seed_with_them(tmp_path):
     seen = []
 
@@ -463,6 +460,16 @@ def test_what_comes_out_does_not_depend_on_the_number_of_processes(tmp_path):
     assert len(made[0][0]) == 6
 
 
+def is_group(number):
+    """Return whether a group of processes has members."""
+    try:
+        os.killpg(number, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child there")
 @pytest.mark.parametrize(
     "only", [pytest.param("2,4,7", marks=pytest.mark.soak), "7"]
@@ -475,9 +482,9 @@ def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
     )  # fmt: skip
     while not list(folder.glob("*.pdf")):
         assert child.poll() is None
-        time.sleep(0.002)  # it may end soon after
+        time.sleep(0.002)  # not wait_until: it may end soon after
     os.killpg(child.pid, signal.SIGINT)  # as a terminal does: to all of them
-    out, err = child.communicate(timeout=30)
+    out, err = child.communicate(timeout=PATIENCE)
     assert child.returncode == 130
     assert err == "mars2d: interrupted\n"
     assert re.search(r"figure 7 .* not made\n", out)
@@ -486,10 +493,7 @@ def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
     assert re.search(r"Broken off: figures? .*7 (was|were) not made\.", found.words())
     check_numbers(folder)
     assert not list(folder.glob("fig7*"))  # nor half a picture
-    with pytest.raises(ProcessLookupError):  # no worker is left behind
-        for _ in range(100):
-            os.killpg(child.pid, 0)
-            time.sleep(0.1)
+    wait_until(lambda: not is_group(child.pid))  # no worker is left behind
 
 
 # -- formulas, and the browser ----------------------------------------------------------------
@@ -512,6 +516,7 @@ def test_formulas_are_set_with_greek_letters_subscripts_and_a_minus(text, html):
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="needs chromium")
 @pytest.mark.parametrize("width", [1280, 400])
 def test_a_browser_shows_the_page_with_its_pictures(cheap, tmp_path, width):

@@ -1,6 +1,7 @@
 """Who is whose neighbour: each rule against its definition, and what is refused."""
 
 import inspect
+import time
 from itertools import combinations, pairwise
 from math import cos, hypot, inf, pi, sin
 
@@ -158,14 +159,18 @@ def test_the_nearest_of_many_are_those_of_sorting_all(where, count):
     assert Nearest(count).of(PLACES[where]) == brute_nearest(PLACES[where], count)
 
 
-def test_nearest_of_three_thousand_is_quick_enough_for_each_control_step():
-    import time
+def seconds_for(rule, position):
+    """Return the processor's seconds that a rule takes, the quickest of five times."""
+    taken = []
+    for _ in range(5):
+        start = time.process_time()
+        rule.of(position)
+        taken.append(time.process_time() - start)
+    return min(taken)
 
-    position = scattered(0, 3000)
-    Nearest(5).of(position[:, :100])  # imports what it needs
-    start = time.perf_counter()
-    Nearest(5).of(position)
-    assert time.perf_counter() - start < 0.2
+
+def test_nearest_of_three_thousand_is_quick_enough_for_each_control_step():
+    assert seconds_for(Nearest(5), scattered(0, 3000)) < 0.2
 
 
 def test_a_neighbour_need_not_be_one_in_turn():
@@ -320,12 +325,7 @@ def test_robots_drive_through_each_other_and_stay_neighbours():
 
 
 def test_delaunay_of_a_thousand_is_quick_enough_for_each_control_step():
-    import time
-
-    position = scattered(0, 1000)
-    start = time.perf_counter()
-    Delaunay().of(position)
-    assert time.perf_counter() - start < 1.0
+    assert seconds_for(Delaunay(), scattered(0, 1000)) < 1.0
 
 
 # -- graphs -----------------------------------------------------------------------------------

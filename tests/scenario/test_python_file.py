@@ -12,6 +12,7 @@ from mars2d.scenario import serialize
 from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.scenario.pretty import Brackets, laid_out
 from mars2d.scenario.python_file import as_python
+from tests.worlds import without_laws
 
 EVERYTHING = Path(__file__).parent / "everything.toml"
 
@@ -20,10 +21,6 @@ def executed(text):
     names = {}
     exec(compile(text, "listing.py", "exec"), names)
     return names["scenario"]
-
-
-def bare(scenario):
-    return scenario.replace(robots=[robot.replace(controller=None) for robot in scenario.robots])
 
 
 def test_all_kinds_of_parts_are_listed():
@@ -42,7 +39,7 @@ def test_an_example_is_listed_but_for_its_code(name, tmp_path):
     (tmp_path / "listed.py").write_text(text, encoding="utf-8")
     again = open_experiment(tmp_path / "listed.py")
     kept, lost = serialize.without_code(experiment.scenario)
-    assert bare(again.scenario) == bare(kept)
+    assert without_laws(again.scenario) == without_laws(kept)
     assert all(name in text for name in lost)
     named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
     assert max(map(len, named)) <= 100

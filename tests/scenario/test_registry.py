@@ -137,6 +137,7 @@ def test_nothing_of_another_package_is_loaded_by_importing_mars2d_or_by_a_run(ch
     assert ran(child, acme, code).split()[0] == "False"
 
 
+@pytest.mark.slow
 def test_a_record_brings_the_parts_of_installed_packages_back(child, acme, tmp_path):
     made = f"{SCENARIO}\nmars2d.run(scenario()).save('run.npz')\n"
     ran(child, acme, f"import os; os.chdir({str(tmp_path)!r})\n{made}")
@@ -213,6 +214,7 @@ BROKEN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", BROKEN)
 def test_a_broken_part_is_named_with_its_error_and_breaks_nothing(child, site, acme, fault):
     entry, code, problem = BROKEN[fault]
@@ -251,6 +253,7 @@ def test_of_two_packages_with_one_name_the_first_in_the_alphabet_wins(child, sit
     assert "alpha has a Radar, which is used in its place (beta 1)" in listed
 
 
+@pytest.mark.slow
 def test_a_misspelt_group_does_not_go_unnoticed(child, site, tmp_path):
     site("acme", "1", "[mars2d.sensor]\nx = acme_x:X")
     for verb in ("list", "doctor"):

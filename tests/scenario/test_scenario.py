@@ -20,6 +20,7 @@ from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.options import parse_setting
 from mars2d.sensors import Proximity
+from tests.worlds import ELL
 
 SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
 
@@ -229,8 +230,6 @@ def test_every_field_has_a_meaning_and_no_law_is_called_by_a_constructor():
 
 
 # -- props, shapes and joints ---------------------------------------------------------------------
-
-ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
 
 
 def refused(message: str, **fields) -> None:

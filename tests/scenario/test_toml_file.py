@@ -16,6 +16,7 @@ from mars2d.cli import command_line as cli
 from mars2d.scenario import serialize, toml_file
 from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.scenario.law_reference import Reference
+from tests.worlds import without_laws
 
 EVERYTHING = (Path(__file__).parent / "everything.toml").read_text(encoding="utf-8")
 
@@ -45,10 +46,6 @@ def read(folder, text):
     return Scenario.from_file(path)
 
 
-def bare(scenario):
-    return scenario.replace(robots=[robot.replace(controller=None) for robot in scenario.robots])
-
-
 # -- what is saved comes back ------------------------------------------------------------------
 
 
@@ -72,7 +69,7 @@ def test_an_example_comes_back_but_for_its_code(name, tmp_path):
     experiment = open_experiment(name)
     text, missing, again = saved(experiment.scenario, tmp_path, experiment.control)
     kept, lost = serialize.without_code(experiment.scenario)
-    assert bare(again) == bare(kept)
+    assert without_laws(again) == without_laws(kept)
     assert set(lost) <= set(missing)
     assert all(name in text for name in lost)
     named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
@@ -130,6 +127,7 @@ def test_names_that_others_have_had_stay(tmp_path):
     assert saved(scenario, tmp_path)[2] == scenario
 
 
+@pytest.mark.slow
 def test_thousands_of_robots_are_written_and_read(tmp_path):
     robots = [Robot(pose=(i % 100, i // 100, 0.1 * i)) for i in range(3000)]
     scenario = Scenario(robots=robots, workspace=None)
@@ -477,6 +475,7 @@ def mutated(chance, text):
     return "\n".join(lines)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "block", [0, *(pytest.param(k, marks=pytest.mark.soak) for k in range(1, 24))]
 )

@@ -187,6 +187,7 @@ def predicted(rims, semiaxis, drift, start=0.0):
     return covariance
 
 
+@pytest.mark.slow
 def test_on_a_straight_line_the_covariance_is_that_of_theory():
     drift, b, length, steps = 1e-3, 0.2, 5.0, 100  # so small that the first order is all
     found, truth = estimates([(0.5, 0)] * steps, drift)
@@ -207,6 +208,7 @@ def test_on_a_straight_line_the_covariance_is_that_of_theory():
     assert made == pytest.approx(theory, rel=1e-4, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_round_a_circle_the_covariance_is_that_of_theory():
     drift, b, radius, steps = 1e-3, 0.2, 0.8, 100
     turn = 2 * pi / steps / 0.1  # rad/s

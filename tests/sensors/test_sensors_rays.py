@@ -102,6 +102,7 @@ def test_a_scan_is_drawn_as_one_area_and_one_row_of_dots():
 places = st.tuples(st.floats(-2.5, 2.5), st.floats(-2.5, 2.5))
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 2**32 - 1), cone=st.floats(0.05, 6.2), sonars=st.integers(1, 6))
 def test_a_sonar_hears_the_nearest_point_in_its_cone(seed, cone, sonars):
     rng = np.random.default_rng(seed)

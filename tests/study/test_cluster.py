@@ -8,7 +8,6 @@ import re
 import signal
 import socket
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -24,6 +23,10 @@ pytest.importorskip("distributed")
 
 import dask
 from distributed import Client, LocalCluster
+
+from tests.processes import wait_until
+
+pytestmark = pytest.mark.slow
 
 TASKS = '''
 """What the workers of these tests do."""
@@ -120,10 +123,7 @@ def test_what_still_waits_when_a_cluster_is_left_is_forgotten(local, tasks):
         done = each_done(tasks.pid_after_a_moment, range(1000), executor)
         next(done)
         done.close()
-    end = time.monotonic() + 8  # all of them would take longer
-    while local.scheduler.tasks:
-        assert time.monotonic() < end
-        time.sleep(0.01)
+    wait_until(lambda: not local.scheduler.tasks)
 
 
 def test_tasks_of_a_cluster_that_is_left_are_an_error_and_do_not_hang(local, tasks):

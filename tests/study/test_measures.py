@@ -15,10 +15,7 @@ from mars2d.core.errors import LawError
 from mars2d.scenario.experiment import open_experiment
 from mars2d.study.measures import BUILT_IN, UNITS, measure_named, measured, measures
 from mars2d.world.loop import simulate
-
-
-def ahead(robot):
-    return 0.2, 0.0
+from tests.worlds import ahead
 
 
 def meeting(**fields):

@@ -17,6 +17,7 @@ from mars2d.cli.command_line import main
 from mars2d.core import deadline
 from mars2d.study.results import Results
 from mars2d.study.table import load_table
+from tests.processes import PATIENCE, wait_until
 
 DRIFT = '''
 """Robots drift."""
@@ -313,14 +314,15 @@ def command(*arguments):
 
 def once_rows(file, count, process):
     """Wait until a file has some rows, and return them."""
-    end = time.monotonic() + 60
-    while not file.exists() or len(rows := file.read_bytes().split(b"\r\n")[1:-1]) < count:
-        assert process.poll() is None, process.communicate()
-        assert time.monotonic() < end
-        time.sleep(0.01)
-    return rows
+
+    def rows():
+        return file.read_bytes().split(b"\r\n")[1:-1] if file.exists() else []
+
+    wait_until(lambda: len(rows()) >= count, process)
+    return rows()
 
 
+@pytest.mark.slow
 def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(here):
     slow = DRIFT.replace("return gain", "__import__('time').sleep(0.005)\n    return gain")
     (here / "drift.py").write_text(slow)
@@ -329,7 +331,7 @@ def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(he
     process = command(*study)
     once_rows(here / "r.csv", 3, process)
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=PATIENCE)
     rows = len(load_table("r.csv"))
     assert process.returncode == 130, errors
     assert errors == f"mars2d: {rows} of 40 runs are in r.csv; the same command goes on\n"
@@ -338,7 +340,7 @@ def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(he
     process = command(*study)
     once_rows(here / "r.csv", rows + 3, process)
     os.kill(process.pid, signal.SIGKILL)
-    process.communicate(timeout=30)
+    process.communicate(timeout=PATIENCE)
     with (here / "r.csv").open("ab") as file:
         file.write(b"17,drift.py,0.5,1,0.2")  # what a full disk or a power failure leaves
     there = len(load_table("r.csv"))

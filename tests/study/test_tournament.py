@@ -8,7 +8,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -23,6 +22,7 @@ from mars2d.study.isolation import Limits
 from mars2d.study.tournament.folder import PLAYED, Folder, played_before
 from mars2d.study.tournament.schedule import schedule
 from mars2d.study.tournament.tournament import LIMITS, play_all
+from tests.processes import PATIENCE, wait_until
 
 CHASE = """
 import numpy as np
@@ -101,6 +101,7 @@ SAME = ("--role", "pursuer=pursuers/loop.py", "pursuers/quick.py", "evader=evade
 """What a shell may have made of patterns."""
 
 
+@pytest.mark.slow
 def test_everybody_meets_everybody_from_the_same_seeds(evening):
     met = [(*m.match.laws.values(), m.match.seed) for m in evening.result.matches]
     assert met == [
@@ -153,6 +154,7 @@ def test_a_match_is_the_run_with_the_same_laws_and_seed(evening):
     assert played.digest != evening.result.matches[-2].digest  # another start
 
 
+@pytest.mark.slow
 def test_the_league_depends_on_no_number_of_workers(evening):
     laws = {"pursuer": evening.folder / "pursuers/quick.py", "evader": evening.folder / "evaders"}
     alone = mars2d.tournament(evening.folder / "chase.py", laws, seeds=SEEDS, workers=1)
@@ -273,6 +275,7 @@ def test_replays_that_are_missing_are_made(evening, tmp_path):
     assert len(Folder(tmp_path, planned, LIMITS, replays=True).before) == 1
 
 
+@pytest.mark.slow
 def test_after_ctrl_c_what_was_played_is_there_and_the_same_command_goes_on(evening, tmp_path):
     words = ["tournament", str(evening.folder / "chase.py"), "--role", "pursuer=pursuers/quick.py"]
     words += ["--role", "evader=evaders/still.py", "--seeds", "200", "--out", str(tmp_path / "out")]
@@ -282,13 +285,9 @@ def test_after_ctrl_c_what_was_played_is_there_and_the_same_command_goes_on(even
         cwd=evening.folder,
     )  # fmt: skip
     kept = tmp_path / "out" / PLAYED
-    deadline = time.monotonic() + 60
-    while not (kept.exists() and kept.read_bytes().count(b"\n") > 2):
-        assert time.monotonic() < deadline
-        assert process.poll() is None, process.communicate()
-        time.sleep(0.05)
+    wait_until(lambda: kept.exists() and kept.read_bytes().count(b"\n") > 2, process)
     os.killpg(process.pid, signal.SIGINT)
-    printed, said = process.communicate(timeout=60)
+    printed, said = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130, said
     rows = (tmp_path / "out" / "matches.csv").read_text().splitlines()
     assert said.endswith(f"mars2d: {len(rows) - 1} of 200 matches are in {tmp_path / 'out'}; the same command goes on\n")  # fmt: skip  # noqa: E501
@@ -328,6 +327,7 @@ def test_a_match_that_was_not_played_before_is_played(evening, command):
 # -- rounds, players, matches without a result -----------------------------------------------------
 
 
+@pytest.mark.slow
 def test_players_play_both_roles_in_each_round_and_an_experiment_that_fails_costs_one_match(
     evening, tmp_path
 ):

@@ -19,6 +19,7 @@ import pytest
 from mars2d.core.errors import InputError
 from mars2d.study import work, workers
 from mars2d.study.work import Failure, each_done, worker_count
+from tests.processes import PATIENCE, wait_until
 
 TASKS = '''
 """What the workers of these tests do."""
@@ -118,15 +119,8 @@ def running(pid: int) -> bool:
     return True
 
 
-def until(condition, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.01)
-
-
 def pid_in(file) -> int:
-    until(lambda: file.exists() and file.read_text())
+    wait_until(lambda: file.exists() and file.read_text())
     return int(file.read_text())
 
 
@@ -146,6 +140,7 @@ class Counted(Sequence):
         return ("square", index)
 
 
+@pytest.mark.slow
 def test_each_task_comes_once_whatever_becomes_of_it(do, tmp_path):
     odd = {
         2: ("threads", None),
@@ -197,7 +192,7 @@ def test_workers_that_are_busy_are_ended_promptly_and_what_they_hold_is_tidied_u
     pids = [pid_in(tidy), pid_in(stubborn)]
     start = time.monotonic()
     done.close()
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < 60
     assert not any(map(running, pids))
     assert tidy.with_suffix(".tidy").exists() or sys.platform == "win32"
 
@@ -215,6 +210,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL], ids=["Ctrl-C", "SIGKILL"])
 def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):
@@ -230,9 +226,9 @@ def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):
         os.killpg(parent.pid, number)  # as a terminal does: to all of them
     else:
         parent.kill()
-    out, err = parent.communicate(timeout=20)
+    out, err = parent.communicate(timeout=PATIENCE)
     assert (out, err) == ("interrupted\n" if number == signal.SIGINT else "", "")
-    until(lambda: not any(map(running, pids)))
+    wait_until(lambda: not any(map(running, pids)))
 
 
 @pytest.mark.parametrize(
@@ -256,7 +252,7 @@ def test_a_script_that_its_workers_cannot_import_is_told_so_once(tmp_path, scrip
         "print(list(each_done(abs, [1, -2, 3], workers=1)))\n"
     )
     done = subprocess.run(
-        [sys.executable, str(path)], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, str(path)], capture_output=True, text=True, timeout=PATIENCE, check=False
     )
     assert said in done.stderr.splitlines()[-1]
     assert (done.returncode, done.stdout, done.stderr.count("Traceback")) == (1, "", 1)

@@ -89,6 +89,7 @@ class Milestones(Sensor):
         return np.array([self.way, self.way > 0.1])
 
 
+@pytest.mark.slow
 def test_sound_sensors_pass_without_a_finding():
     check_sensor(Whisker())
     assert sensor_findings(Whisker()) == ()
@@ -913,7 +914,7 @@ def spin(*_):
 def test_what_never_ends_is_broken_off_with_its_line(findings, part):
     start = time.monotonic()
     found = findings(part(), deadline=Deadline(0.5))
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < 60
     assert seen(found, "wrong", "did not come to an end within 0.5 s") or seen(
         found, "wrong", "has the arguments"
     )
@@ -928,16 +929,17 @@ def test_the_line_that_does_not_end_is_named():
     assert seen(found, "wrong", "test_testing.py, line", "spin_for_ever did not come to an end")
 
 
+@pytest.mark.slow
 def test_a_deadline_ends_with_its_block_and_can_be_used_again():
-    limit = Deadline(0.2)
+    limit = Deadline(0.6)
     for _ in range(2):
         with pytest.raises(Late), limit:
             spin()
     with limit:
-        for _ in range(6):
+        for _ in range(8):
             time.sleep(0.1)
             limit.alive()
-    time.sleep(0.5)  # nothing is raised once it is left
+    time.sleep(0.8)  # nothing is raised once it is left
 
 
 # -- what belongs to MARS2D -------------------------------------------------------------------
@@ -958,6 +960,7 @@ ADDONS_NEED = {
 """What parts of MARS2D's own need."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(members("sensors")))
 def test_the_sensors_of_mars2d_are_sound(name):
     check_sensor(members("sensors")[name](**SENSORS_NEED.get(name, {})))
@@ -981,6 +984,7 @@ LONG = {
 """Examples whose trial takes a second and more: `pytest -m soak`."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [pytest.param(n, marks=[pytest.mark.soak] if n in LONG else []) for n in sorted(examples())],
@@ -1233,6 +1237,7 @@ def test_a_law_that_reads_a_sensor_that_it_is_not_given_does_not_pass():
         check_controller(lambda robot: (robot.sense.sonar, 0.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loop", ["while True: pass", "time.sleep(1000)"])
 @pytest.mark.parametrize("place", ["law", "file"])
 def test_a_check_ends_whatever_the_file_does(child, tmp_path, loop, place):
@@ -1243,7 +1248,7 @@ def test_a_check_ends_whatever_the_file_does(child, tmp_path, loop, place):
         "deadline.GRACE = 0.5; check.LOADING = 0.5; check.PATIENCE = 0.5;"
         f"from mars2d.cli.command_line import main; sys.exit(main(['check', {str(tmp_path / 'own.py')!r}]))"
     )
-    done = child(code, timeout=50)
+    done = child(code)
     assert done.returncode == 2, done.stderr
     assert "come to an end" in done.stderr
     line = 6 if place == "law" else 5

@@ -35,8 +35,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from tests.processes import bare_environment, x_server
+
 ROOT = Path(__file__).parents[2]
-HIDDEN = ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER")
 SCREEN = 1000, 700
 LOOK = 10.0
 """The seconds between two looks at memory."""
@@ -248,7 +249,7 @@ class Window:
         }
 
     def _open(self) -> None:
-        environment = {key: value for key, value in os.environ.items() if key not in HIDDEN}
+        environment = bare_environment()
         environment |= {"DISPLAY": self.display, "SDL_VIDEO_WINDOW_POS": "0,0"}
         self._process = subprocess.Popen(
             [sys.executable, "-c", AGAIN, *COMMANDS[self.kind]],
@@ -329,21 +330,7 @@ def _parts(values: list[int], count: int) -> Iterator[list[int]]:
 def screens(count: int) -> Iterator[list[str]]:
     """Start X servers on free displays; yield their names."""
     with contextlib.ExitStack() as stack:
-        names = []
-        for _ in range(count):
-            read, write = os.pipe()
-            size = f"{SCREEN[0]}x{SCREEN[1]}x24"
-            server = subprocess.Popen(
-                ["Xvfb", "-displayfd", str(write), "-screen", "0", size, "-noreset"],
-                pass_fds=[write],
-                stderr=subprocess.DEVNULL,
-            )
-            stack.callback(server.wait)
-            stack.callback(server.terminate)
-            os.close(write)
-            with os.fdopen(read) as pipe:
-                names.append(f":{pipe.readline().strip()}")
-        yield names
+        yield [stack.enter_context(x_server(*SCREEN))[0] for _ in range(count)]
 
 
 def prepare(folder: Path) -> None:

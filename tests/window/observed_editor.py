@@ -11,19 +11,20 @@ from mars2d.output.raster.painter import Painter
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, EditorWindow
+from tests.window.telling import Teller
 
 
 class Observed(EditorWindow):
     """A window that prints its state as a line of JSON whenever that has changed."""
 
-    told = state = ""
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self.teller = Teller()
 
     def draw(self, surface):
-        if self.told != self.state:  # of the picture before, which is on the screen by now
-            self.told = self.state
-            print(self.told, flush=True)
+        self.teller.shown()
         super().draw(surface)
-        self.state = json.dumps(state_of(self.editor))
+        self.teller.drawn(state_of(self.editor))
 
 
 def state_of(editor):

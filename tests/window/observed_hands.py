@@ -3,20 +3,17 @@
 Arguments: the speed, and a robot that is driven by hand, if any.
 """
 
-import json
 import sys
 
 from mars2d import Robot, Scenario
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.scenario.experiment import Experiment
+from mars2d.window.player import LONGEST_GAP
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
-
-
-def ahead(robot):
-    return 0.2, 0.0
-
+from tests.window.telling import Teller
+from tests.worlds import ahead
 
 SCENARIO = Scenario(
     title="Hands",
@@ -31,31 +28,41 @@ SCENARIO = Scenario(
 class Observed(Window):
     """A window that prints where everything is whenever that has changed."""
 
-    told = ""
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self.teller = Teller()
+        self.passed = 0.0  # seconds of the wall clock that the player was given
+        pass_time = self.player.pass_time
+
+        def count(wall):
+            self.passed += min(wall, LONGEST_GAP)
+            pass_time(wall)
+
+        self.player.pass_time = count
 
     def draw(self, surface):
+        self.teller.shown()
         super().draw(surface)
         frame = self.player.frame
         shown = self.grab.shown(frame)
-        state = {
-            "time": round(frame.time, 3),
-            "paused": self.player.paused,
-            "over": self.grab.over,
-            "busy": self.grab.busy,
-            "selected": self.selected,
-            "driving": self.director.driver.robot,
-            "status": self.director.driver.status,
-            "robots": shown.pose.round(4).T.tolist(),
-            "props": shown.prop_pose.round(4).T.tolist(),
-            "pulls": len(self.director.timeline.world.hands.pulls),
-            "branches": len(self.director.timeline.branches),
-            "past": self.player.past,
-            "camera": [self.camera.scale, self.camera.x, self.camera.y],
-        }
-        text = json.dumps(state)
-        if text != self.told:
-            self.told = text
-            print(text, flush=True)
+        self.teller.drawn(
+            {
+                "passed": self.passed,
+                "time": round(frame.time, 3),
+                "paused": self.player.paused,
+                "over": self.grab.over,
+                "busy": self.grab.busy,
+                "selected": self.selected,
+                "driving": self.director.driver.robot,
+                "status": self.director.driver.status,
+                "robots": shown.pose.round(4).T.tolist(),
+                "props": shown.prop_pose.round(4).T.tolist(),
+                "pulls": len(self.director.timeline.world.hands.pulls),
+                "branches": len(self.director.timeline.branches),
+                "past": self.player.past,
+                "camera": [self.camera.scale, self.camera.x, self.camera.y],
+            }
+        )
 
 
 def main():

@@ -18,17 +18,18 @@ from mars2d.window.source import Playback
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.window.circling import Circling, circling_scenario
+from tests.window.telling import Teller
 
 
 class Observed(Window):
     """A window that prints its state as a line of JSON whenever that has changed."""
 
-    told = state = ""
     said = 0  # how many notes there were
     silent = False  # without notes, which fade
 
     def __init__(self, *arguments):
         super().__init__(*arguments)
+        self.teller = Teller()
         say = self.notes.say
 
         def count(*words, **more):
@@ -38,13 +39,11 @@ class Observed(Window):
         self.notes.say = count
 
     def draw(self, surface, **options):
-        if self.told != self.state:  # of the picture before, which is on the screen by now
-            self.told = self.state
-            print(self.told, flush=True)
+        self.teller.shown()
         if self.silent:
             self.notes.clear()
         super().draw(surface, **options)
-        self.state = json.dumps(state_of(self) | {"size": surface.get_size()})
+        self.teller.drawn(state_of(self) | {"size": surface.get_size()})
 
 
 def state_of(window):

@@ -19,12 +19,12 @@ import pytest
 from PIL import Image, ImageGrab, features
 
 from tests.forking import Nursery
+from tests.processes import PATIENCE, bare_environment, x_server
 
 missing = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
 missing += [] if features.check("xcb") else ["Pillow with xcb"]
 needs_screen = pytest.mark.skipif(bool(missing), reason=f"{', '.join(missing)} not installed")
 
-HIDDEN = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER")
 ROOT = Path(__file__).parents[2]
 REFERENCES = Path(__file__).parent / "references"
 
@@ -57,27 +57,11 @@ def scenario():
 """
 
 
-def bare_environment(**extra):
-    return {key: value for key, value in os.environ.items() if key not in HIDDEN} | extra
-
-
 @pytest.fixture(scope="session")
 def screen():
     """Start an X server on a free display and return its name."""
-    read, write = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-noreset"],
-        pass_fds=[write],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        number = pipe.readline().strip()
-    assert number, "Xvfb did not start"
-    yield f":{number}"
-    server.terminate()
-    server.wait(10)
+    with x_server() as (name, _):
+        yield name
 
 
 class ClientMessage(ctypes.Structure):
@@ -116,7 +100,8 @@ class Driver:
         self.lines = queue.Queue()
         self.state = {}
         threading.Thread(target=self._read, daemon=True).start()
-        self.until(lambda s: shows in s, 30)
+        self.until(lambda s: shows in s)
+        self.settle()
         time.sleep(0.1)  # until the server has mapped it and given it the keyboard
 
     def _read(self):
@@ -127,24 +112,23 @@ class Driver:
 
     # -- what it tells ----------------------------------------------------------------------------
 
-    def until(self, holds, seconds=8.0):
+    def until(self, holds):
         """Wait until what the window tells of itself satisfies `holds`."""
-        end = time.monotonic() + seconds
+        end = time.monotonic() + PATIENCE
         while not (self.state and holds(self.state)):
             left = end - time.monotonic()
             try:
                 self.state = self.lines.get(timeout=max(left, 0.001))
             except queue.Empty:
                 errors = "" if self.process.poll() is None else self.process.stderr.read()
-                pytest.fail(f"not within {seconds} s; the last state: {self.state} {errors}")
+                pytest.fail(f"not within {PATIENCE} s; the last state: {self.state} {errors}")
         return self.state
 
     def settle(self):
-        """Read all that has been told up to now."""
-        time.sleep(0.15)
-        while not self.lines.empty():
-            self.state = self.lines.get()
-        return self.state
+        """Wait until all that was done so far has been handled and drawn; return the state."""
+        answers = self.state.get("answers", 0)
+        self.process.send_signal(signal.SIGUSR1)
+        return self.until(lambda s: s.get("answers", 0) > answers)
 
     def says(self, words):
         """Wait until a note says something."""
@@ -212,18 +196,18 @@ class Driver:
         return np.asarray(shot.convert("RGB")).astype(np.int16)
 
     def still(self):
-        """Return the screen once it has stopped changing, or after 5 s."""
-        seen, end = self.look(), time.monotonic() + 5
-        while time.monotonic() < end:
-            time.sleep(0.1)
+        """Return the screen once it has stopped changing, or after many pictures."""
+        seen = self.look()
+        for _ in range(50):
+            self.settle()
             before, seen = seen, self.look()
             if np.array_equal(before, seen):
                 break
         return seen
 
     def shows(self, condition):
-        """Return whether the screen meets a condition within 5 s."""
-        end = time.monotonic() + 5
+        """Wait until the screen meets a condition; return whether it did."""
+        end = time.monotonic() + PATIENCE / 4
         while not (met := condition(self.look())) and time.monotonic() < end:
             time.sleep(0.05)
         return bool(met)
@@ -234,7 +218,7 @@ class Driver:
             # to end asks whether to save.
             measured = "COVERAGE_PROCESS_CONFIG" in os.environ
             self.process.send_signal(signal.SIGTERM if measured else signal.SIGKILL)
-        self.process.wait(20)
+        self.process.wait(PATIENCE)
         self.process.stdout.close()
         self.process.stderr.close()
 

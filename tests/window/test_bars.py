@@ -9,14 +9,13 @@ import pytest
 from mars2d.core.usercode import Excerpt
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import FOOTER, TEXT_SIZES, Layout
-from mars2d.output.raster.theme import DARK, LIGHT
+from mars2d.output.raster.theme import LIGHT
 from mars2d.window import keys
 from mars2d.window.help import draw_help
 from mars2d.window.keys import Key
 from tests.window.circling import Circling
-from tests.window.written import Written, painter, pixels
+from tests.window.written import THEMES, Written, painter, pixels
 
-THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
 SIZES = pytest.mark.parametrize(
     "size", [(640, 480), (800, 600), (1280, 720), (1920, 1080), (2560, 1440)]
 )
@@ -216,6 +215,7 @@ def test_where_nothing_could_be_read_there_is_no_help(size):
     assert helped(size)[2] >= 1
 
 
+@pytest.mark.slow
 def test_groups_of_one_key_and_of_very_many():
     one = [("Group", [Key("go", ("g",), ("G",), "go")])]
     assert helped((1280, 720), groups=one)[1].texts == [

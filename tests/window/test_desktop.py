@@ -10,6 +10,7 @@ import pytest
 from mars2d.core.errors import InputError
 from mars2d.window import desktop
 from mars2d.window.desktop import be_sharp, desktop_scale, opening_size
+from tests.processes import x_server
 
 TOOLS = ("Xvfb", "xprop")
 missing = [tool for tool in TOOLS if shutil.which(tool) is None]
@@ -106,18 +107,10 @@ def test_a_window_is_as_large_as_its_points_but_fits(monkeypatch, screen, scale,
     assert opening_size((1280, 720), scale) == size
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(missing), reason=f"{', '.join(missing)} not installed")
 def test_a_real_x_server_tells_its_scale():
-    read, write = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "3000x2000x24", "-noreset"],
-        pass_fds=[write],
-        stderr=subprocess.DEVNULL,
-    )
-    os.close(write)
-    try:
-        with os.fdopen(read) as pipe:
-            screen = f":{pipe.readline().strip()}"
+    with x_server(3000, 2000) as (screen, _):
         hidden = ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "GDK_SCALE", "MARS2D_SCALE")
         environment = {k: v for k, v in os.environ.items() if k not in hidden} | {"DISPLAY": screen}
 
@@ -134,6 +127,3 @@ def test_a_real_x_server_tells_its_scale():
         command += ["-set", "RESOURCE_MANAGER", "Xft.dpi:\t192\n"]
         subprocess.run(command, env=environment, check=True)
         assert asked() == ["2.0", "2560", "1440"]
-    finally:
-        server.terminate()
-        server.wait(10)

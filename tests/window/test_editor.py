@@ -16,7 +16,8 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import keys
-from tests.window.person import Driver, bare_environment, compare, differing, needs_screen
+from tests.processes import PATIENCE, bare_environment, mars, wait_until
+from tests.window.person import Driver, compare, differing, needs_screen
 
 
 class Hands(Driver):
@@ -507,11 +508,8 @@ def test_a_room_with_two_robots_is_drawn_saved_and_run(open_editor, tmp_path):
     hands.until(lambda s: len(s["robots"]) == 2 and s["fault"] == "")
     hands.press("ctrl+s", "Return")
     hands.until(lambda s: s["notice"] == "Saved scenario.toml")
-    command = [sys.executable, "-m", "mars2d", "run", "scenario.toml", "--headless"]
-    done = subprocess.run(
-        [*command, "--stop-time", "5", "--json"],
-        cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False,
-    )  # fmt: skip
+    run = ["run", "scenario.toml", "--headless", "--stop-time", "5", "--json"]
+    done = mars(*run, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["ticks"] == 50
     scenario = open_experiment(tmp_path / "scenario.toml").scenario
@@ -594,7 +592,6 @@ def test_f1_lists_the_keys(open_editor):
     assert hands.shows(lambda seen: differing(before, seen) > 20_000)
     for _ in range(4):  # it may have several pages
         hands.press("F1")
-        time.sleep(0.3)
         if not hands.settle()["help"]:
             break
     assert not hands.state["help"]
@@ -676,17 +673,13 @@ def test_the_command_draws_a_new_file(screen, tmp_path):
     process = edit(tmp_path, "room.toml", DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0")
     do = partial(subprocess.run, env=bare_environment(DISPLAY=screen), check=True)
     shot = ["import", "-window", "root", "-crop", "50x40+5+5", "rgb:-"]
-    end = time.monotonic() + 20
     try:
-        while not any(do(shot, capture_output=True).stdout) and time.monotonic() < end:
-            time.sleep(0.2)  # until there is more than a black screen
+        wait_until(lambda: any(do(shot, capture_output=True).stdout))  # not a black screen only
         do(["xdotool", "key", "r", "mousemove", "600", "350", "click", "1", "sleep", "0.2"])
         do(["xdotool", "key", "--delay", "150", "ctrl+s", "Return"])
-        end = time.monotonic() + 10
-        while not (tmp_path / "room.toml").exists() and time.monotonic() < end:
-            time.sleep(0.1)
+        wait_until((tmp_path / "room.toml").exists)
         do(["xdotool", "key", "--delay", "150", "Escape", "Escape", "Escape"])
-        assert process.wait(10) == 0, process.stderr.read()
+        assert process.wait(PATIENCE) == 0, process.stderr.read()
     finally:
         process.kill()
         process.communicate()
@@ -704,9 +697,9 @@ def test_the_command_draws_a_new_file(screen, tmp_path):
     ],
 )
 def test_what_can_not_be_edited_is_said_in_one_line(tmp_path, arguments, words):
-    process = edit(tmp_path, *arguments)
-    _, said = process.communicate(timeout=60)
-    assert process.returncode == 2
+    done = mars("edit", *arguments, cwd=tmp_path)
+    said = done.stderr
+    assert done.returncode == 2
     assert words in said
     assert len(said.splitlines()) == 1
 

@@ -401,6 +401,7 @@ def keyboard(monkeypatch):
     pygame.display.quit()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("keyboard")
 @pytest.mark.parametrize("seed", range(4))
 def test_no_sequence_of_events_breaks_it(seed, tmp_path, monkeypatch):

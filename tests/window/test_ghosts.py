@@ -13,10 +13,7 @@ from mars2d.window.controls import Marks
 from mars2d.window.ghosts import ghosts
 from mars2d.window.player import between
 from mars2d.world.timeline import Timeline
-
-
-def straight(robot):
-    return 0.2, 0.0
+from tests.worlds import ahead
 
 
 def run_to(timeline, row):
@@ -25,7 +22,7 @@ def run_to(timeline, row):
     timeline.go(row)
 
 
-def timeline_of(robots=2, law=straight, **changes):
+def timeline_of(robots=2, law=ahead, **changes):
     team = [Robot(controller=law).at(0, 1.5 * i, 0) for i in range(robots)]
     scenario = Scenario(robots=team, sampling_time=0.5, stop_time=500, workspace=None, **changes)
     return Timeline(Experiment(scenario))
@@ -102,6 +99,7 @@ def test_after_its_end_a_branch_stays_there_and_says_so():
     assert text == "branch from 10 s, over at 12.5 s"
 
 
+@pytest.mark.slow
 def test_many_robots_and_branches_cost_little():
     timeline = timeline_of(20)
     run_to(timeline, 900)

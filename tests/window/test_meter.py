@@ -9,14 +9,12 @@ import pytest
 
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.bodies.props import Ball, Box, Solid
-from mars2d.geometry.shapes import Polygon
 from mars2d.physics.floor import GRAVITY
 from mars2d.window.forcemeter import Meter, bound_of
 from mars2d.window.picking import body_at, next_body, selection_mark
 from mars2d.window.player import between
 from tests.window.circling import Circling
-
-ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
+from tests.worlds import ELL
 
 
 def push(time=4.0, **changes):

@@ -5,11 +5,10 @@ import pygame
 import pytest
 
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
-from mars2d.output.raster.theme import DARK, LIGHT
+from mars2d.output.raster.theme import LIGHT
 from mars2d.window.notes import STAYS, Notes, Progress, draw_progress
-from tests.window.written import Written, painter, pixels
+from tests.window.written import THEMES, Written, painter, pixels
 
-THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
 SIZES = pytest.mark.parametrize("size", [(640, 480), (1280, 720), (2560, 1440)])
 LONG = (
     "The film can't be written to /home/somebody/films/of/robots.mp4: there is no space left. " * 4

@@ -24,6 +24,7 @@ from mars2d.record.frame import Frame
 from mars2d.scenario.animation import Animation
 from mars2d.window.window import Window
 from tests.window.circling import Circling, circling_scenario
+from tests.window.written import pixels
 
 CAMERA = Camera(scale=10.0, x=50.0, y=50.0)  # (-5, -5) to (5, 5) on 100 x 100 pixels
 
@@ -35,11 +36,6 @@ def painted(scene, ui=1.0):
     painter.ui = ui
     painter.paint(surface, scene.shapes, CAMERA)
     return surface
-
-
-def pixels(surface):
-    """Return (height, width, 3)."""
-    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
 
 
 def coverage(surface):
@@ -292,6 +288,7 @@ def test_a_picture_is_saved_as_png(tmp_path):
         save_png(surface, tmp_path / "no" / "picture.png")
 
 
+@pytest.mark.slow
 def test_pictures_need_no_display(tmp_path):
     code = (
         "import sys; sys.path.insert(0, '.')\n"

@@ -69,6 +69,7 @@ class Viewer:
 
     def __init__(self, record, *, plain=False):
         self.window = Window(Playback(record), 1.0, (1280, 720))
+        self.window.player._clock = lambda: 0.0  # it never falls behind, however busy the machine
         if plain:
             self.window._painter = Painter(kept=0)
             self.window._stage.painter = self.window._inspector.painter = self.window._painter
@@ -142,6 +143,7 @@ def test_what_is_kept_changes_no_pixel(record, situation):
     assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "situation", [nothing, pan, restart, without_paths], ids=lambda situation: situation.__name__
 )

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
-from mars2d.output.raster.theme import DARK, LIGHT
+from mars2d.output.raster.theme import LIGHT
 from mars2d.window.slider import SpeedSlider, times
 from mars2d.window.timebar import TimeBar, TimeState
-from tests.window.written import Written, painter, pixels
+from tests.window.written import THEMES, Written, painter, pixels
 
 RUNGS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 SIZES = [(640, 480), (1280, 720), (2560, 1440)]
-THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
 
 
 def state(row=300, rows=400, last=1000, dt=0.1, **marks):

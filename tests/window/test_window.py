@@ -16,9 +16,9 @@ from mars2d.core.errors import InputError
 from mars2d.window import keys
 from mars2d.window.display import display_available
 from mars2d.window.window import Window
+from tests.processes import HIDDEN, PATIENCE
 from tests.window.circling import Circling
 from tests.window.person import (
-    HIDDEN,
     differing,
     has,
     needs_screen,
@@ -224,7 +224,7 @@ def test_tab_selects_one_after_the_other_and_escape_none(open_window):
     assert window.process.poll() is None
     window.press("Escape")
     window.until(lambda s: s.get("left"))
-    assert window.process.wait(5) == 0
+    assert window.process.wait(PATIENCE) == 0
 
 
 @needs_screen
@@ -329,7 +329,7 @@ def test_the_close_button_closes_it(open_window):
     window = open_window(1)
     window.ask_to_close()
     window.until(lambda s: s.get("left"))
-    assert window.process.wait(5) == 0
+    assert window.process.wait(PATIENCE) == 0
 
 
 @needs_screen
@@ -339,19 +339,20 @@ def test_two_windows_one_after_the_other(open_window):
     window.until(lambda s: s["row"] == 2)
     window.press("Escape")
     window.until(lambda s: s.get("row") == 0)
-    time.sleep(0.2)
+    window.settle()
+    time.sleep(0.2)  # until it has the keyboard
     window.press("space")
     window.until(lambda s: s["row"] == 1)
     window.press("Escape")
     window.until(lambda s: s.get("left"))
-    assert window.process.wait(5) == 0
+    assert window.process.wait(PATIENCE) == 0
 
 
 @needs_screen
 def test_ctrl_c_in_the_terminal_closes_the_window(open_window):
     window = open_window(1)
     window.process.send_signal(signal.SIGINT)
-    assert window.process.wait(5) != 0
+    assert window.process.wait(PATIENCE) != 0
     assert "KeyboardInterrupt" in window.process.stderr.read()
 
 

@@ -121,7 +121,7 @@ def test_a_wall_drawn_in_a_paused_run_stops_a_robot_from_now_on(open_window, roo
     window.until(lambda s: s["editor"] is None)
     assert window.says("from now")["row"] == state["row"]
     window.press("space")
-    window.until(lambda s: s["time"] > 12, 15)
+    window.until(lambda s: s["time"] > 12)
     # Without the wall it would be 2.4 m from where it began.
     assert np.allclose(window.state["robots"][0][0], -0.5 - 0.275, atol=0.3)
     assert window.state["marks"]["collision"]

@@ -166,6 +166,7 @@ def play(kind, seed, path, seconds=None, acts=0):
     return monkey
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["live", "recording", "editor", "failing", "manual"])
 def test_whatever_is_pressed_the_window_goes_on(no_screen, tmp_path, kind):
     monkey = play(kind, 5, tmp_path / "room.py", acts=60)

@@ -128,10 +128,8 @@ def test_r_restarts_also_when_it_is_over(open_window):
 def test_a_slow_sampling_time_moves_smoothly(open_window):
     window = open_window(1, scenario={"sampling_time": 1.0}, rows=20)
     times = set()
-    end = time.monotonic() + 0.5
-    while time.monotonic() < end:
+    while len(times) < 9:
         times.add(window.until(lambda s: s["time"] not in times)["time"])
-    assert len(times) > 8
     assert max(times) < 1.5
 
 
@@ -209,7 +207,7 @@ def test_where_a_law_fails_its_line_is_shown_and_the_past_can_be_looked_at(open_
     window.until(lambda s: s["banner"] is not None)
     window.press("r", "space")
     window.until(lambda s: s["newest"] < 10)
-    window.until(lambda s: s["status"] == "stopped", 15)
+    window.until(lambda s: s["status"] == "stopped")
     window.press("Escape")
     window.until(lambda s: "raised" in s)
     assert "I am lost" in window.state["raised"]

@@ -9,13 +9,10 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.window.written import Pens, Written
+from tests.worlds import ahead
 
 SMALL, LARGE = (922, 691), (1280, 720)
 """Pixels: with a projector, and as it opens."""
-
-
-def ahead(robot):
-    return 0.2, 0.0
 
 
 @pytest.fixture

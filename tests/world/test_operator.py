@@ -96,17 +96,17 @@ def test_the_way_does_not_depend_on_the_sampling_time_by_more_than_a_slice():
 
 def test_a_long_control_step_takes_no_more_than_a_moment():
     scenario = Scenario(robots=[ROBOT], sampling_time=10.0)
-    start = time.perf_counter()
+    start = time.process_time()
     _, path = pulled(scenario, 0, (2.0, 0.0), steps=3)
-    assert time.perf_counter() - start < 3.0
+    assert time.process_time() - start < 3.0
     assert abs(path[-1, 0] - 2.0) < 0.01
 
 
 def test_the_strongest_and_quickest_pull_neither_hangs_nor_goes_through_walls():
     scenario = Scenario(robots=[ROBOT.replace(mass=0.1)], addons=[WALL], on_exit="ignore")
-    start = time.perf_counter()
+    start = time.process_time()
     _, path = pulled(scenario, 0, (900.0, 0.0), steps=20, force=1e6, speed=100.0)
-    assert time.perf_counter() - start < 5.0
+    assert time.process_time() - start < 5.0
     assert path[:, 0].max() <= 0.85 + scenario.max_overlap
 
 
@@ -195,7 +195,7 @@ def test_nobody_escapes_from_a_crowd_that_one_is_pulled_through(seeds):
     for seed in seeds:
         scenario, targets = crowd(seed)
         world = World(scenario)
-        start = time.perf_counter()
+        start = time.process_time()
         for x, y in targets:
             world.hands.pull(7, (0.05, 0.1), (x, y), force=40.0, speed=5.0)
             world.step()
@@ -204,7 +204,7 @@ def test_nobody_escapes_from_a_crowd_that_one_is_pulled_through(seeds):
             place = world.position[0] + 1j * world.position[1]
             gaps = abs(place[:, None] - place) + 9 * np.eye(20)
             assert gaps.min() >= 0.3 - scenario.max_overlap, f"seed {seed}"
-        assert time.perf_counter() - start < 8.0
+        assert time.process_time() - start < 8.0
 
 
 def test_what_is_tied_by_a_rope_is_pulled_no_farther_than_that():
@@ -225,6 +225,7 @@ def test_a_spring_gives_way_as_far_as_the_hand_is_strong():
     assert path[-1, 0] == pytest.approx(0.5 + 10.0 / 20.0, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(bool(reason_without()), reason="there is no kernel")
 def test_kernel_and_plain_engine_give_the_same_bits():
     code = "from tests.world.test_operator import digest_of_a_crowd\nprint(digest_of_a_crowd())"
@@ -496,6 +497,7 @@ def test_a_run_that_hands_were_put_to_is_the_same_again_to_the_bit():
     assert rerun_is_the_same(poked())
 
 
+@pytest.mark.slow
 def test_so_it_is_from_a_file(tmp_path, capsys):
     world = poked()
     world.break_off("enough")
@@ -507,6 +509,7 @@ def test_so_it_is_from_a_file(tmp_path, capsys):
     assert rerun(mars2d.load(tmp_path / "poked.npz")) is None
 
 
+@pytest.mark.slow
 def test_worlds_that_are_stepped_in_turn_do_not_feel_each_other():
     alone = poked().pose
     first = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)]))

@@ -2,13 +2,12 @@
 
 import argparse
 import io
-import time
 
 import numpy as np
 import pytest
 
 import mars2d
-from mars2d import LawError, Robot, Scenario
+from mars2d import LawError, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.cli import outputs
 from mars2d.core.errors import InputError
@@ -63,12 +62,20 @@ LONG = {
     "push_box", "wall_follower", "crowd", "tug_of_war", "herding", "head_on", "billiards",
     "corner_game",
 }  # fmt: skip
-"""Examples that take seconds to go back in: `pytest -m soak`."""
+"""Examples that take many seconds to go back in: `pytest -m soak`."""
+
+QUICK = {"go_to_point", "own_sensor_and_addon", "random_walk", "wall_slide"}
 
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=[pytest.mark.soak] if name in LONG else []) for name in examples()],
+    [
+        pytest.param(
+            name,
+            marks=pytest.mark.soak if name in LONG else () if name in QUICK else pytest.mark.slow,
+        )
+        for name in examples()
+    ],
 )
 def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     options = {"stop_time": 4.0} if name in ("random_walk", "flocking") else {}
@@ -172,6 +179,7 @@ def test_memory_of_every_kind_is_rebuilt(memory):
         assert timeline.record.digest == expected.digest
 
 
+@pytest.mark.slow
 def test_worlds_that_wait_change_nothing(memory):
     expected = simulated(memory)
     timeline = Timeline(open_experiment(memory), 3)
@@ -644,12 +652,21 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=0.1)
 # -- time ------------------------------------------------------------------------------------------
 
 
-def test_idle_is_late_by_no_more_than_a_control_step(written):
+def test_idle_is_late_by_no_more_than_a_control_step(written, monkeypatch):
+    """The clock goes on by 4 ms with each control step, and by nothing else."""
+    steps = 0
+    follow = World.follow
+
+    def counted(world, *arguments):
+        nonlocal steps
+        steps += 1
+        return follow(world, *arguments)
+
+    monkeypatch.setattr(World, "follow", counted)
+    monkeypatch.setattr("mars2d.world.timeline.perf_counter", lambda: 0.004 * steps)
     path = written("""
-import time
 from mars2d import Robot, Scenario
 def law(robot):
-    time.sleep(0.004)
     return 0.1, 0.0
 scenario = Scenario(robots=[Robot(controller=law)])
 """)
@@ -657,18 +674,16 @@ scenario = Scenario(robots=[Robot(controller=law)])
     run_to(timeline, 100)
     timeline.go(90)
     timeline.idle(0.02)  # it opens the file, and gets to know how long a control step takes
-    late = []
     for _ in range(10):
-        start = time.perf_counter()
+        before = steps
         timeline.idle(0.010)
-        late.append(time.perf_counter() - start - 0.010)
-    assert sorted(late)[5] < 0.006
+        assert 0.004 * (steps - before) - 0.010 < 0.0041
     reached = timeline._past.waiting[0].iteration
     assert reached > 10
-    start = time.perf_counter()
+    before = steps
     for _ in range(20):
         timeline.idle(0.001)  # less than a control step takes
-    assert time.perf_counter() - start < 0.02
+    assert steps - before <= 1
     assert timeline._past.waiting[0].iteration <= reached + 1
 
 
@@ -886,6 +901,7 @@ def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path
     assert "another branch, left at 1.45 s, is in" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_boxes_are_where_they_were(written):
     path = written("""
 from mars2d import Robot, Scenario

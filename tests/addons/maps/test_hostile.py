@@ -546,11 +546,27 @@ def half_a_jpeg(folder: Path) -> Path:
     return path
 
 
+SLOW = {
+    "a_spline_with_60000_knots", "a_polyline_without_end", "a_zigzag", "a_comb", "too_many_lines",
+    "too_many_corners", "a_PGM_as_text", "a_checkerboard",
+}  # fmt: skip
+"""Cases that take more than a second."""
+
+
 # -- all of them -------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("expected", "maker"), [c[1:] for c in CASES], ids=[c[0].replace(" ", "_") for c in CASES]
+    ("expected", "maker"),
+    [
+        pytest.param(
+            expected,
+            maker,
+            id=about.replace(" ", "_"),
+            marks=[pytest.mark.slow] if about.replace(" ", "_") in SLOW else [],
+        )
+        for about, expected, maker in CASES
+    ],
 )
 def test_a_bad_file_is_refused_in_one_line_that_names_it(expected, maker, tmp_path):
     path = maker(tmp_path)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 
 import pytest
 
@@ -12,6 +10,7 @@ import mars2d
 from mars2d import InputError, Scenario
 from mars2d.addons import Map
 from mars2d.scenario.experiment import open_experiment
+from tests.processes import mars
 
 SQUARE = "LINESTRING (0 0, 6 0, 6 4, 0 4, 0 0)"
 
@@ -188,13 +187,7 @@ def test_a_record_keeps_the_walls_not_the_file(folder):
 # -- the command line --------------------------------------------------------------------------
 
 
-def mars(*words):
-    return subprocess.run(
-        [sys.executable, "-m", "mars2d", *words],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
-
-
+@pytest.mark.slow
 def test_check_shows_what_was_read_and_draws_it(folder):
     done = mars("check", "room.wkt", "--set", "unit=cm", "--set", "at=(0,1)", "--figure", "a.png")
     assert done.stderr == ""
@@ -211,6 +204,7 @@ def test_check_shows_what_was_read_and_draws_it(folder):
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_check_names_the_nearest_file_and_how_to_bring_a_dwg(folder):
     said = "mars2d: rom.wkt: there is no such file; did you mean 'room.wkt'?\n"
     assert mars("check", "rom.wkt").stderr == said

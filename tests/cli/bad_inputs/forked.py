@@ -22,7 +22,7 @@ import time
 import traceback
 from pathlib import Path
 
-LIMIT = 20.0
+LIMIT = 60.0
 """Seconds of the clock that an input may take until it counts as a hang."""
 
 AT_A_TIME = 2

@@ -34,12 +34,12 @@ TRIED = [
         number % 2,
         case,
         id=f"{kind}: {case.name}{flag and ', '}{flag}",
-        marks=[pytest.mark.soak] if number % 2 != turn else [],
+        marks=pytest.mark.soak if number % 2 != turn else pytest.mark.slow if flag else (),
     )
     for turn, flag in enumerate(FLAGS)
     for number, (kind, case) in enumerate(ALL)
 ]
-"""By default each input is tried once, every second one under -O; as soak, the other way round."""
+"""Each input is tried once, every second one under -O (slow); as soak, the other way round."""
 
 
 @pytest.fixture(scope="session")

@@ -93,6 +93,7 @@ def _npy(shape: object, data: bytes = b"", dtype: str = "<f8") -> bytes:
     return file.getvalue() + data
 
 
+@pytest.mark.slow
 def test_a_small_npz_with_a_huge_member_is_refused(tmp_path, said):
     zeros = _npy((20 * MB,), bytes(160 * MB))
     path = _npz(tmp_path / "bomb.npz", {"pose.npy": zeros}, compression=zipfile.ZIP_DEFLATED)
@@ -100,6 +101,7 @@ def test_a_small_npz_with_a_huge_member_is_refused(tmp_path, said):
     assert "holds, or claims to hold, 160 MB of data" in said(path, 150 * MB)
 
 
+@pytest.mark.slow
 def test_an_npz_with_a_huge_header_is_refused(tmp_path, said):
     text = b"[" + b"{}," * (40 * MB) + b"{}]"
     header = {"header.npy": _npy((len(text),), text, "|u1")}

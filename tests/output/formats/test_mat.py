@@ -14,6 +14,7 @@ import mars2d
 from mars2d import Robot, Scenario
 from tests.house.test_docs import ROOT, Reader, blocks
 from tests.output.formats.records import cut_to, everything, refused
+from tests.processes import PATIENCE
 
 OCTAVE = shutil.which("octave-cli")
 needs_octave = pytest.mark.skipif(OCTAVE is None, reason="GNU Octave is not installed")
@@ -24,7 +25,7 @@ def octave(code: str, folder) -> list[str]:
     (folder / "lines.m").write_text(code, encoding="utf-8")
     command = [OCTAVE, "--quiet", "--no-gui", "--no-init-file", "lines.m"]
     result = subprocess.run(
-        command, cwd=folder, capture_output=True, encoding="utf-8", check=False, timeout=120
+        command, cwd=folder, capture_output=True, encoding="utf-8", check=False, timeout=PATIENCE
     )
     assert result.returncode == 0, result.stderr
     return result.stdout.splitlines()
@@ -64,6 +65,7 @@ def test_no_column_is_twice_in_the_file(tmp_path):
     )
 
 
+@pytest.mark.slow
 @needs_octave
 def test_octave_opens_it_with_shapes_values_and_texts(tmp_path):
     record = everything()
@@ -105,6 +107,7 @@ disp(header.contents{out_data.Messages.content(1)})
     assert text[7] == record.contents[record.messages["content"][0]]
 
 
+@pytest.mark.slow
 @needs_octave
 @pytest.mark.parametrize("rows", [None, 0, 1])
 def test_what_octave_saves_again_is_still_the_record(rows, tmp_path):
@@ -118,6 +121,7 @@ def test_what_octave_saves_again_is_still_the_record(rows, tmp_path):
         assert again.contents == record.contents
 
 
+@pytest.mark.slow
 @needs_octave
 def test_what_octave_changed_or_saved_otherwise_is_refused(tmp_path):
     everything().save(tmp_path / "run.mat")
@@ -127,6 +131,7 @@ def test_what_octave_changed_or_saved_otherwise_is_refused(tmp_path):
     refused(tmp_path / "own.mat", "a file of Octave's own format; expected one of 'save -v7'")
 
 
+@pytest.mark.slow
 @needs_octave
 def test_the_lines_of_octave_in_the_docs_do_what_they_say(tmp_path, monkeypatch):
     document = ROOT / "docs" / "data.md"
@@ -135,6 +140,9 @@ def test_the_lines_of_octave_in_the_docs_do_what_they_say(tmp_path, monkeypatch)
     reader.python(next(block for block in every if block.language == "python"), "")
     lines = next(block.text for block in every if block.language == "matlab")
     hidden = "set(0, 'defaultfigurevisible', 'off')\n"
+    plot = [OCTAVE, "--quiet", "--no-gui", "--no-init-file", "--eval", f"{hidden}axes"]
+    if subprocess.run(plot, capture_output=True, check=False, timeout=PATIENCE).returncode:
+        pytest.skip("Octave can't plot: apt-get install gnuplot-nox fonts-freefont-otf")
     code = hidden + lines + "\nprintf('%.17g\\n', first), size(get(gca, 'children'))"
     text = "\n".join(octave(code, tmp_path))
     contacts = reader.namespace["record"].contacts

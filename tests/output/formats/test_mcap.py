@@ -95,6 +95,7 @@ def test_a_record_is_saved_as_a_log_and_stays_the_same(name, tmp_path) -> None:
     assert first.digest == second.digest == record.digest
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("library", ["mcap", "foxglove_schemas_protobuf", "google"])
 def test_without_a_library_a_log_says_what_to_install(library, child, tmp_path) -> None:
     code = (
@@ -402,6 +403,7 @@ def check_kills(count: int, tmp_path: Path) -> None:
         path.unlink()
 
 
+@pytest.mark.slow
 def test_a_run_that_is_killed_loses_no_finished_step(tmp_path) -> None:
     check_kills(6, tmp_path)
 
@@ -517,6 +519,7 @@ def test_where_nothing_can_be_written_the_run_does_not_begin(tmp_path) -> None:
         mars2d.run(Scenario(), record=tmp_path / "run.mcap")
 
 
+@pytest.mark.slow
 def test_memory_stays_flat_while_a_run_is_logged(tmp_path, child) -> None:
     code = (
         "import sys, mars2d, numpy as np\n"

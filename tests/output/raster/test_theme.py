@@ -16,8 +16,8 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import DARK, LIGHT, PRINTED, Tone, contrast, mixed
 from tests.window.circling import Circling
+from tests.window.written import THEMES, pixels
 
-THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
 READABLE = 4.5
 SEEN = 3.0
 """The contrasts that WCAG 2 asks of text, and of graphics."""
@@ -147,10 +147,6 @@ def test_an_image_is_turned_like_a_shape():
 
 
 # -- painted --------------------------------------------------------------------------------------
-
-
-def pixels(surface):
-    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
 
 
 def painted(scene, theme, *, shaded=True):

@@ -1,0 +1,81 @@
+"""Other processes in tests: command lines, an X server, waiting for what they do."""
+
+from __future__ import annotations
+
+import functools
+import os
+import shutil
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.forking import Nursery
+
+PATIENCE = 120.0
+"""Seconds after which a test that waits fails. It only bounds hangs: machines may be busy."""
+
+HIDDEN = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER")
+
+
+def wait_until(condition: Callable[[], Any], process: Any = None) -> Any:
+    """Wait until a condition holds, and return its value.
+
+    process: fail at once if this one ends before.
+    """
+    end = time.monotonic() + PATIENCE
+    while not (value := condition()):
+        if process is not None and process.poll() is not None and not condition():
+            pytest.fail(f"the process has ended: {process.communicate()}")
+        assert time.monotonic() < end, f"it did not happen within {PATIENCE:g} s"
+        time.sleep(0.01)
+    return value
+
+
+def bare_environment(**more: str) -> dict[str, str]:
+    """Return this environment without a display."""
+    return {key: value for key, value in os.environ.items() if key not in HIDDEN} | more
+
+
+@functools.cache
+def _nursery() -> Nursery:
+    """Start the process that command lines are forked from."""
+    return Nursery(dict(os.environ), "mars2d.cli.command_line", "matplotlib.figure")
+
+
+def mars(
+    *arguments: object, cwd: Path | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Run a command line of MARS2D without a display, in a process of its own, to its end."""
+    words = [str(argument) for argument in arguments]
+    folder = Path.cwd() if cwd is None else cwd
+    process = _nursery().fork(
+        "mars2d.cli.command_line", words, bare_environment(**environment), folder
+    )
+    out, errors = process.communicate()
+    return subprocess.CompletedProcess(words, process.wait(PATIENCE), out, errors)
+
+
+@contextmanager
+def x_server(width: int = 1000, height: int = 700) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
+    """Start an X server on a free display; yield the display's name and the server's process."""
+    if shutil.which("Xvfb") is None:
+        pytest.skip("needs an X server: apt-get install xvfb")
+    read, write = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-noreset"],
+        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    os.close(write)
+    try:
+        with os.fdopen(read) as pipe:
+            number = pipe.readline().strip()
+        assert number, "Xvfb did not start"
+        yield f":{number}", server
+    finally:
+        server.terminate()
+        server.wait(PATIENCE)

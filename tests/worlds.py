@@ -1,0 +1,65 @@
+"""Worlds, runs and laws that many tests share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import mars2d
+from mars2d import Record, Scenario, World
+from mars2d.geometry.shapes import Polygon
+from mars2d.scenario.experiment import open_experiment
+
+ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
+"""A shape that is not convex, metres."""
+
+
+def ahead(robot: Any) -> tuple[float, float]:
+    """Drive straight on at 0.2 m/s."""
+    return 0.2, 0.0
+
+
+def without_laws(scenario: Scenario) -> Scenario:
+    """Return a scenario whose robots have no controllers."""
+    return scenario.replace(robots=[robot.replace(controller=None) for robot in scenario.robots])
+
+
+def endless(
+    robots: Sequence[Any], props: Sequence[Any] = (), joints: Sequence[Any] = (), **fields: Any
+) -> World:
+    """Return a world without a workspace that lasts for long."""
+    fields = {"workspace": None, "stop_time": 1e5} | fields
+    return World(Scenario(robots=robots, props=props, joints=joints, **fields))
+
+
+def drive(world: World, command: Any, seconds: float) -> np.ndarray:
+    """Give the same command for some seconds; return poses of robots and props (T, 3, n + p)."""
+    poses = []
+    for _ in range(round(seconds / world.scenario.sampling_time)):
+        world.step(command)
+        poses.append(np.hstack([world.pose, world.prop_pose]))
+    return np.array(poses)
+
+
+def finished(scenario: Scenario, seed: int = 0) -> World:
+    """Return the world of a scenario at the end of its run."""
+    world = World(scenario, seed=seed)
+    while not world.over:
+        world.step()
+    return world
+
+
+def predicted(name: str | Path, seed: int = 0, **options: Any) -> tuple[Record, dict[str, Any]]:
+    """Run an example or a file; return its record, and its predictions by their names."""
+    experiment = open_experiment(name, options)
+    record = mars2d.run(experiment.scenario, control=experiment.control, seed=seed)
+    return record, {each.name: each for each in experiment.predictions(record)}
+
+
+def failing(name: str | Path, record: Record, **options: Any) -> set[str]:
+    """Return the names of an experiment's predictions that do not hold for a record."""
+    found = open_experiment(name, options).predictions(record)
+    return {each.name for each in found if not each.ok}
