@@ -49,7 +49,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.output.films.film import save_film
 from mars2d.output.films.mp4 import require_av
-from mars2d.output.raster.layers import Layers
+from mars2d.output.layers.table import Layers
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import MEMORY, Stage

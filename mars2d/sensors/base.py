@@ -38,6 +38,7 @@ __all__ = [
     "COLOR",
     "DISTANCE",
     "FLAG",
+    "Fan",
     "NOTHING",
     "NUMBER",
     "Quantity",
@@ -155,6 +156,20 @@ class Sighting(NamedTuple):
     range: float
     bearing: float
     robot: int | None = None
+
+
+class Fan(NamedTuple):
+    """Beams or cones along which a sensor reads distances, one number of the reading each.
+
+    angles: radians from the sensor's heading, evenly spaced. range: metres. cone: the angle in
+    which each one hears, radians; 0 for beams. closed: whether the last beam is the neighbour of
+    the first, so that together they sweep a full circle.
+    """
+
+    angles: Float
+    range: float
+    cone: float = 0.0
+    closed: bool = False
 
 
 FULL = 2 * pi
@@ -329,6 +344,15 @@ class Sensor(Stateful):
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw field of view and reading for a robot at `pose` (3,). By default, nothing."""
+
+    @property
+    def fan(self) -> Fan | None:
+        """The beams that it reads distances along and that `draw` draws; None for other sensors.
+
+        Then a page can hold a byte a beam in place of the shapes. A class that overrides `draw`
+        overrides this as well, or is taken to draw something else.
+        """
+        return None
 
     # -- when it measures --------------------------------------------------------------------
 

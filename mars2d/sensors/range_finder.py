@@ -12,7 +12,7 @@ import numpy as np
 from mars2d.core.description import integer, number
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import DISTANCE, Float, Quantity, Scanner, Surroundings, sight_angle
+from mars2d.sensors.base import DISTANCE, Fan, Float, Quantity, Scanner, Surroundings, sight_angle
 
 if TYPE_CHECKING:
     from mars2d.world.views import RobotView
@@ -54,16 +54,19 @@ class RangeFinder(Scanner):
         mine = [robot.index for robot in robots]
         return world.scans(self.placed(world.pose[:, mine]), self.angles, self.range, mine)
 
+    @property
+    def fan(self) -> Fan:
+        """Its beams."""
+        closed = self.field_of_view >= 2 * pi and self.beams > 2
+        return Fan(self.angles, self.range, closed=closed)
+
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw what the beams sweep, and a dot where one has met something."""
         x, y, theta = self.placed(pose).tolist()
         angles = theta + self.angles
         far = np.minimum(reading, self.range)
         ends = np.column_stack([x + far * np.cos(angles), y + far * np.sin(angles)])
-        if self.field_of_view >= 2 * pi and self.beams > 2:
-            area = ends
-        else:
-            area = np.vstack([[x, y], ends])
+        area = ends if self.fan.closed else np.vstack([[x, y], ends])
         scene.polygon(area, fill=faded(color, 0.07))
         hits = ends[np.isfinite(reading)]
         if len(hits):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from mars2d.output.layers.table import LAYERS
+
 __all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "action_of"]
 
 
@@ -57,6 +59,11 @@ SEE = (
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
     Key("dark", ("d",), ("D",), "dark or light"),
     Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
+)
+SEE += tuple(
+    Key(layer.name, (layer.key,), (layer.key.upper(),), f"{layer.title.lower()} on and off")
+    for layer in LAYERS
+    if layer.key and layer.name not in {key.action for key in SEE}
 )
 
 DO = (

@@ -13,8 +13,8 @@ from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError
 from mars2d.core.scene import Scene, wake_style
+from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import Artist, paint_frame, save_png
 from mars2d.output.raster.stage import Stage
@@ -423,7 +423,9 @@ def test_switched_off_forces_cost_nothing(monkeypatch):
     def refuse(frame):
         raise AssertionError("the forces were asked for")
 
-    monkeypatch.setattr("mars2d.output.raster.stage.forces", refuse)
+    for k, layer in enumerate(LAYERS):
+        if layer.name == "forces":
+            monkeypatch.setitem(LAYERS, k, replace(layer, shapes=refuse))
     paint_frame(pressed())
     with pytest.raises(AssertionError):
         paint_frame(pressed(), forces=True)

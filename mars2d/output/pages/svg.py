@@ -26,11 +26,11 @@ from mars2d.core.scene import (
 )
 from mars2d.output.figures.extent import View
 
-__all__ = ["Layer", "svg"]
+__all__ = ["ScaledScene", "svg"]
 
 Float = NDArray[np.float64]
 
-Layer = tuple[Scene, float]
+ScaledScene = tuple[Scene, float]
 """A scene, and what its line widths, marks and text heights are multiplied by."""
 
 TOLERANCE = 0.3
@@ -53,7 +53,7 @@ SHIFTS = {"left": (1, 0), "right": (-1, 0), "above": (0, 1), "below": (0, -1)}
 UNREADABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
-def svg(layers: Iterable[Layer], view: View, size: tuple[float, float], title: str) -> str:
+def svg(layers: Iterable[ScaledScene], view: View, size: tuple[float, float], title: str) -> str:
     """Return an SVG picture of scenes on white ground, the first one lowest.
 
     view: what part of the plane is shown. size: (width, height) in pixels, in the proportions of

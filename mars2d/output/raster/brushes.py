@@ -196,7 +196,10 @@ def stroke(surface: pygame.Surface, color: Rgba, pieces: list[Float], width: flo
 def hairline(
     surface: pygame.Surface, color: Rgba, x0: float, y0: float, x1: float, y1: float
 ) -> None:
-    """Draw a straight line a pixel wide, with opacity, as `stroke` does but quickly."""
+    """Draw a straight line a pixel wide, as `stroke` does but quickly."""
+    if color[3] == 255:
+        pygame.draw.aaline(surface, color, (x0 - 0.5, y0 - 0.5), (x1 - 0.5, y1 - 0.5))
+        return
     left, top = floor(min(x0, x1)) - 2, floor(min(y0, y1)) - 2
     box = pygame.Rect(left, top, ceil(max(x0, x1)) + 2 - left, ceil(max(y0, y1)) + 2 - top)
     box = box.clip(surface.get_clip())

@@ -56,6 +56,8 @@ WIDE = 2_500
 """The area in pixels beyond which it is."""
 UNSEEN = 0.3
 """The pixels by which such an edge may be drawn beside where it is."""
+KEPT_LABELS = 2000
+"""The number of texts with halos that are kept."""
 
 
 class Painter:
@@ -74,6 +76,7 @@ class Painter:
         self.theme = theme
         self._shade: Callable[[str], str] = theme.shade
         self._sprites = Sprites(kept)
+        self._labels: dict[Hashable, pygame.Surface] = {}
         self._memory = memoryview(b"")
 
     def paint(
@@ -223,7 +226,7 @@ class Painter:
         width = min(shape.width * self.ui, max(1.0, (abs(dx) + abs(dy)) / 3.5))
         width = round(8 * width) / 8
         color = rgba(self._shade(shape.stroke))
-        if width <= 1.0 and color[3] < 255 and max(map(abs, (x, y, dx, dy))) < FAR:
+        if width <= 1.0 and max(map(abs, (x, y, dx, dy))) < FAR:
             ink = (*color[:3], round(width * color[3]))  # thinner is fainter
             brushes.hairline(surface, ink, x, y, x + dx, y + dy)
             return
@@ -303,22 +306,37 @@ class Painter:
         x = camera.x + camera.scale * shape.position[0]
         y = camera.y - camera.scale * shape.position[1]
         gap = 4 * self.ui
-        lines = shape.text.split("\n")
-        color = self._shade(shape.color)
-        images = [self.fonts.render(text, shape.size * self.ui, color) for text in lines]
-        height = sum(image.get_height() for image in images)
+        reach = max(1, round(1.5 * self.ui)) if shape.halo else 0
+        images = [self._label(text, shape, reach) for text in shape.text.split("\n")]
+        height = sum(image.get_height() - 2 * reach for image in images)
         top = {"above": y - gap - height, "below": y + gap}.get(shape.anchor, y - height / 2)
-        for text, image in zip(lines, images, strict=True):
-            width = image.get_width()
+        for image in images:
+            width = image.get_width() - 2 * reach
             # MARS's and matplotlib's sense: "left" puts the text's left end at the point
             left = {"left": x + gap, "right": x - gap - width}.get(shape.anchor, x - width / 2)
-            place = (round(left), round(top))
-            if shape.halo:
-                rim = self.fonts.render(text, shape.size * self.ui, self._shade(shape.halo))
-                reach = max(1, round(1.5 * self.ui))
-                surface.fblits((rim, (place[0] + a, place[1] + b)) for a, b in _around(reach))
-            surface.blit(image, place)
-            top += image.get_height()
+            surface.blit(image, (round(left) - reach, round(top) - reach))
+            top += image.get_height() - 2 * reach
+
+    def _label(self, text: str, shape: Text, reach: int) -> pygame.Surface:
+        """Return a line of a text, with a halo that reaches so many pixels to all sides."""
+        size, color = shape.size * self.ui, self._shade(shape.color)
+        if not shape.halo:
+            return self.fonts.render(text, size, color)
+        halo = self._shade(shape.halo)
+        key = text, size, color, halo
+        label = self._labels.get(key)
+        if label is None:
+            if len(self._labels) >= KEPT_LABELS:
+                self._labels.clear()
+            letters = self.fonts.render(text, size, color)
+            box = letters.get_rect().inflate(2 * reach, 2 * reach)
+            label = pygame.Surface(box.size, pygame.SRCALPHA)
+            label.fill((*rgba(halo)[:3], 0))
+            rim, steps = self.fonts.render(text, size, halo), (0, reach, 2 * reach)
+            label.fblits((rim, (dx, dy)) for dx in steps for dy in steps)
+            label.blit(letters, (reach, reach))
+            self._labels[key] = label
+        return label
 
     # -- images -------------------------------------------------------------------------------
 
@@ -408,12 +426,6 @@ def _cells(
         low, high = floor((first - start) / size), ceil((end - start) / size)
         own = np.arange(max(low, 0), min(high, count))
     return (first, end), own
-
-
-def _around(reach: int) -> list[tuple[int, int]]:
-    """Return shifts to all sides, by `reach` pixels."""
-    steps = (-reach, 0, reach)
-    return [(a, b) for a in steps for b in steps if (a, b) != (0, 0)]
 
 
 def _sprite_factor(box: pygame.Rect) -> int:

@@ -9,18 +9,13 @@ from time import perf_counter
 
 import pygame
 
-from mars2d.core.scene import Scene, Shape
-from mars2d.output.layers import parts as scenes
-from mars2d.output.layers.forces import forces
-from mars2d.output.layers.messages import messages
-from mars2d.output.layers.names import names
-from mars2d.output.layers.velocities import velocities
+from mars2d.core.scene import Shape
+from mars2d.output.layers.sensors import sensors
+from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.canvas import Canvas, grid_bounds
 from mars2d.output.raster.grid import labels
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.legend import draw_legends
-from mars2d.output.raster.overlays import Labels, Links
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -65,7 +60,6 @@ class Stage:
         self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
         self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._numbers_of: tuple[Hashable, ...] = ()
-        self._names, self._links = Labels(), Links()
 
     def draw(
         self,
@@ -94,12 +88,8 @@ class Stage:
         else:
             self._enlarge(surface, canvas, camera, layers, plot)
             if layers.sensors:
-                self.painter.paint(surface, scenes.sensors(frame).shapes, camera)
-        if layers.messages and layers.neighbours:
-            self._links.draw(surface, self.painter, frame, camera)
-        self.painter.paint(surface, self._moving(frame, layers, beneath, marks).shapes, camera)
-        if layers.names:
-            self._names.draw(surface, self.painter, names(frame), camera)
+                self.painter.paint(surface, sensors(frame).shapes, camera)
+        self._paint_above(surface, frame, camera, layers, beneath, marks)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
         draw_legends(
             surface, self.painter, frame.scenario, camera, plot,
@@ -107,24 +97,24 @@ class Stage:
         )  # fmt: skip
         surface.set_clip(before)
 
-    def _moving(
-        self, frame: Frame, layers: Layers, beneath: Sequence[Shape], marks: Sequence[Shape]
-    ) -> Scene:
-        """Return what is drawn anew each time."""
-        moving = scenes.addons(frame) if layers.addons else Scene()
-        if layers.theory:
-            moving.extend(scenes.theory(frame).shapes)
-        if layers.messages:
-            moving.extend(messages(frame).shapes)
-        moving.extend(beneath)
-        for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):
-            moving.extend(scene.shapes)
-        moving.extend(marks)
-        if layers.velocities:
-            moving.extend(velocities(frame).shapes)
-        if layers.forces:
-            moving.extend(forces(frame).shapes)
-        return moving
+    def _paint_above(
+        self,
+        surface: pygame.Surface,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        beneath: Sequence[Shape],
+        marks: Sequence[Shape],
+    ) -> None:
+        """Draw the layers above what is kept, with `beneath` and `marks` round the bodies."""
+        seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
+        for layer in LAYERS[_place("sensors") + 1 :]:
+            if layer.name == FIRST_BODIES:
+                self.painter.paint(surface, beneath, camera)
+            if layer.name in seen and layer.shapes is not None:
+                self.painter.paint(surface, layer.shapes(frame).shapes, camera)
+            if layer.name == LAST_BODIES:
+                self.painter.paint(surface, marks, camera)
 
     # -- what stands still --------------------------------------------------------------------
 
@@ -139,7 +129,8 @@ class Stage:
     ) -> Canvas:
         """Return what there is for a camera, or draw it; in a hurry, return what there is."""
         size = surface.get_size()
-        key = layers.grid, size, tuple(plot), self.painter.ui, self.painter.theme
+        stands = frozenset(layer.name for layer in standing())
+        key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme
         canvas = self._canvas
         if key != self._key or frame.scenario is not self._scenario:
             canvas = self._next = None
@@ -148,10 +139,7 @@ class Stage:
         if canvas is not None and hurried and slow:
             canvas = self._look_ahead(canvas, frame, camera, layers, plot)
         elif canvas is None or not canvas.is_exact(camera) or not canvas.shows(camera, plot):
-            canvas = Canvas(
-                self.painter, frame.scenario, camera, size, plot, grid=layers.grid,
-                memory=self.memory,
-            )  # fmt: skip
+            canvas = Canvas(self.painter, frame, camera, layers, size, plot, memory=self.memory)
         self._canvas = canvas
         return canvas
 
@@ -166,8 +154,8 @@ class Stage:
             wide = plot.inflate(2 * ROUND * plot.width, 2 * ROUND * plot.height)
             own = camera.panned(-wide.left, -wide.top)
             self._next = Canvas(
-                self.painter, frame.scenario, own, wide.size, pygame.Rect(0, 0, *wide.size),
-                grid=layers.grid, memory=self.memory,
+                self.painter, frame, own, layers, wide.size, pygame.Rect(0, 0, *wide.size),
+                memory=self.memory,
             )  # fmt: skip
             return canvas
         if layers.trails and self._next.with_paths(frame, perf_counter() + AHEAD) is None:
@@ -250,8 +238,7 @@ class Stage:
         What is seen more than once is drawn on a copy and kept. Where the last was seen only once,
         as in a film of each control step, the next will be as well: that needs no copy.
         """
-        sensors = (sensor for robot in frame.scenario.robots for sensor in robot.sensors)
-        stays = all(sensor.stays for sensor in sensors)
+        stays = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
         sensed = frame.pose if frame.sensed is None else frame.sensed
         read = [reading for readings in frame.readings.values() for _, reading in readings]
         made_of = picture, frame.path, sensed, None if stays else frame.pose, *read
@@ -261,7 +248,7 @@ class Stage:
         self._times_seen += 1
         if self._is_kept and self._sensed is not None:
             return self._sensed, ()
-        shapes = scenes.sensors(frame).shapes
+        shapes = sensors(frame).shapes
         if not shapes or not (self._sensed_stays or self._times_seen > 1):
             return picture, shapes
         if self._sensed is None or self._sensed.get_size() != picture.get_size():
@@ -271,3 +258,8 @@ class Stage:
         self.painter.paint(self._sensed, shapes, canvas.camera)
         self._is_kept = True
         return self._sensed, ()
+
+
+def _place(name: str) -> int:
+    """Return where a layer stands in the table."""
+    return next(k for k, layer in enumerate(LAYERS) if layer.name == name)

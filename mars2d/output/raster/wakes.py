@@ -6,7 +6,12 @@ from time import perf_counter
 
 import pygame
 
-from mars2d.output.layers import parts as scenes
+from mars2d.output.layers.trails import (
+    PROP_TRAIL_WIDTH,
+    TRAIL_WIDTH,
+    prop_trail_colors,
+    trail_colors,
+)
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.trails import Trails
@@ -37,8 +42,8 @@ class Wakes:
         memory: int,
     ) -> None:
         """Start with no path drawn."""
-        thin = scenes.prop_trail_colors(scenario), scenes.PROP_TRAIL_WIDTH
-        thick = scenes.trail_colors(scenario), scenes.TRAIL_WIDTH
+        thin = prop_trail_colors(scenario), PROP_TRAIL_WIDTH
+        thick = trail_colors(scenario), TRAIL_WIDTH
         self.surface = still.copy()
         self.trails: tuple[Trails, ...] = (
             Trails(painter, camera, "-", *thin),

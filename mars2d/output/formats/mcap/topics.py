@@ -12,8 +12,8 @@ from mars2d.core.scene import Scene
 from mars2d.output.formats.mcap.drawing import draw
 from mars2d.output.formats.mcap.row import Row
 from mars2d.output.formats.mcap.wire import block, packed, varint
-from mars2d.output.layers import parts
 from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_colors, prop_edge
+from mars2d.output.layers.ground import obstacles, workspace
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.range_finder import RangeFinder
 
@@ -158,7 +158,7 @@ class Topics:
             entity.timestamp.FromNanoseconds(ns)
             draw(entity, scene, floor)
 
-        grounds = Scene([*parts.workspace(scenario).shapes, *parts.obstacles(scenario).shapes])
+        grounds = Scene([*workspace(scenario).shapes, *obstacles(scenario).shapes])
         add("ground", self._world, grounds, BENEATH)
         start = np.zeros(3)
         names = iter(self._names)

@@ -22,13 +22,16 @@ MISSING = -LARGEST
 
 
 class Columns:
-    """Columns packed one after the other; `index` says where each lies and how it is read."""
+    """Columns packed one after the other; `index` says where each lies and how it is read.
+
+    size: their bytes. beside: the bytes of the plain data that belongs to them, about.
+    """
 
     def __init__(self) -> None:
         """Start with none."""
         self.index: dict[str, dict[str, Any]] = {}
         self._parts: list[bytes] = []
-        self.size = 0
+        self.size = self.beside = 0
 
     def add(self, name: str, values: NDArray[Any], order: int = 0, **more: Any) -> None:
         """Pack whole numbers (T, ...), each series by its differences in time of an order 0 to 2.
@@ -65,6 +68,7 @@ class Columns:
             self.index[name] = {**entry, "at": entry["at"] + self.size}
         self._parts += other._parts
         self.size += other.size
+        self.beside += other.beside
 
     def packed(self) -> bytes:
         """Return the bytes of all columns."""
@@ -89,6 +93,6 @@ def fitted(
     """
     while True:
         columns, rows = pack(every)
-        if columns.size <= room or rows <= 1:
+        if columns.size + columns.beside <= room or rows <= 1:
             return columns, every
         every *= 2
