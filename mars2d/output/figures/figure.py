@@ -75,11 +75,11 @@ TICK_SPACING = 28.0  # points between ticks, at least
 def plot_paths(
     record: Record, ax: Axes | None = None, *, style: str = "screen", layers: Layers | None = None
 ) -> Axes:
-    """Draw the paths of a record: initial poses hollow, final poses filled, obstacles and grid.
+    """Draw all layers at the end of a record: paths, initial poses hollow, final ones filled.
 
     ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
     and which a notebook shows. style: the name of one of `figures.style`. layers: what is switched
-    on; by default as the animation says. Returns the axes.
+    on; by default as the animation says, and sensors among few robots. Returns the axes.
     Raises InputError if the record has no rows.
 
     >>> import mars2d
@@ -274,7 +274,7 @@ def dress(
     set_ticks(ax)
     ax.callbacks.connect("xlim_changed", set_ticks)
     ax.callbacks.connect("ylim_changed", set_ticks)
-    layers = layers or Layers.of(scenario.animation)
+    layers = layers or _layers_of(scenario)
     if layers.grid:
         ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
     else:
@@ -322,7 +322,7 @@ def paint_row(
     """Paint the layers as they are at a row; layers: what is switched on, see `plot_paths`."""
     now = record.frame(row)
     animation = record.scenario.animation
-    layers = layers or Layers.of(animation)
+    layers = layers or _layers_of(record.scenario)
     _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
     scales = _scales(ax, record.scenario, look)
     words = 0.65 * look.small / SCREEN.small
@@ -346,6 +346,12 @@ def paint_row(
                 line.set_clip_path(ax.patches[-1])
     if layers.forces:
         _paint_legend(ax, now, scales["bodies"], words)
+
+
+def _layers_of(scenario: Scenario) -> Layers:
+    """Return what a figure shows by default; in a crowd, sensors would hide the paths."""
+    few = len(scenario.robots) <= LEGEND_LIMIT
+    return Layers.of(scenario.animation, sensors=few)
 
 
 def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
