@@ -337,13 +337,14 @@ def paint_row(
             scene = _told_apart(scene, record.scenario, look)
         scale = scales.get(layer.name, scales["bodies"])
         texts = scale if layer.name in ("floor", "addons", "theory") else words
+        before = len(ax.patches)
         lines = [shape for shape in scene.shapes if not isinstance(shape, Text)]
         paint(Scene(lines), ax, scale=scale, level=level)
         letters = [shape for shape in scene.shapes if isinstance(shape, Text)]
         paint(Scene(letters), ax, scale=texts, level=level)
         if layer.name == "workspace" and scene.shapes:
             for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
-                line.set_clip_path(ax.patches[-1])
+                line.set_clip_path(ax.patches[before])
     if layers.forces:
         _paint_legend(ax, now, scales["bodies"], words)
 

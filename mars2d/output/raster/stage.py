@@ -10,7 +10,6 @@ from time import perf_counter
 import pygame
 
 from mars2d.core.scene import Shape
-from mars2d.output.layers.sensors import sensors
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.canvas import Canvas, grid_bounds
@@ -88,7 +87,7 @@ class Stage:
         else:
             self._enlarge(surface, canvas, camera, layers, plot)
             if layers.sensors:
-                self.painter.paint(surface, sensors(frame).shapes, camera)
+                self.painter.paint(surface, _sensors(frame), camera)
         self._paint_above(surface, frame, camera, layers, beneath, marks)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
         draw_legends(
@@ -248,7 +247,7 @@ class Stage:
         self._times_seen += 1
         if self._is_kept and self._sensed is not None:
             return self._sensed, ()
-        shapes = sensors(frame).shapes
+        shapes = _sensors(frame)
         if not shapes or not (self._sensed_stays or self._times_seen > 1):
             return picture, shapes
         if self._sensed is None or self._sensed.get_size() != picture.get_size():
@@ -258,6 +257,11 @@ class Stage:
         self.painter.paint(self._sensed, shapes, canvas.camera)
         self._is_kept = True
         return self._sensed, ()
+
+
+def _sensors(frame: Frame) -> Sequence[Shape]:
+    shapes = LAYERS[_place("sensors")].shapes
+    return shapes(frame).shapes if shapes else ()
 
 
 def _place(name: str) -> int:
