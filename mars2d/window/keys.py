@@ -44,7 +44,7 @@ TIME = (
     Key("branch", ("b",), ("B",), "the other branch: what was run before something was changed"),
 )
 
-SEE = (
+_SEE = (
     Key("grid", ("g",), ("G",), "grid on and off"),
     Key("trails", ("t",), ("T",), "trails on and off"),
     Key("sensors", ("s",), ("S",), "sensors on and off; where a robot is selected, its own alone"),
@@ -60,10 +60,13 @@ SEE = (
     Key("dark", ("d",), ("D",), "dark or light"),
     Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
 )
-SEE += tuple(
-    Key(layer.name, (layer.key,), (layer.key.upper(),), f"{layer.title.lower()} on and off")
-    for layer in LAYERS
-    if layer.key and layer.name not in {key.action for key in SEE}
+SEE = (
+    *_SEE,
+    *(
+        Key(layer.name, (layer.key,), (layer.key.upper(),), f"{layer.title.lower()} on and off")
+        for layer in LAYERS
+        if layer.key and layer.name not in {key.action for key in _SEE}
+    ),
 )
 
 DO = (

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 from math import inf
 
@@ -240,7 +239,7 @@ class Window:
             self._draw(surface, self.layers, notes=notes)
         except Mars2dError as error:  # of what a user's add-on or sensor draws
             self.player.fail(error)
-            self._draw(surface, replace(self.layers, **dict.fromkeys(THEIRS, False)), notes=notes)
+            self._draw(surface, self.layers.switched(**dict.fromkeys(THEIRS, False)), notes=notes)
 
     def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
         banner = self._outcome.banner()
@@ -415,7 +414,7 @@ class Window:
     def _toggle(self, layer: str) -> None:
         on = not getattr(self.layers, layer)
         names = (layer, "neighbours") if layer == "messages" else (layer,)
-        self.layers = replace(self.layers, **dict.fromkeys(names, on))
+        self.layers = self.layers.switched(**dict.fromkeys(names, on))
 
     def _change_theme(self) -> None:
         self._painter.theme = theme_of(dark=not self._painter.theme.dark)

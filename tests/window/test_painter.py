@@ -419,13 +419,21 @@ def test_forces_are_off_unless_they_are_asked_for():
     assert differing(paint_frame(animated, forces=False), plain) == 0
 
 
-def test_switched_off_forces_cost_nothing(monkeypatch):
+@pytest.fixture
+def no_forces():
+    """Let the layer of forces raise when it is asked, for the time of a test."""
+
     def refuse(frame):
         raise AssertionError("the forces were asked for")
 
-    for k, layer in enumerate(LAYERS):
-        if layer.name == "forces":
-            monkeypatch.setitem(LAYERS, k, replace(layer, shapes=refuse))
+    before = LAYERS[:]
+    LAYERS[:] = [replace(e, shapes=refuse) if e.name == "forces" else e for e in before]
+    yield
+    LAYERS[:] = before
+
+
+@pytest.mark.usefixtures("no_forces")
+def test_switched_off_forces_cost_nothing():
     paint_frame(pressed())
     with pytest.raises(AssertionError):
         paint_frame(pressed(), forces=True)

@@ -19,8 +19,7 @@ from mars2d.core.files import atomic_write
 from mars2d.core.plane import grid_step
 from mars2d.core.scene import Line, Scene, Shape, Text, faded
 from mars2d.output.figures.artists import SHAPES, paint, points_per_metre
-from mars2d.output.figures.extent import View
-from mars2d.output.figures.rows import rows_at
+from mars2d.output.figures.extent import View, rows_at
 from mars2d.output.figures.style import SCREEN, Style, style_of
 from mars2d.output.layers.forces import FORCE, LABEL_SIZE, force_scale, in_newtons, round_force
 from mars2d.output.layers.table import Layers
@@ -338,9 +337,9 @@ def paint_row(
         scale = scales.get(layer.name, scales["bodies"])
         texts = scale if layer.name in ("floor", "addons", "theory") else words
         before = len(ax.patches)
-        lines = [shape for shape in scene.shapes if not isinstance(shape, Text)]
+        lines: list[Shape] = [each for each in scene.shapes if not isinstance(each, Text)]
         paint(Scene(lines), ax, scale=scale, level=level)
-        letters = [shape for shape in scene.shapes if isinstance(shape, Text)]
+        letters: list[Shape] = [each for each in scene.shapes if isinstance(each, Text)]
         paint(Scene(letters), ax, scale=texts, level=level)
         if layer.name == "workspace" and scene.shapes:
             for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):

@@ -148,6 +148,10 @@ class Layers:
             return name in self.on
         raise AttributeError(name)
 
+    def switched(self, **switches: bool) -> Self:
+        """Return the same but for some switches, each by its layer's name."""
+        return type(self)(self.on, **switches)
+
     def seen(self, animation: Animation) -> Iterator[Layer]:
         """Yield the layers that are drawn, the lowest first."""
         for layer in LAYERS:

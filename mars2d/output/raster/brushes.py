@@ -14,8 +14,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from mars2d.output.raster.clip import clip_lines
-from mars2d.output.raster.strokes import hairlines
+from mars2d.output.raster.strokes import clip_lines, hairlines
 
 __all__ = [
     "LARGE",

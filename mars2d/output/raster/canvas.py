@@ -11,7 +11,7 @@ from mars2d.output.layers.table import Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.wakes import Wakes
+from mars2d.output.raster.trails import Wakes
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 

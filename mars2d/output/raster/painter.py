@@ -28,10 +28,16 @@ from mars2d.core.scene import (
 from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Rgba, rgba
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.clip import clip_polygon, simplified
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.sprites import Sprite, Sprites
-from mars2d.output.raster.strokes import DASHES, MARK_SPACING, arc_length, dashes
+from mars2d.output.raster.strokes import (
+    DASHES,
+    MARK_SPACING,
+    arc_length,
+    clip_polygon,
+    dashes,
+    simplified,
+)
 from mars2d.output.raster.theme import LIGHT, Theme
 
 __all__ = ["Painter", "rgba"]

@@ -10,8 +10,7 @@ import numpy as np
 from mars2d.core.description import snake_case
 from mars2d.core.errors import ordinal
 from mars2d.core.scene import Scene
-from mars2d.output.figures.extent import View
-from mars2d.output.figures.rows import check_rows
+from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.layers.forces import SLIPPING
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
