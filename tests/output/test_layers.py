@@ -253,3 +253,20 @@ def test_a_switch_that_does_not_exist_is_an_error():
         Layers(nmaes=True)
     with pytest.raises(AttributeError):
         _ = Layers().robots
+
+
+def test_distances_along_beams_look_like_the_shapes_that_the_sensors_draw(
+    browser, record, tmp_path, monkeypatch
+):
+    seen = []
+    for name in ("fans", "shapes"):
+        tab = Tab(browser, (1000, 800))
+        tab.open(record.save_html(tmp_path / f"{name}.html"))
+        tab.press("End", "t")
+        seen.append(tab.picture().astype(int))
+        tab.press("s")
+        without = tab.picture().astype(int)
+        tab.close()
+        monkeypatch.setattr("mars2d.output.pages.replay.sensors.Carried.is_fan", False)
+    off = (np.abs(seen[0] - seen[1]).max(axis=2) > 30).sum()
+    assert off < 0.02 * (np.abs(seen[1] - without).max(axis=2) > 5).sum()

@@ -22,7 +22,7 @@ from mars2d.output.layers.trails import (
 )
 from mars2d.output.pages.replay import sensors
 from mars2d.output.pages.replay.columns import Columns, Int, fitted, rounded
-from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, moved, pack
+from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack
 from mars2d.output.pages.replay.panel import commands_of, pack_contacts, pack_readings
 from mars2d.record.frame import Frame
 from mars2d.scenario.animation import Animation
@@ -45,9 +45,12 @@ LAYER_ROOM = {"addons": 240_000, "forces": 120_000}
 OTHER_ROOM = 60_000
 """Bytes of a layer at most; sensors have what all else leaves."""
 
-LAYER_ROWS = {"addons": 300, "theory": 100}
+LAYER_ROWS = {"addons": 300, "theory": 100, "velocities": 500}
 OTHER_ROWS = 2000
 """At how many rows a layer is drawn at most, since it may take long."""
+
+CROWD = 100_000
+"""The most rows times bodies at which a layer of a crowd is drawn."""
 
 FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-18
 """Steps of positions and of moving shapes, in shares of the view; of headings, radians."""
@@ -271,9 +274,8 @@ class _Content:
             here, there = at(body, np.zeros(3)), at(body, sensors.ELSEWHERE)
             if not here.styles:
                 continue
-            turned = np.allclose(moved(here, sensors.ELSEWHERE), there.numbers)
-            place = np.array([*sensors.ELSEWHERE[:2], 0.0])
-            if turned or np.allclose(moved(here, place), there.numbers):
+            turned = follows(here, there, sensors.ELSEWHERE)
+            if turned or follows(here, there, sensors.ELSEWHERE * (1, 1, 0)):
                 found.append(Drawing([0], [here], body, upright=not turned))
                 continue
             stride = -(-len(self.kept) // OTHER_ROWS)
@@ -286,10 +288,9 @@ class _Content:
     def _add_moving(self, layers: list[Layer]) -> dict[str, dict[str, Any]]:
         """Add layers that are drawn row by row, at as many rows as there is room for."""
         last = len(self.kept) - 1
-        strides = {
-            layer.name: -(-len(self.kept) // LAYER_ROWS.get(layer.name, OTHER_ROWS))
-            for layer in layers
-        }
+        crowd = CROWD // len(self.scenario.bodies)
+        most = {each.name: min(LAYER_ROWS.get(each.name, OTHER_ROWS), crowd) for each in layers}
+        strides = {name: -(-len(self.kept) // max(rows, 1)) for name, rows in most.items()}
         scenes: dict[str, dict[int, Flat]] = {layer.name: {} for layer in layers}
         for row in range(last + 1):
             due = [each for each in layers if row % strides[each.name] == 0 or row == last]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mars2d.core.scene import Arrow, Circle, Image, Line, Polygon, Shape, Text
 from mars2d.output.pages.replay.columns import Columns, Int, rounded
 
-__all__ = ["Drawing", "Flat", "Float", "flat", "moved", "pack"]
+__all__ = ["Drawing", "Flat", "Float", "flat", "follows", "pack"]
 
 Float = NDArray[np.float64]
 
@@ -94,6 +94,13 @@ def moved(scene: Flat, pose: Float) -> Float:
         ]).ravel()  # fmt: skip
         start += count
     return result
+
+
+def follows(here: Flat, there: Flat, pose: Float) -> bool:
+    """Return whether a scene that was drawn at a pose is that of the origin, moved there."""
+    if here.styles != there.styles or here.counts != there.counts:
+        return False
+    return np.allclose(moved(here, pose), there.numbers, atol=1e-9, equal_nan=True)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
 from mars2d.output.pages.replay.columns import Columns, Int
-from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, moved
+from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows
 from mars2d.sensors.base import Fan, Sensor
 
 if TYPE_CHECKING:
@@ -189,8 +189,6 @@ def _rigid(each: Carried, rows: Int, color: str) -> bool:
         reading = each.readings[row]
         here = _drawn(each, np.zeros(3), reading, color)
         there = _drawn(each, ELSEWHERE, reading, color)
-        if here.styles != there.styles or here.counts != there.counts:
-            return False
-        if not np.allclose(moved(here, ELSEWHERE), there.numbers, atol=1e-9, equal_nan=True):
+        if not follows(here, there, ELSEWHERE):
             return False
     return True
