@@ -21,7 +21,7 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class View:
-    """What part of the plane is drawn, metres."""
+    """The part of the plane that is drawn, metres."""
 
     xmin: float
     xmax: float
@@ -96,7 +96,7 @@ PANEL_LIMIT = 64
 
 
 def check_rows(record: Record, what: str = "draw") -> None:
-    """Raise InputError for a record without rows; what: what can't be done with it."""
+    """Raise InputError for a record without rows; what: the verb that it is for."""
     if len(record) == 0:
         raise InputError(f"the record has no rows: nothing ran, so there is nothing to {what}")
 

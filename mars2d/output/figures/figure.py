@@ -1,4 +1,4 @@
-"""Figures of records with matplotlib: the paths, or snapshots of them, for reports and papers."""
+"""Figures of records with matplotlib: the end of a run, or snapshots, for reports and papers."""
 
 from __future__ import annotations
 
@@ -77,8 +77,8 @@ def plot_paths(
     """Draw all layers at the end of a record: paths, initial poses hollow, final ones filled.
 
     ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
-    and which a notebook shows. style: the name of one of `figures.style`. layers: what is switched
-    on; by default as the animation says, and sensors among few robots. Returns the axes.
+    and which a notebook shows. style: the name of one of `figures.style`. layers: the
+    switches; by default as the animation says, and sensors among few robots. Returns the axes.
     Raises InputError if the record has no rows.
 
     >>> import mars2d
@@ -246,7 +246,7 @@ def new_figure(width: float, height: float, *, layout: Layout = "constrained") -
 
 
 def check_axes(ax: object) -> None:
-    """Raise InputError for what is no axes to draw on."""
+    """Raise InputError for anything but plain axes."""
     from matplotlib.axes import Axes
 
     if not isinstance(ax, Axes) or ax.name != "rectilinear":
@@ -318,7 +318,7 @@ def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SC
 def paint_row(
     ax: Axes, record: Record, row: int, look: Style = SCREEN, layers: Layers | None = None
 ) -> None:
-    """Paint the layers as they are at a row; layers: what is switched on, see `plot_paths`."""
+    """Paint the layers as they are at a row; layers: the switches, as in `plot_paths`."""
     now = record.frame(row)
     animation = record.scenario.animation
     layers = layers or _layers_of(record.scenario)
@@ -349,13 +349,13 @@ def paint_row(
 
 
 def _layers_of(scenario: Scenario) -> Layers:
-    """Return what a figure shows by default; in a crowd, sensors would hide the paths."""
+    """Return the layers of a figure by default; in a crowd, sensors would hide the paths."""
     few = len(scenario.robots) <= LEGEND_LIMIT
     return Layers.of(scenario.animation, sensors=few)
 
 
 def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
-    """Return what line widths are multiplied by, by layer; "bodies" stands for all others.
+    """Return the factor for the widths of lines, by layer; "bodies" stands for all others.
 
     Lines grow thinner with the robots, and in a crowd.
     """
@@ -382,7 +382,7 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
 
 
 def _paint_legend(ax: Axes, now: Frame, scale: float, words: float) -> None:
-    """Paint into a corner how long the arrow of a round force is."""
+    """Paint an arrow of a round force into a corner, with its number."""
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
     length = force_scale(now.scenario).newton
     force = round_force(0.14 * (xmax - xmin) / length)

@@ -214,7 +214,7 @@ def _placed(points: ArrayLike | Sequence[Point], pose: Float) -> Float:
 
 @lru_cache(maxsize=1024)
 def _region(shape: Shape) -> Any:
-    """Return what a shape covers as a region of shapely, its parts as one."""
+    """Return the region that a shape covers, for shapely; its parts are joined."""
     import shapely
 
     parts = [

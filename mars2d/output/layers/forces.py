@@ -58,7 +58,7 @@ class ForceScale(NamedTuple):
 
     strongest: newtons, the largest bound of a drive. newton: metres that 1 N is long. longest:
     metres; stronger forces are drawn this long, with a cut through the arrow. width: of an arrow,
-    points. ring: what the widths of slip marks are multiplied by.
+    points. ring: the factor for the widths of slip marks.
     """
 
     strongest: float

@@ -55,7 +55,7 @@ def _of_scenario(shapes: Callable[[Scenario], Scene]) -> Callable[[Frame], Scene
 class Layer:
     """One layer of a picture.
 
-    name: in code. title: for people. shapes: returns what is drawn of a frame; None for the grid,
+    name: in code. title: for people. shapes: returns the shapes of a frame; None for the grid,
     whose lines depend on the scale, so that each painter draws its own. key: the letter that
     switches the layer, if one does. switch: whether people may switch it; others are drawn as
     the animation says. at_first: whether it is on at first. stands: whether it is the same in all
@@ -127,7 +127,7 @@ class Layers:
     on: frozenset[str]
 
     def __init__(self, on: frozenset[str] | None = None, **switches: bool) -> None:
-        """Start with `on`, by default with what is on at first; switches: by a layer's name."""
+        """Start with `on`, by default the layers that are on at first; switches: by name."""
         if on is None:
             on = Layers.of(Animation()).on
         unknown = switches.keys() - {layer.name for layer in LAYERS if layer.switch}
@@ -138,7 +138,7 @@ class Layers:
 
     @classmethod
     def of(cls, animation: Animation, **switches: bool) -> Self:
-        """Return what an experiment starts with, but for some switches."""
+        """Return the switches that an experiment starts with, but for some."""
         first = (layer.name for layer in LAYERS if layer.switch and layer.at_first(animation))
         return cls(frozenset(first), **switches)
 

@@ -25,7 +25,7 @@ SLOWEST = 0.01
 """Slower bodies, in shares of the fastest drive's bound, have no arrow."""
 
 LEAST_TURN, MOST_TURN = 0.15, 5.0
-"""Arcs are drawn from so many radians a second on, and up to so many radians."""
+"""The slowest turn that has an arc, radians a second, and the longest arc, radians."""
 
 MAX_ARCS = 16
 """Of more bodies that turn, the quickest have an arc."""

@@ -1,4 +1,4 @@
-"""One instant as an SVG drawing: what the window shows, with metres at its sides and a caption."""
+"""One instant as an SVG drawing: the layers, with metres at the sides and a caption."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["draw", "say"]
 Float = NDArray[np.float64]
 
 WIDTH, HEIGHT = 560.0, 440.0
-"""The room for what is drawn, pixels: it is as large as fits."""
+"""The room for the layers, pixels; they are as large as fits."""
 LEFT, RIGHT, ABOVE = 36.0, 10.0, 10.0
 """The room at its sides, pixels."""
 
@@ -47,7 +47,7 @@ GRID, AXIS = SCREEN.grid, "#d0d6dd"
 def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
     """Return a frame as an SVG picture with a caption below it.
 
-    layers: what is switched on; by default as the animation says, and names where there are few
+    layers: the switches; by default as the animation says, and names where there are few
     bodies. A layer that can't be drawn, since a sensor or an add-on of the user's raises, is left
     out, and a line below the caption says so. So are paths that would take more than a million
     characters.
@@ -86,7 +86,7 @@ def _with_end(path: Float, pose: Float) -> Float:
 def _parts(
     frame: Frame, view: View, layers: Layers, notes: list[str]
 ) -> list[tuple[str, ScaledScene]]:
-    """Return what is drawn, by name, the lowest first; add to `notes` what fails to be."""
+    """Return the layers by name, the lowest first; add those that fail to `notes`."""
     scales = _scales(frame.scenario, _ppm(view))
     found = []
     for layer in layers.seen(frame.scenario.animation):
@@ -99,7 +99,7 @@ def _parts(
 
 
 def _scales(scenario: Scenario, ppm: float) -> dict[str, float]:
-    """Return what line widths are multiplied by, by layer; "bodies" stands for all others.
+    """Return the factor for the widths of lines, by layer; "bodies" stands for all others.
 
     Lines grow thinner with the robots, and in a crowd. ppm: the pixels of a metre.
     """
@@ -163,7 +163,7 @@ def _ppm(view: View) -> float:
 
 
 def _around(view: View, whole: View) -> Scene:
-    """Return the ground of the words: what is drawn does not reach under them."""
+    """Return the ground beneath the words: layers do not reach under them."""
     scene = Scene()
     for xmin, xmax, ymin, ymax in (
         (whole.xmin, view.xmin, whole.ymin, whole.ymax),
@@ -207,7 +207,7 @@ def _grid(scenario: Scenario, view: View) -> Scene:
 
 
 def _numbers(view: View) -> Scene:
-    """Return the metres, below and beside what is drawn; the last ones with their unit."""
+    """Return the metres below and beside the layers; the last ones with their unit."""
     step, scene = _step(view), Scene()
     decimals = max(0, -floor(log10(step) + 1e-9))
 

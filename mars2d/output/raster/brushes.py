@@ -45,7 +45,7 @@ Rgba = tuple[int, int, int, int]
 Draw = Callable[[pygame.Surface, float, float, float, Rgba], None]
 """Draws on a surface `factor` times too large, whose corner lies at (left, top)."""
 LARGE = 40_000
-"""The area in pixels beyond which a shape is not drawn larger and averaged, if that may be."""
+"""Shapes of a larger area, pixels, are drawn at their size where that may be."""
 
 
 @cache
@@ -82,9 +82,9 @@ def cover(
 
 
 def layer(color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0) -> pygame.Surface:
-    """Return what is drawn within `box` on a transparent surface of its size.
+    """Return a transparent surface of the size of `box`, with a drawing on it.
 
-    factor: how many times larger it is drawn, 0 as befits the size.
+    factor: the scale at which it is drawn before it is averaged; 0 chooses by the size.
     """
     if factor == 0:
         factor = 4 if box.width * box.height < 250_000 else 2
@@ -96,7 +96,7 @@ def layer(color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0) -> pygame.
 def draw_on(
     large: pygame.Surface, color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 1
 ) -> None:
-    """Draw within `box` on a surface that is so many times larger, and nothing else."""
+    """Draw within `box` on a surface that is `factor` times larger."""
     # The colour without opacity, so that averaging changes the opacity alone.
     large.fill((*color[:3], 0))
     draw(large, box.left, box.top, factor, color)

@@ -39,7 +39,7 @@ class Canvas:
         *,
         memory: int = 0,
     ) -> None:
-        """Draw what stands still on a surface of `size` pixels, whose camera beside it is given."""
+        """Draw the layers that stand still on a surface of `size` pixels."""
         start = perf_counter()
         self.camera, self.area = camera, area
         self.still = pygame.Surface(size, 0, 32)

@@ -59,7 +59,7 @@ SMALL = 10_000
 FAINT = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
 WIDE = 2_500
-"""The area in pixels beyond which it is."""
+"""The area, pixels, from which a fill counts as large."""
 UNSEEN = 0.3
 """The pixels by which such an edge may be drawn beside where it is."""
 KEPT_LABELS = 2000
@@ -69,7 +69,7 @@ KEPT_LABELS = 2000
 class Painter:
     """Paints shapes; keeps the sprites and the texts it made from one picture to the next.
 
-    theme: what scenes' colours become, and the colours of what is drawn round them. ui: pixels a
+    theme: how scenes' colours are turned, and the colours round them. ui: pixels a
     point, the unit of line widths and text sizes. kept: pixels of sprites to keep, 0 for none.
     """
 
@@ -191,7 +191,7 @@ class Painter:
     def _area(self, surface: pygame.Surface, points: Float, color: Rgba, box: pygame.Rect) -> None:
         """Fill what lies within `box` of a large faint polygon, as laser scanners sweep them.
 
-        Always in the same memory: what is fresh from the system is slow to write to.
+        Always in the same memory: fresh memory is slow to write to.
         """
         size = 4 * box.width * box.height
         if size <= 0:
@@ -324,7 +324,7 @@ class Painter:
             top += image.get_height() - 2 * reach
 
     def _label(self, text: str, shape: Text, reach: int) -> pygame.Surface:
-        """Return a line of a text, with a halo that reaches so many pixels to all sides."""
+        """Return a line of a text, with a halo of `reach` pixels."""
         size, color = shape.size * self.ui, self._shade(shape.color)
         if not shape.halo:
             return self.fonts.render(text, size, color)
@@ -365,7 +365,7 @@ class Painter:
             part = pygame.transform.smoothscale(part, size)
         surface.blit(part, place)
 
-    # -- what the window's own parts are made of ----------------------------------------------
+    # -- plates of the window -----------------------------------------------------------------
 
     def panel(
         self,
@@ -387,7 +387,7 @@ class Painter:
         surface.blit(sprite[0], rect.topleft)
 
     def _ink(self, color: str | None) -> Rgba | None:
-        """Return what a shape's colour becomes, or None for none."""
+        """Return a shape's colour in the theme, or None for none."""
         return rgba(self._shade(color)) if color else None
 
     def _keep(self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]) -> Sprite:

@@ -24,8 +24,9 @@ __all__ = ["Artist", "paint_frame", "save_png"]
 class Artist:
     """Paints one frame after another, keeping what does not change between them.
 
-    size: pixels. camera: where the world lies, by default so that the workspace fits. status: what
-    the chip beside the time says, as "10x". footer: reserve the strip for the message at the end.
+    size: pixels. camera: where the world lies, by default so that the workspace fits. status: the
+    words of the chip beside the time, such as "10x". footer: reserve the strip for the message at
+    the end.
     grid, trails, forces, theory: None does as the scenario's animation says.
     """
 

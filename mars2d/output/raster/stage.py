@@ -1,4 +1,4 @@
-"""The picture between the bars: one frame, drawn over what seldom changes."""
+"""The picture between the bars: the layers of a frame over those that are kept."""
 
 from __future__ import annotations
 
@@ -25,23 +25,23 @@ MEMORY = 100_000_000
 """The bytes that a window uses to go back in time quickly: some twenty pictures."""
 
 PATIENCE = 0.012
-"""The seconds that drawing what stands still may take without the movement of a camera jerking."""
+"""The seconds that the kept layers may take to draw before a moving camera jerks."""
 
 AHEAD = 0.004
-"""The seconds of a picture in which what will be seen soon is drawn, when that takes longer."""
+"""Where it takes longer, the seconds of each picture in which the next canvas is drawn."""
 
 ROUND = 0.25
-"""While the camera moves, so much more is drawn on all sides, in shares of the picture..."""
+"""The margin that is drawn on all sides while the camera moves, in shares of the picture..."""
 NEAR = 0.1
-"""... and anew when so little of that is left."""
+"""... and the rest of it at which it is drawn anew."""
 
 
 class Stage:
     """Draws frames of one experiment after another; used by the window, pictures and films alike.
 
-    The workspace, the grid, the obstacles and the initial poses are drawn once a camera. On a copy
-    of that the paths grow. On a copy of that is what the sensors have read, until they read again.
-    What moves is drawn anew each time.
+    The layers that stand still are drawn once a camera. On a copy of that the paths grow, and on a
+    copy of that are the readings, until the sensors read again. All other layers are drawn anew
+    each time.
 
     memory: bytes that may be used to go back in time without drawing all paths from their start.
     """
@@ -75,8 +75,8 @@ class Stage:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
         beneath, marks: shapes to draw beneath the bodies, and over them. hurried: while the camera
-        moves. If drawing what stands still took long, the picture drawn last is enlarged or moved
-        instead, until there is time to draw it anew.
+        moves. If the layers that stand still took long to draw, the last picture is enlarged or
+        moved until there is time to draw it anew.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -115,7 +115,7 @@ class Stage:
             if layer.name == LAST_BODIES:
                 self.painter.paint(surface, marks, camera)
 
-    # -- what stands still --------------------------------------------------------------------
+    # -- the kept layers ----------------------------------------------------------------------
 
     def _canvas_for(
         self,
@@ -126,7 +126,7 @@ class Stage:
         plot: pygame.Rect,
         hurried: bool,
     ) -> Canvas:
-        """Return what there is for a camera, or draw it; in a hurry, return what there is."""
+        """Return the canvas for a camera, drawn anew if needed and not in a hurry."""
         size = surface.get_size()
         stands = frozenset(layer.name for layer in standing())
         key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme
@@ -171,7 +171,7 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect,
     ) -> None:
-        """Draw what stands still, the paths, and what the sensors have read."""
+        """Draw the layers that stand still, the paths and the readings."""
         picture: pygame.Surface | None = canvas.still
         if layers.trails:
             picture = canvas.with_paths(frame)
@@ -195,7 +195,7 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect,
     ) -> None:
-        """Draw what a canvas has as another camera sees it, roughly."""
+        """Draw a canvas as another camera sees it, roughly."""
         last = canvas.wakes.surface if layers.trails and canvas.wakes is not None else canvas.still
         factor = camera.scale / canvas.camera.scale
         corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
@@ -232,10 +232,10 @@ class Stage:
     def _with_sensors(
         self, picture: pygame.Surface, frame: Frame, canvas: Canvas
     ) -> tuple[pygame.Surface, Sequence[Shape]]:
-        """Return a picture with what the sensors have read on it, and what is still to be drawn.
+        """Return a picture with the readings on it, and the shapes that are still to be drawn.
 
-        What is seen more than once is drawn on a copy and kept. Where the last was seen only once,
-        as in a film of each control step, the next will be as well: that needs no copy.
+        Readings that are seen more than once are drawn on a copy and kept. If the last ones were
+        seen once, as in a film of each control step, so will the next be: no copy is made.
         """
         stays = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
         sensed = frame.pose if frame.sensed is None else frame.sensed

@@ -28,7 +28,7 @@ __all__ = ["Trails", "Wakes"]
 Float = NDArray[np.float64]
 
 STRIDE = 2.0
-"""A path is prolonged when it has grown by so many points: no dots on top of dots."""
+"""The points by which a path has to grow before it is prolonged: no dots on top of dots."""
 
 
 class Trails:
@@ -51,7 +51,7 @@ class Trails:
         self.last: Float | None = None
 
     def continues(self, path: Float) -> bool:
-        """Return whether a path (k, 3, n) is what has been drawn, or begins with it."""
+        """Return whether a path (k, 3, n) is or continues the one that has been drawn."""
         if self.first is None or self.last is None:
             return True
         return (
@@ -68,7 +68,7 @@ class Trails:
         return other
 
     def prolong(self, surface: pygame.Surface, path: Float) -> None:
-        """Draw what a path (k, 3, n) has more than before."""
+        """Draw the new rows of a path (k, 3, n)."""
         if len(path) <= self.drawn:
             return
         if self.first is None:
@@ -222,7 +222,7 @@ class Wakes:
         return self.trails[1].drawn
 
     def _begin(self, paths: tuple[Float, Float]) -> None:
-        """Go on from what is there, or from what was kept, whichever is nearest."""
+        """Go on from the present picture or from a kept one, whichever is nearest."""
         rows, here = len(paths[1]), -1
         if _continues(self.trails, paths):
             here = self._drawn

@@ -1,4 +1,4 @@
-"""All that a replay shows, as plain data and columns."""
+"""The content of a replay, as plain data and columns."""
 
 from __future__ import annotations
 
@@ -39,15 +39,15 @@ ROOM = 1_380_000
 """Bytes for all columns: as text they are a third more."""
 
 POSES, PANEL, CONTACTS = 480_000, 200_000, 60_000
-"""Bytes of these at most, before they are thinned; sensors have what is left of all."""
+"""The most bytes of these; beyond, they are thinned. Sensors have the rest of all."""
 
 LAYER_ROOM = {"addons": 240_000, "forces": 120_000}
 OTHER_ROOM = 60_000
-"""Bytes of a layer at most; sensors have what all else leaves."""
+"""The most bytes of a layer."""
 
 LAYER_ROWS = {"addons": 300, "theory": 100, "velocities": 500}
 OTHER_ROWS = 2000
-"""At how many rows a layer is drawn at most, since it may take long."""
+"""The most rows at which a layer is drawn, since it may take long."""
 
 CROWD = 100_000
 """The most rows times bodies at which a layer of a crowd is drawn."""
@@ -60,7 +60,7 @@ LEAP = 0.12
 
 
 def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
-    """Return what a replay shows: plain data, and columns of numbers.
+    """Return the content of a replay: plain data, and columns of numbers.
 
     Raises InputError for a record without rows.
     """
@@ -69,7 +69,7 @@ def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
 
 
 class _Content:
-    """Puts a replay together, piece by piece, and notes what it shows less of."""
+    """Puts a replay together, piece by piece, and notes what is left out."""
 
     def __init__(self, record: Record) -> None:
         self.record, self.scenario = record, record.scenario
@@ -122,7 +122,7 @@ class _Content:
             "lastBodies": LAST_BODIES,
         }
 
-    # -- what moves ---------------------------------------------------------------------------
+    # -- bodies -------------------------------------------------------------------------------
 
     def _add_poses(self) -> None:
         """Add the poses of all bodies, at as many rows as there is room for, and keep these."""
@@ -193,7 +193,7 @@ class _Content:
         ]
         return robots + props
 
-    # -- what is said of bodies ---------------------------------------------------------------
+    # -- the panel ----------------------------------------------------------------------------
 
     def _add_panel(self) -> list[dict[str, Any]]:
         """Add commands, efforts and readings; return how the readings are said in words."""
@@ -226,7 +226,7 @@ class _Content:
         self.columns.take(columns)
         self._note("contacts in the panel", every)
 
-    # -- what is drawn ------------------------------------------------------------------------
+    # -- layers -------------------------------------------------------------------------------
 
     def _add_layers(self) -> dict[str, dict[str, Any]]:
         """Add all layers but those that the page makes of poses and readings; return headers."""
@@ -248,20 +248,20 @@ class _Content:
     def _pack(
         self, layer: Layer, drawings: list[Drawing], step: float, every: int
     ) -> dict[str, Any]:
-        """Add drawings of a layer; return what has to be known of them."""
+        """Add drawings of a layer; return their header."""
         columns, header, _ = pack(layer.name, drawings, every, self.size * step)
         self.columns.take(columns)
         return header
 
     def _standing(self, layer: Layer) -> list[Drawing]:
-        """Return what stands still until the scenario is changed."""
+        """Return a layer that stands still until the scenario is changed."""
         record = self.record
         changes = sorted({0, *(min(c.row, len(record) - 1) for c in record.changes)})
         rows = np.searchsorted(self.kept, changes, side="left").tolist()
         return [Drawing(rows, [_drawn(layer, record.frame(row)) for row in changes])]
 
     def _carried(self, layer: Layer) -> list[Drawing]:
-        """Return what depends on a body's pose alone, once for each body or heading."""
+        """Return a layer that depends on poses alone: for each body once, or by its heading."""
         assert layer.each is not None
         each, found = layer.each, []
 
@@ -306,7 +306,7 @@ class _Content:
         return headers
 
     def _add_rows(self, layer: Layer, scenes: dict[int, Flat], stride: int) -> dict[str, Any]:
-        """Add the scenes of a layer, by row; return what has to be known of them."""
+        """Add the scenes of a layer, by row; return their header."""
         drawings = [Drawing([*scenes], [*scenes.values()])]
         headers: list[dict[str, Any]] = []
 
@@ -322,7 +322,7 @@ class _Content:
         return {**headers[-1], "every": every, "leap": LEAP * self.size}
 
     def _add_sensors(self, drawn: dict[str, Any]) -> dict[str, Any]:
-        """Add what the sensors draw: distances along beams as such, all else to `drawn`."""
+        """Add the sensors: distances along beams as such, the shapes of others to `drawn`."""
         record = self.record
         fans, others = self.fans, self.others
         if record.missing:

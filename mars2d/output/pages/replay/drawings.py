@@ -22,13 +22,13 @@ Style = tuple[Any, ...]
 """The kind of a shape, and all of it that is no length: colours, widths, words."""
 
 MOST_PIXELS = 512
-"""Images are thinned to so many rows and columns."""
+"""The most rows and columns of an image; larger ones are thinned."""
 
 
 class Flat(NamedTuple):
     """A scene: the styles of its shapes, how many numbers each has, and all numbers, metres.
 
-    images: those that styles refer to, by what is in them.
+    images: those that styles refer to, by a hash of their pixels.
     """
 
     styles: tuple[Style, ...]
@@ -121,7 +121,7 @@ class Drawing:
 
 @dataclass
 class Book:
-    """What several scenes share: styles, and which of them follow on each other in a scene."""
+    """The styles and orders of shapes that several scenes share."""
 
     styles: dict[Style, int] = field(default_factory=dict)
     orders: dict[tuple[int, ...], int] = field(default_factory=dict)
@@ -143,10 +143,10 @@ class Book:
 def pack(
     name: str, drawings: Sequence[Drawing], every: int, step: float
 ) -> tuple[Columns, dict[str, Any], int]:
-    """Return drawings as columns, with what has to be known of them, and how many rows they have.
+    """Return drawings as columns, their header, and the most scenes of one of them.
 
-    every: of so many rows in a row, one scene is kept, the last. step: metres. A shape is written
-    as what it differs from the one before at its place among as many numbers.
+    every: of each `every` rows, the last scene is kept. step: metres. A shape is written as the
+    difference from the last one at its place with as many numbers.
     """
     columns, book = Columns(), Book()
     rows: list[int] = []

@@ -1,4 +1,4 @@
-"""What the sensors of a record have seen, as columns of a replay."""
+"""The readings of a record's sensors, as columns of a replay."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ __all__ = [
 ]
 
 SELDOM = 8
-"""What a sensor draws so seldom is kept each time, however many others there are."""
+"""Sensors that draw no more scenes than this are never thinned."""
 
 BEAMS = 360
-"""Of a sensor's beams, so many are drawn."""
+"""The most beams of a sensor that are drawn."""
 
 DRAWN = 5000
-"""So many readings are drawn by the sensors themselves."""
+"""The most readings that sensors are asked to draw."""
 
 LEVELS = 254
 """Distances are rounded to the range over this; one more level says that nothing is there."""
 
 ELSEWHERE = np.array([0.7, -0.4, 1.1])
-"""A pose that tells what is drawn in a robot's frame from what is drawn in that of the world."""
+"""A pose that tells drawings in a robot's frame from drawings in that of the world."""
 
 
 class Carried:
@@ -65,7 +65,7 @@ class Carried:
         return self.readings.shape[1:] == np.shape(fan.angles) and self.readings.dtype.kind == "f"
 
     def changes(self) -> Int:
-        """Return the rows at which it reads something else than at the row before."""
+        """Return the rows at which its reading changes."""
         if not len(self.readings):
             return np.empty(0, dtype=np.int64)
         bits = np.ascontiguousarray(self.readings).view(np.uint8).reshape(len(self.readings), -1)
@@ -108,7 +108,7 @@ def fans_of(fans: list[Carried], colors: tuple[str, ...]) -> list[dict[str, Any]
 
 
 def pack_fans(fans: list[Carried], every: int) -> tuple[Columns, int]:
-    """Return the distances of all fans at each so-manieth row, a byte each."""
+    """Return the distances of all fans at one row in `every`, a byte each."""
     columns = Columns()
     rows = np.arange(0, len(fans[0].readings), every)
     levels = []
@@ -129,7 +129,7 @@ def beams_left_out(fans: list[Carried]) -> list[str]:
 
 
 def _definer(kind: type, name: str) -> type | None:
-    """Return the class that says what an attribute of a class is."""
+    """Return the class in which an attribute of a class is defined."""
     return next((each for each in kind.__mro__ if name in vars(each)), None)
 
 
@@ -140,7 +140,7 @@ def _skip(beams: int) -> int:
 def drawings(
     sensors: list[Carried], pose: Float, colors: tuple[str, ...]
 ) -> tuple[list[Drawing], int]:
-    """Return what sensors draw of their readings, and of how many rows in a row one is drawn.
+    """Return the sensors' drawings of their readings, one for each `stride` rows, and the stride.
 
     pose: (R, 3, n), of the rows of a replay.
     """
@@ -184,7 +184,7 @@ def _drawn(each: Carried, pose: Float, reading: Any, color: str) -> Flat:
 
 
 def _rigid(each: Carried, rows: Int, color: str) -> bool:
-    """Return whether what it draws moves with the robot."""
+    """Return whether its drawings move with the robot."""
     for row in rows[[0, len(rows) // 2, -1]].tolist():
         reading = each.readings[row]
         here = _drawn(each, np.zeros(3), reading, color)
