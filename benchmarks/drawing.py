@@ -38,7 +38,6 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -49,7 +48,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.output.films.film import save_film
 from mars2d.output.films.mp4 import require_av
-from mars2d.output.raster.layers import Layers
+from mars2d.output.layers.table import Layers
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import MEMORY, Stage
@@ -163,7 +162,7 @@ class Watched:
         """Prepare the window."""
         look = Preferences(dark=dark)
         window = self._window = Window(Reel(listed), 0 if each_step else 1.0, SIZE, look)
-        window.layers = replace(window.layers, names=overlays, velocities=overlays, forces=overlays)
+        window.layers = window.layers.switched(names=overlays, velocities=overlays, forces=overlays)
         if inspector:
             window.selected = 3
         if following:

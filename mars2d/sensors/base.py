@@ -36,6 +36,7 @@ __all__ = [
     "FLAG",
     "NOTHING",
     "NUMBER",
+    "Fan",
     "Quantity",
     "Scanner",
     "Sensor",
@@ -151,6 +152,20 @@ class Sighting(NamedTuple):
     range: float
     bearing: float
     robot: int | None = None
+
+
+class Fan(NamedTuple):
+    """Beams or cones along which a sensor reads distances, one number of the reading each.
+
+    angles: radians from the sensor's heading, evenly spaced. range: metres. cone: the angle in
+    which each one hears, radians; 0 for beams. closed: whether the last beam is the neighbour of
+    the first, so that together they sweep a full circle.
+    """
+
+    angles: Float
+    range: float
+    cone: float = 0.0
+    closed: bool = False
 
 
 FULL = 2 * pi
@@ -326,12 +341,16 @@ class Sensor(Stateful):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view and the reading for a robot at `pose` (3,); by default nothing."""
 
-    # -- when it measures ----------------------------------------------------------------------
-
     @property
-    def scan_angles(self) -> Float | None:
-        """The bearings (k,) of the beams [rad] of a laser scan; None if a reading is none."""
+    def fan(self) -> Fan | None:
+        """The beams that it reads distances along and that `draw` draws; None for other sensors.
+
+        Then a page can hold a byte a beam in place of the shapes. A class that overrides `draw`
+        overrides this as well, or is taken to draw something else.
+        """
         return None
+
+    # -- when it measures --------------------------------------------------------------------
 
     def period(self, sampling_time: float) -> int:
         """Return how many control steps lie between two measurements."""

@@ -13,7 +13,7 @@ from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import DISTANCE, Float, Quantity, Scanner, Surroundings, sight_angle
+from mars2d.sensors.base import DISTANCE, Fan, Float, Quantity, Scanner, Surroundings, sight_angle
 
 __all__ = ["RangeFinder"]
 
@@ -42,11 +42,6 @@ class RangeFinder(Scanner):
         """The bearings of the beams (beams,): radians from the sensor's heading."""
         return beam_angles(self.beams, self.field_of_view)
 
-    @property
-    def scan_angles(self) -> Float:
-        """The bearings of the beams: a reading is a laser scan."""
-        return self.angles
-
     def read_all(
         self,
         robots: Sequence[RobotLike],
@@ -57,16 +52,19 @@ class RangeFinder(Scanner):
         mine = [robot.index for robot in robots]
         return world.scans(self.placed(world.pose[:, mine]), self.angles, self.range, mine)
 
+    @property
+    def fan(self) -> Fan:
+        """Its beams."""
+        closed = self.field_of_view >= 2 * pi and self.beams > 2
+        return Fan(self.angles, self.range, closed=closed)
+
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the area that the beams sweep, and a dot where one has hit something."""
         x, y, theta = self.placed(pose).tolist()
         angles = theta + self.angles
         far = np.minimum(reading, self.range)
         ends = np.column_stack([x + far * np.cos(angles), y + far * np.sin(angles)])
-        if self.field_of_view >= 2 * pi and self.beams > 2:
-            area = ends
-        else:
-            area = np.vstack([[x, y], ends])
+        area = ends if self.fan.closed else np.vstack([[x, y], ends])
         scene.polygon(area, fill=faded(color, 0.07))
         hits = ends[np.isfinite(reading)]
         if len(hits):

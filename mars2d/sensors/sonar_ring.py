@@ -14,7 +14,7 @@ from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import DISTANCE, Float, Quantity, Scanner, Surroundings, sight_angle
+from mars2d.sensors.base import DISTANCE, Fan, Float, Quantity, Scanner, Surroundings, sight_angle
 
 __all__ = ["SonarRing"]
 
@@ -72,6 +72,11 @@ class SonarRing(Scanner):
         distance = np.hypot(dx, dy)
         inside = dx * np.cos(axes) + dy * np.sin(axes) >= distance * cos(self.cone / 2)
         return np.asarray(np.where(inside, distance, inf).min(axis=0, initial=inf))
+
+    @property
+    def fan(self) -> Fan:
+        """Its cones."""
+        return Fan(self.angles, self.range, self.cone)
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw each cone as far as it is free, and an arc where it ends at something."""

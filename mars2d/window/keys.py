@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import pygame
 
+from mars2d.output.layers.table import LAYERS
+
 __all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "Keyboard", "action_of"]
 
 MAX_NUMBER = 1_000_000
@@ -47,7 +49,7 @@ TIME = (
     Key("branch", ("b",), ("B",), "the other branch: what was run before something was changed"),
 )
 
-SEE = (
+_SEE = (
     Key("grid", ("g",), ("G",), "grid on and off"),
     Key("trails", ("t",), ("T",), "trails on and off"),
     Key("sensors", ("s",), ("S",), "sensors on and off; where a robot is selected, its own alone"),
@@ -62,6 +64,14 @@ SEE = (
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
     Key("dark", ("d",), ("D",), "dark or light"),
     Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
+)
+SEE = (
+    *_SEE,
+    *(
+        Key(layer.name, (layer.key,), (layer.key.upper(),), f"{layer.title.lower()} on and off")
+        for layer in LAYERS
+        if layer.key and layer.name not in {key.action for key in _SEE}
+    ),
 )
 
 DO = (

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 from math import inf
 
@@ -13,9 +12,9 @@ import pygame
 
 from mars2d.core.errors import Mars2dError
 from mars2d.core.plane import Point
+from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.layout import Layout, next_text_size
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import summary
@@ -59,9 +58,7 @@ LEAP = 10
 """How many steps PgDn and PgUp do, unless a number was typed."""
 RESERVE = 0.004
 """The time of a picture that is not used to prepare for going back, seconds."""
-LAYERS = (
-    "grid", "trails", "sensors", "messages", "forces", "theory", "addons", "names", "velocities",
-)  # fmt: skip
+TOGGLED = tuple(layer.name for layer in LAYERS if layer.key)
 """The layers that have a key each of the same name."""
 THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
 """The layers that code of a user's may draw."""
@@ -86,7 +83,7 @@ class Window:
         self.player = Player(source, speed)
         self.size = size
         self.title = f"{source.scenario.title} - MARS2D"
-        self.layers = replace(Layers.of(source.scenario.animation), neighbours=True)
+        self.layers = Layers.of(source.scenario.animation, neighbours=True)
         self.help = Help()
         self.selected: int | None = None  # an index of Scenario.bodies
         self.text, self.scale = preferences.text, 1.0
@@ -124,7 +121,7 @@ class Window:
             "slower": self.player.slower,
             "restart": self._restart,
             "branch": self._other_branch,
-            **{layer: partial(self._toggle, layer) for layer in LAYERS},
+            **{layer: partial(self._toggle, layer) for layer in TOGGLED},
             "select": self._select_next,
             "follow": self._follow_or_not,
             "fit": self.viewpoint.fit,
@@ -240,7 +237,7 @@ class Window:
             self._draw(surface, self.layers, notes=notes)
         except Mars2dError as error:  # raised by the drawing of an add-on or a sensor
             self.player.fail(error)
-            self._draw(surface, replace(self.layers, **dict.fromkeys(THEIRS, False)), notes=notes)
+            self._draw(surface, self.layers.switched(**dict.fromkeys(THEIRS, False)), notes=notes)
 
     def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
         banner = self._ending.banner()
@@ -375,7 +372,9 @@ class Window:
         self.director.other_branch()
 
     def _toggle(self, layer: str) -> None:
-        self.layers = replace(self.layers, **{layer: not getattr(self.layers, layer)})
+        on = not getattr(self.layers, layer)
+        names = (layer, "neighbours") if layer == "messages" else (layer,)
+        self.layers = self.layers.switched(**dict.fromkeys(names, on))
 
     def _change_theme(self) -> None:
         self._painter.theme = theme_of(dark=not self._painter.theme.dark)

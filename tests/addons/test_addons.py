@@ -11,7 +11,7 @@ import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, Sensor, World
 from mars2d.addons import HOOKS, Addon, Beacon, Map
 from mars2d.core.scene import Circle, Text
-from mars2d.output.layers import parts
+from mars2d.output.layers import addons as drawn
 
 
 class Counter(Addon):
@@ -194,7 +194,7 @@ def test_what_an_add_on_draws_of_its_fields_and_the_time_is_in_a_replay(tmp_path
     ferry = Beacon(path=[(1, 0), (2, 0)], speed=0.5, name="ferry")
     record = mars2d.run(Scenario(addons=[ferry], stop_time=2))
     loaded = mars2d.load(record.save(tmp_path / "ferry.npz"))
-    scene = parts.addons(loaded.frame(10))
+    scene = drawn.addons(loaded.frame(10))
     lamps = [shape for shape in scene.shapes if isinstance(shape, Circle)]
     assert lamps[-1].center == pytest.approx((1.5, 0))
     assert "ferry" in [s.text.strip() for s in scene.shapes if isinstance(s, Text)]
@@ -231,7 +231,7 @@ def test_an_own_addon_may_paint_the_floor():
         def paint(self, scene, area):
             scene.polygon(area, fill="#ff0000")
 
-    (shape,) = parts.floor(Scenario(addons=[Carpet()], workspace=None)).shapes
+    (shape,) = drawn.floor(Scenario(addons=[Carpet()], workspace=None)).shapes
     assert np.ptp(shape.points, axis=0).tolist() == [2.0, 2.0]  # a metre round the only robot
 
     class Torn(Carpet):
@@ -239,4 +239,4 @@ def test_an_own_addon_may_paint_the_floor():
             raise ValueError("torn")
 
     with pytest.raises(LawError, match=r"add-on 'torn' raised ValueError: torn"):
-        parts.floor(Scenario(addons=[Torn()]))
+        drawn.floor(Scenario(addons=[Torn()]))

@@ -17,7 +17,7 @@ from mars2d import Addon, Holonomic, InputError, LawError, Record, Robot, Scenar
 from mars2d.addons import Burst, Communication, Map
 from mars2d.core.scene import Arrow, Line
 from mars2d.output.figures.figure import plot_paths
-from mars2d.output.layers.messages import LOST_LINK, MOST, messages
+from mars2d.output.layers.messages import LOST_LINK, MAX_LINKS, messages
 from mars2d.output.raster.picture import paint_frame
 from mars2d.record.message import (
     DELIVERED,
@@ -895,7 +895,7 @@ def test_in_a_crowd_the_last_links_are_drawn():
         robot.send("x")
     stand(world)
     assert len(world.frame.messages) == 870
-    assert sum(isinstance(shape, Arrow) for shape in links(world)) == MOST
+    assert sum(isinstance(shape, Arrow) for shape in links(world)) == MAX_LINKS
 
 
 def pixels(surface) -> np.ndarray:

@@ -13,7 +13,7 @@ from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Density, Voronoi
 from mars2d.core.scene import Image as Pixels
 from mars2d.core.scene import Scene, Text
-from mars2d.output.layers.parts import floor
+from mars2d.output.layers.addons import floor
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 

@@ -17,7 +17,7 @@ from mars2d import Addon, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Floor
 from mars2d.core.scene import Circle, Polygon, Scene, Text
 from mars2d.output.figures.artists import paint
-from mars2d.output.layers.parts import floor as floor_of
+from mars2d.output.layers.addons import floor as floor_of
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import paint_frame

@@ -7,7 +7,7 @@ import mars2d
 from mars2d import Animation, InputError, LawError, Robot, Scenario, World, load
 from mars2d.addons import Addon, Beacon, Theory
 from mars2d.core.scene import Circle
-from mars2d.output.layers import parts
+from mars2d.output.layers import addons as drawn
 from mars2d.output.raster.picture import paint_frame
 
 VIOLET = "#7b3294"
@@ -40,7 +40,7 @@ def rings(scene):
 def test_theory_follows_the_frame_at_all_times():
     record = mars2d.run(scenario(addons=[Theory(circle)]), control=east)
     for row in (0, 10, 20):
-        (ring,) = rings(parts.theory(record.frame(row)))
+        (ring,) = rings(drawn.theory(record.frame(row)))
         assert ring.center == (pytest.approx(row * 0.05), 0.0)
 
 
@@ -92,7 +92,7 @@ def test_theory_does_not_change_a_run():
 
 def test_an_add_on_of_ones_own_may_have_theory():
     world = World(scenario(addons=[Halo()]))
-    assert len(parts.theory(world.frame).shapes) == 1
+    assert len(drawn.theory(world.frame).shapes) == 1
 
 
 def test_a_saved_record_names_the_theory_that_it_lacks(tmp_path):
@@ -116,4 +116,4 @@ def test_a_theory_that_fails_is_named_with_its_line():
 
     world = World(scenario(addons=[Theory(broken)]))
     with pytest.raises(LawError, match="add-on 'theory' raised ZeroDivisionError"):
-        parts.theory(world.frame)
+        drawn.theory(world.frame)

@@ -9,7 +9,7 @@ import mars2d
 from mars2d import Animation, InputError, Robot, Scenario, World
 from mars2d.addons import Trails
 from mars2d.core.scene import Line, rgb
-from mars2d.output.layers import parts
+from mars2d.output.layers import addons as drawn
 
 PACE = 0.5  # m/s
 
@@ -33,7 +33,7 @@ def record_of(*addons, robots=2, sampling_time=0.1, stop_time=6.0):
 
 
 def lines(seen):
-    return [shape for shape in parts.addons(seen).shapes if isinstance(shape, Line)]
+    return [shape for shape in drawn.addons(seen).shapes if isinstance(shape, Line)]
 
 
 def strength(line):

@@ -10,7 +10,7 @@ import mars2d
 from mars2d import InputError, Robot, Scenario, World
 from mars2d.addons import FieldOfView
 from mars2d.core.scene import Circle, Line, Polygon, Scene
-from mars2d.output.layers import parts
+from mars2d.output.layers import addons as drawn
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.sensors import Beacon, RangeBearing
 
@@ -33,7 +33,7 @@ def about(record, middle=None):
 
 
 def theory_of(record, row=-1):
-    return parts.theory(record.frame(row)).shapes
+    return drawn.theory(record.frame(row)).shapes
 
 
 # -- cyclic pursuit -----------------------------------------------------------------------------

@@ -12,8 +12,8 @@ from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Arrow, Circle, Line, Text
 from mars2d.output.layers.forces import (
-    LABELS,
-    MOST,
+    MAX_CONTACTS,
+    MAX_LABELS,
     force_scale,
     forces,
     in_newtons,
@@ -105,9 +105,9 @@ def test_of_many_contacts_the_strongest_are_drawn_and_few_have_numbers():
     rows = [(0, 1, (0.01 * k, 0.0), (0.0, 1.0), 0.1 + 0.01 * k, 0.0) for k in range(100)]
     scene = forces(touching(two(), rows))
     found = vectors(scene)
-    assert len(found) == 2 * MOST
-    assert found[:, 0, 0].min() == pytest.approx(0.01 * (100 - MOST))
-    assert len(of(Text, scene)) == LABELS
+    assert len(found) == 2 * MAX_CONTACTS
+    assert found[:, 0, 0].min() == pytest.approx(0.01 * (100 - MAX_CONTACTS))
+    assert len(of(Text, scene)) == MAX_LABELS
 
 
 def test_what_only_just_touches_has_no_arrow():

@@ -86,7 +86,7 @@ def test_ten_robots_with_scanners_fit_into_two_megabytes_after_2000_steps(crowde
     assert len(crowded_page.encode()) < 2_000_000
     content, columns = held(crowded_page)
     assert content["stride"] == 1
-    assert len(columns["messages:time"]) > 0
+    assert len(columns["messages:rows"]) > 0
 
 
 @pytest.mark.slow
@@ -200,11 +200,11 @@ def run_with(*sensors):
 
 def test_a_sensor_of_ones_own_is_drawn_in_the_frame_in_which_it_draws():
     content, columns = held(page(run_with(Whisker(), Mark())))
-    whisker, mark = content["sensors"]["drawings"]
+    whisker, mark = content["drawn"]["sensors"]["drawings"]
     assert whisker == {"scenes": 1, "body": 0, "stays": False}  # the same in the robot's frame
     assert mark["body"] is None
     assert mark["scenes"] == 21
-    drawn = columns["sensors:numbers"][:4] * content["sensors"]["step"]
+    drawn = columns["sensors:numbers"][:4] * content["drawn"]["sensors"]["step"]
     assert drawn == pytest.approx([0, 0, 1, 0], abs=1e-4)
 
 
@@ -223,8 +223,11 @@ def test_readings_that_are_too_many_to_be_drawn_are_thinned_and_it_says_so():
     record = mars2d.run(Scenario(robots=robots, stop_time=150, workspace=None), control=circles)
     content, _ = held(page(record))
     assert len(record) == 1501  # 6004 readings: more than sensors are asked to draw
-    assert content["sensors"]["drawings"][0]["scenes"] == 751
-    assert content["notes"] == ["what sensors draw: one row in 2 of this file"]
+    assert content["drawn"]["sensors"]["drawings"][0]["scenes"] == 751
+    assert content["notes"] == [
+        "velocities: one row in 4 of this file",
+        "what sensors draw: one row in 2 of this file",
+    ]
 
 
 def test_beams_that_are_left_out_are_named():
@@ -239,7 +242,7 @@ def test_a_sensor_whose_code_is_not_in_a_file_is_named(tmp_path):
     record = mars2d.load(run_with(Whisker(), Proximity(range=1)).save(tmp_path / "run.npz"))
     content, _ = held(page(record))
     assert "not drawn, since their code is not in the record: sensor Whisker" in content["notes"]
-    assert [drawing["body"] for drawing in content["sensors"]["drawings"]] == [0]
+    assert [drawing["body"] for drawing in content["drawn"]["sensors"]["drawings"]] == [0]
 
 
 def test_distances_of_another_shape_than_the_scanner_has_are_an_error_that_names_it():

@@ -84,8 +84,8 @@ def tab(open_tab, replay):
 def show_only(tab, *layers):
     """Switch off all layers but some, by their keys."""
     keys = {
-        "trails": "t", "sensors": "s", "contacts": "x", "messages": "m", "addons": "o",
-        "theory": "y", "names": "i", "grid": "g",
+        "trails": "t", "sensors": "s", "forces": "x", "messages": "m", "addons": "o",
+        "theory": "y", "velocities": "u", "names": "i", "grid": "g",
     }  # fmt: skip
     for layer, key in keys.items():
         if tab.is_on(f"#layer-{layer}") != (layer in layers):
@@ -189,8 +189,8 @@ def test_layers_are_switched_by_buttons_and_keys(tab):
     tab.settle()
     tab.press(*["PageDown"] * 3, "ArrowRight")  # while a message is under way
     keys = {
-        "Trails": "t", "Sensors": "s", "Contacts": "x", "Messages": "m", "Add-ons": "o",
-        "Names": "i", "Grid": "g",
+        "Trails": "t", "Sensors": "s", "Forces": "x", "Messages": "m", "Add-ons": "o",
+        "Velocities": "u", "Names": "i", "Grid": "g",
     }  # fmt: skip
     before = tab.picture()
     for layer, key in keys.items():
@@ -206,7 +206,7 @@ def test_layers_are_switched_by_buttons_and_keys(tab):
 
 def test_a_contact_has_arrows_of_its_force(tab, record):
     tab.press(*["PageDown"] * 3)
-    show_only(tab, "contacts")
+    show_only(tab, "forces")
     (contact,) = record.frame(30).contacts
     x, y = tab.middle_of(FORCE)  # of two arrows of the same length
     tab.page.mouse.click(x - 12, y)
@@ -317,7 +317,7 @@ def test_the_panel_does_not_hide_what_is_picked(tab):
 def test_it_looks_as_it_did(open_tab, replay, scheme):
     tab = open_tab(replay, (700, 560), color_scheme=scheme)
     tab.press(*["PageDown"] * 6)
-    show_only(tab, "trails", "sensors", "contacts", "addons")  # all but letters
+    show_only(tab, "trails", "sensors", "forces", "addons")  # all but letters
     reference = REFERENCES / f"replay_{scheme}.png"
     seen = tab.picture()
     from PIL import Image

@@ -14,8 +14,17 @@ from mars2d.core.materials import MATERIALS
 from mars2d.core.scene import Circle, Line, Polygon, Scene
 from mars2d.geometry.shapes import Compound, Disc
 from mars2d.geometry.shapes import Polygon as Outline
-from mars2d.output.layers.bodies import MATERIAL_COLORS, draw_prop, draw_robot, prop_colors
-from mars2d.output.layers.parts import initial_poses, joints, props, robots, trails
+from mars2d.output.layers.bodies import (
+    MATERIAL_COLORS,
+    draw_prop,
+    draw_robot,
+    initial_poses,
+    joints,
+    prop_colors,
+    props,
+    robots,
+)
+from mars2d.output.layers.trails import trails
 
 ARROWHEAD = [(-0.2, -0.2), (0.3, 0.0), (-0.2, 0.2), (-0.1, 0.0)]
 ELL = Outline([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])

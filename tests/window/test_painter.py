@@ -13,8 +13,8 @@ from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError
 from mars2d.core.scene import Scene, wake_style
+from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import Artist, paint_frame, save_png
 from mars2d.output.raster.stage import Stage
@@ -416,11 +416,21 @@ def test_forces_are_off_unless_they_are_asked_for():
     assert differing(paint_frame(animated, forces=False), plain) == 0
 
 
-def test_switched_off_forces_cost_nothing(monkeypatch):
+@pytest.fixture
+def no_forces():
+    """Let the layer of forces raise when it is asked, for the time of a test."""
+
     def refuse(frame):
         raise AssertionError("the forces were asked for")
 
-    monkeypatch.setattr("mars2d.output.raster.stage.forces", refuse)
+    before = LAYERS[:]
+    LAYERS[:] = [replace(e, shapes=refuse) if e.name == "forces" else e for e in before]
+    yield
+    LAYERS[:] = before
+
+
+@pytest.mark.usefixtures("no_forces")
+def test_switched_off_forces_cost_nothing():
     paint_frame(pressed())
     with pytest.raises(AssertionError):
         paint_frame(pressed(), forces=True)

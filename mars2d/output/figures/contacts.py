@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import counted
+from mars2d.output.figures.extent import check_rows
 from mars2d.output.figures.figure import plain_name
 from mars2d.output.figures.panels import (
     Entry,
@@ -23,7 +24,6 @@ from mars2d.output.figures.panels import (
     set_span,
     width_of,
 )
-from mars2d.output.figures.rows import check_rows
 from mars2d.output.figures.style import Style, style_of
 
 if TYPE_CHECKING:

@@ -14,6 +14,7 @@ from mars2d.core.errors import ordinal
 from mars2d.core.plane import lines_and_areas
 from mars2d.geometry.shapes import Piece
 from mars2d.output.figures.contacts import pair_name
+from mars2d.output.figures.extent import check_rows
 from mars2d.output.figures.panels import (
     Entry,
     caption,
@@ -26,7 +27,6 @@ from mars2d.output.figures.panels import (
     set_span,
     width_of,
 )
-from mars2d.output.figures.rows import check_rows
 from mars2d.output.figures.style import Style, style_of
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""What part of the plane a figure shows."""
+"""The part of a record and of the plane that a figure shows: its rows and its view."""
 
 from __future__ import annotations
 
@@ -6,23 +6,22 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from mars2d.core.errors import InputError
-from mars2d.output.figures.rows import check_rows
+from mars2d.core.errors import InputError, shown
 
 if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["View"]
+__all__ = ["PANEL_LIMIT", "View", "check_rows", "rows_at"]
 
 Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class View:
-    """What part of the plane is drawn, metres."""
+    """The part of the plane that is drawn, metres."""
 
     xmin: float
     xmax: float
@@ -90,3 +89,40 @@ class View:
         """Return the largest (width, height) in the view's proportions that fits, inches."""
         scale = min(width / self.width, height / self.height)
         return scale * self.width, scale * self.height
+
+
+PANEL_LIMIT = 64
+"""The most panels of a figure."""
+
+
+def check_rows(record: Record, what: str = "draw") -> None:
+    """Raise InputError for a record without rows; what: the verb that it is for."""
+    if len(record) == 0:
+        raise InputError(f"the record has no rows: nothing ran, so there is nothing to {what}")
+
+
+def rows_at(record: Record, times: ArrayLike) -> list[int]:
+    """Return the last rows of a record that are not after the times [s].
+
+    Raises InputError for a time outside of the record, and for none or too many of them.
+    """
+    check_rows(record)
+    expected = "expected times in seconds, as [0, 2.5, 10]"
+    try:
+        wanted = np.atleast_1d(np.asarray(times))
+    except ValueError:
+        raise InputError(f"times = {shown(times)}: {expected}") from None
+    if wanted.ndim != 1 or wanted.dtype.kind not in "iuf":
+        raise InputError(f"times = {shown(times)}: {expected}")
+    if not 1 <= len(wanted) <= PANEL_LIMIT:
+        raise InputError(f"times: {len(wanted)} of them; a figure has 1 to {PANEL_LIMIT} panels")
+    first, last = float(record.time[0]), float(record.time[-1])
+    hair = 1e-6 * record.scenario.sampling_time  # 3 * 0.1 is a little more than 0.3
+    for time in wanted.tolist():
+        if not first - hair <= time <= last + hair:  # true for NaN as well
+            raise InputError(
+                f"times: {time:.10g} s is outside of the record, "
+                f"which goes from {first:.10g} to {last:.10g} s"
+            )
+    rows = np.searchsorted(record.time, wanted.astype(float) + hair, side="right") - 1
+    return [max(0, row) for row in rows.tolist()]

@@ -1,4 +1,4 @@
-"""Figures of records with matplotlib: the paths, or snapshots of them, for reports and papers."""
+"""Figures of records with matplotlib: the end of a run, or snapshots, for reports and papers."""
 
 from __future__ import annotations
 
@@ -17,21 +17,12 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.errors import InputError, shown
 from mars2d.core.files import atomic_write
 from mars2d.core.plane import grid_step
-from mars2d.core.scene import Line, Polygon, Scene, Shape, Text, faded
-from mars2d.output.figures.artists import paint, points_per_metre
-from mars2d.output.figures.extent import View
-from mars2d.output.figures.rows import rows_at
+from mars2d.core.scene import Line, Scene, Shape, Text, faded
+from mars2d.output.figures.artists import SHAPES, paint, points_per_metre
+from mars2d.output.figures.extent import View, rows_at
 from mars2d.output.figures.style import SCREEN, Style, style_of
-from mars2d.output.layers import parts as seen
-from mars2d.output.layers.forces import (
-    FORCE,
-    LABEL_SIZE,
-    force_scale,
-    forces,
-    in_newtons,
-    round_force,
-)
-from mars2d.output.layers.messages import messages
+from mars2d.output.layers.forces import FORCE, LABEL_SIZE, force_scale, in_newtons, round_force
+from mars2d.output.layers.table import Layers
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -80,11 +71,14 @@ WORKSPACE = 1.0
 TICK_SPACING = 28.0  # points between ticks, at least
 
 
-def plot_paths(record: Record, ax: Axes | None = None, *, style: str = "screen") -> Axes:
-    """Draw the paths of a record: initial poses hollow, final poses filled, obstacles and grid.
+def plot_paths(
+    record: Record, ax: Axes | None = None, *, style: str = "screen", layers: Layers | None = None
+) -> Axes:
+    """Draw all layers at the end of a record: paths, initial poses hollow, final ones filled.
 
     ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
-    and which a notebook shows. style: the name of one of `figures.style`. Returns the axes.
+    and which a notebook shows. style: the name of one of `figures.style`. layers: the
+    switches; by default as the animation says, and sensors among few robots. Returns the axes.
     Raises InputError if the record has no rows.
 
     >>> import mars2d
@@ -104,14 +98,14 @@ def plot_paths(record: Record, ax: Axes | None = None, *, style: str = "screen")
             check_axes(ax)
             if ax.has_data():  # a second record over a first one
                 view = view.union((*ax.get_xlim(), *ax.get_ylim()))
-        dress(ax, record.scenario, view, look)
+        dress(ax, record.scenario, view, look, layers)
         label(ax, look=look)
         _set_title(ax, f"{record.scenario.title}, {_time(float(record.time[-1]))}", look)
         _add_legend(ax, record.scenario, look)
         if own:
             ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
             show_in_notebooks(ax)
-        paint_row(ax, record, len(record) - 1, look)
+        paint_row(ax, record, len(record) - 1, look, layers)
     return ax
 
 
@@ -128,21 +122,28 @@ def _page(look: Style, scenario: Scenario, view: View) -> tuple[float, float]:
 
 
 def plot_snapshots(
-    record: Record, times: ArrayLike, figure: Figure | None = None, *, style: str = "screen"
+    record: Record,
+    times: ArrayLike,
+    figure: Figure | None = None,
+    *,
+    style: str = "screen",
+    layers: Layers | None = None,
 ) -> Figure:
     """Draw the paths until each of some times, one panel a time.
 
     times: seconds, within the record; the panel shows the last row that is not after it. figure:
-    a matplotlib figure to draw on, by default a new one. style: as in `plot_paths`. Returns the
-    figure. Raises InputError for a time outside of the record, and if the record has no rows.
+    a matplotlib figure to draw on, by default a new one. style, layers: as in `plot_paths`. Returns
+    the figure. Raises InputError for a time outside of the record, and if the record has no rows.
     """
     look = style_of(style)
     rows = rows_at(record, times)
     with look.fonts():
-        return _snapshots(look.restyled(record), rows, figure, look)
+        return _snapshots(look.restyled(record), rows, figure, look, layers)
 
 
-def _snapshots(record: Record, rows: list[int], figure: Figure | None, look: Style) -> Figure:
+def _snapshots(
+    record: Record, rows: list[int], figure: Figure | None, look: Style, layers: Layers | None
+) -> Figure:
     scenario = record.scenario
     view = View.of(record, max(rows))
     ratio = view.width / view.height
@@ -155,7 +156,7 @@ def _snapshots(record: Record, rows: list[int], figure: Figure | None, look: Sty
     for unused in panels[len(rows) :]:
         unused.remove()
     for k, (ax, row) in enumerate(zip(panels, rows, strict=False)):
-        dress(ax, scenario, view, look)
+        dress(ax, scenario, view, look, layers)
         label(ax, below=k + cols >= len(rows), beside=k % cols == 0, look=look)
         ax.set_title(_time(float(record.time[row])), fontsize=look.label, color=look.ink)
     _add_legend(panels[min(cols, len(rows)) - 1], scenario, look)
@@ -166,7 +167,7 @@ def _snapshots(record: Record, rows: list[int], figure: Figure | None, look: Sty
         figure.draw_without_rendering()
         figure.__dict__["_repr_png_"] = partial(_png, figure)
     for ax, row in zip(panels, rows, strict=False):
-        paint_row(ax, record, row, look)
+        paint_row(ax, record, row, look, layers)
     return figure
 
 
@@ -245,7 +246,7 @@ def new_figure(width: float, height: float, *, layout: Layout = "constrained") -
 
 
 def check_axes(ax: object) -> None:
-    """Raise InputError for what is no axes to draw on."""
+    """Raise InputError for anything but plain axes."""
     from matplotlib.axes import Axes
 
     if not isinstance(ax, Axes) or ax.name != "rectilinear":
@@ -254,8 +255,14 @@ def check_axes(ax: object) -> None:
         )
 
 
-def dress(ax: Axes, scenario: Scenario, view: View, look: Style = SCREEN) -> None:
-    """Set limits, grid and ticks, and paint what never moves."""
+def dress(
+    ax: Axes,
+    scenario: Scenario,
+    view: View,
+    look: Style = SCREEN,
+    layers: Layers | None = None,
+) -> None:
+    """Set limits, grid and ticks."""
     ax.set_aspect("equal")
     ax.set_xlim(view.xmin, view.xmax)
     ax.set_ylim(view.ymin, view.ymax)
@@ -266,20 +273,13 @@ def dress(ax: Axes, scenario: Scenario, view: View, look: Style = SCREEN) -> Non
     set_ticks(ax)
     ax.callbacks.connect("xlim_changed", set_ticks)
     ax.callbacks.connect("ylim_changed", set_ticks)
-    if scenario.animation.grid:
+    layers = layers or _layers_of(scenario)
+    if layers.grid:
         ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
     else:
         ax.grid(visible=False)
     edge = scenario.workspace is None
     ax.spines[:].set(color=look.grid, linewidth=0.8 * look.stroke, visible=edge)
-    for shape in seen.workspace(scenario).shapes:
-        if isinstance(shape, Polygon):  # its outline is the frame of the grid
-            paint(Scene([replace(shape, stroke=None)]), ax, level=WORKSPACE)
-            for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
-                line.set_clip_path(ax.patches[-1])
-            paint(Scene([replace(shape, fill=None)]), ax, scale=0.75 * look.stroke)
-    paint(seen.floor(scenario), ax, level=WORKSPACE)
-    paint(seen.obstacles(scenario), ax, scale=0.6 * look.stroke)
 
 
 def style_ticks(ax: Axes, look: Style) -> None:
@@ -315,51 +315,92 @@ def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SC
         ax.set_ylabel("y [m]", color=look.ink, fontsize=look.label)
 
 
-def paint_row(ax: Axes, record: Record, row: int, look: Style = SCREEN) -> None:
-    """Paint the paths until a row, the initial poses, and the robots as they are then."""
-    scenario = record.scenario
+def paint_row(
+    ax: Axes, record: Record, row: int, look: Style = SCREEN, layers: Layers | None = None
+) -> None:
+    """Paint the layers as they are at a row; layers: the switches, as in `plot_paths`."""
     now = record.frame(row)
+    animation = record.scenario.animation
+    layers = layers or _layers_of(record.scenario)
     _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
+    scales = _scales(ax, record.scenario, look)
+    words = 0.65 * look.small / SCREEN.small
+    level = WORKSPACE  # the grid lies between this and the level of all later layers
+    for layer in layers.seen(animation):
+        if layer.name in ("edge", "obstacles"):
+            level = SHAPES
+        if layer.shapes is None:
+            continue
+        scene = layer.shapes(now)
+        if layer.name == "trails":
+            scene = _told_apart(scene, record.scenario, look)
+        scale = scales.get(layer.name, scales["bodies"])
+        texts = scale if layer.name in ("floor", "addons", "theory") else words
+        before = len(ax.patches)
+        lines: list[Shape] = [each for each in scene.shapes if not isinstance(each, Text)]
+        paint(Scene(lines), ax, scale=scale, level=level)
+        letters: list[Shape] = [each for each in scene.shapes if isinstance(each, Text)]
+        paint(Scene(letters), ax, scale=texts, level=level)
+        if layer.name == "workspace" and scene.shapes:
+            for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
+                line.set_clip_path(ax.patches[before])
+    if layers.forces:
+        _paint_legend(ax, now, scales["bodies"], words)
+
+
+def _layers_of(scenario: Scenario) -> Layers:
+    """Return the layers of a figure by default; in a crowd, sensors would hide the paths."""
+    few = len(scenario.robots) <= LEGEND_LIMIT
+    return Layers.of(scenario.animation, sensors=few)
+
+
+def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
+    """Return the factor for the widths of lines, by layer; "bodies" stands for all others.
+
+    Lines grow thinner with the robots, and in a crowd.
+    """
     few = len(scenario.robots) <= LEGEND_LIMIT
     radius = min(robot.radius for robot in scenario.robots) * points_per_metre(ax)
-    drawn = scenario.animation.show_real_shape
-    scale = min(max(radius / 9, 0.1), 0.75) if drawn else 0.75 if few else 0.5
-    stroke = look.stroke
-    scale *= stroke
-    paint(seen.addons(now), ax, scale=0.75 * stroke)
-    if scenario.animation.wake:
-        trails = _dashed(seen.trails(now), scenario, look)
-        if not few:
-            trails = Scene([_paler(shape) for shape in trails.shapes])
-        paint(trails, ax, scale=(0.55 if few else 0.4) * stroke)
-    if scenario.animation.theory:  # above the paths, as in the window: they may cover it
-        paint(seen.theory(now), ax, scale=0.75 * stroke)
-    if scenario.animation.show_initial_pose:
-        paint(seen.initial_poses(scenario), ax, scale=min(1.3 * scale, 0.75 * stroke))
-    thick = max(0.4 * stroke, scale)
-    paint(messages(now), ax, scale=thick)
-    paint(seen.props(now), ax, scale=min(scale, 0.6 * stroke))
-    paint(seen.robots(now), ax, scale=scale)
-    paint(seen.joints(now), ax, scale=thick)
-    if scenario.animation.forces:
-        _paint_forces(ax, now, thick, look)
+    robots = min(max(radius / 9, 0.1), 0.75)
+    if not scenario.animation.show_real_shape:
+        robots = 0.75 if few else 0.5
+    scales = {
+        "workspace": 0.75,
+        "floor": 1 / look.stroke,
+        "edge": 0.75,
+        "obstacles": 0.6,
+        "starts": min(1.3 * robots, 0.75),
+        "trails": 0.55 if few else 0.4,
+        "sensors": 0.6,
+        "addons": 0.75,
+        "theory": 0.75,
+        "props": min(robots, 0.6),
+        "robots": robots,
+        "bodies": max(0.4, robots),
+    }
+    return {name: scale * look.stroke for name, scale in scales.items()}
 
 
-def _paint_forces(ax: Axes, now: Frame, scale: float, look: Style) -> None:
-    """Paint the forces of the last control step, and how long some round force is."""
-    shapes = forces(now).shapes
+def _paint_legend(ax: Axes, now: Frame, scale: float, words: float) -> None:
+    """Paint an arrow of a round force into a corner, with its number."""
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
     length = force_scale(now.scenario).newton
     force = round_force(0.14 * (xmax - xmin) / length)
     tail = (xmin + 0.03 * (xmax - xmin), ymin + 0.05 * (ymax - ymin))
     tip = (tail[0] + force * length, tail[1])
-    legend = Scene()
-    legend.arrow(tail, tip, fill=FORCE, stroke="#ffffff")
-    legend.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left", halo="#ffffff")
-    shapes += legend.shapes
-    paint(Scene([shape for shape in shapes if not isinstance(shape, Text)]), ax, scale=scale)
-    size = 0.65 * look.small / SCREEN.small
-    paint(Scene([shape for shape in shapes if isinstance(shape, Text)]), ax, scale=size)
+    arrow, text = Scene(), Scene()
+    arrow.arrow(tail, tip, fill=FORCE, stroke="#ffffff")
+    text.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left", halo="#ffffff")
+    paint(arrow, ax, scale=scale)
+    paint(text, ax, scale=words)
+
+
+def _told_apart(trails: Scene, scenario: Scenario, look: Style) -> Scene:
+    """Return the paths with the style's dashes, and paler in a crowd."""
+    trails = _dashed(trails, scenario, look)
+    if len(scenario.robots) > LEGEND_LIMIT:
+        trails = Scene([_paler(shape) for shape in trails.shapes])
+    return trails
 
 
 def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mars2d.core.description import real
 from mars2d.core.errors import InputError
 from mars2d.output.figures.columns import IMAGE_FROM, Signal, chosen_robots, signals
+from mars2d.output.figures.extent import PANEL_LIMIT, check_rows
 from mars2d.output.figures.figure import LEGEND_LIMIT, plain_name
 from mars2d.output.figures.panels import (
     Entry,
@@ -26,7 +27,6 @@ from mars2d.output.figures.panels import (
     set_span,
     width_of,
 )
-from mars2d.output.figures.rows import PANEL_LIMIT, check_rows
 from mars2d.output.figures.style import Style, style_of
 from mars2d.output.figures.thinning import spans
 from mars2d.record.interventions import Change, Place

@@ -16,9 +16,9 @@ from mars2d.core.scene import Scene
 from mars2d.output.figures.comparison import COLORS, MEANINGS, MODES, Comparison, plot_drift
 from mars2d.output.films.film import save_pictures
 from mars2d.output.films.footage import Footage
+from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Status, draw_header
 from mars2d.output.raster.camera import PIXELS, Camera
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage

@@ -16,9 +16,26 @@ from mars2d.core.plane import Point
 from mars2d.core.scene import INK, Scene, faded
 from mars2d.core.usercode import called
 from mars2d.geometry.shapes import Disc, Rim, Shape
+from mars2d.record.frame import Frame
 from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
 
-__all__ = ["INK", "OBSTACLE", "draw_prop", "draw_robot", "draw_tie", "prop_colors", "prop_edge"]
+__all__ = [
+    "INK",
+    "OBSTACLE",
+    "draw_prop",
+    "draw_robot",
+    "draw_tie",
+    "initial_poses",
+    "joints",
+    "place_prop",
+    "place_robot",
+    "prop_color",
+    "prop_colors",
+    "prop_edge",
+    "props",
+    "robots",
+]
 
 Float = NDArray[np.float64]
 
@@ -75,9 +92,76 @@ def draw_prop(scene: Scene, prop: Prop, pose: Float, color: str, *, hollow: bool
     scene.line(_placed(_ahead(prop.shape), pose), stroke=faded(edge, 0.45), width=1.5)
 
 
+def place_robot(scene: Scene, scenario: Scenario, body: int, pose: Float) -> None:
+    """Draw a body at a pose (3,), filled, if it is a robot; body: in `Scenario.bodies`."""
+    if body < len(scenario.robots):
+        color = scenario.colors[body]
+        _draw_member(scene, scenario, scenario.robots[body], pose, color, "#ffffff")
+
+
+def place_prop(scene: Scene, scenario: Scenario, body: int, pose: Float) -> None:
+    """Draw a body at a pose (3,), filled, if it is a prop; body: in `Scenario.bodies`."""
+    if body >= len(scenario.robots):
+        prop = scenario.props[body - len(scenario.robots)]
+        draw_prop(scene, prop, pose, prop_color(prop))
+
+
+def _draw_member(
+    scene: Scene, scenario: Scenario, robot: Robot, pose: Float, fill: str | None, stroke: str
+) -> None:
+    """Draw a robot of a team to scale, or as a point where the animation wants that."""
+    if scenario.animation.show_real_shape:
+        draw_robot(scene, robot, pose, fill, stroke)
+    else:
+        scene.circle(pose[:2], 0.0, fill=fill, stroke=stroke, pixels=5.0)
+
+
+def initial_poses(scenario: Scenario) -> Scene:
+    """Return the props and robots at their starts, hollow."""
+    scene = Scene()
+    for prop, color in zip(scenario.props, prop_colors(scenario.props), strict=True):
+        draw_prop(scene, prop, np.array(prop.pose), color, hollow=True)
+    for robot, pose, color in zip(
+        scenario.robots, scenario.initial_pose.T, scenario.colors, strict=True
+    ):
+        _draw_member(scene, scenario, robot, pose, None, faded(color, 0.8))
+    return scene
+
+
+def props(frame: Frame) -> Scene:
+    """Return the props where they are, filled."""
+    scene, robots = Scene(), len(frame.scenario.robots)
+    for k, pose in enumerate(frame.prop_pose.T):
+        place_prop(scene, frame.scenario, robots + k, pose)
+    return scene
+
+
+def robots(frame: Frame) -> Scene:
+    """Return the robots where they are, filled."""
+    scene = Scene()
+    for i, pose in enumerate(frame.pose.T):
+        place_robot(scene, frame.scenario, i, pose)
+    return scene
+
+
+def joints(frame: Frame) -> Scene:
+    """Return the joints that act: ropes, rods, springs and the pins of hinges."""
+    scene = Scene()
+    if frame.scenario.ties and frame.scenario.physics == "contact":
+        poses = np.hstack([frame.pose, frame.prop_pose])
+        for tie in frame.scenario.ties:
+            draw_tie(scene, tie, poses)
+    return scene
+
+
+def prop_color(prop: Prop) -> str:
+    """Return the colour of a prop: its own, or that of its material."""
+    return prop.color or MATERIAL_COLORS.get(prop.material or "", NEUTRAL)
+
+
 def prop_colors(props: Sequence[Prop]) -> tuple[str, ...]:
-    """Return the colour of each prop: its own, or that of its material."""
-    return tuple(p.color or MATERIAL_COLORS.get(p.material or "", NEUTRAL) for p in props)
+    """Return the colour of each prop."""
+    return tuple(prop_color(prop) for prop in props)
 
 
 def prop_edge(color: str) -> str:
@@ -130,7 +214,7 @@ def _placed(points: ArrayLike | Sequence[Point], pose: Float) -> Float:
 
 @lru_cache(maxsize=1024)
 def _region(shape: Shape) -> Any:
-    """Return what a shape covers as a region of shapely, its parts as one."""
+    """Return the region that a shape covers, for shapely; its parts are joined."""
     import shapely
 
     parts = [

@@ -42,14 +42,15 @@ SLIPPING = 0.999
 FAINTEST = 0.01
 """Weaker forces, in shares of the strongest drive's, are not drawn."""
 
-MOST = 60
-"""Of the contacts of a frame, so many are drawn: the strongest."""
+MAX_CONTACTS = 60
+"""Of more contacts in a frame, the strongest are drawn."""
 
-LABELED, LABELS = 0.15, 6
-"""Numbers stand at so many arrows at most, the longest of all, from this share of a force on."""
+LABELED, MAX_LABELS = 0.15, 6
+"""The share of the strongest drive's force from which on an arrow has a number, and how many of
+the longest arrows have one."""
 
-FEW = 6
-"""From more robots than this on, arrows are shorter and thinner: in a crowd forces pile up."""
+FEW_ROBOTS = 6
+"""With more robots, arrows are shorter and thinner: in a crowd they pile up."""
 
 
 class ForceScale(NamedTuple):
@@ -57,7 +58,7 @@ class ForceScale(NamedTuple):
 
     strongest: newtons, the largest bound of a drive. newton: metres that 1 N is long. longest:
     metres; stronger forces are drawn this long, with a cut through the arrow. width: of an arrow,
-    points. ring: what the widths of slip marks are multiplied by.
+    points. ring: the factor for the widths of slip marks.
     """
 
     strongest: float
@@ -77,7 +78,7 @@ def force_scale(scenario: Scenario) -> ForceScale:
     sizes = [2 * robot.radius for robot in scenario.robots]
     length = max(1.5 * median(sizes), 0.06 * max(xmax - xmin, ymax - ymin))
     strongest = max(robot.drive.max_force for robot in scenario.robots)
-    crowd = max(1.0, sqrt(len(scenario.robots) / FEW))
+    crowd = max(1.0, sqrt(len(scenario.robots) / FEW_ROBOTS))
     return ForceScale(
         strongest=strongest,
         newton=length / strongest / crowd,
@@ -111,7 +112,9 @@ def forces(frame: Frame) -> Scene:
     size = np.hypot(force[:, 0], force[:, 1])
     scale = force_scale(scenario)
     drawn = np.flatnonzero(size >= FAINTEST * scale.strongest)
-    drawn = drawn[np.argsort(size[drawn], kind="stable")][-MOST:]  # the strongest lie on top
+    drawn = drawn[np.argsort(size[drawn], kind="stable")][
+        -MAX_CONTACTS:
+    ]  # the strongest lie on top
     at = _touching_points(frame)
     length = np.minimum(scale.newton * size[drawn], scale.longest)
     reach = force[drawn] * (length / size[drawn])[:, None]
@@ -123,7 +126,7 @@ def forces(frame: Frame) -> Scene:
             scene.arrow(start, start + way, fill=FORCE, stroke=EDGE, width=scale.width)
             if cut:
                 _cut(scene, start, way)
-    for k, row in list(enumerate(drawn.tolist()))[-LABELS:]:
+    for k, row in list(enumerate(drawn.tolist()))[-MAX_LABELS:]:
         if size[row] >= LABELED * scale.strongest:
             way = reach[k] if contacts["b"][row] >= 0 else -reach[k]
             _number(scene, at[row] + way, way, float(size[row]))

@@ -16,8 +16,8 @@ __all__ = ["LOST_LINK", "messages"]
 LOST_LINK = "#c92a2a"
 """The colour of a link over which nothing gets through."""
 
-MOST = 400
-"""Of the links of a frame, so many are drawn: the last ones."""
+MAX_LINKS = 400
+"""Of more links in a frame, the last are drawn."""
 
 ASIDE = 0.3
 """How far a link lies right of the line between two centres, in radii: both ways can be seen."""
@@ -36,7 +36,7 @@ def messages(frame: Frame) -> Scene:
     """
     scene = Scene()
     robots, colors = frame.scenario.robots, frame.scenario.colors
-    for row in frame.messages[-MOST:]:
+    for row in frame.messages[-MAX_LINKS:]:
         one, other = int(row["sender"]), int(row["receiver"])
         sizes = robots[one].radius, robots[other].radius
         ends = _ends(frame.pose[:2, one].tolist(), frame.pose[:2, other].tolist(), sizes)

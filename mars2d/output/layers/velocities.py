@@ -25,16 +25,16 @@ SLOWEST = 0.01
 """Slower bodies, in shares of the fastest drive's bound, have no arrow."""
 
 LEAST_TURN, MOST_TURN = 0.15, 5.0
-"""Arcs are drawn from so many radians a second on, and up to so many radians."""
+"""The slowest turn that has an arc, radians a second, and the longest arc, radians."""
 
-ARCS = 16
-"""Of the bodies that turn, so many have an arc: those that turn the most."""
+MAX_ARCS = 16
+"""Of more bodies that turn, the quickest have an arc."""
 
 HEAD = 0.5
 """The length of the arrow at an arc's end, radians at most."""
 
-FEW, CROWD = 6, 30
-"""From more robots on, arrows are shorter and thinner, and from more bodies on without an edge."""
+FEW_ROBOTS, CROWD = 6, 30
+"""With more robots, arrows are shorter and thinner; with more bodies, they have no edge."""
 
 
 class SpeedScale(NamedTuple):
@@ -56,7 +56,7 @@ def speed_scale(scenario: Scenario) -> SpeedScale:
     sizes = [2 * robot.radius for robot in scenario.robots]
     length = max(2.0 * median(sizes), 0.08 * max(xmax - xmin, ymax - ymin))
     fastest = max(robot.drive.max_linear_speed for robot in scenario.robots)
-    crowd = max(1.0, sqrt(len(scenario.robots) / FEW))
+    crowd = max(1.0, sqrt(len(scenario.robots) / FEW_ROBOTS))
     return SpeedScale(
         fastest=fastest,
         meter_a_second=length / fastest / sqrt(crowd),
@@ -74,8 +74,8 @@ def velocities(frame: Frame) -> Scene:
     scene, velocity = Scene(), frame.velocity
     scale = speed_scale(frame.scenario)
     poses = np.hstack([frame.pose, frame.prop_pose])
-    turning = np.argsort(-np.abs(velocity[2]), kind="stable")[:ARCS]
-    for i in turning.tolist():
+    turning = np.argsort(-np.abs(velocity[2]), kind="stable")[:MAX_ARCS]
+    for i in sorted(turning.tolist()):
         if abs(velocity[2, i]) >= LEAST_TURN:
             center, radius = bounding_circle(frame.scenario.bodies[i].shape, poses[:, i])
             _arc(scene, center, 1.3 * radius, float(poses[2, i]), float(velocity[2, i]))

@@ -1,11 +1,9 @@
-"""One instant as an SVG drawing: what the window shows, with metres at its sides and a caption."""
+"""One instant as an SVG drawing: the layers, with metres at the sides and a caption."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable, Sequence
-from dataclasses import replace
-from functools import partial
+from collections.abc import Sequence
 from math import ceil, floor, log10
 
 import numpy as np
@@ -13,14 +11,11 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import described
 from mars2d.core.plane import grid_step
-from mars2d.core.scene import Anchor, Polygon, Scene, Text
+from mars2d.core.scene import Anchor, Scene, Text
 from mars2d.output.figures.extent import View
 from mars2d.output.figures.style import SCREEN
-from mars2d.output.layers import parts as seen
-from mars2d.output.layers.forces import forces
-from mars2d.output.layers.messages import messages
-from mars2d.output.layers.names import names
-from mars2d.output.pages.svg import Layer, svg
+from mars2d.output.layers.table import Layers
+from mars2d.output.pages.svg import ScaledScene, svg
 from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -30,15 +25,15 @@ __all__ = ["draw", "say"]
 Float = NDArray[np.float64]
 
 WIDTH, HEIGHT = 560.0, 440.0
-"""The room for what is drawn, pixels: it is as large as fits."""
+"""The room for the layers, pixels; they are as large as fits."""
 LEFT, RIGHT, ABOVE = 36.0, 10.0, 10.0
 """The room at its sides, pixels."""
 
 LARGEST = 1_000_000
 """The characters of a drawing from which the paths are left out."""
 
-FEW = 8
-"""Among more bodies there are no names, and paths are thinner."""
+FEW_BODIES = 8
+"""Among more bodies, there are no names, and paths are thinner."""
 
 TICKS = 42.0  # pixels from one line of the grid to the next, at least
 SIZE, LINE = 12.0, 16.0  # of the caption's words and lines, pixels
@@ -49,11 +44,13 @@ INK, MUTED, WARNING = LIGHT.ink, LIGHT.muted, LIGHT.failed
 GRID, AXIS = SCREEN.grid, "#d0d6dd"
 
 
-def draw(frame: Frame, caption: str) -> str:
+def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
     """Return a frame as an SVG picture with a caption below it.
 
-    What can't be drawn, since a sensor or an add-on of the user's raises, is left out, and said
-    below the caption. So it is with paths that would take more than a million characters.
+    layers: the switches; by default as the animation says, and names where there are few
+    bodies. A layer that can't be drawn, since a sensor or an add-on of the user's raises, is left
+    out, and a line below the caption says so. So are paths that would take more than a million
+    characters.
     """
     view = View.around(
         frame.scenario,
@@ -61,11 +58,14 @@ def draw(frame: Frame, caption: str) -> str:
         _with_end(frame.prop_path, frame.prop_pose),
     )
     notes: list[str] = []
-    parts = _parts(frame, view, notes)
+    if layers is None:
+        few = len(frame.scenario.bodies) <= FEW_BODIES
+        layers = Layers.of(frame.scenario.animation, names=few)
+    parts = _parts(frame, view, layers, notes)
     picture = _framed([part for _, part in parts], view, caption, notes)
     if len(picture) > LARGEST:
         notes.append("The paths are left out: they would take too much room in a notebook.")
-        kept = [part for name, part in parts if name != "paths"]
+        kept = [part for name, part in parts if name != "trails"]
         picture = _framed(kept, view, caption, notes)
     return picture
 
@@ -83,49 +83,49 @@ def _with_end(path: Float, pose: Float) -> Float:
     return np.concatenate([path, pose[None]]) if len(path) else pose[None]
 
 
-def _parts(frame: Frame, view: View, notes: list[str]) -> list[tuple[str, Layer]]:
-    """Return what is drawn, by name, the lowest first; add to `notes` what fails to be."""
-    scenario, look = frame.scenario, frame.scenario.animation
-    ppm = _ppm(view)
-    few = len(scenario.bodies) <= FEW
-    radius = min(robot.radius for robot in scenario.robots) * ppm
-    drawn = look.show_real_shape
-    bodies = min(max(radius / 9, 0.1), 0.8) if drawn else 0.8 if few else 0.5
-    thin = max(0.4, bodies)
-    listed: list[tuple[str, bool, float, Callable[[], Scene]]] = [
-        ("workspace", True, 0.8, partial(seen.workspace, scenario)),
-        ("floor", True, 0.8, partial(seen.floor, scenario)),
-        ("grid", look.grid, 1.0, partial(_grid, scenario, view)),
-        ("obstacles", True, 0.7, partial(seen.obstacles, scenario)),
-        (
-            "start",
-            look.show_initial_pose,
-            min(1.3 * bodies, 0.8),
-            lambda: seen.initial_poses(scenario),
-        ),
-        ("paths", look.wake, 0.75 if few else 0.5, lambda: seen.trails(frame)),
-        ("sensors", True, 0.7, lambda: seen.sensors(frame)),
-        ("add-ons", True, 0.8, lambda: seen.addons(frame)),
-        ("theory", look.theory, 0.8, lambda: seen.theory(frame)),
-        ("messages", True, thin, lambda: messages(frame)),
-        ("props", True, min(bodies, 0.7), lambda: seen.props(frame)),
-        ("robots", True, bodies, lambda: seen.robots(frame)),
-        ("joints", True, thin, lambda: seen.joints(frame)),
-        ("forces", look.forces, thin, lambda: forces(frame)),
-        ("names", few, 0.85, lambda: names(frame)),
-    ]
+def _parts(
+    frame: Frame, view: View, layers: Layers, notes: list[str]
+) -> list[tuple[str, ScaledScene]]:
+    """Return the layers by name, the lowest first; add those that fail to `notes`."""
+    scales = _scales(frame.scenario, _ppm(view))
     found = []
-    for name, wanted, scale, scene in listed:
-        if not wanted:
-            continue
+    for layer in layers.seen(frame.scenario.animation):
         try:
-            found.append((name, (scene(), scale)))
+            scene = layer.shapes(frame) if layer.shapes else _grid(frame.scenario, view)
+            found.append((layer.name, (scene, scales.get(layer.name, scales["bodies"]))))
         except Exception as error:
-            notes.append(f"Not drawn: {name}. {described(error)}")
+            notes.append(f"Not drawn: {layer.title.lower()}. {described(error)}")
     return found
 
 
-def _framed(layers: Sequence[Layer], view: View, caption: str, notes: Sequence[str]) -> str:
+def _scales(scenario: Scenario, ppm: float) -> dict[str, float]:
+    """Return the factor for the widths of lines, by layer; "bodies" stands for all others.
+
+    Lines grow thinner with the robots, and in a crowd. ppm: the pixels of a metre.
+    """
+    few = len(scenario.bodies) <= FEW_BODIES
+    robots = min(max(min(robot.radius for robot in scenario.robots) * ppm / 9, 0.1), 0.8)
+    if not scenario.animation.show_real_shape:
+        robots = 0.8 if few else 0.5
+    return {
+        "workspace": 0.8,
+        "floor": 0.8,
+        "grid": 1.0,
+        "edge": 0.8,
+        "obstacles": 0.7,
+        "starts": min(1.3 * robots, 0.8),
+        "trails": 0.75 if few else 0.5,
+        "sensors": 0.7,
+        "addons": 0.8,
+        "theory": 0.8,
+        "props": min(robots, 0.7),
+        "robots": robots,
+        "names": 0.85,
+        "bodies": max(0.4, robots),
+    }
+
+
+def _framed(layers: Sequence[ScaledScene], view: View, caption: str, notes: Sequence[str]) -> str:
     """Return layers with numbers at their sides, and words below."""
     ppm = _ppm(view)
     room = max(20, int((ppm * view.width + LEFT) / LETTER))
@@ -163,7 +163,7 @@ def _ppm(view: View) -> float:
 
 
 def _around(view: View, whole: View) -> Scene:
-    """Return the ground of the words: what is drawn does not reach under them."""
+    """Return the ground beneath the words: layers do not reach under them."""
     scene = Scene()
     for xmin, xmax, ymin, ymax in (
         (whole.xmin, view.xmin, whole.ymin, whole.ymax),
@@ -185,7 +185,7 @@ def _ticks(low: float, high: float, step: float) -> list[float]:
 
 
 def _grid(scenario: Scenario, view: View) -> Scene:
-    """Return the lines of the grid, within the workspace, and the workspace's edge over them."""
+    """Return the lines of the grid, within the workspace."""
     import shapely
 
     step, scene = _step(view), Scene()
@@ -203,13 +203,11 @@ def _grid(scenario: Scenario, view: View) -> Scene:
             for stretch in stretches:
                 if len(stretch) > 1:
                     scene.line(stretch, stroke=color)
-    edge = (s for s in seen.workspace(scenario).shapes if isinstance(s, Polygon))
-    scene.extend(replace(shape, fill=None, width=0.8 * shape.width) for shape in edge)
     return scene
 
 
 def _numbers(view: View) -> Scene:
-    """Return the metres, below and beside what is drawn; the last ones with their unit."""
+    """Return the metres below and beside the layers; the last ones with their unit."""
     step, scene = _step(view), Scene()
     decimals = max(0, -floor(log10(step) + 1e-9))
 

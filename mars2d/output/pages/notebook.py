@@ -1,4 +1,4 @@
-"""What scenarios, worlds and records show in a notebook.
+"""Pictures of scenarios, worlds and records for notebooks.
 
 Pictures are SVG without scripts or styles, which every notebook shows, and its viewers on the web
 as well. A record is a replay in a frame of its own; beneath it lies the picture of its end, for
@@ -127,7 +127,7 @@ def _picture(made: Callable[[], tuple[Frame, str]], title: str) -> str:
 
 
 def _start(scenario: Scenario) -> Frame:
-    """Return what is seen of a scenario before anything has moved."""
+    """Return the frame of a scenario before anything has moved."""
     poses = [prop.pose for prop in scenario.props]
     return Frame(
         scenario=scenario,
@@ -141,7 +141,7 @@ def _start(scenario: Scenario) -> Frame:
 
 
 def _described(scenario: Scenario) -> str:
-    """Return what a scenario has, in words."""
+    """Return the contents of a scenario, in words."""
     counts = {
         "robot": len(scenario.robots),
         "prop": len(scenario.props),
@@ -156,7 +156,7 @@ def _described(scenario: Scenario) -> str:
 
 
 def _outcome(record: Record) -> str:
-    """Return what came out of a run, in words."""
+    """Return the outcome of a run, in words."""
     rows = f"{counted(len(record), 'row')} to t = {record.time[-1]:.10g} s"
     touches = counted(record.collisions, "collision")
     return f"{record.scenario.title}: {rows}, {touches}; {record.over_message}"

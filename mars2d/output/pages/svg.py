@@ -26,12 +26,12 @@ from mars2d.core.scene import (
 )
 from mars2d.output.figures.extent import View
 
-__all__ = ["Layer", "svg"]
+__all__ = ["ScaledScene", "svg"]
 
 Float = NDArray[np.float64]
 
-Layer = tuple[Scene, float]
-"""A scene, and what its line widths, marks and text heights are multiplied by."""
+ScaledScene = tuple[Scene, float]
+"""A scene, and the factor for its line widths, marks and text heights."""
 
 TOLERANCE = 0.3
 """The pixels by which a line with fewer corners may lie beside the line it is drawn for."""
@@ -53,14 +53,14 @@ SHIFTS = {"left": (1, 0), "right": (-1, 0), "above": (0, 1), "below": (0, -1)}
 UNREADABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
-def svg(layers: Iterable[Layer], view: View, size: tuple[float, float], title: str) -> str:
+def svg(layers: Iterable[ScaledScene], view: View, size: tuple[float, float], title: str) -> str:
     """Return an SVG picture of scenes on white ground, the first one lowest.
 
-    view: what part of the plane is shown. size: (width, height) in pixels, in the proportions of
-    the view; the picture shrinks with its page. title: what it shows, for who can't see it. A point
-    of widths and texts is a pixel. The same scenes give the same text; there are no ids in it, so
-    that pictures on one page have nothing to do with each other. Lines lie within 0.3 pixels of
-    their points; what is not a number is left out.
+    view: the part of the plane that is shown. size: (width, height) in pixels, in the proportions
+    of the view; the picture shrinks with its page. title: a description for people who can't see
+    it. A point of widths and texts is a pixel. The same scenes give the same text; there are no ids
+    in it, so that pictures on one page do not affect each other. Lines lie within 0.3 pixels of
+    their points; points that are not numbers are left out.
 
     >>> scene = Scene()
     >>> scene.circle((0, 0), 1.0, fill="#0072b2")
@@ -90,7 +90,7 @@ class _Pen:
     """Draws shapes as lines of SVG."""
 
     def __init__(self, view: View, ppm: float) -> None:
-        """Take what is shown, and the pixels of a metre."""
+        """Take the view and the pixels of a metre."""
         self.ppm = ppm
         self._corner = np.array([view.xmin, view.ymax])
 
@@ -200,7 +200,7 @@ class _Pen:
 
 
 def _ink(fill: str | None, stroke: str | None, width: float) -> str:
-    """Return the attributes of what is filled and stroked, in colours with or without opacity."""
+    """Return the attributes of fill and stroke, in colours with or without opacity."""
     found = _paint("fill", fill)
     if stroke and width > 0:
         found += f'{_paint("stroke", stroke)} stroke-width="{_number(width)}"'

@@ -18,7 +18,7 @@ def has_pygame() -> bool:
 
 
 def require_pygame(what: str) -> None:
-    """Raise MissingExtraError where pygame is missing; what: what needs it, as "a film"."""
+    """Raise MissingExtraError where pygame is missing; what: the thing that needs it: "a film"."""
     if not has_pygame():
         raise MissingExtraError(
             f"{what} needs pygame, which is not installed: pip install pygame-ce"

@@ -1,4 +1,4 @@
-"""What stands around the picture: the header with the time, the footer with what has to be said."""
+"""The bars round the picture: the header with the time, and the footer with messages."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ SHORTEST_TITLE = 110.0
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """The chip in the header: what the clock does, in words and by its colour.
+    """The chip in the header: the state of the clock, in words and by its colour.
 
     kind: running; waiting, as when paused; past, an instant before the newest is shown; hand, a
     robot is driven by hand; error.
@@ -181,7 +181,7 @@ def _hints(
     bar: pygame.Rect,
     ui: float,
 ) -> int:
-    """Write keys and what they do, from the right; return the left end."""
+    """Write keys and their actions, from the right; return the left end."""
     fonts, theme = painter.fonts, painter.theme
     right = bar.right - round(20 * ui)
     for name, meaning in reversed(hints):

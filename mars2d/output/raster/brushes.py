@@ -14,8 +14,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from mars2d.output.raster.clip import clip_lines
-from mars2d.output.raster.strokes import hairlines
+from mars2d.output.raster.strokes import clip_lines, hairlines
 
 __all__ = [
     "LARGE",
@@ -46,7 +45,7 @@ Rgba = tuple[int, int, int, int]
 Draw = Callable[[pygame.Surface, float, float, float, Rgba], None]
 """Draws on a surface `factor` times too large, whose corner lies at (left, top)."""
 LARGE = 40_000
-"""The area in pixels beyond which a shape is not drawn larger and averaged, if that may be."""
+"""Shapes of a larger area, pixels, are drawn at their size where that may be."""
 
 
 @cache
@@ -83,9 +82,9 @@ def cover(
 
 
 def layer(color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0) -> pygame.Surface:
-    """Return what is drawn within `box` on a transparent surface of its size.
+    """Return a transparent surface of the size of `box`, with a drawing on it.
 
-    factor: how many times larger it is drawn, 0 as befits the size.
+    factor: the scale at which it is drawn before it is averaged; 0 chooses by the size.
     """
     if factor == 0:
         factor = 4 if box.width * box.height < 250_000 else 2
@@ -97,7 +96,7 @@ def layer(color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0) -> pygame.
 def draw_on(
     large: pygame.Surface, color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 1
 ) -> None:
-    """Draw within `box` on a surface that is so many times larger, and nothing else."""
+    """Draw within `box` on a surface that is `factor` times larger."""
     # The colour without opacity, so that averaging changes the opacity alone.
     large.fill((*color[:3], 0))
     draw(large, box.left, box.top, factor, color)
@@ -196,7 +195,10 @@ def stroke(surface: pygame.Surface, color: Rgba, pieces: list[Float], width: flo
 def hairline(
     surface: pygame.Surface, color: Rgba, x0: float, y0: float, x1: float, y1: float
 ) -> None:
-    """Draw a straight line a pixel wide, with opacity, as `stroke` does but quickly."""
+    """Draw a straight line a pixel wide, as `stroke` does but quickly."""
+    if color[3] == 255:
+        pygame.draw.aaline(surface, color, (x0 - 0.5, y0 - 0.5), (x1 - 0.5, y1 - 0.5))
+        return
     left, top = floor(min(x0, x1)) - 2, floor(min(y0, y1)) - 2
     box = pygame.Rect(left, top, ceil(max(x0, x1)) + 2 - left, ceil(max(y0, y1)) + 2 - top)
     box = box.clip(surface.get_clip())

@@ -80,7 +80,7 @@ class Camera:
         return type(self)(self.scale, self.x + dx, self.y + dy)
 
     def view(self, size: tuple[int, int]) -> tuple[float, float, float, float]:
-        """Return (xmin, xmax, ymin, ymax), metres, of what a surface of this size shows."""
+        """Return what a surface of this size shows, (xmin, xmax, ymin, ymax) in metres."""
         (xmin, ymax), (xmax, ymin) = self.to_world([(0, 0), size]).tolist()
         return xmin, xmax, ymin, ymax
 

@@ -1,18 +1,17 @@
-"""What seldom changes, drawn once for a camera: workspace, grid, obstacles, and the paths."""
+"""The layers that seldom change, drawn once for a camera: those that stand still, and paths."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from itertools import takewhile
 from time import perf_counter
 
 import pygame
 
-from mars2d.core.scene import Polygon
-from mars2d.output.layers import parts as scenes
+from mars2d.output.layers.table import Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.wakes import Wakes
+from mars2d.output.raster.trails import Wakes
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
@@ -32,41 +31,30 @@ class Canvas:
     def __init__(
         self,
         painter: Painter,
-        scenario: Scenario,
+        frame: Frame,
         camera: Camera,
+        layers: Layers,
         size: tuple[int, int],
         area: pygame.Rect,
         *,
-        grid: bool,
         memory: int = 0,
     ) -> None:
-        """Draw what stands still on a surface of `size` pixels, whose camera beside it is given."""
+        """Draw the layers that stand still on a surface of `size` pixels."""
         start = perf_counter()
         self.camera, self.area = camera, area
         self.still = pygame.Surface(size, 0, 32)
         self.still.set_clip(area)
         self.still.fill(painter.theme.page)
-        painter.paint(self.still, scenes.workspace(scenario).shapes, camera)
-        floor = scenes.floor(scenario).shapes
-        if floor:
-            painter.paint(self.still, floor, camera)
-            self._edge(painter, scenario)
-        if grid:
-            bounds = grid_bounds(scenario, camera, size)
-            draw_grid(self.still, camera, bounds, painter.ui, painter.theme)
-            self._edge(painter, scenario)
-        painter.paint(self.still, scenes.obstacles(scenario).shapes, camera)
-        if scenario.animation.show_initial_pose:
-            painter.paint(self.still, scenes.initial_poses(scenario).shapes, camera)
+        scenario = frame.scenario
+        for layer in takewhile(standing().__contains__, layers.seen(scenario.animation)):
+            if layer.shapes is None:
+                bounds = grid_bounds(scenario, camera, size)
+                draw_grid(self.still, camera, bounds, painter.ui, painter.theme)
+            else:
+                painter.paint(self.still, layer.shapes(frame).shapes, camera)
         self.wakes: Wakes | None = None
         self._painter, self._scenario, self._memory = painter, scenario, memory
         self.seconds = perf_counter() - start
-
-    def _edge(self, painter: Painter, scenario: Scenario) -> None:
-        """Draw the workspace's edge again, over the floor or the grid."""
-        shapes = scenes.workspace(scenario).shapes
-        edge = [replace(s, fill=None) for s in shapes if isinstance(s, Polygon)]
-        painter.paint(self.still, edge, self.camera)
 
     def with_paths(self, frame: Frame, until: float = float("inf")) -> pygame.Surface | None:
         """Return the picture with the paths until a frame; None if they are not drawn in time."""

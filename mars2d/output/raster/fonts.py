@@ -22,7 +22,7 @@ def _typeface(bold: bool, mono: bool) -> str | None:
 
 
 class Fonts:
-    """Renders text and keeps what was rendered, for as long as it is asked for again."""
+    """Renders text, and keeps the texts that are asked for again."""
 
     KEPT = 512
 

@@ -116,7 +116,7 @@ def _on_plate(
 def _visible(
     clip: pygame.Rect, camera: Camera, bounds: Bounds
 ) -> tuple[float, float, float, float] | None:
-    """Return (left, top, right, bottom), pixels, of what is seen of bounds; None for nothing."""
+    """Return the visible part of bounds, (left, top, right, bottom) in pixels, or None."""
     (left, top), (right, bottom) = camera.to_pixels(
         [(bounds[0], bounds[3]), (bounds[1], bounds[2])]
     ).tolist()

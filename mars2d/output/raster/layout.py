@@ -17,7 +17,7 @@ HEADER, FOOTER, STRIP = 52.0, 44.0, 44.0
 """The heights of header, footer and the strip with the time bar, points. A banner of one line is as
 high as the footer, in whose place it is."""
 NARROWEST = 400.0
-"""A surface is at least so many points wide: larger text would leave too little for the picture."""
+"""The least width of a surface, points: larger text would leave too little for the picture."""
 BARS = 0.45
 """All bars together are at most such a share of the height, for the same reason."""
 

@@ -29,7 +29,7 @@ GAP, PAD, ROW, SIZE = 8.0, 10.0, 24.0, 13.0
 
 @dataclass(frozen=True, slots=True)
 class _Legend:
-    """An arrow of a round length in its unit, and a mark with what it means.
+    """An arrow of a round length in its unit, and a mark with its meaning.
 
     unit: how long one is, pixels. width: of the arrow, points. in_words: of a number of that unit.
     draw_mark: draws the mark at a place, given the pixels a point. room: for the mark, points.

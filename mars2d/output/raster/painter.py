@@ -28,10 +28,16 @@ from mars2d.core.scene import (
 from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Rgba, rgba
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.clip import clip_polygon, simplified
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.sprites import Sprite, Sprites
-from mars2d.output.raster.strokes import DASHES, MARK_SPACING, arc_length, dashes
+from mars2d.output.raster.strokes import (
+    DASHES,
+    MARK_SPACING,
+    arc_length,
+    clip_polygon,
+    dashes,
+    simplified,
+)
 from mars2d.output.raster.theme import LIGHT, Theme
 
 __all__ = ["Painter", "rgba"]
@@ -53,15 +59,17 @@ SMALL = 10_000
 FAINT = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
 WIDE = 2_500
-"""The area in pixels beyond which it is."""
+"""The area, pixels, from which a fill counts as large."""
 UNSEEN = 0.3
 """The pixels by which such an edge may be drawn beside where it is."""
+KEPT_LABELS = 2000
+"""The number of texts with halos that are kept."""
 
 
 class Painter:
     """Paints shapes; keeps the sprites and the texts it made from one picture to the next.
 
-    theme: what scenes' colours become, and the colours of what is drawn round them. ui: pixels a
+    theme: how scenes' colours are turned, and the colours round them. ui: pixels a
     point, the unit of line widths and text sizes. kept: pixels of sprites to keep, 0 for none.
     """
 
@@ -74,6 +82,7 @@ class Painter:
         self.theme = theme
         self._shade: Callable[[str], str] = theme.shade
         self._sprites = Sprites(kept)
+        self._labels: dict[Hashable, pygame.Surface] = {}
         self._memory = memoryview(b"")
 
     def paint(
@@ -182,7 +191,7 @@ class Painter:
     def _area(self, surface: pygame.Surface, points: Float, color: Rgba, box: pygame.Rect) -> None:
         """Fill what lies within `box` of a large faint polygon, as laser scanners sweep them.
 
-        Always in the same memory: what is fresh from the system is slow to write to.
+        Always in the same memory: fresh memory is slow to write to.
         """
         size = 4 * box.width * box.height
         if size <= 0:
@@ -223,7 +232,7 @@ class Painter:
         width = min(shape.width * self.ui, max(1.0, (abs(dx) + abs(dy)) / 3.5))
         width = round(8 * width) / 8
         color = rgba(self._shade(shape.stroke))
-        if width <= 1.0 and color[3] < 255 and max(map(abs, (x, y, dx, dy))) < FAR:
+        if width <= 1.0 and max(map(abs, (x, y, dx, dy))) < FAR:
             ink = (*color[:3], round(width * color[3]))  # thinner is fainter
             brushes.hairline(surface, ink, x, y, x + dx, y + dy)
             return
@@ -303,22 +312,37 @@ class Painter:
         x = camera.x + camera.scale * shape.position[0]
         y = camera.y - camera.scale * shape.position[1]
         gap = 4 * self.ui
-        lines = shape.text.split("\n")
-        color = self._shade(shape.color)
-        images = [self.fonts.render(text, shape.size * self.ui, color) for text in lines]
-        height = sum(image.get_height() for image in images)
+        reach = max(1, round(1.5 * self.ui)) if shape.halo else 0
+        images = [self._label(text, shape, reach) for text in shape.text.split("\n")]
+        height = sum(image.get_height() - 2 * reach for image in images)
         top = {"above": y - gap - height, "below": y + gap}.get(shape.anchor, y - height / 2)
-        for text, image in zip(lines, images, strict=True):
-            width = image.get_width()
+        for image in images:
+            width = image.get_width() - 2 * reach
             # MARS's and matplotlib's sense: "left" puts the text's left end at the point
             left = {"left": x + gap, "right": x - gap - width}.get(shape.anchor, x - width / 2)
-            place = (round(left), round(top))
-            if shape.halo:
-                rim = self.fonts.render(text, shape.size * self.ui, self._shade(shape.halo))
-                reach = max(1, round(1.5 * self.ui))
-                surface.fblits((rim, (place[0] + a, place[1] + b)) for a, b in _around(reach))
-            surface.blit(image, place)
-            top += image.get_height()
+            surface.blit(image, (round(left) - reach, round(top) - reach))
+            top += image.get_height() - 2 * reach
+
+    def _label(self, text: str, shape: Text, reach: int) -> pygame.Surface:
+        """Return a line of a text, with a halo of `reach` pixels."""
+        size, color = shape.size * self.ui, self._shade(shape.color)
+        if not shape.halo:
+            return self.fonts.render(text, size, color)
+        halo = self._shade(shape.halo)
+        key = text, size, color, halo
+        label = self._labels.get(key)
+        if label is None:
+            if len(self._labels) >= KEPT_LABELS:
+                self._labels.clear()
+            letters = self.fonts.render(text, size, color)
+            box = letters.get_rect().inflate(2 * reach, 2 * reach)
+            label = pygame.Surface(box.size, pygame.SRCALPHA)
+            label.fill((*rgba(halo)[:3], 0))
+            rim, steps = self.fonts.render(text, size, halo), (0, reach, 2 * reach)
+            label.fblits((rim, (dx, dy)) for dx in steps for dy in steps)
+            label.blit(letters, (reach, reach))
+            self._labels[key] = label
+        return label
 
     # -- images -------------------------------------------------------------------------------
 
@@ -341,7 +365,7 @@ class Painter:
             part = pygame.transform.smoothscale(part, size)
         surface.blit(part, place)
 
-    # -- what the window's own parts are made of ----------------------------------------------
+    # -- plates of the window -----------------------------------------------------------------
 
     def panel(
         self,
@@ -363,7 +387,7 @@ class Painter:
         surface.blit(sprite[0], rect.topleft)
 
     def _ink(self, color: str | None) -> Rgba | None:
-        """Return what a shape's colour becomes, or None for none."""
+        """Return a shape's colour in the theme, or None for none."""
         return rgba(self._shade(color)) if color else None
 
     def _keep(self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]) -> Sprite:
@@ -408,12 +432,6 @@ def _cells(
         low, high = floor((first - start) / size), ceil((end - start) / size)
         own = np.arange(max(low, 0), min(high, count))
     return (first, end), own
-
-
-def _around(reach: int) -> list[tuple[int, int]]:
-    """Return shifts to all sides, by `reach` pixels."""
-    steps = (-reach, 0, reach)
-    return [(a, b) for a in steps for b in steps if (a, b) != (0, 0)]
 
 
 def _sprite_factor(box: pygame.Rect) -> int:

@@ -9,9 +9,9 @@ import pygame
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
+from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.layout import FOOTER, Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
@@ -24,8 +24,9 @@ __all__ = ["Artist", "paint_frame", "save_png"]
 class Artist:
     """Paints one frame after another, keeping what does not change between them.
 
-    size: pixels. camera: where the world lies, by default so that the workspace fits. status: what
-    the chip beside the time says, as "10x". footer: reserve the strip for the message at the end.
+    size: pixels. camera: where the world lies, by default so that the workspace fits. status: the
+    words of the chip beside the time, such as "10x". footer: reserve the strip for the message at
+    the end.
     grid, trails, forces, theory: None does as the scenario's animation says.
     """
 
@@ -59,14 +60,14 @@ class Artist:
         """Return the whole picture of a frame; on `surface` of the same size, when given."""
         if surface is None:
             surface = pygame.Surface(self.size, 0, 32)
-        animation = frame.scenario.animation
-        layers = Layers(
-            grid=animation.grid if self._grid is None else self._grid,
-            trails=animation.wake if self._trails is None else self._trails,
-            sensors=self._sensors,
-            forces=animation.forces if self._forces is None else self._forces,
-            theory=animation.theory if self._theory is None else self._theory,
-        )
+        asked = {
+            "grid": self._grid,
+            "trails": self._trails,
+            "forces": self._forces,
+            "theory": self._theory,
+        }
+        given = {name: on for name, on in asked.items() if on is not None}
+        layers = Layers.of(frame.scenario.animation, sensors=self._sensors, **given)
         camera = self._camera or fitted(frame.scenario, self.size, self.layout)
         self._stage.draw(surface, frame, camera, layers, self.layout.plot)
         draw_header(surface, self.layout, self.painter, frame, self._status)

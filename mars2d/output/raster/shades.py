@@ -35,7 +35,7 @@ GREY = 0.75
 LEVEL, SLOPE = 0.8, 0.45
 """Vivid colours that are darker than the level come near it, and keep their order."""
 BITS = 6
-"""Images are turned by a table of so many bits a channel."""
+"""The bits a channel of the table by which images are turned."""
 
 
 def luminance(color: str) -> float:
@@ -91,7 +91,7 @@ def _lab(colors: Float) -> Float:
 
 
 def _colors(lab: Float) -> Float:
-    """Return the sRGB values of what `_lab` returns, clipped to what a screen can show."""
+    """Return the sRGB values of values of `_lab`, clipped to those of a screen."""
     light = np.linalg.solve(LMS, np.linalg.solve(LAB, lab.T) ** 3).T
     light = np.clip(light, 0.0, 1.0)
     bright = 1.055 * np.maximum(light, 0.0031308) ** (1 / 2.4) - 0.055

@@ -1,4 +1,4 @@
-"""Drawn shapes that are kept, since the next picture needs most of them again."""
+"""Small pictures of shapes, kept since the next picture needs most of them again."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Sprite = tuple[pygame.Surface, int, int]
 
 
 class Sprites:
-    """Keeps sprites up to so many pixels together; those not asked for the longest go first.
+    """Keeps sprites of at most `pixels` pixels together, the latest used.
 
     It saves time and changes nothing: one that keeps no pixel makes the same pictures.
     """

@@ -1,4 +1,4 @@
-"""The picture between the bars: one frame, drawn over what seldom changes."""
+"""The picture between the bars: the layers of a frame over those that are kept."""
 
 from __future__ import annotations
 
@@ -9,18 +9,12 @@ from time import perf_counter
 
 import pygame
 
-from mars2d.core.scene import Scene, Shape
-from mars2d.output.layers import parts as scenes
-from mars2d.output.layers.forces import forces
-from mars2d.output.layers.messages import messages
-from mars2d.output.layers.names import names
-from mars2d.output.layers.velocities import velocities
+from mars2d.core.scene import Shape
+from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.canvas import Canvas, grid_bounds
 from mars2d.output.raster.grid import labels
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.legend import draw_legends
-from mars2d.output.raster.overlays import Labels, Links
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -31,23 +25,23 @@ MEMORY = 100_000_000
 """The bytes that a window uses to go back in time quickly: some twenty pictures."""
 
 PATIENCE = 0.012
-"""The seconds that drawing what stands still may take without the movement of a camera jerking."""
+"""The seconds that the kept layers may take to draw before a moving camera jerks."""
 
 AHEAD = 0.004
-"""The seconds of a picture in which what will be seen soon is drawn, when that takes longer."""
+"""Where it takes longer, the seconds of each picture in which the next canvas is drawn."""
 
 ROUND = 0.25
-"""While the camera moves, so much more is drawn on all sides, in shares of the picture..."""
+"""The margin that is drawn on all sides while the camera moves, in shares of the picture..."""
 NEAR = 0.1
-"""... and anew when so little of that is left."""
+"""... and the rest of it at which it is drawn anew."""
 
 
 class Stage:
     """Draws frames of one experiment after another; used by the window, pictures and films alike.
 
-    The workspace, the grid, the obstacles and the initial poses are drawn once a camera. On a copy
-    of that the paths grow. On a copy of that is what the sensors have read, until they read again.
-    What moves is drawn anew each time.
+    The layers that stand still are drawn once a camera. On a copy of that the paths grow, and on a
+    copy of that are the readings, until the sensors read again. All other layers are drawn anew
+    each time.
 
     memory: bytes that may be used to go back in time without drawing all paths from their start.
     """
@@ -65,7 +59,6 @@ class Stage:
         self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
         self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._numbers_of: tuple[Hashable, ...] = ()
-        self._names, self._links = Labels(), Links()
 
     def draw(
         self,
@@ -82,8 +75,8 @@ class Stage:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
         beneath, marks: shapes to draw beneath the bodies, and over them. hurried: while the camera
-        moves. If drawing what stands still took long, the picture drawn last is enlarged or moved
-        instead, until there is time to draw it anew.
+        moves. If the layers that stand still took long to draw, the last picture is enlarged or
+        moved until there is time to draw it anew.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -94,12 +87,8 @@ class Stage:
         else:
             self._enlarge(surface, canvas, camera, layers, plot)
             if layers.sensors:
-                self.painter.paint(surface, scenes.sensors(frame).shapes, camera)
-        if layers.messages and layers.neighbours:
-            self._links.draw(surface, self.painter, frame, camera)
-        self.painter.paint(surface, self._moving(frame, layers, beneath, marks).shapes, camera)
-        if layers.names:
-            self._names.draw(surface, self.painter, names(frame), camera)
+                self.painter.paint(surface, _sensors(frame), camera)
+        self._paint_above(surface, frame, camera, layers, beneath, marks)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
         draw_legends(
             surface, self.painter, frame.scenario, camera, plot,
@@ -107,26 +96,26 @@ class Stage:
         )  # fmt: skip
         surface.set_clip(before)
 
-    def _moving(
-        self, frame: Frame, layers: Layers, beneath: Sequence[Shape], marks: Sequence[Shape]
-    ) -> Scene:
-        """Return what is drawn anew each time."""
-        moving = scenes.addons(frame) if layers.addons else Scene()
-        if layers.theory:
-            moving.extend(scenes.theory(frame).shapes)
-        if layers.messages:
-            moving.extend(messages(frame).shapes)
-        moving.extend(beneath)
-        for scene in (scenes.props(frame), scenes.robots(frame), scenes.joints(frame)):
-            moving.extend(scene.shapes)
-        moving.extend(marks)
-        if layers.velocities:
-            moving.extend(velocities(frame).shapes)
-        if layers.forces:
-            moving.extend(forces(frame).shapes)
-        return moving
+    def _paint_above(
+        self,
+        surface: pygame.Surface,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        beneath: Sequence[Shape],
+        marks: Sequence[Shape],
+    ) -> None:
+        """Draw the layers above what is kept, with `beneath` and `marks` round the bodies."""
+        seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
+        for layer in LAYERS[_place("sensors") + 1 :]:
+            if layer.name == FIRST_BODIES:
+                self.painter.paint(surface, beneath, camera)
+            if layer.name in seen and layer.shapes is not None:
+                self.painter.paint(surface, layer.shapes(frame).shapes, camera)
+            if layer.name == LAST_BODIES:
+                self.painter.paint(surface, marks, camera)
 
-    # -- what stands still --------------------------------------------------------------------
+    # -- the kept layers ----------------------------------------------------------------------
 
     def _canvas_for(
         self,
@@ -137,9 +126,10 @@ class Stage:
         plot: pygame.Rect,
         hurried: bool,
     ) -> Canvas:
-        """Return what there is for a camera, or draw it; in a hurry, return what there is."""
+        """Return the canvas for a camera, drawn anew if needed and not in a hurry."""
         size = surface.get_size()
-        key = layers.grid, size, tuple(plot), self.painter.ui, self.painter.theme
+        stands = frozenset(layer.name for layer in standing())
+        key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme
         canvas = self._canvas
         if key != self._key or frame.scenario is not self._scenario:
             canvas = self._next = None
@@ -148,10 +138,7 @@ class Stage:
         if canvas is not None and hurried and slow:
             canvas = self._look_ahead(canvas, frame, camera, layers, plot)
         elif canvas is None or not canvas.is_exact(camera) or not canvas.shows(camera, plot):
-            canvas = Canvas(
-                self.painter, frame.scenario, camera, size, plot, grid=layers.grid,
-                memory=self.memory,
-            )  # fmt: skip
+            canvas = Canvas(self.painter, frame, camera, layers, size, plot, memory=self.memory)
         self._canvas = canvas
         return canvas
 
@@ -166,8 +153,8 @@ class Stage:
             wide = plot.inflate(2 * ROUND * plot.width, 2 * ROUND * plot.height)
             own = camera.panned(-wide.left, -wide.top)
             self._next = Canvas(
-                self.painter, frame.scenario, own, wide.size, pygame.Rect(0, 0, *wide.size),
-                grid=layers.grid, memory=self.memory,
+                self.painter, frame, own, layers, wide.size, pygame.Rect(0, 0, *wide.size),
+                memory=self.memory,
             )  # fmt: skip
             return canvas
         if layers.trails and self._next.with_paths(frame, perf_counter() + AHEAD) is None:
@@ -184,7 +171,7 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect,
     ) -> None:
-        """Draw what stands still, the paths, and what the sensors have read."""
+        """Draw the layers that stand still, the paths and the readings."""
         picture: pygame.Surface | None = canvas.still
         if layers.trails:
             picture = canvas.with_paths(frame)
@@ -208,7 +195,7 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect,
     ) -> None:
-        """Draw what a canvas has as another camera sees it, roughly."""
+        """Draw a canvas as another camera sees it, roughly."""
         last = canvas.wakes.surface if layers.trails and canvas.wakes is not None else canvas.still
         factor = camera.scale / canvas.camera.scale
         corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
@@ -245,13 +232,12 @@ class Stage:
     def _with_sensors(
         self, picture: pygame.Surface, frame: Frame, canvas: Canvas
     ) -> tuple[pygame.Surface, Sequence[Shape]]:
-        """Return a picture with what the sensors have read on it, and what is still to be drawn.
+        """Return a picture with the readings on it, and the shapes that are still to be drawn.
 
-        What is seen more than once is drawn on a copy and kept. Where the last was seen only once,
-        as in a film of each control step, the next will be as well: that needs no copy.
+        Readings that are seen more than once are drawn on a copy and kept. If the last ones were
+        seen once, as in a film of each control step, so will the next be: no copy is made.
         """
-        sensors = (sensor for robot in frame.scenario.robots for sensor in robot.sensors)
-        stays = all(sensor.stays for sensor in sensors)
+        stays = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
         sensed = frame.pose if frame.sensed is None else frame.sensed
         read = [reading for readings in frame.readings.values() for _, reading in readings]
         made_of = picture, frame.path, sensed, None if stays else frame.pose, *read
@@ -261,7 +247,7 @@ class Stage:
         self._times_seen += 1
         if self._is_kept and self._sensed is not None:
             return self._sensed, ()
-        shapes = scenes.sensors(frame).shapes
+        shapes = _sensors(frame)
         if not shapes or not (self._sensed_stays or self._times_seen > 1):
             return picture, shapes
         if self._sensed is None or self._sensed.get_size() != picture.get_size():
@@ -271,3 +257,13 @@ class Stage:
         self.painter.paint(self._sensed, shapes, canvas.camera)
         self._is_kept = True
         return self._sensed, ()
+
+
+def _sensors(frame: Frame) -> Sequence[Shape]:
+    shapes = LAYERS[_place("sensors")].shapes
+    return shapes(frame).shapes if shapes else ()
+
+
+def _place(name: str) -> int:
+    """Return where a layer stands in the table."""
+    return next(k for k, layer in enumerate(LAYERS) if layer.name == name)

@@ -60,7 +60,7 @@ class Theme:
     effort: str
 
     def shade(self, color: str) -> str:
-        """Return what a scene's colour becomes, ``#rrggbb`` or ``#rrggbbaa`` as it is given.
+        """Return a scene's colour in this theme, ``#rrggbb`` or ``#rrggbbaa`` as it is given.
 
         Scenes are made for white paper. On dark paper, neutral colours have their lightness turned
         over, so that black is white and white the paper; vivid ones are as light as can be read.
@@ -68,7 +68,7 @@ class Theme:
         return _shaded(color, self.paper) if self.dark else color
 
     def shade_pixels(self, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        """Return what an image (..., 3 or 4) becomes, by the same rule; its opacity is kept."""
+        """Return an image (..., 3 or 4) in this theme, by the same rule; its opacity stays."""
         return shades.on_dark_pixels(pixels, self.paper) if self.dark else pixels
 
 

@@ -1,26 +1,34 @@
-"""The paths behind the robots, drawn once and then only prolonged."""
+"""Growing paths: drawn once and then prolonged, with pictures of before to go back to."""
 
 from __future__ import annotations
 
 from copy import copy
+from time import perf_counter
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
 from mars2d.core.scene import split_wake_style
+from mars2d.output.layers.trails import (
+    PROP_TRAIL_WIDTH,
+    TRAIL_WIDTH,
+    prop_trail_colors,
+    trail_colors,
+)
 from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import DASHES, MARK_SPACING, dashes, hair_shifts, hairlines
 from mars2d.output.raster.theme import Theme, mixed
+from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Trails"]
+__all__ = ["Trails", "Wakes"]
 
 Float = NDArray[np.float64]
 
 STRIDE = 2.0
-"""A path is prolonged when it has grown by so many points: no dots on top of dots."""
+"""The points by which a path has to grow before it is prolonged: no dots on top of dots."""
 
 
 class Trails:
@@ -43,7 +51,7 @@ class Trails:
         self.last: Float | None = None
 
     def continues(self, path: Float) -> bool:
-        """Return whether a path (k, 3, n) is what has been drawn, or begins with it."""
+        """Return whether a path (k, 3, n) is or continues the one that has been drawn."""
         if self.first is None or self.last is None:
             return True
         return (
@@ -60,7 +68,7 @@ class Trails:
         return other
 
     def prolong(self, surface: pygame.Surface, path: Float) -> None:
-        """Draw what a path (k, 3, n) has more than before."""
+        """Draw the new rows of a path (k, 3, n)."""
         if len(path) <= self.drawn:
             return
         if self.first is None:
@@ -154,3 +162,89 @@ class Trails:
 def _on_paper(color: str, theme: Theme) -> str:
     """Return how a colour with opacity looks on the theme's paper."""
     return mixed(theme.shade(color), theme.paper, rgba(color)[3] / 255)
+
+
+EVERY = 256
+"""The rows between two pictures that are kept, at first."""
+
+Kept = tuple[pygame.Surface, tuple[Trails, ...]]
+
+
+class Wakes:
+    """Draws paths on a copy of a picture, which it keeps at some rows.
+
+    still: the picture without paths. memory: bytes that kept pictures may take, 0 for none: then
+    going back draws the paths from their start.
+    """
+
+    def __init__(
+        self,
+        painter: Painter,
+        scenario: Scenario,
+        camera: Camera,
+        still: pygame.Surface,
+        memory: int,
+    ) -> None:
+        """Start with no path drawn."""
+        thin = prop_trail_colors(scenario), PROP_TRAIL_WIDTH
+        thick = trail_colors(scenario), TRAIL_WIDTH
+        self.surface = still.copy()
+        self.trails: tuple[Trails, ...] = (
+            Trails(painter, camera, "-", *thin),
+            Trails(painter, camera, scenario.animation.wake_style, *thick),
+        )
+        self._start: Kept = still, tuple(trails.copy() for trails in self.trails)
+        self._most = memory // (still.get_pitch() * still.get_height())
+        self._every = EVERY
+        self._kept: dict[int, Kept] = {}
+
+    def show(self, paths: tuple[Float, Float], until: float = float("inf")) -> bool:
+        """Show the paths of props (k, 3, p), which may be empty, and of robots (k, 3, n).
+
+        until: at which time of the clock to stop. Returns whether all is drawn.
+        """
+        rows = len(paths[1])
+        self._begin(paths)
+        while self._drawn < rows:
+            end = rows
+            if self._most:
+                end = min(rows, (self._drawn // self._every + 1) * self._every)
+            for trails, path in zip(self.trails, paths, strict=True):
+                trails.prolong(self.surface, path[:end])
+            if self._most and end % self._every == 0:
+                self._keep(end)
+            if perf_counter() > until:
+                break
+        return self._drawn == rows
+
+    @property
+    def _drawn(self) -> int:
+        return self.trails[1].drawn
+
+    def _begin(self, paths: tuple[Float, Float]) -> None:
+        """Go on from the present picture or from a kept one, whichever is nearest."""
+        rows, here = len(paths[1]), -1
+        if _continues(self.trails, paths):
+            here = self._drawn
+        for row in sorted((row for row in self._kept if here < row <= rows), reverse=True):
+            if _continues(self._kept[row][1], paths):
+                self._take(self._kept[row])
+                return
+            del self._kept[row]  # of a run that went another way
+        if here < 0:
+            self._take(self._start)
+
+    def _take(self, kept: Kept) -> None:
+        surface, trails = kept
+        self.surface.blit(surface, (0, 0))
+        self.trails = tuple(each.copy() for each in trails)
+
+    def _keep(self, row: int) -> None:
+        self._kept[row] = self.surface.copy(), tuple(trails.copy() for trails in self.trails)
+        while len(self._kept) > self._most:
+            self._every *= 2
+            self._kept = {k: kept for k, kept in self._kept.items() if k % self._every == 0}
+
+
+def _continues(trails: tuple[Trails, ...], paths: tuple[Float, Float]) -> bool:
+    return all(each.continues(path) for each, path in zip(trails, paths, strict=True))

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.clip import clip_lines, clip_polygon, simplified
 from mars2d.output.raster.grid import label, spacing, ticks
+from mars2d.output.raster.strokes import clip_lines, clip_polygon, simplified
 
 
 def test_up_in_the_world_is_up_on_the_screen():

@@ -13,11 +13,11 @@ from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Arrow, Line, Text
 from mars2d.output.layers.names import names
+from mars2d.output.layers.neighbours import Links
+from mars2d.output.layers.table import Layers
 from mars2d.output.layers.velocities import speed_scale, velocities
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.legend import draw_legends
-from mars2d.output.raster.overlays import Labels, Links
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import DARK, LIGHT
@@ -132,12 +132,17 @@ def test_in_a_crowd_robots_called_by_their_number_have_the_number():
 
 
 def test_a_label_that_is_kept_looks_like_one_that_is_painted():
-    frame = frame_of([(0, 0, 0), (1, 0.5, 0)])
-    painter, seen = Painter(), []
-    for draw in (
-        lambda surface: Labels().draw(surface, painter, names(frame), CAMERA),
-        lambda surface: painter.paint(surface, names(frame).shapes, CAMERA),
-    ):
+    shapes, painter, seen = names(frame_of([(0, 0, 0), (1, 0.5, 0)])).shapes, Painter(), []
+
+    def painted_by_hand(surface):
+        reach = max(1, round(1.5 * painter.ui))
+        for shape in shapes:
+            for dx, dy in [(a, b) for a in (-reach, 0, reach) for b in (-reach, 0, reach)]:
+                rim = replace(shape, color=shape.halo, halo=None)
+                painter.paint(surface, [rim], CAMERA.panned(dx, dy))
+            painter.paint(surface, [replace(shape, halo=None)], CAMERA)
+
+    for draw in (lambda surface: painter.paint(surface, shapes, CAMERA), painted_by_hand):
         surface = pygame.Surface(SIZE, 0, 32)
         surface.fill("#80a0c0")
         draw(surface)
@@ -152,7 +157,7 @@ def test_a_label_that_is_kept_looks_like_one_that_is_painted():
 def linked(frame, links=None):
     """Return whether a line goes from robot to robot, for each pair of neighbours on a row."""
     surface = pygame.Surface(SIZE, 0, 32)
-    (links or Links()).draw(surface, Painter(), frame, CAMERA)
+    Painter().paint(surface, (links or Links())(frame).shapes, CAMERA)
     middles = CAMERA.to_pixels((frame.pose[:2, 1:] + frame.pose[:2, :-1]).T / 2)
     return [surface.get_at((round(x), round(y)))[:3] != (0, 0, 0) for x, y in middles.tolist()]
 

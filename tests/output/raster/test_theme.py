@@ -9,9 +9,9 @@ import pytest
 
 from mars2d.core.scene import _NAMED, PALETTE, THEORY, Scene
 from mars2d.output.layers.bodies import INK, MATERIAL_COLORS, OBSTACLE, prop_edge
+from mars2d.output.layers.table import Layers
 from mars2d.output.raster import shades
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import DARK, LIGHT, PRINTED, Tone, contrast, mixed

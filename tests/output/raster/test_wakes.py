@@ -10,8 +10,8 @@ import pytest
 
 from mars2d import Robot, Scenario
 from mars2d.bodies.props import Ball
+from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layers import Layers
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from mars2d.core.scene import Circle, Line, Polygon, Scene, rgb
 from mars2d.output.formats.mcap.row import Row, with_arrays_as_bytes
-from mars2d.output.layers import parts
 from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_colors, prop_edge
+from mars2d.output.layers.ground import obstacles, workspace
 from mars2d.scenario.scenario import Scenario
 
 __all__ = ["Topics", "nanoseconds", "schema_of"]
@@ -125,8 +125,8 @@ class Topics:
         for key, robots in sensor_robots.items():
             for place, robot in enumerate(robots):
                 sensor = scenario.robots[robot].sensor(key)
-                angles = None if sensor is None else sensor.scan_angles
-                if sensor is None or angles is None:
+                fan = None if sensor is None else sensor.fan
+                if sensor is None or fan is None or fan.cone:
                     continue
                 message_class = message_class or with_arrays_as_bytes(
                     schema_of(LaserScan), LaserScan.DESCRIPTOR.full_name
@@ -135,7 +135,7 @@ class Topics:
                 scan = message_class(frame_id=self._names[robot])
                 scan.pose.position.x, scan.pose.position.y = x, y
                 scan.pose.orientation.z, scan.pose.orientation.w = sin(theta / 2), cos(theta / 2)
-                scan.start_angle, scan.end_angle = angles[[0, -1]].tolist()
+                scan.start_angle, scan.end_angle = fan.angles[[0, -1]].tolist()
                 yield _Scan(
                     channel(f"/{self._names[robot]}/{key}", LaserScan),
                     key,
@@ -187,7 +187,7 @@ class Topics:
             entity.timestamp.FromNanoseconds(ns)
             _draw(entity, scene, floor)
 
-        grounds = Scene([*parts.workspace(scenario).shapes, *parts.obstacles(scenario).shapes])
+        grounds = Scene([*workspace(scenario).shapes, *obstacles(scenario).shapes])
         add("ground", self._world, grounds, GROUND_HEIGHT)
         start = np.zeros(3)
         names = iter(self._names)

@@ -15,25 +15,28 @@ Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
 LARGEST = 2**28
-"""Whole numbers are this large at most: then second differences fit into 32 bits."""
+"""The largest whole number: second differences then fit into 32 bits."""
 
 MISSING = -LARGEST
-"""What stands for a number that is none, or without end."""
+"""Stands for a number that is missing or infinite."""
 
 
 class Columns:
-    """Columns packed one after the other; `index` says where each lies and how it is read."""
+    """Columns packed one after the other; `index` says where each lies and how it is read.
+
+    size: their bytes. beside: the bytes of the plain data that belongs to them, about.
+    """
 
     def __init__(self) -> None:
         """Start with none."""
         self.index: dict[str, dict[str, Any]] = {}
         self._parts: list[bytes] = []
-        self.size = 0
+        self.size = self.beside = 0
 
     def add(self, name: str, values: NDArray[Any], order: int = 0, **more: Any) -> None:
         """Pack whole numbers (T, ...), each series by its differences in time of an order 0 to 2.
 
-        more: what else the reader has to know, as a step.
+        more: other entries for the reader, such as a step.
         """
         shape = np.shape(values)
         width = int(np.prod(shape[1:]))
@@ -48,7 +51,7 @@ class Columns:
         self._put(name, packed, {"shape": list(shape), "order": order, "planes": used, **more})
 
     def add_bytes(self, name: str, values: NDArray[np.uint8], **more: Any) -> None:
-        """Pack bytes (T, ...) as what changes from row to row, modulo 256."""
+        """Pack bytes (T, ...) as changes from row to row, modulo 256."""
         changes = values.copy()
         changes[1:] -= values[:-1]
         packed = zlib.compress(changes.tobytes(), 6)
@@ -60,11 +63,12 @@ class Columns:
         self.size += len(packed)
 
     def take(self, other: Columns) -> None:
-        """Take over the columns of another."""
+        """Add the columns of another."""
         for name, entry in other.index.items():
             self.index[name] = {**entry, "at": entry["at"] + self.size}
         self._parts += other._parts
         self.size += other.size
+        self.beside += other.beside
 
     def packed(self) -> bytes:
         """Return the bytes of all columns."""
@@ -72,7 +76,7 @@ class Columns:
 
 
 def rounded(values: NDArray[Any], step: float) -> Int:
-    """Return numbers in whole steps; what is not finite as `MISSING`."""
+    """Return numbers in whole steps; those that are not finite as `MISSING`."""
     finite = np.isfinite(values)
     steps = np.rint(np.where(finite, values, 0.0) / step)
     kept = np.clip(steps, 1 - LARGEST, LARGEST)
@@ -84,11 +88,11 @@ def fitted(
 ) -> tuple[Columns, int]:
     """Return columns that take at most `room` bytes, and how they were thinned to do so.
 
-    pack: returns the columns of each so-manieth row, and how many rows these are. every: the first
+    pack: returns the columns of one row in `every`, and the number of their rows. every: the first
     try; it is doubled until they fit, or until there is one row.
     """
     while True:
         columns, rows = pack(every)
-        if columns.size <= room or rows <= 1:
+        if columns.size + columns.beside <= room or rows <= 1:
             return columns, every
         every *= 2

@@ -1,74 +1,66 @@
-"""All that a replay shows, as plain data and columns."""
+"""The content of a replay, as plain data and columns."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mars2d.addons.base import Addon
-from mars2d.bodies.drives.base import Drive
 from mars2d.core.description import snake_case
 from mars2d.core.errors import ordinal
-from mars2d.core.quantity import UNKNOWN
-from mars2d.core.scene import Scene, faded
-from mars2d.output.figures.extent import View
-from mars2d.output.figures.rows import check_rows
-from mars2d.output.layers import parts as scenes
-from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_colors
-from mars2d.output.layers.forces import force_scale
-from mars2d.output.layers.names import FEW
+from mars2d.core.scene import Scene
+from mars2d.output.figures.extent import View, check_rows
+from mars2d.output.layers.bodies import prop_colors
+from mars2d.output.layers.forces import SLIPPING
+from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
+from mars2d.output.layers.trails import (
+    PROP_TRAIL_WIDTH,
+    TRAIL_WIDTH,
+    prop_trail_colors,
+    trail_colors,
+)
 from mars2d.output.pages.replay import sensors
 from mars2d.output.pages.replay.columns import Columns, Int, fitted, rounded
-from mars2d.output.pages.replay.contacts import pack_contacts, pack_messages
-from mars2d.output.pages.replay.drawings import Drawing, pack
-from mars2d.output.pages.replay.shapes import Float, flat, plain_shapes
+from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack
+from mars2d.output.pages.replay.panel import commands_of, pack_contacts, pack_readings
 from mars2d.record.frame import Frame
+from mars2d.scenario.animation import Animation
 
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
 __all__ = ["content_of"]
 
-ROWS = 20_000
-"""A replay has so many rows at most."""
+MAX_ROWS = 20_000
+"""The most rows of a replay."""
 
-ALL = 1_380_000
+ROOM = 1_380_000
 """Bytes for all columns: as text they are a third more."""
 
-POSES, PANEL, CONTACTS, MESSAGES = 480_000, 200_000, 120_000, 60_000
-"""Bytes of these at most, before they are thinned; sensors have what is left of all."""
+POSES, PANEL, CONTACTS = 480_000, 200_000, 60_000
+"""The most bytes of these; beyond, they are thinned. Sensors have the rest of all."""
+
+LAYER_ROOM = {"addons": 240_000, "forces": 120_000}
+OTHER_ROOM = 60_000
+"""The most bytes of a layer."""
+
+LAYER_ROWS = {"addons": 300, "theory": 100, "velocities": 500}
+OTHER_ROWS = 2000
+"""The most rows at which a layer is drawn, since it may take long."""
+
+CROWD = 100_000
+"""The most rows times bodies at which a layer of a crowd is drawn."""
 
 FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-18
-"""Steps of positions and of what is drawn, in shares of the view; of headings, radians."""
+"""Steps of positions and of moving shapes, in shares of the view; of headings, radians."""
 
 LEAP = 0.12
-"""What add-ons draw moves evenly between rows, or leaps: by more than this share of the view."""
-
-
-class _Layer(NamedTuple):
-    """What add-ons have drawn of frames.
-
-    method: of an add-on, which draws it. part: returns what all draw of a frame. most: at how many
-    rows it is drawn, since it may take long. room: bytes. words: what it is called.
-    """
-
-    name: str
-    method: Callable[..., None]
-    part: Callable[[Frame], Scene]
-    most: int
-    room: int
-    words: str
-
-
-ADDONS = _Layer("addons", Addon.draw, scenes.addons, 300, 240_000, "what add-ons draw")
-THEORY = _Layer("theory", Addon.theory, scenes.theory, 100, 60_000, "theory")
+"""A shape moves evenly between rows, or leaps: by more than this share of the view."""
 
 
 def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
-    """Return what a replay shows: plain data, and columns of numbers.
+    """Return the content of a replay: plain data, and columns of numbers.
 
     Raises InputError for a record without rows.
     """
@@ -77,7 +69,7 @@ def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
 
 
 class _Content:
-    """Puts a replay together, piece by piece, and notes what it shows less of."""
+    """Puts a replay together, piece by piece, and notes what is left out."""
 
     def __init__(self, record: Record) -> None:
         self.record, self.scenario = record, record.scenario
@@ -88,31 +80,27 @@ class _Content:
         self.notes: list[str] = []
         self.stride = 1
         self.kept = np.empty(0, dtype=np.int64)
-        self.fans: list[sensors.Fan] = []
+        self.fans: list[sensors.Carried] = []
         self.others: list[sensors.Carried] = []
 
     def made(self) -> tuple[dict[str, Any], Columns]:
         """Return the data and the columns."""
         self._add_poses()
         header = self._about()
-        header |= {"bodies": self._bodies(), "ties": self._ties()}
+        header["bodies"] = self._bodies()
         header["readings"] = self._add_panel()
         self._add_contacts()
-        self._add_messages()
-        header["ground"] = self._add_ground()
-        header["addons"] = self._add_drawn(ADDONS, at_end=bool(self.record.drawn.shapes))
-        header["theory"] = self._add_drawn(THEORY)
+        header["layers"] = _table(self.scenario.animation)
+        header["drawn"] = self._add_layers()
         if self.record.drawn.shapes:
             self.notes.append("what add-ons drew while they ran is shown at the end alone")
-        header |= self._add_sensors()
+        header |= self._add_sensors(header["drawn"])
         header["notes"] = self.notes
         header["columns"] = self.columns.index
         return header, self.columns
 
     def _about(self) -> dict[str, Any]:
         record, scenario, view = self.record, self.scenario, self.view
-        looks = scenario.animation
-        force = force_scale(scenario)
         bounded = scenario.workspace is not None and scenario.on_exit != "ignore"
         return {
             "title": scenario.title,
@@ -129,20 +117,12 @@ class _Content:
             "view": [view.xmin, view.xmax, view.ymin, view.ymax],
             "grid": list(scenario.bounds) if bounded else None,
             "workspace": scenario.workspace is not None,
-            "layers": {
-                "grid": looks.grid,
-                "trails": looks.wake,
-                "contacts": looks.forces,
-                "theory": looks.theory,
-            },
-            "starts": looks.show_initial_pose,
-            "wake": looks.wake_style,
-            "speed": looks.playback_speed,
-            "force": force._asdict(),
-            "crowd": len(scenario.bodies) > FEW,
+            "speed": scenario.animation.playback_speed,
+            "slipping": SLIPPING,
+            "lastBodies": LAST_BODIES,
         }
 
-    # -- what moves ---------------------------------------------------------------------------
+    # -- bodies -------------------------------------------------------------------------------
 
     def _add_poses(self) -> None:
         """Add the poses of all bodies, at as many rows as there is room for, and keep these."""
@@ -163,14 +143,14 @@ class _Content:
             return columns, len(rows)
 
         first = 1
-        while len(record) / first > ROWS:
+        while len(record) / first > MAX_ROWS:
             first *= 2
         columns, self.stride = fitted(POSES, packed, first)
         self.kept = _rows(len(record), self.stride)
         self.columns.take(columns)
         carried = list(sensors.carried(record, self.kept))
-        self.fans = [each for each in carried if isinstance(each, sensors.Fan)]
-        self.others = [each for each in carried if not isinstance(each, sensors.Fan)]
+        self.fans = [each for each in carried if each.is_fan]
+        self.others = [each for each in carried if not each.is_fan]
         if self.stride > 1:
             which = f"every {ordinal(self.stride)} row of {len(record)}"
             self.notes.append(f"{which} is in this file, and the last one")
@@ -181,63 +161,39 @@ class _Content:
         return np.concatenate([record.pose[rows], record.prop_pose[rows]], axis=2)
 
     def _bodies(self) -> list[dict[str, Any]]:
-        """Return the robots and props: what they are called, and how they look at the origin."""
-        scenario, here, found = self.scenario, np.zeros(3), []
-        step = self.size * FINE
-        for robot, color in zip(scenario.robots, scenario.colors, strict=True):
-            looks = []
-            for fill, stroke in ((color, "#ffffff"), (None, faded(color, 0.8))):
-                scene = Scene()
-                if scenario.animation.show_real_shape:
-                    draw_robot(scene, robot, here, fill, stroke)
-                else:
-                    scene.circle((0, 0), 0.0, fill=fill, stroke=stroke, pixels=5.0)
-                looks.append(plain_shapes(flat(scene.shapes), step))
-            found.append({
+        """Return the robots and props: their names, their sizes, and how their paths look."""
+        scenario = self.scenario
+        wake, colors = scenario.animation.wake_style, prop_colors(scenario.props)
+        robots = [
+            {
                 "name": str(robot.name),
-                "kind": snake_case(type(robot.drive).__name__).replace("_", " "),
+                "kind": _in_words(robot.drive),
                 "robot": True,
                 "color": color,
-                "filled": looks[0],
-                "hollow": looks[1],
                 "bound": [*robot.chassis.bound[0], robot.chassis.bound[1]],
-                "start": list(robot.pose),
-                "commands": _commands(robot.drive),
-            })  # fmt: skip
-        for prop, color in zip(scenario.props, prop_colors(scenario.props), strict=True):
-            looks = []
-            for hollow in (False, True):
-                scene = Scene()
-                draw_prop(scene, prop, here, color, hollow=hollow)
-                looks.append(plain_shapes(flat(scene.shapes), step))
-            found.append({
+                "trail": [trail, TRAIL_WIDTH, wake],
+                "commands": commands_of(robot),
+            }
+            for robot, color, trail in zip(
+                scenario.robots, scenario.colors, trail_colors(scenario), strict=True
+            )
+        ]
+        props = [
+            {
                 "name": str(prop.name),
-                "kind": snake_case(type(prop).__name__).replace("_", " "),
+                "kind": _in_words(prop),
                 "robot": False,
                 "color": color,
-                "filled": looks[0],
-                "hollow": looks[1],
                 "bound": [*prop.shape.bound[0], prop.shape.bound[1]],
-                "start": list(prop.pose),
-            })  # fmt: skip
-        return found
-
-    def _ties(self) -> list[dict[str, Any]]:
-        if self.scenario.physics != "contact":
-            return []
-        return [
-            {
-                "kind": snake_case(type(tie.joint).__name__),
-                "a": tie.a,
-                "b": tie.b,
-                "from": list(tie.joint.anchor_a),
-                "to": list(tie.joint.anchor_b),
-                "length": tie.length,
+                "trail": [trail, PROP_TRAIL_WIDTH, "-"],
             }
-            for tie in self.scenario.ties
+            for prop, color, trail in zip(
+                scenario.props, colors, prop_trail_colors(scenario), strict=True
+            )
         ]
+        return robots + props
 
-    # -- what is said of bodies ---------------------------------------------------------------
+    # -- the panel ----------------------------------------------------------------------------
 
     def _add_panel(self) -> list[dict[str, Any]]:
         """Add commands, efforts and readings; return how the readings are said in words."""
@@ -250,7 +206,7 @@ class _Content:
             columns = Columns()
             columns.add("command", rounded(command[::every], step), order=1, step=step, every=every)
             columns.add("effort", rounded(effort[::every], 1e-3), order=1, step=1e-3, every=every)
-            readings, words[:] = sensors.pack_readings(self.others, every)
+            readings, words[:] = pack_readings(self.others, every)
             columns.take(readings)
             return columns, len(command[::every])
 
@@ -262,58 +218,96 @@ class _Content:
     def _add_contacts(self) -> None:
         if not len(self.record.contacts):
             return
-        step = self.size * COARSE
 
         def packed(every: int) -> tuple[Columns, int]:
-            return pack_contacts(self.record, self.kept, every, step)
+            return pack_contacts(self.record, self.kept, every)
 
         columns, every = fitted(CONTACTS, packed)
         self.columns.take(columns)
-        self._note("contacts", every)
+        self._note("contacts in the panel", every)
 
-    def _add_messages(self) -> None:
-        if not len(self.record.messages):
-            return
+    # -- layers -------------------------------------------------------------------------------
 
-        def packed(every: int) -> tuple[Columns, int]:
-            return pack_messages(self.record, every)
+    def _add_layers(self) -> dict[str, dict[str, Any]]:
+        """Add all layers but those that the page makes of poses and readings; return headers."""
+        headers: dict[str, dict[str, Any]] = {}
+        moving = []
+        for layer in LAYERS:
+            if layer.shapes is None or layer.name in ("trails", "sensors"):
+                continue
+            if layer.stands:
+                headers[layer.name] = self._pack(layer, self._standing(layer), FINE, 1)
+            elif layer.each is not None:
+                drawings = self._carried(layer)
+                if drawings:
+                    headers[layer.name] = self._pack(layer, drawings, FINE, 1)
+            else:
+                moving.append(layer)
+        return headers | self._add_moving(moving)
 
-        columns, every = fitted(MESSAGES, packed)
-        self.columns.take(columns)
-        if every > 1:
-            self.notes.append(f"one message in {every} is in this file")
-
-    # -- what is drawn ------------------------------------------------------------------------
-
-    def _add_ground(self) -> dict[str, Any]:
-        """Add what stands still until it is changed: the workspace, the floor and the obstacles."""
-        record = self.record
-        changes = sorted({0, *(min(c.row, len(record) - 1) for c in record.changes)})
-        rows = np.searchsorted(self.kept, changes, side="left").tolist()
-        parts = (scenes.workspace, scenes.floor, scenes.obstacles)
-        drawings = [
-            Drawing(rows, [flat(part(record.scenario_at(row)).shapes) for row in changes])
-            for part in parts
-        ]
-        columns, header, _ = pack("ground", drawings, 1, self.size * FINE)
+    def _pack(
+        self, layer: Layer, drawings: list[Drawing], step: float, every: int
+    ) -> dict[str, Any]:
+        """Add drawings of a layer; return their header."""
+        columns, header, _ = pack(layer.name, drawings, every, self.size * step)
         self.columns.take(columns)
         return header
 
-    def _add_drawn(self, layer: _Layer, *, at_end: bool = False) -> dict[str, Any] | None:
-        """Add what the add-ons draw of frames; at_end: at the last one, whether they do or not."""
+    def _standing(self, layer: Layer) -> list[Drawing]:
+        """Return a layer that stands still until the scenario is changed."""
+        record = self.record
+        changes = sorted({0, *(min(c.row, len(record) - 1) for c in record.changes)})
+        rows = np.searchsorted(self.kept, changes, side="left").tolist()
+        return [Drawing(rows, [_drawn(layer, record.frame(row)) for row in changes])]
+
+    def _carried(self, layer: Layer) -> list[Drawing]:
+        """Return a layer that depends on poses alone: for each body once, or by its heading."""
+        assert layer.each is not None
+        each, found = layer.each, []
+
+        def at(body: int, pose: Float) -> Flat:
+            scene = Scene()
+            each(scene, self.scenario, body, pose)
+            return flat(scene.shapes)
+
+        for body in range(len(self.scenario.bodies)):
+            here, there = at(body, np.zeros(3)), at(body, sensors.ELSEWHERE)
+            if not here.styles:
+                continue
+            turned = follows(here, there, sensors.ELSEWHERE)
+            if turned or follows(here, there, sensors.ELSEWHERE * (1, 1, 0)):
+                found.append(Drawing([0], [here], body, upright=not turned))
+                continue
+            stride = -(-len(self.kept) // OTHER_ROWS)
+            rows = range(0, len(self.kept), stride)
+            headings = self._poses(self.kept[rows])[:, 2, body].tolist()
+            scenes = [at(body, np.array([0.0, 0.0, theta])) for theta in headings]
+            found.append(Drawing(rows, scenes, body, upright=True))
+        return found
+
+    def _add_moving(self, layers: list[Layer]) -> dict[str, dict[str, Any]]:
+        """Add layers that are drawn row by row, at as many rows as there is room for."""
         last = len(self.kept) - 1
-        scenarios = [self.scenario, *(change.scenario for change in self.record.changes)]
-        draws = any(
-            getattr(type(addon), layer.method.__name__) is not layer.method
-            for scenario in scenarios
-            for addon in scenario.addons
-        )
-        stride = -(-len(self.kept) // layer.most)
-        rows = sorted({*range(0, last + 1, stride), last}) if draws else [last] if at_end else []
-        if not rows:
-            return None
-        frames = (self.record.frame(int(self.kept[row])) for row in rows)
-        drawings = [Drawing(rows, [flat(layer.part(frame).shapes) for frame in frames])]
+        crowd = CROWD // len(self.scenario.bodies)
+        most = {each.name: min(LAYER_ROWS.get(each.name, OTHER_ROWS), crowd) for each in layers}
+        strides = {name: -(-len(self.kept) // max(rows, 1)) for name, rows in most.items()}
+        scenes: dict[str, dict[int, Flat]] = {layer.name: {} for layer in layers}
+        for row in range(last + 1):
+            due = [each for each in layers if row % strides[each.name] == 0 or row == last]
+            if due:
+                frame = self.record.frame(int(self.kept[row]))
+                for layer in due:
+                    scenes[layer.name][row] = _drawn(layer, frame)
+        headers = {}
+        for layer in layers:
+            found = scenes[layer.name]
+            if any(scene.styles for scene in found.values()):
+                headers[layer.name] = self._add_rows(layer, found, strides[layer.name])
+        return headers
+
+    def _add_rows(self, layer: Layer, scenes: dict[int, Flat], stride: int) -> dict[str, Any]:
+        """Add the scenes of a layer, by row; return their header."""
+        drawings = [Drawing([*scenes], [*scenes.values()])]
         headers: list[dict[str, Any]] = []
 
         def packed(every: int) -> tuple[Columns, int]:
@@ -321,14 +315,14 @@ class _Content:
             headers.append(header)
             return columns, most
 
-        columns, every = fitted(layer.room, packed)
+        columns, every = fitted(LAYER_ROOM.get(layer.name, OTHER_ROOM), packed, stride)
         self.columns.take(columns)
-        if draws:
-            self._note(layer.words, max(every, stride))
-        return {**headers[-1], "every": max(every, stride), "leap": LEAP * self.size}
+        if any(scenes[row].styles for row in [*scenes][:-1]):
+            self._note(layer.title.lower(), every)
+        return {**headers[-1], "every": every, "leap": LEAP * self.size}
 
-    def _add_sensors(self) -> dict[str, Any]:
-        """Add what the sensors draw: distances along beams as such, all else as shapes."""
+    def _add_sensors(self, drawn: dict[str, Any]) -> dict[str, Any]:
+        """Add the sensors: distances along beams as such, the shapes of others to `drawn`."""
         record = self.record
         fans, others = self.fans, self.others
         if record.missing:
@@ -342,30 +336,51 @@ class _Content:
             headers.append(header)
             return columns, most
 
-        room = ALL - self.columns.size
+        room = ROOM - self.columns.size - self.columns.beside
         if others:
             columns, every = fitted(room // 2 if fans else room, packed)
             self.columns.take(columns)
             self._note("what sensors draw", max(every, stride))
+            drawn["sensors"] = headers[-1]
         if fans:
-            room = ALL - self.columns.size
+            room = ROOM - self.columns.size - self.columns.beside
             columns, every = fitted(room, lambda every: sensors.pack_fans(fans, every))
             self.columns.take(columns)
             self._note("distances of scanners", every)
             self.notes += sensors.beams_left_out(fans)
-        return {"sensors": headers[-1] if headers else None, "fans": sensors.fans_of(fans)}
+        return {"fans": sensors.fans_of(fans, self.scenario.colors)}
 
     def _note(self, what: str, every: int) -> None:
         if every > 1:
             self.notes.append(f"{what}: one row in {every} of this file")
 
 
+def _table(animation: Animation) -> list[dict[str, Any]]:
+    """Return the layers as the page needs to know them, the lowest first."""
+    stand = standing()
+    return [
+        {
+            "name": layer.name,
+            "title": layer.title,
+            "key": layer.key,
+            "switch": layer.switch,
+            "on": layer.at_first(animation),
+            "stands": layer in stand,
+        }
+        for layer in LAYERS
+    ]
+
+
+def _drawn(layer: Layer, frame: Frame) -> Flat:
+    assert layer.shapes is not None
+    return flat(layer.shapes(frame).shapes)
+
+
+def _in_words(part: object) -> str:
+    """Return the kind of a part, for people."""
+    return snake_case(type(part).__name__).replace("_", " ")
+
+
 def _rows(count: int, every: int) -> Int:
-    """Return each so-manieth row, and the last one."""
+    """Return one row in `every`, and the last one."""
     return np.unique(np.append(np.arange(0, count, every), count - 1))
-
-
-def _commands(drive: Drive) -> list[list[str]]:
-    """Return the names, units and kinds of the two numbers of a drive's command."""
-    quantities = drive.quantities or UNKNOWN
-    return [[quantity.symbol, quantity.unit, quantity.kind] for quantity in quantities]

@@ -1,17 +1,106 @@
-"""What add-ons and sensors draw over time, as columns."""
+"""Scenes over time as columns: styles, which recur, and numbers, which change."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+import zlib
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mars2d.core.scene import Arrow, Circle, Image, Line, Polygon, Shape, Text
 from mars2d.output.pages.replay.columns import Columns, Int, rounded
-from mars2d.output.pages.replay.shapes import Flat, Style
 
-__all__ = ["Book", "Drawing", "pack"]
+__all__ = ["Drawing", "Flat", "Float", "flat", "follows", "pack"]
+
+Float = NDArray[np.float64]
+
+Style = tuple[Any, ...]
+"""The kind of a shape, and all of it that is no length: colours, widths, words."""
+
+MOST_PIXELS = 512
+"""The most rows and columns of an image; larger ones are thinned."""
+
+
+class Flat(NamedTuple):
+    """A scene: the styles of its shapes, how many numbers each has, and all numbers, metres.
+
+    images: those that styles refer to, by a hash of their pixels.
+    """
+
+    styles: tuple[Style, ...]
+    counts: tuple[int, ...]
+    numbers: Float
+    images: dict[int, NDArray[np.uint8]]
+
+
+def flat(shapes: Iterable[Shape]) -> Flat:
+    """Return shapes as styles and numbers."""
+    styles: list[Style] = []
+    numbers: list[Float] = []
+    images: dict[int, NDArray[np.uint8]] = {}
+    for shape in shapes:
+        style, values = _split(shape)
+        if isinstance(shape, Image):
+            pixels = _thinned(shape.pixels)
+            key = hash((pixels.tobytes(), pixels.shape))
+            images[key] = pixels
+            style = ("image", key)
+        styles.append(style)
+        numbers.append(values)
+    joined = np.concatenate(numbers) if numbers else np.empty(0)
+    return Flat(tuple(styles), tuple(map(len, numbers)), joined, images)
+
+
+def _split(shape: Shape) -> tuple[Style, Float]:
+    if isinstance(shape, Circle):
+        style: Style = ("circle", shape.fill, shape.stroke, shape.width, shape.pixels)
+        return style, np.array([*shape.center, shape.radius])
+    if isinstance(shape, Polygon):
+        return ("polygon", shape.fill, shape.stroke, shape.width), shape.points.ravel()
+    if isinstance(shape, Line):
+        return ("line", shape.stroke, shape.width, shape.style), shape.points.ravel()
+    if isinstance(shape, Text):
+        style = ("text", shape.text, shape.color, shape.size, shape.anchor, shape.halo)
+        return style, np.array(shape.position)
+    if isinstance(shape, Arrow):
+        style = ("arrow", shape.fill, shape.stroke, shape.width)
+        return style, np.array([*shape.tail, *shape.tip])
+    return ("image",), np.array(shape.bounds)
+
+
+def _thinned(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Return pixels with opacity, (rows, columns, 4), few enough."""
+    stride = -(-max(pixels.shape[:2]) // MOST_PIXELS)
+    pixels = pixels[::stride, ::stride]
+    if pixels.shape[2] == 3:
+        opaque = np.full((*pixels.shape[:2], 1), 255, dtype=np.uint8)
+        pixels = np.concatenate([pixels, opaque], axis=2)
+    return np.ascontiguousarray(pixels)
+
+
+def moved(scene: Flat, pose: Float) -> Float:
+    """Return the numbers of a scene that is put at a pose (3,)."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    result, start = scene.numbers.copy(), 0
+    for style, count in zip(scene.styles, scene.counts, strict=True):
+        end = start + (2 if style[0] == "circle" else count)
+        x, y = scene.numbers[start:end].reshape(-1, 2).T
+        result[start:end] = np.column_stack([
+            pose[0] + c * x - s * y, pose[1] + s * x + c * y
+        ]).ravel()  # fmt: skip
+        start += count
+    return result
+
+
+def follows(here: Flat, there: Flat, pose: Float) -> bool:
+    """Return whether a scene that was drawn at a pose is that of the origin, moved there."""
+    if here.styles != there.styles or here.counts != there.counts:
+        return False
+    return np.allclose(moved(here, pose), there.numbers, atol=1e-9, equal_nan=True)
 
 
 @dataclass(frozen=True)
@@ -19,18 +108,20 @@ class Drawing:
     """Scenes over time: `scenes[k]` is seen from row `rows[k]` on.
 
     body: the index of the body in whose frame they are; None: in that of the world. stays: they
-    are where the body was at the last row, not where it is between two.
+    are where the body was at the last row, not where it is between two. upright: they move with
+    the body, but do not turn.
     """
 
     rows: Sequence[int]
     scenes: Sequence[Flat]
     body: int | None = None
     stays: bool = False
+    upright: bool = False
 
 
 @dataclass
 class Book:
-    """What several scenes share: styles, and which of them follow on each other in a scene."""
+    """The styles and orders of shapes that several scenes share."""
 
     styles: dict[Style, int] = field(default_factory=dict)
     orders: dict[tuple[int, ...], int] = field(default_factory=dict)
@@ -52,10 +143,10 @@ class Book:
 def pack(
     name: str, drawings: Sequence[Drawing], every: int, step: float
 ) -> tuple[Columns, dict[str, Any], int]:
-    """Return drawings as columns, with what has to be known of them, and how many rows they have.
+    """Return drawings as columns, their header, and the most scenes of one of them.
 
-    every: of so many rows in a row, one scene is kept, the last. step: metres. A shape is written
-    as what it differs from the one before at its place among as many numbers.
+    every: of each `every` rows, the last scene is kept. step: metres. A shape is written as the
+    difference from the last one at its place with as many numbers.
     """
     columns, book = Columns(), Book()
     rows: list[int] = []
@@ -83,7 +174,8 @@ def pack(
             orders.append(order)
             scenes += 1
         most = max(most, scenes)
-        heads.append({"scenes": scenes, "body": drawing.body, "stays": drawing.stays})
+        head = {"scenes": scenes, "body": drawing.body, "stays": drawing.stays}
+        heads.append({**head, "upright": True} if drawing.upright else head)
     columns.add(f"{name}:rows", np.array(rows, dtype=int), order=1)
     columns.add(f"{name}:orders", np.array(orders, dtype=int))
     joined = np.concatenate(numbers) if numbers else np.empty(0, dtype=int)
@@ -95,6 +187,7 @@ def pack(
         "styles": [list(style) for style in book.styles],
         "orders": [list(order) for order in book.orders],
     }
+    columns.beside = len(zlib.compress(json.dumps(header).encode()))
     return columns, header, most
 
 

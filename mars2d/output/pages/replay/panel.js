@@ -52,7 +52,7 @@ class Panel {
         `${name} ${inWords(command.at(picture.row, k * n + body), unit, kind)}`));
       row("effort", () => {
         const effort = picture.effort(body);
-        return [effort >= SLIPPING ? "slips" : `${Math.round(100 * effort)} %`];
+        return [effort >= record.slipping ? "slips" : `${Math.round(100 * effort)} %`];
       });
       for (const reading of record.readings.filter((each) => each.robot === body)) {
         const column = record.columns[reading.column];

@@ -1,11 +1,5 @@
 // The page: its controls, its keys, and the loop that shows one moment after the other.
 
-const LAYERS = [
-  ["trails", "Trails", "T"], ["sensors", "Sensors", "S"], ["contacts", "Contacts", "X"],
-  ["messages", "Messages", "M"], ["addons", "Add-ons", "O"], ["theory", "Theory", "Y"],
-  ["names", "Names", "I"], ["grid", "Grid", "G"],
-];
-
 const KEYS = [
   [["Space"], "play, pause"],
   [["←", "→"], "one step back, on"],
@@ -33,12 +27,12 @@ class Replay {
     this.canvas = find("picture");
     this.picture = new Picture(this.canvas, record);
     this.panel = new Panel(find("panel"), this.picture);
-    this.look = { ...record.layers, sensors: true, messages: true, addons: true, names: false };
+    this.look = Object.fromEntries(record.layers.map(({ name, on }) => [name, on]));
     this.look.picked = -1;
     this.follow = false;
     this.drawn = "";
     this.said = 0;
-    this.layers = LAYERS.filter(([name]) => this.has(name));
+    this.layers = record.layers.filter((layer) => layer.switch && this.has(layer.name));
     this.prepare();
     this.listen();
     this.setDark(matchMedia("(prefers-color-scheme: dark)").matches);
@@ -49,16 +43,11 @@ class Replay {
     requestAnimationFrame((now) => this.tick(now));
   }
 
-  has(layer) {
+  // Whether there is something to see on a layer.
+  has(name) {
     const { record } = this;
-    const there = {
-      sensors: record.sensors || record.fans.length,
-      contacts: record.columns["contacts:row"],
-      messages: record.columns["messages:time"],
-      addons: record.addons,
-      theory: record.theory,
-    };
-    return !(layer in there) || Boolean(there[layer]);
+    if (name === "sensors" && record.fans.length) return true;
+    return name in record.drawn || name === "grid" || name === "trails";
   }
 
   // -- what stands there from the start ---------------------------------------------------------
@@ -83,13 +72,15 @@ class Replay {
     bodies.forEach((body, i) => option(find("bodies"), i, body.name));
     for (const speed of SPEEDS) option(find("speed"), speed, `${speed}×`);
     find("slider").max = this.clock.last;
-    for (const [name, words, key] of this.layers) {
-      const button = document.createElement("button");
-      Object.assign(button, { id: `layer-${name}`, textContent: words, title: `${words} (${key})` });
+    for (const { name, title, key } of this.layers) {
+      const button = document.createElement("button"), words = key ? `${title} (${key.toUpperCase()})` : title;
+      Object.assign(button, { id: `layer-${name}`, textContent: title, title: words });
       button.addEventListener("click", () => this.toggle(name));
       find("layers").append(button);
     }
-    const keyed = [...KEYS, ...this.layers.map(([, words, key]) => [[key], `${words.toLowerCase()} on and off`])];
+    const switches = this.layers.filter(({ key }) => key);
+    const keyed = [...KEYS, ...switches.map(
+      ({ title, key }) => [[key.toUpperCase()], `${title.toLowerCase()} on and off`])];
     for (const [names, does] of keyed) {
       const row = find("keys").insertRow(), cell = row.insertCell();
       names.forEach((name) => {
@@ -289,8 +280,8 @@ class Replay {
         this.setFollow(false);
       };
     }
-    const layer = this.layers.find(([, , letter]) => letter.toLowerCase() === key);
-    if (layer) return () => this.toggle(layer[0]);
+    const layer = this.layers.find((each) => each.key === key);
+    if (layer) return () => this.toggle(layer.name);
     return {
       " ": () => this.playOrPause(),
       ArrowRight: () => this.step(1),
@@ -431,7 +422,7 @@ class Replay {
     if (document.body.classList.toggle("playing", clock.playing)) find("play").setAttribute("aria-label", "Pause");
     else find("play").setAttribute("aria-label", "Play");
     find("speed").value = clock.speed;
-    for (const [name] of this.layers) find(`layer-${name}`).setAttribute("aria-pressed", Boolean(look[name]));
+    for (const { name } of this.layers) find(`layer-${name}`).setAttribute("aria-pressed", Boolean(look[name]));
     if (!clock.playing || now - this.said > 500) {
       this.said = now;
       const at = `${this.seconds(clock.time)} s of ${this.seconds(clock.end)} s`;

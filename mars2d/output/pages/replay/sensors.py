@@ -1,4 +1,4 @@
-"""What the sensors of a record have seen, as columns of a replay."""
+"""The readings of a record's sensors, as columns of a replay."""
 
 from __future__ import annotations
 
@@ -8,47 +8,38 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
-from mars2d.output.pages.replay.columns import Columns, Int, rounded
-from mars2d.output.pages.replay.drawings import Drawing
-from mars2d.output.pages.replay.shapes import Flat, Float, flat, moved
-from mars2d.sensors.base import Sensor
-from mars2d.sensors.range_finder import RangeFinder
-from mars2d.sensors.sonar_ring import SonarRing
+from mars2d.output.pages.replay.columns import Columns, Int
+from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows
+from mars2d.sensors.base import Fan, Sensor
 
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
 __all__ = [
     "Carried",
-    "Fan",
     "beams_left_out",
     "carried",
     "drawings",
     "fans_of",
     "pack_fans",
-    "pack_readings",
 ]
 
-WORDS = 8
-"""Readings of so many numbers are said in words."""
-
 SELDOM = 8
-"""What a sensor draws so seldom is kept each time, however many others there are."""
+"""Sensors that draw no more scenes than this are never thinned."""
 
 BEAMS = 360
-"""Of a sensor's beams, so many are drawn."""
+"""The most beams of a sensor that are drawn."""
 
 DRAWN = 5000
-"""So many readings are drawn by the sensors themselves."""
+"""The most readings that sensors are asked to draw."""
 
 LEVELS = 254
 """Distances are rounded to the range over this; one more level says that nothing is there."""
 
 ELSEWHERE = np.array([0.7, -0.4, 1.1])
-"""A pose that tells what is drawn in a robot's frame from what is drawn in that of the world."""
+"""A pose that tells drawings in a robot's frame from drawings in that of the world."""
 
 
 class Carried:
@@ -58,19 +49,28 @@ class Carried:
         """Keep them together."""
         self.name, self.robot, self.sensor, self.readings = name, robot, sensor, readings
 
+    @property
+    def beams(self) -> Fan:
+        """The beams of a sensor that has some."""
+        fan = self.sensor.fan
+        assert fan is not None
+        return fan
+
+    @property
+    def is_fan(self) -> bool:
+        """Whether its readings are distances along beams, and drawn as those are."""
+        fan, kind = self.sensor.fan, type(self.sensor)
+        if fan is None or _definer(kind, "draw") is not _definer(kind, "fan"):
+            return False  # a class of the user's may draw something else
+        return self.readings.shape[1:] == np.shape(fan.angles) and self.readings.dtype.kind == "f"
+
     def changes(self) -> Int:
-        """Return the rows at which it reads something else than at the row before."""
+        """Return the rows at which its reading changes."""
         if not len(self.readings):
             return np.empty(0, dtype=np.int64)
         bits = np.ascontiguousarray(self.readings).view(np.uint8).reshape(len(self.readings), -1)
         changed = np.any(bits[1:] != bits[:-1], axis=1)
         return np.concatenate([[0], np.flatnonzero(changed) + 1])
-
-
-class Fan(Carried):
-    """One that reads distances along beams, which need no shapes."""
-
-    sensor: RangeFinder | SonarRing
 
 
 def carried(record: Record, kept: Int) -> Iterator[Carried]:
@@ -79,47 +79,42 @@ def carried(record: Record, kept: Int) -> Iterator[Carried]:
         for k, robot in enumerate(robots):
             sensor = record.scenario.robots[robot].sensor(name)
             if sensor is not None:
-                readings = record.sensors[name][kept, k]
-                yield (Fan if _is_fan(sensor, readings) else Carried)(name, robot, sensor, readings)
+                yield Carried(name, robot, sensor, record.sensors[name][kept, k])
 
 
-def _is_fan(sensor: Sensor, readings: NDArray[Any]) -> bool:
-    """Return whether a sensor reads distances along beams, and is drawn as those are."""
-    if not isinstance(sensor, (RangeFinder, SonarRing)):
-        return False
-    own = type(sensor) not in (RangeFinder, SonarRing)  # the user's, which may draw something else
-    beams = readings.shape[1:] == np.shape(sensor.angles)
-    return beams and readings.dtype.kind == "f" and not own
-
-
-def fans_of(fans: list[Fan]) -> list[dict[str, Any]]:
-    """Return what has to be known of sensors that read distances along beams."""
+def fans_of(fans: list[Carried], colors: tuple[str, ...]) -> list[dict[str, Any]]:
+    """Return the beams of sensors, and the styles in which `draw` draws their area and hits."""
     found = []
     for each in fans:
-        sensor, angles = each.sensor, np.asarray(each.sensor.angles)
-        skip = _skip(len(angles))
+        fan = each.beams
+        skip = _skip(len(fan.angles))
+        sample = _drawn(
+            each, np.zeros(3), np.full(len(fan.angles), fan.range / 2), colors[each.robot]
+        )
+        area, hits = sample.styles[:2]
         found.append({
             "name": each.name,
             "robot": each.robot,
-            "range": sensor.range,
-            "mount": list(sensor.mount),
-            "first": float(angles[0]),
-            "apart": float(angles[1] - angles[0]) * skip if len(angles) > 1 else 0.0,
-            "beams": len(angles[::skip]),
-            "cone": sensor.cone if isinstance(sensor, SonarRing) else 0.0,
-            "closed": sensor.field_of_view >= 2 * np.pi and len(angles) > 2,
+            "range": fan.range,
+            "mount": list(each.sensor.mount),
+            "first": float(fan.angles[0]),
+            "apart": float(fan.angles[1] - fan.angles[0]) * skip if len(fan.angles) > 1 else 0.0,
+            "beams": len(fan.angles[::skip]),
+            "cone": fan.cone,
+            "closed": fan.closed,
+            "styles": [list(area), list(hits)],
         })  # fmt: skip
     return found
 
 
-def pack_fans(fans: list[Fan], every: int) -> tuple[Columns, int]:
-    """Return the distances of all fans at each so-manieth row, a byte each."""
+def pack_fans(fans: list[Carried], every: int) -> tuple[Columns, int]:
+    """Return the distances of all fans at one row in `every`, a byte each."""
     columns = Columns()
     rows = np.arange(0, len(fans[0].readings), every)
     levels = []
     for each in fans:
         far = each.readings[rows][:, :: _skip(each.readings.shape[1])]
-        share = far / each.sensor.range
+        share = far / each.beams.range
         near = np.isfinite(far)
         level = np.rint(LEVELS * np.clip(np.where(near, share, 0.0), 0, 1)).astype(np.uint8)
         levels.append(np.where(near, level, LEVELS + 1).astype(np.uint8))
@@ -127,10 +122,15 @@ def pack_fans(fans: list[Fan], every: int) -> tuple[Columns, int]:
     return columns, len(rows)
 
 
-def beams_left_out(fans: list[Fan]) -> list[str]:
+def beams_left_out(fans: list[Carried]) -> list[str]:
     """Return for each kind of scanner of too many beams, in words, how many of them are drawn."""
     skips = {each.name: _skip(each.readings.shape[1]) for each in fans}
     return [f"beams of {name}: one in {skip}" for name, skip in skips.items() if skip > 1]
+
+
+def _definer(kind: type, name: str) -> type | None:
+    """Return the class in which an attribute of a class is defined."""
+    return next((each for each in kind.__mro__ if name in vars(each)), None)
 
 
 def _skip(beams: int) -> int:
@@ -140,7 +140,7 @@ def _skip(beams: int) -> int:
 def drawings(
     sensors: list[Carried], pose: Float, colors: tuple[str, ...]
 ) -> tuple[list[Drawing], int]:
-    """Return what sensors draw of their readings, and of how many rows in a row one is drawn.
+    """Return the sensors' drawings of their readings, one for each `stride` rows, and the stride.
 
     pose: (R, 3, n), of the rows of a replay.
     """
@@ -184,49 +184,11 @@ def _drawn(each: Carried, pose: Float, reading: Any, color: str) -> Flat:
 
 
 def _rigid(each: Carried, rows: Int, color: str) -> bool:
-    """Return whether what it draws moves with the robot."""
+    """Return whether its drawings move with the robot."""
     for row in rows[[0, len(rows) // 2, -1]].tolist():
         reading = each.readings[row]
         here = _drawn(each, np.zeros(3), reading, color)
         there = _drawn(each, ELSEWHERE, reading, color)
-        if here.styles != there.styles or here.counts != there.counts:
-            return False
-        if not np.allclose(moved(here, ELSEWHERE), there.numbers, atol=1e-9, equal_nan=True):
+        if not follows(here, there, ELSEWHERE):
             return False
     return True
-
-
-def pack_readings(sensors: list[Carried], every: int) -> tuple[Columns, list[dict[str, Any]]]:
-    """Return the readings of few numbers as columns, and how they are to be said in words."""
-    columns = Columns()
-    found: list[dict[str, Any]] = []
-    for each in sensors:
-        values = each.readings[::every].reshape(len(each.readings[::every]), -1).astype(float)
-        if not 0 < values.shape[1] <= WORDS:
-            continue
-        finite = values[np.isfinite(values)]
-        step = max(float(np.abs(finite).max(initial=0.0)), 1e-6) / 2**15
-        name = f"reading{len(found)}"
-        columns.add(name, rounded(values, step), order=1, step=step, every=every)
-        found.append({
-            "name": each.name,
-            "robot": each.robot,
-            "column": name,
-            "parts": [_part(q) for q in _quantities(each.sensor, values.shape[1])],
-        })  # fmt: skip
-    return columns, found
-
-
-def _quantities(sensor: Sensor, count: int) -> list[Quantity]:
-    """Return what each number of a reading is."""
-    stated = list(sensor.quantities) or [Quantity("value")]
-    if count % len(stated) == 0 and len(stated) > 1:
-        return stated * (count // len(stated))
-    first = stated[0]
-    if count == 1:
-        return [first]
-    return [Quantity(f"{first.name} {k}", first.unit, first.kind) for k in range(count)]
-
-
-def _part(quantity: Quantity) -> list[str]:
-    return [quantity.name, quantity.unit, quantity.kind]

@@ -51,5 +51,5 @@ def _variables(theme: Theme) -> str:
 
 
 def _hash(text: str) -> str:
-    """Return what a content security policy calls the text of a script or style."""
+    """Return the name of a script or style in a content security policy."""
     return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
