@@ -97,7 +97,7 @@ def test_a_recipe_touches_two_files_of_code_and_a_page():
     for title, recipes in sections().items():
         assert len({name for name, _, _ in recipes}) == 2, title
         section = text.partition(f"### {title}\n")[2].partition("\n### ")[0]
-        numbered = re.findall(r"^(\d)\. `([^`]+)`", section, flags=re.M)
+        numbered = re.findall(r"^(\d)\. \*\*([^*]+)\*\*", section, flags=re.M)
         assert [number for number, _ in numbered] == ["1", "2", "3"], title
         assert [name for _, name in numbered[:2]] == [name for name, _, _ in recipes], title
 
