@@ -207,7 +207,7 @@ class Watch:
 
     def __init__(self, world: World) -> None:
         """Take a world of discs; see `after_each_step`."""
-        self._world, self._space = world, world._engine.space
+        self._world, self._space = world, world.simulation.engine.space
         shapes = self._space._shapes
         circles = [shape for shape in shapes if isinstance(shape, pymunk.Circle)]
         walls = [shape for shape in shapes if isinstance(shape, pymunk.Segment)]

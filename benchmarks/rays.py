@@ -126,7 +126,7 @@ def fans(world: World) -> Callable[[], Float]:
 
 def engine(world: World) -> Callable[[], Float]:
     """Return a function that does the same by the engine's function for one ray."""
-    rays = world._engine.space.rays
+    rays = world.simulation.engine.space.rays
     (sensor,) = world.scenario.robots[0].sensors
     assert isinstance(sensor, RangeFinder)
 
@@ -144,7 +144,7 @@ def engine(world: World) -> Callable[[], Float]:
 
 def public(world: World) -> Callable[[], Float]:
     """Return a function that does the same by pymunk's public method."""
-    space: pymunk.Space = world._engine.space._space  # the same shapes
+    space: pymunk.Space = world.simulation.engine.space._space  # the same shapes
     (sensor,) = world.scenario.robots[0].sensors
     assert isinstance(sensor, RangeFinder)
 

@@ -25,7 +25,8 @@ from outcome import write
 
 from mars2d.core.errors import InputError
 from mars2d.scenario import open_experiment
-from mars2d.world.timeline import PARKED, Timeline
+from mars2d.world.past import PARKED
+from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
 FILE = """
@@ -70,7 +71,7 @@ def measure(path: Path, law: str, robots: int, rows: int) -> dict[str, Any]:
     looks = [timed(lambda row=row: look(timeline, row)) for row in chosen]
     cold, warm, waits = [], [], []
     for row in chosen[:BRANCHES]:
-        timeline._waiting = []
+        timeline._past.waiting = []
         cold.append(branching(timeline, row))
     for row in chosen[:BRANCHES]:
         waits.append(timed(lambda: let_wait(timeline)))
@@ -102,7 +103,7 @@ def let_wait(timeline: Timeline) -> None:
     there: list[int] = []
     while len(there) < PARKED or any(a < b for a, b in zip(there, places, strict=False)):
         timeline.idle(0.01)
-        there = sorted(world.iteration for world in timeline._waiting)
+        there = sorted(world.iteration for world in timeline._past.waiting)
 
 
 def branching(timeline: Timeline, row: int) -> float:

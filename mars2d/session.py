@@ -46,14 +46,13 @@ def run(
     and parameters of a scenario function. control: the law of the team, in place of the
     experiment's. seed: of all random streams, and the ``seed`` of a scenario function that has such
     a parameter. show: whether in a window; by default, if a speed is given and there is a display.
-    human: a robot that is driven by hand, in a window, by its name or index or a game's role.
-    watchers: functions called with the world at each control step, once its sensors have been read.
-    record: a file that takes the record, see `Record.save`: an
-    .mcap file each control step when it is done, so that nothing is lost where the process is
-    killed; others at the end.
+    human: a robot that is driven by hand in a window: its name, its index, or a game's role.
+    watchers: functions called with the world at each control step, after its sensors are read.
+    record: a file for the record, see `Record.save`. An .mcap file is written at each control step,
+    so that nothing is lost where the process is killed; other files at the end.
 
-    Raises InputError for what can't be run. When a law fails, the error carries what was recorded
-    until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
+    Raises InputError for an experiment that can't be run. When a law fails, the error carries the
+    record until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
     """
     if stop_time is not None:
         options = {**(options or {}), "stop_time": stop_time}
@@ -81,7 +80,7 @@ def run(
 
 
 def _output(record: str | Path) -> tuple[Path, Log | None]:
-    """Return the file that a record is saved to, and what writes it at once, if that is so."""
+    """Return the file for the record, and the log that writes it during the run, if any."""
     from mars2d.output import formats
 
     if not isinstance(record, (str, Path)):
@@ -95,7 +94,7 @@ def _output(record: str | Path) -> tuple[Path, Log | None]:
 
 
 def _keep(error: BaseException, record: Record, target: Path, log: Log | None) -> None:
-    """Save what was recorded until an error, which is the one that counts."""
+    """Save the record of a run that an error ended; a failure to do so becomes a note of it."""
     from mars2d.output.formats import rescued, save_or_rescue
 
     if log is None:

@@ -1,4 +1,4 @@
-"""What can be added to an experiment: maps, measures, games."""
+"""The add-ons: maps, measures, games, radio. A new one is a file here, and a line below."""
 
 from mars2d.addons.base import HOOKS, Addon
 from mars2d.addons.beacon import Beacon

@@ -1,9 +1,9 @@
-"""What an add-on is: hooks that the simulation calls at its four moments."""
+"""The base of all add-ons, and the hooks that a simulation calls."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -14,21 +14,17 @@ from mars2d.core.materials import surface_friction, surface_restitution
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
 
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.world.world import World
-
 __all__ = ["HOOKS", "Addon", "Color", "hooks_of"]
 
 Color = tuple[float, float, float]
 """Red, green and blue from 0 to 1."""
 
 HOOKS = ("on_start", "on_step", "on_sensed", "on_draw", "on_stop")
-"""All hooks of an add-on: MARS's Addons_suffix Initialize, Loop and Plot; sensing, and the end."""
+"""All hooks: MARS's Initialize, Loop and Plot of an add-on, and two for sensing and the end."""
 
 
 class Addon(Stateful):
-    """The base of all add-ons: derive, declare fields, and write the hooks you need.
+    """The base of all add-ons: derive, declare fields, and write the hooks that you need.
 
     >>> class Counter(Addon):
     ...     def on_start(self, world):
@@ -38,7 +34,8 @@ class Addon(Stateful):
 
     A hook is a method named on_start, on_step, on_sensed, on_draw or on_stop; any other ``on_...``
     is an error. In a scenario an add-on is frozen. Each world works on a copy of its own, on which
-    hooks may set attributes; laws find it as ``world.addons.<name>``.
+    hooks may set attributes; laws find it as ``world.addons.<name>``. The hooks get the
+    `World`, see `mars2d.core.interfaces.WorldLike`; `draw` and `theory` a `Frame`, see `FrameLike`.
     """
 
     name: str | None = text(default=None, optional=True, doc="the name in world.addons")
@@ -57,7 +54,7 @@ class Addon(Stateful):
     """Whether robots talk over it: the inspector then shows their inboxes."""
 
     rng: ClassVar[np.random.Generator]
-    """Its own random stream, on the copy that a world works on."""
+    """Its own random stream; only the copy that a world works on has one."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         for attribute in vars(cls):
@@ -81,55 +78,55 @@ class Addon(Stateful):
         return bool(hooks_of(self))
 
     def obstacles(self) -> tuple[Outline, ...]:
-        """Return the outlines that stand in the way: two vertices a wall, more a closed polygon."""
+        """Return the outlines of its obstacles: two vertices a wall, more a closed polygon."""
         return ()
 
     def beacons(self) -> Mapping[str, Point]:
-        """Return where beacons are now, by name, for the sensor Beacon; here, none."""
+        """Return the beacons' positions now, by name, for the sensor Beacon; by default none."""
         return {}
 
-    def named_points(self, frame: Frame) -> list[tuple[str, Point]]:  # noqa: ARG002
+    def named_points(self, frame: Any) -> list[tuple[str, Point]]:  # noqa: ARG002
         """Return points with their names, which the window shows under the pointer; here, none."""
         return []
 
     def ground(self, point: Point) -> Color | None:  # noqa: ARG002
         """Return the colour of the floor at a point, red, green and blue from 0 to 1.
 
-        None: it says nothing of it. Of several add-ons the last that says something counts.
+        None: it gives the floor no colour there. The last add-on that gives one counts.
         """
         return None
 
     def paint(self, scene: Scene, area: Outline) -> None:
-        """Paint the floor of an area, beneath all else: what its fields alone say.
+        """Paint the floor of an area, beneath all else, from its fields alone.
 
-        area: the workspace, or what stands in for it. It is asked once for many frames.
+        area: the workspace, or the part of the plane that is shown. Called once for many frames.
         """
 
-    def draw(self, scene: Scene, frame: Frame) -> None:
-        """Draw what its fields and the frame alone say: so replays of a record show it, too.
+    def draw(self, scene: Scene, frame: Any) -> None:
+        """Draw from its fields and the frame alone, so that replays of a record show it, too.
 
         frame: one instant: its time [s], pose (3, n), the path (k, 3, n) before, its scenario.
         """
 
-    def theory(self, scene: Scene, frame: Frame) -> None:
-        """Draw what theory predicts of a frame; it is shown by a key, and by ``--theory``."""
+    def theory(self, scene: Scene, frame: Any) -> None:
+        """Draw the prediction of theory for a frame; shown by a key, and by ``--theory``."""
 
-    def on_start(self, world: World) -> None:
-        """Do what is to be done once, before the first step."""
+    def on_start(self, world: Any) -> None:
+        """Prepare: called once, before the first step."""
 
-    def on_step(self, world: World) -> None:
-        """Do what is to be done at each control step, before the sensors are read."""
+    def on_step(self, world: Any) -> None:
+        """Act at each control step, before the sensors are read."""
 
-    def on_sensed(self, world: World) -> None:
-        """Do what is to be done at each control step once the sensors are read, before the laws."""
+    def on_sensed(self, world: Any) -> None:
+        """Act at each control step, after the sensors are read and before the laws are asked."""
 
-    def on_draw(self, world: World, scene: Scene) -> None:
-        """Add shapes to what is drawn of the world, beneath the robots."""
+    def on_draw(self, world: Any, scene: Scene) -> None:
+        """Add shapes to the picture of the world, beneath the robots."""
 
-    def on_stop(self, world: World) -> None:
-        """Do what is to be done once, when the experiment is over."""
+    def on_stop(self, world: Any) -> None:
+        """Finish: called once, when the experiment is over."""
 
 
 def hooks_of(addon: Addon) -> tuple[str, ...]:
-    """Return the hooks that an add-on has of its own: only these are called."""
+    """Return the hooks that an add-on's class overrides: only these are called."""
     return tuple(hook for hook in HOOKS if getattr(type(addon), hook) is not getattr(Addon, hook))

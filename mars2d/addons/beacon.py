@@ -6,18 +6,14 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from itertools import accumulate, pairwise
 from math import hypot
-from typing import TYPE_CHECKING
 
 from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.description import entry, flag, number, wrong
 from mars2d.core.errors import InputError
+from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene, color, faded
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.world.world import World
 
 __all__ = ["Beacon"]
 
@@ -48,10 +44,10 @@ class Beacon(Addon):
     >>> Beacon(path=[(0, 0), (2, 0), (2, 1)], speed=0.5).where(5.0)
     (2.0, 0.5)
 
-    Its name is that of the add-on. It is in nobody's way. Give `at`, or else `path` and `speed`: it
+    Its name is that of the add-on. It is no obstacle. Give `at`, or else `path` and `speed`: it
     starts at the first point of the path, goes to the next, and from the last one back to the
-    first, on and on. Two points are a way there and back. With ``closed=False`` it goes along the
-    path once, and stays at its last point.
+    first, again and again. Two points are a way there and back. With ``closed=False`` it goes along
+    the path once, and stays at its last point.
     """
 
     at: Point | None = entry(
@@ -102,7 +98,7 @@ class Beacon(Addon):
         return ax + share * (bx - ax), ay + share * (by - ay)
 
     def _way(self, path: Outline) -> Outline:
-        """Return the corners that it passes in one round: of a closed path the first one again."""
+        """Return the corners of one round; a closed path ends with its first corner."""
         ring = self.closed and path[0] != path[-1]
         return (*path, path[0]) if ring else path
 
@@ -116,15 +112,15 @@ class Beacon(Addon):
         """Return where it is now, by its name."""
         return {self.key: self.position}
 
-    def named_points(self, frame: Frame) -> list[tuple[str, Point]]:
+    def named_points(self, frame: FrameLike) -> list[tuple[str, Point]]:
         """Return where it is at the frame's time, with its name."""
         return [(f"beacon {self.key}", self.where(frame.time))]
 
-    def on_start(self, world: World) -> None:
+    def on_start(self, world: WorldLike) -> None:
         """Take the world's clock."""
         self._world = world
 
-    def draw(self, scene: Scene, frame: Frame) -> None:
+    def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Draw a lamp with its name, and its path."""
         if self.path is not None:
             way = self._way(self.path) if len(self.path) > 2 else self.path

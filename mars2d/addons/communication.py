@@ -1,4 +1,4 @@
-"""Robots that talk, over a channel as imperfect as wanted."""
+"""Messages between robots, over a channel that may lose and delay them."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def _burst(name: str, value: object) -> object:
 class Communication(Addon):
     """Lets robots send messages to each other, over a channel that may be bad.
 
-    Laws call ``robot.send(content, to)``, read ``robot.inbox``. What is sent at a control step is
-    in the inbox of its receivers at the first later one that is at least `delay` after it, so never
-    in the same one. Who is in reach is judged when it is sent. Of several receivers each gets or
-    loses it by itself, and nobody tells the sender: laws that need to know send acknowledgements.
-    All messages are recorded and drawn.
+    Laws call ``robot.send(content, to)`` and read ``robot.inbox``. A message sent at a control step
+    is in the inbox of its receivers at the first later one that is at least `delay` after it, so
+    never in the same one. The receivers in reach are those at the time of sending. Each receiver
+    gets or loses a message by itself, and the sender is not told: laws that need to know send
+    acknowledgements. All messages are recorded and drawn.
 
-    As it is by default, the channel is perfect and draws no random numbers.
+    By default the channel is perfect and draws no random numbers.
     """
 
     only_one = "robots talk over one"

@@ -1,22 +1,18 @@
-"""Contests between roles: what all games have in common, whatever decides them."""
+"""Contests between two roles: the base of all games."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError
+from mars2d.core.interfaces import FrameLike, ScenarioLike
 from mars2d.core.scene import Scene
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.record.record import Record
-    from mars2d.scenario.scenario import Scenario
 
 __all__ = ["Capture", "Contest", "Outcome", "Teams"]
 
@@ -26,7 +22,7 @@ Teams = tuple[tuple[int, ...], tuple[int, ...]]
 
 ROLES = "two roles, hunters first if there are any, as {'pursuer': ['red'], 'evader': ['blue']}"
 MARK = "#222222"
-"""The colour of what marks a robot that is out of the game."""
+"""The colour of the mark on a robot that is out of the game."""
 
 
 class Capture(NamedTuple):
@@ -38,7 +34,7 @@ class Capture(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """How a contest stands: its captures in order, each role's score, the role that won, or None.
+    """The state of a contest: its captures in order, each role's score, and the winner or None.
 
     In a pursuit the hunters' score is how many they have caught, that of the evaders how many are
     free. In a ring, where nobody is captured, it is how many are still in it.
@@ -50,7 +46,7 @@ class Outcome(NamedTuple):
 
     @property
     def capture_time(self) -> float:
-        """When the last one was caught, seconds; nan where one is free, or nobody was caught."""
+        """The time of the last capture, seconds; nan if an evader is free, or nobody was caught."""
         caught = bool(self.captures) and list(self.score.values())[1] == 0
         return self.captures[-1].time if caught else float("nan")
 
@@ -81,7 +77,7 @@ def _robots(name: str, value: object) -> tuple[str | int, ...]:
 
 
 class Contest(Addon):
-    """The base of add-ons that say who has won: two roles, the robots of each, an outcome.
+    """The base of add-ons with a winner: two roles, the robots of each, an outcome.
 
     A tournament finds the roles that laws are played in by the one contest of its scenario.
     """
@@ -92,10 +88,10 @@ class Contest(Addon):
     )  # fmt: skip
 
     @abstractmethod
-    def outcome(self, record: Record) -> Outcome:
+    def outcome(self, record: Any) -> Outcome:
         """Return captures, score and winner of a record, loaded or just made."""
 
-    def teams(self, scenario: Scenario) -> Teams:
+    def teams(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the first role's robots in a scenario, and of the second role's.
 
         Raises InputError for a robot that is not there, or that stands in the roles twice.
@@ -117,7 +113,7 @@ class Contest(Addon):
         return teams[0], teams[1]
 
 
-def mark(scene: Scene, frame: Frame, robot: int, label: str, above: bool) -> None:
+def mark(scene: Scene, frame: FrameLike, robot: int, label: str, above: bool) -> None:
     """Cross out a robot, by its index, that is out of the game; write a label above or below it."""
     arm = 1.25 * frame.scenario.robots[robot].radius
     x, y = frame.pose[:2, robot].tolist()

@@ -1,11 +1,11 @@
-"""Densities: how much each place of the workspace matters."""
+"""Densities: the weight of each place of the workspace."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,24 +14,22 @@ from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.description import entry
 from mars2d.core.errors import InputError
+from mars2d.core.interfaces import WorldLike
 from mars2d.core.picture import Bounds, Picture, image_bounds, image_file, read_picture
 from mars2d.core.plane import Outline, bounds_of, rectangle
 from mars2d.core.scene import Scene, color, rgb
 from mars2d.core.usercode import called
 from mars2d.geometry.voronoi import Weight, density_at
 
-if TYPE_CHECKING:
-    from mars2d.world.world import World
-
 __all__ = ["Density"]
 
 Float = NDArray[np.float64]
 
 RASTER = 200
-"""How many places along the workspace's longer side are looked at, for checks and pictures."""
+"""The number of points along the workspace's longer side, for checks and pictures."""
 
 OPACITY = 0.5
-"""That of the densest place, in pictures."""
+"""The opacity of the densest place in pictures."""
 
 
 def _function(name: str, value: object) -> object:
@@ -39,7 +37,7 @@ def _function(name: str, value: object) -> object:
 
 
 class Density(Addon, Weight):
-    """How much each place matters: a function phi(x, y) >= 0, or an image, dark where it is dense.
+    """The weight of each place: a function phi(x, y) >= 0, or an image, dark where it is dense.
 
     >>> hill = Density(lambda x, y: 1 / (1 + x * x + y * y))
     >>> hill.of([[0, 2], [0, 0]]).tolist()
@@ -47,8 +45,8 @@ class Density(Addon, Weight):
 
     A Voronoi in the same scenario weighs its cells by it. The function gets arrays x and y of
     coordinates [m], and returns an array as long. An image covers `bounds`, its upper row at ymax:
-    black is 1 and white is 0, between the middles of its pixels it changes evenly, and beyond it
-    there is nothing. It is a PNG as that of `Floor`. In a picture denser places are darker.
+    black is 1 and white is 0, it is linear between the middles of the pixels, and 0 beyond the
+    image. The image is a PNG like that of `Floor`. In a picture denser places are darker.
     """
 
     function: Callable[[Float, Float], Any] | None = entry(
@@ -77,7 +75,7 @@ class Density(Addon, Weight):
     def of(self, points: Any) -> Float:
         """Return the density (k,) at points (2, k) [m].
 
-        Raises InputError where a function returns what is negative, not finite or of another shape.
+        Raises InputError where a function returns negative or infinite values, or another shape.
         """
         places = np.asarray(points, dtype=float)
         return self._of_image(*places) if self.function is None else self._of_function(places)
@@ -110,15 +108,15 @@ class Density(Addon, Weight):
         assert self.image is not None
         return read_picture("Density.image", self.image)
 
-    def on_start(self, world: World) -> None:
-        """Look at it everywhere in the workspace, so that what is wrong with it is said at once."""
+    def on_start(self, world: WorldLike) -> None:
+        """Evaluate it all over the workspace, so that errors are raised at once."""
         _, _, phi = self._raster(world.workspace or rectangle(*world.bounds))
         if not phi.any():
             what = "Density.function" if self.image is None else f"Density.image = {self.image!r}"
             raise InputError(f"{what}: it is 0 everywhere in the workspace")
 
     def _raster(self, area: Outline) -> tuple[Bounds, NDArray[np.bool_], Float]:
-        """Return an area's bounds, which of a raster's places lie in it, and the density there."""
+        """Return an area's bounds, a mask of the raster's points in it, and the density there."""
         import shapely
 
         xmin, xmax, ymin, ymax = bounds = bounds_of(area)
@@ -133,7 +131,7 @@ class Density(Addon, Weight):
     def paint(self, scene: Scene, area: Outline) -> None:
         """Add it to the floor of an area, the darker the denser.
 
-        Where an image can't be read any more, as that of a record may be, its name is written.
+        Where the image can't be read any more, for example for an old record, its name is written.
         """
         xmin, xmax, ymin, ymax = bounds_of(area)
         try:

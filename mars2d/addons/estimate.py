@@ -1,9 +1,9 @@
-"""What a robot believes of its pose by its odometry, drawn with the ellipse of its doubt."""
+"""The pose that a robot estimates by its odometry, drawn with the ellipse of its uncertainty."""
 
 from __future__ import annotations
 
 from math import cos, floor, log, pi, sin, sqrt
-from typing import TYPE_CHECKING, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,47 +11,44 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.addons.base import Addon
 from mars2d.core.description import entry, number, text
 from mars2d.core.errors import InputError
+from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene, color, faded
 from mars2d.geometry.dead_reckoning import covariance_after_arc
-
-if TYPE_CHECKING:
-    from mars2d.sensors.odometry import Odometry
-    from mars2d.world.world import World
 
 __all__ = ["Estimate", "ellipse"]
 
 Float = NDArray[np.float64]
 
 CORNERS = 72
-"""Of an ellipse that is drawn."""
+"""The corners of an ellipse that is drawn."""
 
 ROUNDING = 1e-9
-"""Times that differ by less are the same, in shares of `every`."""
+"""The rounding error of a time, in shares of `every`."""
 
-SMALLEST = 1e-12
-"""An ellipse is at least so thick, m^2: at the start it is a point."""
+MIN_VARIANCE = 1e-12
+"""The smallest variance of an ellipse, m^2: at the start it would be a point."""
 
 
 def ellipse(center: ArrayLike, covariance: ArrayLike, probability: float = 0.95) -> Float:
     """Return the corners (72, 2) of the ellipse that holds a normal distribution's points.
 
-    center: (2,) metres. covariance: (2, 2), of which only x and y count if it is larger.
+    center: (2,) metres. covariance: (2, 2), or larger with x and y first.
     probability: of a point to lie within, 0 < probability < 1.
 
     >>> ellipse((1, 0), [[0.04, 0], [0, 0.01]], 0.393469).max(axis=0).round(6).tolist()
     [1.2, 0.1]
     """
-    spread = np.asarray(covariance, dtype=float)[:2, :2] + SMALLEST * np.eye(2)
+    spread = np.asarray(covariance, dtype=float)[:2, :2] + MIN_VARIANCE * np.eye(2)
     angles = np.linspace(0, 2 * pi, CORNERS, endpoint=False)
     circle = sqrt(-2 * log(1 - probability)) * np.array([np.cos(angles), np.sin(angles)])
     return np.asarray(np.asarray(center, dtype=float)[:2] + (np.linalg.cholesky(spread) @ circle).T)
 
 
 class Estimate(Addon):
-    """Draws where a robot believes to be by its odometry, and the ellipse of how unsure that is.
+    """Draws the pose that a robot estimates by its odometry, and the ellipse of its uncertainty.
 
-    The ellipse is that of the covariance, which grows with each turn of the wheels by the sensor's
-    `drift`. It is kept every so often, so that one sees it grow. The robot needs a sensor Odometry
+    The covariance grows with each turn of the wheels by the sensor's `drift`. An ellipse is kept
+    every `every` seconds, so that one sees it grow. The robot needs a sensor Odometry
     and wheels on one axle.
 
     Source: R. Siegwart, I. Nourbakhsh, D. Scaramuzza, Introduction to Autonomous Mobile Robots
@@ -69,7 +66,7 @@ class Estimate(Addon):
     )
     color: str = entry(default="#d55e00", check=color, doc="its colour")
 
-    def on_start(self, world: World) -> None:
+    def on_start(self, world: WorldLike) -> None:
         """Find the robot and its sensor; raise InputError if there is none."""
         self._index, self._sensor = self._found(world)
         robot = world.scenario.robots[self._index]
@@ -87,7 +84,7 @@ class Estimate(Addon):
         self._kept: list[Float] = []
         self.covariance = np.zeros((3, 3))
 
-    def _found(self, world: World) -> tuple[int, Odometry]:
+    def _found(self, world: WorldLike) -> tuple[int, Any]:
         """Return the robot's index, and its sensor."""
         robots = world.scenario.robots
         if self.robot is not None:
@@ -96,18 +93,18 @@ class Estimate(Addon):
             for sensor in robot.sensors:
                 reckons = hasattr(sensor, "drift") and hasattr(sensor, "origin")
                 if reckons and self.robot in (None, robot.name):
-                    return index, cast("Odometry", sensor)
+                    return index, sensor
         who = "no robot has a" if self.robot is None else f"{self.robot} has no"
         raise InputError(f"Estimate: {who} sensor Odometry, whose estimate could be drawn")
 
-    def on_sensed(self, world: World) -> None:
-        """Take in what was read."""
+    def on_sensed(self, world: WorldLike) -> None:
+        """Take the new reading."""
         self._follow(world)
         if len(self._kept) < floor(world.time / self.every + ROUNDING):
             self._kept.append(self._ellipse())
 
-    def _follow(self, world: World) -> None:
-        """Take in the latest reading, once."""
+    def _follow(self, world: WorldLike) -> None:
+        """Take the latest reading, once."""
         reading = getattr(world.robots[self._index].sense, self._sensor.key)
         if reading is self._last or not np.isfinite(reading).all():  # lost, or not yet there
             return
@@ -131,8 +128,8 @@ class Estimate(Addon):
         c, s = cos(theta), sin(theta)
         return np.column_stack([x + c * ahead - s * left, y + s * ahead + c * left])
 
-    def on_draw(self, world: World, scene: Scene) -> None:  # noqa: ARG002
-        """Draw the path as it is believed, the ellipses that were kept, and the last one."""
+    def on_draw(self, world: WorldLike, scene: Scene) -> None:  # noqa: ARG002
+        """Draw the estimated path, the ellipses that were kept, and the last one."""
         if not self._path:
             return
         for rim in self._kept:

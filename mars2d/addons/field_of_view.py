@@ -1,31 +1,27 @@
-"""What the robots' sensors could see, drawn in figures and films as well."""
+"""The fields of view of the robots' sensors, drawn in figures and films as well."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 from mars2d.addons.base import Addon
 from mars2d.core.checks import names
 from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, faded
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.sensors.base import Sensor
-    from mars2d.world.world import World
 
 __all__ = ["FieldOfView"]
 
 FAR = 50.0
-"""A field that reaches further is drawn only if its sensor is named, metres."""
+"""The range beyond which a field is drawn only if its sensor is named, metres."""
 
 
 def _names(name: str, value: object) -> tuple[str, ...] | None:
     return names(name, value, "a list of sensors' names, as ['range_bearing'], or None")
 
 
-def _field(sensor: Sensor) -> tuple[float, float] | None:
+def _field(sensor: Any) -> tuple[float, float] | None:
     """Return range [m] and angle [rad] of a sensor that has both."""
     reach, angle = getattr(sensor, "range", None), getattr(sensor, "field_of_view", None)
     return None if reach is None or angle is None else (float(reach), float(angle))
@@ -46,8 +42,8 @@ class FieldOfView(Addon):
         default=None, check=_names, doc="the sensors' names; None: all that see up to 50 m"
     )
 
-    def on_start(self, world: World) -> None:
-        """Look the sensors up; raise InputError if no robot has such a one."""
+    def on_start(self, world: WorldLike) -> None:
+        """Look the sensors up; raise InputError if no robot has one of such a name."""
         carried = [sensor for robot in world.scenario.robots for sensor in robot.sensors]
         known = sorted({sensor.key for sensor in carried if _field(sensor)})
         if not known:
@@ -57,7 +53,7 @@ class FieldOfView(Addon):
                 expected = f"the names of sensors with a field_of_view{nearest(name, known)}"
                 raise wrong("FieldOfView.sensors", list(self.sensors or ()), expected)
 
-    def draw(self, scene: Scene, frame: Frame) -> None:
+    def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Draw a sector, or a disc, for each sensor of each robot."""
         scenario = frame.scenario
         for robot, pose, color in zip(scenario.robots, frame.pose.T, scenario.colors, strict=True):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +13,11 @@ from mars2d.addons.base import Addon, Color
 from mars2d.core import checks
 from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError
+from mars2d.core.interfaces import WorldLike
 from mars2d.core.picture import Bounds, Picture, Pixels, image_bounds, image_file, read_picture
 from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectangle
 from mars2d.core.scene import Scene, rgb
 from mars2d.core.scene import color as checked_color
-
-if TYPE_CHECKING:
-    from mars2d.world.world import World
 
 __all__ = ["Floor"]
 
@@ -59,7 +56,7 @@ class Floor(Addon):
     Of patches that overlap the later one lies on top. The image covers `bounds`, its upper row at
     ymax; a point has the colour of the pixel that it lies in, and where a pixel is transparent
     `color`, or else white, is seen through it. Without a `color` the rest has that of the floors of
-    earlier add-ons, or else white. Nothing of it is in anybody's way.
+    earlier add-ons, or else white. It is no obstacle.
 
     A relative name of an image is looked for in the current folder; a file beside the experiment is
     ``Path(__file__).with_name("line.png")``. It is read when a world is made, PNG with 8 bits a
@@ -113,7 +110,7 @@ class Floor(Addon):
     def ground(self, point: Point) -> Color | None:
         """Return the colour of the floor at a point: red, green and blue from 0 to 1.
 
-        None: neither a patch nor the image lies there, and there is no colour of the rest.
+        None: neither a patch nor the image lies there, and the rest has no colour.
         """
         x, y = point
         for (xmin, xmax, ymin, ymax), corners, color in self._colored:
@@ -130,20 +127,20 @@ class Floor(Addon):
                 return red, green, blue
         return None if self.color is None else rgb(self.color)
 
-    def on_start(self, world: World) -> None:  # noqa: ARG002
-        """Read the image, so that what is wrong with it is said at once, as an InputError."""
+    def on_start(self, world: WorldLike) -> None:  # noqa: ARG002
+        """Read the image, so that its errors are raised at once, as InputError."""
         self._prepare()
 
     def _prepare(self) -> None:
-        """Work out what is kept, so that looking at the floor changes nothing of it."""
+        """Fill the caches, so that a look at the floor changes nothing."""
         self._colored  # noqa: B018
         if self.image is not None:
             self.pixels  # noqa: B018
 
     def paint(self, scene: Scene, area: Outline) -> None:
-        """Add the floor of an area to what lies beneath everything else.
+        """Paint the floor of an area.
 
-        Where the image can't be read any more, as that of a record may be, its name is written.
+        Where the image can't be read any more, for example for an old record, its name is written.
         """
         if self.color is not None:
             scene.polygon(area, fill=self.color)

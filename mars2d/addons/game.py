@@ -1,8 +1,6 @@
-"""Games of pursuit: who hunts whom, what a capture is, who has won."""
+"""Games of pursuit: hunters, evaders, captures, and a winner."""
 
 from __future__ import annotations
-
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +8,8 @@ from numpy.typing import NDArray
 from mars2d.addons.contest import Capture, Contest, Outcome, Teams, mark
 from mars2d.core.description import entry, real, wrong
 from mars2d.core.errors import likely
+from mars2d.core.interfaces import FrameLike, RecordLike, WorldLike
 from mars2d.core.scene import Scene, faded
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.record.record import Record
-    from mars2d.world.world import World
 
 __all__ = ["Capture", "Game", "Outcome"]
 
@@ -42,7 +36,7 @@ class Game(Contest):
     >>> game.roles
     (('pursuer', ('red',)), ('evader', ('blue',)))
 
-    An evader is caught when a hunter touches it, or comes as near as `capture`; that is looked at
+    An evader is caught when a hunter touches it, or comes as near as `capture`; this is checked
     once a control step. It stands still from then on, and the game goes on with the others. The
     hunters have won when all are caught, which ends the experiment; the evaders, when one is free
     at the stop time. Whatever else ends an experiment leaves a game undecided.
@@ -58,14 +52,14 @@ class Game(Contest):
 
     # -- how it stands, in a world -----------------------------------------------------------------
 
-    def on_start(self, world: World) -> None:
+    def on_start(self, world: WorldLike) -> None:
         """Find the robots; raise InputError if one is not there, or has two roles."""
         self._teams = self.teams(world.scenario)
         self._captures: tuple[Capture, ...] = ()
         self._time_is_over = False
 
-    def on_step(self, world: World) -> None:
-        """Look who is caught; end the experiment when all are, or when time is over."""
+    def on_step(self, world: WorldLike) -> None:
+        """Note new captures; end the experiment when all are caught, or when time is over."""
         now = self._found(
             (self._teams[0], self.free), np.array([world.time]), world.pose[None], world.contacts
         )
@@ -88,7 +82,7 @@ class Game(Contest):
 
     @property
     def capture_times(self) -> tuple[float, ...]:
-        """When they were caught, seconds."""
+        """The times of the captures, seconds."""
         return tuple(capture.time for capture in self._captures)
 
     @property
@@ -104,7 +98,7 @@ class Game(Contest):
 
     @property
     def score(self) -> dict[str, int]:
-        """How many the hunters have caught, and how many evaders are free, by role."""
+        """The number of captures and the number of free evaders, by role."""
         return self._outcome(self._teams, self._captures, self._time_is_over).score
 
     @property
@@ -112,7 +106,7 @@ class Game(Contest):
         """The role that has won, or None."""
         return self._outcome(self._teams, self._captures, self._time_is_over).winner
 
-    def _message(self, world: World) -> str:
+    def _message(self, world: WorldLike) -> str:
         """Return why the game is over, in words."""
         names = [str(robot.name) for robot in world.scenario.robots]
         free, evaders = self.free, len(self._teams[1])
@@ -125,7 +119,7 @@ class Game(Contest):
 
     # -- how it stands, by a record ----------------------------------------------------------------
 
-    def outcome(self, record: Record) -> Outcome:
+    def outcome(self, record: RecordLike) -> Outcome:
         """Return captures, score and winner of a record, loaded or just made."""
         teams = self.teams(record.scenario)
         contacts = record.contacts[record.contact_rows < len(record)]  # before its last row
@@ -157,7 +151,7 @@ class Game(Contest):
 
     # -- how it looks ------------------------------------------------------------------------------
 
-    def draw(self, scene: Scene, frame: Frame) -> None:
+    def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Cross out the caught ones, with the time of their capture; draw the hunters' reach."""
         scenario, teams = frame.scenario, self.teams(frame.scenario)
         pose = frame.pose[None]
@@ -177,7 +171,7 @@ class Game(Contest):
 def _touches(
     contacts: NDArray[np.void], hunters: tuple[int, ...], evaders: tuple[int, ...]
 ) -> list[Capture]:
-    """Return who touches whom, in the order of the contacts."""
+    """Return a capture for each touch of a hunter and an evader, in the order of the contacts."""
     a, b = contacts["a"], contacts["b"]
     hunts = np.isin(a, hunters) & np.isin(b, evaders)
     hunted = np.isin(b, hunters) & np.isin(a, evaders)
@@ -191,7 +185,7 @@ def _touches(
 def _approaches(
     time: Float, pose: Float, hunters: tuple[int, ...], evaders: tuple[int, ...], reach: float
 ) -> list[Capture]:
-    """Return when each evader first has a hunter within reach, and the nearest one, in order."""
+    """Return the first capture of each evader by the nearest hunter in reach, in order."""
     found = []
     for evader in evaders:
         x, y = (pose[:, k, list(hunters)] - pose[:, k, evader, None] for k in (0, 1))

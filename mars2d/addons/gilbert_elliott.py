@@ -1,4 +1,4 @@
-"""Bursts: losses that come in rows, as on a radio link that fades."""
+"""Bursts: losses that come in a row, as on a radio link that fades."""
 
 from __future__ import annotations
 
@@ -49,15 +49,15 @@ class Burst(Description):
 
     @property
     def mean_length(self) -> float:
-        """How many control steps a link stays bad on the average: 1 / to_good."""
+        """The mean number of control steps that a link stays bad: 1 / to_good."""
         return 1 / self.to_good
 
     def turns(self, bad: bool | None, steps: int, rng: np.random.Generator) -> bool:
         """Return whether a link is bad, `steps` control steps after it was known to be `bad`.
 
-        bad: None when nothing is known: then it is bad for the share of time that links are. One
-        random number is drawn, however many steps it was: with q = 1 - to_bad - to_good, what was
-        known fades as q**steps.
+        bad: None when nothing is known; then the link is bad with the probability `share_bad`. One
+        random number is drawn, whatever the number of steps: with q = 1 - to_bad - to_good, the
+        knowledge fades as q**steps.
         """
         share = self.share_bad
         if bad is not None:

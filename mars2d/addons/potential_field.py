@@ -4,19 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
 
 from mars2d.addons.base import Addon
 from mars2d.core.description import number, text
 from mars2d.core.errors import InputError
+from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import THEORY, Scene, faded
 from mars2d.geometry.potential_field import Goals, Potential
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.scenario.scenario import Scenario
-    from mars2d.world.world import World
 
 __all__ = ["PotentialField"]
 
@@ -31,9 +26,9 @@ class PotentialField(Addon):
     0.5
 
     Laws ask ``world.addons.potential_field.force(robot)``. Obstacles are those of the scenario,
-    goals those of the add-on Waypoints; `of` gives the `Potential` that they make, `plan` where it
-    leads without a run. Drawn as theory are where the force on one robot points, and crosses at
-    the local minima in which robots are caught.
+    goals those of the add-on Waypoints; `of` returns their `Potential`, `plan` predicts where it
+    leads. The theory that is drawn is the direction of the force on one robot, and crosses at the
+    local minima in which robots are caught.
 
     Source: Khatib, Int. Journal of Robotics Research 5(1), 1986.
     """
@@ -57,16 +52,16 @@ class PotentialField(Addon):
         default=1.0, low=0.1, high=1e6, unit="m", doc="of the grid on which it is drawn"
     )
 
-    def of(self, scenario: Scenario) -> Potential:
+    def of(self, scenario: ScenarioLike) -> Potential:
         """Return the potential of a scenario, for robots as large as its largest."""
         radius = max(robot.radius for robot in scenario.robots)
         names = ("attraction", "far", "repulsion", "reach")
         return _potential(scenario.obstacles, radius, *(getattr(self, name) for name in names))
 
-    def plan(self, scenario: Scenario) -> tuple[tuple[int, Point], ...]:
-        """Return for each route how many of its points the field leads to, and where that ends.
+    def plan(self, scenario: ScenarioLike) -> tuple[tuple[int, Point], ...]:
+        """Return for each route the number of its points that the field leads to, and its end.
 
-        It ends at the last point, or at a local minimum before, (x, y) [m]. See `Potential.lead`.
+        The end is the last point, or a local minimum before it, (x, y) [m]. See `Potential.lead`.
         """
         field, goals = self.of(scenario), _goals(scenario)
         starts = [robot.pose[:2] for robot in scenario.robots]
@@ -87,7 +82,7 @@ class PotentialField(Addon):
             )
         return self._field.force(world.position[:, robot].tolist(), self._live_goals.goal(robot))
 
-    def on_start(self, world: World) -> None:
+    def on_start(self, world: WorldLike) -> None:
         """Take the world and its obstacles."""
         if self.drawn is not None:
             world.scenario.index_of("PotentialField.drawn", self.drawn)
@@ -98,8 +93,8 @@ class PotentialField(Addon):
         goals: Goals = getattr(self._world.addons, _goals(self._world.scenario).key)
         return goals
 
-    def theory(self, scene: Scene, frame: Frame) -> None:
-        """Draw where the force on one robot points, and crosses where robots will be caught."""
+    def theory(self, scene: Scene, frame: FrameLike) -> None:
+        """Draw the direction of the force on one robot, and crosses where robots will be caught."""
         scenario = frame.scenario
         if not any(isinstance(addon, Goals) for addon in scenario.addons):
             return
@@ -116,7 +111,9 @@ class PotentialField(Addon):
                 scene.cross(end, CROSS, stroke="#ffffff", width=4.5)
                 scene.cross(end, CROSS, stroke=THEORY, width=2.5)
 
-    def _arrows(self, frame: Frame, goals: Goals, robot: int) -> tuple[tuple[Point, Point], ...]:
+    def _arrows(
+        self, frame: FrameLike, goals: Goals, robot: int
+    ) -> tuple[tuple[Point, Point], ...]:
         if robot >= len(goals.routes) or not goals.routes[robot]:
             return ()
         scenario = frame.scenario
@@ -132,7 +129,7 @@ def _potential(
     repulsion: float,
     reach: float,
 ) -> Potential:
-    """Return a potential; the same one for the same scenario, since it keeps what it has drawn."""
+    """Return a potential; the same one for the same scenario, since it caches its arrows."""
     return Potential(
         obstacles,
         radius=radius,
@@ -143,8 +140,8 @@ def _potential(
     )
 
 
-def _goals(scenario: Scenario) -> Goals:
-    """Return the add-on that says where robots are to go."""
+def _goals(scenario: ScenarioLike) -> Goals:
+    """Return the add-on that holds the goals."""
     found = next((addon for addon in scenario.addons if isinstance(addon, Goals)), None)
     if found is None:
         raise InputError("PotentialField needs goals: add Waypoints([...]) to Scenario.addons")

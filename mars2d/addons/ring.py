@@ -1,9 +1,8 @@
-"""Games of shoving: a ring, who has left it, who has won."""
+"""Games of shoving: robots push each other out of a ring."""
 
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,13 +10,9 @@ from numpy.typing import NDArray
 from mars2d.addons.contest import MARK, Contest, Outcome, Teams, mark
 from mars2d.core import checks
 from mars2d.core.description import entry, number
+from mars2d.core.interfaces import FrameLike, RecordLike, WorldLike
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.record.record import Record
-    from mars2d.world.world import World
 
 __all__ = ["Ring"]
 
@@ -33,7 +28,7 @@ class Ring(Contest):
     >>> ring.roles
     (('red', ('red',)), ('blue', ('blue',)))
 
-    A robot is out for good when its middle has left the ring; that is looked at once a control
+    A robot is out for good when its middle has left the ring; this is checked once a control
     step. It stands still from then on, where it is, and the others go on. A role has lost when all
     its robots are out, which ends the experiment. It is a draw when the last robots of both roles
     leave in the same control step, and when time is over.
@@ -49,13 +44,13 @@ class Ring(Contest):
 
     # -- how it stands, in a world -----------------------------------------------------------------
 
-    def on_start(self, world: World) -> None:
+    def on_start(self, world: WorldLike) -> None:
         """Find the robots; raise InputError if one is not there, or has two roles."""
         self._teams = self.teams(world.scenario)
         self._left: dict[int, float] = {}
 
-    def on_step(self, world: World) -> None:
-        """Look who has left; end the experiment when one role has lost, or when time is over."""
+    def on_step(self, world: WorldLike) -> None:
+        """Note who has left; end the experiment when one role has lost, or when time is over."""
         found = self._found(self._teams, np.array([world.time]), world.pose[None])
         now = {robot: time for robot, time in found.items() if robot not in self._left}
         self._left |= now
@@ -74,7 +69,7 @@ class Ring(Contest):
 
     @property
     def score(self) -> dict[str, int]:
-        """How many robots are in the ring, by role."""
+        """The number of robots in the ring, by role."""
         return self._outcome(self._teams, self._left).score
 
     @property
@@ -82,7 +77,7 @@ class Ring(Contest):
         """The role that has won, or None."""
         return self._outcome(self._teams, self._left).winner
 
-    def _message(self, world: World) -> str:
+    def _message(self, world: WorldLike) -> str:
         """Return why it is over, in words."""
         winner = self.winner
         if winner is None:
@@ -93,7 +88,7 @@ class Ring(Contest):
 
     # -- how it stands, by a record ----------------------------------------------------------------
 
-    def outcome(self, record: Record) -> Outcome:
+    def outcome(self, record: RecordLike) -> Outcome:
         """Return score and winner of a record, loaded or just made; there are no captures."""
         teams = self.teams(record.scenario)
         return self._outcome(teams, self._found(teams, record.time, record.pose))
@@ -106,7 +101,7 @@ class Ring(Contest):
         return Outcome((), dict(zip(names, score, strict=True)), winner)
 
     def _found(self, teams: Teams, time: Float, pose: Float) -> dict[int, float]:
-        """Return when each robot first was outside [s], in order, of those that were.
+        """Return the times [s] at which robots were first outside, in order, by index.
 
         time: (T,). pose: (T, 3, n).
         """
@@ -124,8 +119,8 @@ class Ring(Contest):
         """Paint the floor of the ring."""
         scene.circle(self.center, self.radius, fill=CLAY)
 
-    def draw(self, scene: Scene, frame: Frame) -> None:
-        """Draw the rim; cross out who has left the ring, with the time."""
+    def draw(self, scene: Scene, frame: FrameLike) -> None:
+        """Draw the rim; cross out the robots that have left the ring, with the time."""
         scene.circle(self.center, self.radius, stroke=MARK, width=2.0)
         pose = np.concatenate([frame.path, frame.pose[None]])
         time = np.append(np.arange(len(frame.path)) * frame.scenario.sampling_time, frame.time)

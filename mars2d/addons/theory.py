@@ -1,17 +1,15 @@
-"""What a formula predicts, drawn over what happens."""
+"""The prediction of a formula, drawn over the run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mars2d.addons.base import Addon
 from mars2d.core.checks import function
 from mars2d.core.description import entry
+from mars2d.core.interfaces import FrameLike
 from mars2d.core.scene import Scene
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
 
 __all__ = ["Theory"]
 
@@ -21,7 +19,7 @@ def _drawing(name: str, value: object) -> object:
 
 
 class Theory(Addon):
-    """Draws what a formula predicts, by a function of the experiment's own.
+    """Draws the prediction of a formula, by a function of the experiment.
 
     >>> def circle(scene, frame):
     ...     scene.circle((0, 0), 1.91, stroke="#7b3294")
@@ -33,10 +31,10 @@ class Theory(Addon):
     with ``--theory``; it neither changes the run nor is it kept in a saved record.
     """
 
-    draws: Callable[[Scene, Frame], Any] = entry(
+    draws: Callable[[Scene, Any], Any] = entry(
         check=_drawing, kw_only=False, doc="the function: draws(scene, frame)"
     )
 
-    def theory(self, scene: Scene, frame: Frame) -> None:
-        """Draw what the function draws."""
+    def theory(self, scene: Scene, frame: FrameLike) -> None:
+        """Call the function."""
         self.draws(scene, frame)

@@ -1,38 +1,34 @@
-"""The last seconds of the robots' ways, fading out behind them."""
+"""The robots' last seconds, as trails that fade out behind them."""
 
 from __future__ import annotations
 
 from itertools import pairwise
 from math import ceil, floor
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core.checks import names
 from mars2d.core.description import entry, number
+from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, color_of, rgb
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.world.world import World
 
 __all__ = ["Trails"]
 
-PIECES = 12
-"""Of one trail, each fainter than the one before it."""
+MAX_PIECES = 12
+"""The most pieces of one trail, each fainter than the one before it."""
 
-LINES = 600
-"""In one frame at most, as far as each trail has one: with many robots trails have fewer pieces."""
+MAX_LINES = 600
+"""The most pieces in a frame: with many robots each trail has fewer, but at least one."""
 
-POINTS = 400
-"""Of one trail at most."""
+MAX_POINTS = 400
+"""The most points of one trail."""
 
 STRENGTH = 0.85
-"""Of the colour right behind a robot; at the trail's end there is only white left."""
+"""The opacity of the colour right behind a robot; the trail ends in white."""
 
 ROUNDING = 1e-9
-"""Of a number of sampling times."""
+"""The rounding error of a time, in sampling times."""
 
 
 def _names(name: str, value: object) -> tuple[str, ...] | None:
@@ -40,14 +36,14 @@ def _names(name: str, value: object) -> tuple[str, ...] | None:
 
 
 class Trails(Addon):
-    """Draws the last seconds of the robots' ways, which fade out behind them.
+    """Draws the paths of the last seconds, which fade out behind the robots.
 
     >>> Trails(duration=20, robots=["leader"]).key
     'trails'
 
-    It does so in the window, in figures, films and replays. Beside it the paths from the start on
-    are switched off by ``Animation(wake=False)``. What it costs to draw does not grow with the
-    duration: a long trail has fewer points, and in a large team a trail fades in fewer steps.
+    They show in the window, in figures, films and replays. ``Animation(wake=False)`` switches off
+    the paths from the start on. The cost of drawing does not grow with the duration: a long trail
+    has fewer points, and in a large team a trail fades in fewer steps.
     """
 
     duration: float = number(
@@ -60,13 +56,13 @@ class Trails(Addon):
         default=2.5, above=0, high=50, unit="points", doc="of the line, on the screen or page"
     )
 
-    def on_start(self, world: World) -> None:
+    def on_start(self, world: WorldLike) -> None:
         """Look the robots up; raise InputError if there is none of such a name."""
         for name in self.robots or ():
             world.scenario.index_of("Trails.robots", name)
 
-    def draw(self, scene: Scene, frame: Frame) -> None:
-        """Draw where the robots came from in the last `duration` seconds."""
+    def draw(self, scene: Scene, frame: FrameLike) -> None:
+        """Draw the paths of the last `duration` seconds."""
         listed = zip(frame.scenario.robots, frame.scenario.colors, strict=True)
         chosen = [
             (i, color)
@@ -77,13 +73,13 @@ class Trails(Addon):
         rows = min(len(frame.path), floor(frame.time / period + ROUNDING) + 1)
         first = max(0, ceil((frame.time - self.duration) / period - ROUNDING))
         stride = 1
-        while (rows - first) > stride * POINTS:
+        while (rows - first) > stride * MAX_POINTS:
             stride *= 2
         # Multiples of the stride: so the points that are kept are the same from frame to frame.
         kept = np.arange(-(-first // stride) * stride, rows, stride)
         path = np.concatenate([frame.path[kept, :2], frame.pose[None, :2]])  # (k, 2, n)
         age = frame.time - np.append(kept * period, frame.time)
-        pieces = max(1, min(PIECES, LINES // max(len(chosen), 1)))
+        pieces = max(1, min(MAX_PIECES, MAX_LINES // max(len(chosen), 1)))
         freshness = np.clip(np.ceil((1 - age / self.duration) * pieces), 1, pieces).astype(int)
         starts = np.searchsorted(freshness, np.arange(1, pieces + 2))
         for i, color in chosen:

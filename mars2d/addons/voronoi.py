@@ -1,8 +1,8 @@
-"""Voronoi cells of the robots: who is nearest to which part of the workspace."""
+"""Voronoi cells of the robots: the part of the workspace to which each is nearest."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +10,10 @@ from numpy.typing import NDArray
 from mars2d.addons.base import Addon
 from mars2d.core.description import number, text, wrong
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline
 from mars2d.core.scene import THEORY, Scene, faded
 from mars2d.geometry.voronoi import Segment, Tessellation, Weight
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.scenario.scenario import Scenario
-    from mars2d.world.world import World
 
 __all__ = ["Voronoi"]
 
@@ -25,7 +21,7 @@ EDGE = "#5b6470b0"
 
 
 class Voronoi(Addon):
-    """The workspace divided among the robots: to each cell belongs what is nearest to its robot.
+    """The workspace divided among the robots: each cell holds the points nearest to its robot.
 
     >>> from mars2d import Robot, Scenario, World
     >>> team = [Robot(pose=(-2, 0)), Robot(pose=(2, 0))]
@@ -33,11 +29,11 @@ class Voronoi(Addon):
     [[-2.5, 2.5], [0.0, 0.0]]
 
     Laws find the cells of this instant as ``world.addons.voronoi.cells`` and so on; those of a
-    record are ``voronoi.of(record.frame(row))``. All is worked out when it is asked for, once a
+    record are ``voronoi.of(record.frame(row))``. They are computed when asked for, once a
     control step. The workspace may be of any shape. With a Density in the scenario masses,
     centroids and the cost are weighted by it. See `mars2d.geometry.voronoi.Tessellation`.
 
-    Drawn are the cells in their robots' colours; where theory is shown, the centroids. A saved
+    The cells are drawn in their robots' colours, and the centroids where theory is shown. A saved
     record has no functions: a Density of a function is lost with it, and the cells of the loaded
     record are not weighted, or with `density` named are refused.
     """
@@ -50,7 +46,7 @@ class Voronoi(Addon):
         doc="of the sums over a density, see Tessellation; None: 1/16 of the workspace's side",
     )  # fmt: skip
 
-    def of(self, frame: Frame) -> Tessellation:
+    def of(self, frame: FrameLike) -> Tessellation:
         """Return the cells at one instant, live or of a record; they have the same properties."""
         return self._weighed(frame.scenario, frame.pose[:2])
 
@@ -87,7 +83,7 @@ class Voronoi(Addon):
         """Return the ends of the edge that two robots' cells share in the workspace, or None."""
         return self._now.edge(i, j)
 
-    def on_start(self, world: World) -> None:
+    def on_start(self, world: WorldLike) -> None:
         """Take the world, and refuse a scenario that can't be divided."""
         self._world, self._found = world, (0, self._weighed(world.scenario, world.position))
 
@@ -103,13 +99,14 @@ class Voronoi(Addon):
             self._found = self._world.iteration, now
         return self._found[1]
 
-    def _weighed(self, scenario: Scenario, position: NDArray[np.float64]) -> Tessellation:
+    def _weighed(self, scenario: ScenarioLike, position: NDArray[np.float64]) -> Tessellation:
         weight = self._weight(scenario)
         return Tessellation(position, _region(scenario), weight, self.resolution)
 
-    def _weight(self, scenario: Scenario) -> Weight | None:
+    def _weight(self, scenario: ScenarioLike) -> Weight | None:
         """Return the add-on whose density counts, if there is one."""
-        known = {addon.key: addon for addon in scenario.addons if isinstance(addon, Weight)}
+        addons = {addon.key: addon for addon in scenario.addons}
+        known = {key: addon for key, addon in addons.items() if isinstance(addon, Weight)}
         if self.density is None and len(known) < 2:
             return next(iter(known.values()), None)
         if self.density is None:
@@ -119,7 +116,7 @@ class Voronoi(Addon):
             raise wrong("Voronoi.density", self.density, expected)
         return known[self.density]
 
-    def draw(self, scene: Scene, frame: Frame) -> None:
+    def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Draw the cells, each in its robot's colour."""
         import shapely
 
@@ -131,8 +128,8 @@ class Voronoi(Addon):
             for ends in pieces:
                 scene.line(ends, stroke=EDGE, width=0.8)
 
-    def theory(self, scene: Scene, frame: Frame) -> None:
-        """Draw the centroids, and how far each robot is from that of its cell."""
+    def theory(self, scene: Scene, frame: FrameLike) -> None:
+        """Draw the centroids, each with a line to its robot."""
         try:
             centroids = self.of(frame).centroids
         except InputError:  # a saved record has no functions, and so perhaps not its Density
@@ -142,7 +139,7 @@ class Voronoi(Addon):
             scene.circle(centroid, 0.0, fill="#ffffff", stroke=THEORY, width=1.4, pixels=3.0)
 
 
-def _region(scenario: Scenario) -> Outline:
+def _region(scenario: ScenarioLike) -> Outline:
     if scenario.workspace is None:
         raise InputError(
             "Scenario.workspace = None: expected a polygon, which Voronoi divides among the "

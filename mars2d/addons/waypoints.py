@@ -1,10 +1,9 @@
-"""Waypoints: the lists of points that robots are to reach, one after the other."""
+"""Waypoints: the points that robots are to reach, one after the other."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,19 +12,16 @@ from mars2d.addons.base import Addon
 from mars2d.core.checks import point
 from mars2d.core.description import entry, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
+from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.core.scene import Scene, faded
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.world.world import World
 
 __all__ = ["Waypoints"]
 
 EXPECTED = "one list of points for each robot, as [[(x, y), ...], [(x, y), ...]] in metres"
 
 PALE = 0.35
-"""The opacity of what lies behind a robot."""
+"""The opacity of waypoints that are reached."""
 
 
 def _routes(name: str, value: object) -> tuple[Outline, ...]:
@@ -48,15 +44,14 @@ def _routes(name: str, value: object) -> tuple[Outline, ...]:
 
 
 class Waypoints(Addon):
-    """The waypoints of each robot, which it is to reach in their order.
+    """The waypoints of each robot, to be reached in order.
 
     >>> Waypoints([[(1, 0), (2, 0)]]).passed([[(0, 0)], [(1, 0.1)], [(1.5, 0)]])
     (1,)
 
-    Route k is that of robot k; an empty one says nothing, and robots without a route go where they
-    like. A waypoint is reached at the first control step at which the robot is no farther from it
-    than `tolerance`, after all those before it. Laws ask ``world.addons.waypoints`` for `goal`,
-    `arrived` and `reached`. It moves nobody.
+    Route k is that of robot k; it may be empty or missing. A waypoint is reached at the first
+    control step at which the robot is no farther from it than `tolerance`, after all those before.
+    Laws ask ``world.addons.waypoints`` for `goal`, `arrived` and `reached`. It moves no robot.
     """
 
     routes: Sequence[Outline] = entry(
@@ -67,7 +62,7 @@ class Waypoints(Addon):
     )
 
     def passed(self, path: ArrayLike) -> tuple[int, ...]:
-        """Return how many waypoints of each route are reached on a path.
+        """Return the number of waypoints of each route that are reached on a path.
 
         path: (T, n, 2), the positions of all robots at all control steps [m].
         """
@@ -75,7 +70,7 @@ class Waypoints(Addon):
         return tuple(self._along(route, positions[:, i]) for i, route in enumerate(self.routes))
 
     def _along(self, route: Outline, positions: NDArray[np.float64]) -> int:
-        """Return how many points of a route are reached along positions (T, 2)."""
+        """Return the number of points of a route that are reached along positions (T, 2)."""
         row = 0
         for k, (x, y) in enumerate(route):
             near = np.hypot(positions[row:, 0] - x, positions[row:, 1] - y) <= self.tolerance
@@ -84,8 +79,8 @@ class Waypoints(Addon):
             row += int(near.argmax())
         return len(route)
 
-    def of(self, frame: Frame) -> tuple[int, ...]:
-        """Return how many waypoints of each route are reached at a frame."""
+    def of(self, frame: FrameLike) -> tuple[int, ...]:
+        """Return the number of waypoints of each route that are reached at a frame."""
         before = self.passed(frame.path[:, :2].swapaxes(1, 2))
         return self._further(before, frame.pose[:2].T)
 
@@ -98,14 +93,14 @@ class Waypoints(Addon):
 
     @property
     def reached(self) -> tuple[int, ...]:
-        """How many waypoints of each route are reached so far. In a scenario, none."""
+        """The number of waypoints of each route that are reached so far; in a scenario, 0."""
         found: tuple[int, ...] = self.__dict__.get("_reached", (0,) * len(self.routes))
         return found
 
-    def goal(self, robot: int, frame: Frame | None = None) -> Point:
+    def goal(self, robot: int, frame: FrameLike | None = None) -> Point:
         """Return the waypoint (x, y) [m] that a robot, by its index, is to go to now.
 
-        After the last one that stays its goal. frame: the instant that is meant, if not now. Raises
+        The last one stays the goal once it is reached. frame: another instant than now. Raises
         LawError for a robot that has no waypoints.
         """
         route = self._route(robot)
@@ -125,8 +120,8 @@ class Waypoints(Addon):
             raise LawError(f"{self.key}: there is no robot {robot}; the first is 0")
         return self.routes[robot] if robot < len(self.routes) else ()
 
-    def on_start(self, world: World) -> None:
-        """Look whether the routes fit robots and workspace."""
+    def on_start(self, world: WorldLike) -> None:
+        """Raise InputError if the routes do not fit the robots and the workspace."""
         robots = world.scenario.robots
         if len(self.routes) > len(robots):
             raise InputError(
@@ -145,12 +140,12 @@ class Waypoints(Addon):
                 k = int(outside.argmax())
                 raise wrong(f"Waypoints.routes[{i}][{k}]", route[k], "a point of the workspace")
 
-    def on_step(self, world: World) -> None:
-        """See who has reached what."""
+    def on_step(self, world: WorldLike) -> None:
+        """Note the waypoints that have been reached."""
         self._reached = self._further(self._reached, world.position.T)
 
-    def draw(self, scene: Scene, frame: Frame) -> None:
-        """Draw each route as a dotted line with its points; what is reached, paler."""
+    def draw(self, scene: Scene, frame: FrameLike) -> None:
+        """Draw each route as a dotted line with its points; reached ones are paler."""
         starts, colors = frame.scenario.initial_pose.T, frame.scenario.colors
         for i, (route, done) in enumerate(zip(self.routes, self.of(frame), strict=True)):
             points, color = [(starts[i, 0], starts[i, 1]), *route], colors[i]
@@ -162,7 +157,7 @@ class Waypoints(Addon):
                 ink = faded(color, PALE if done == len(route) else 1.0)
                 scene.circle(route[-1], self.tolerance, stroke=ink, width=1.2)
 
-    def named_points(self, frame: Frame) -> list[tuple[str, Point]]:
+    def named_points(self, frame: FrameLike) -> list[tuple[str, Point]]:
         """Return all waypoints with their names."""
         return [
             (f"waypoint {k} of {robot.name}", place)

@@ -6,10 +6,7 @@ import builtins
 import difflib
 import re
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from mars2d.record.record import Record
+from typing import Any
 
 __all__ = [
     "InputError",
@@ -33,7 +30,7 @@ class Mars2dError(Exception):
     """
 
     where: str | None = None
-    record: Record | None = None
+    record: Any = None  # a Record, whose class lies above
 
     def __str__(self) -> str:
         text = super().__str__()

@@ -12,7 +12,9 @@ __all__ = ["Progress"]
 class Stepped(Protocol):
     """An object whose iteration counts up."""
 
-    iteration: int
+    @property
+    def iteration(self) -> int:
+        """The number of steps done."""
 
 
 class Progress:

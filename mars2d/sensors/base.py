@@ -1,11 +1,11 @@
-"""What a sensor is, what makes it imperfect, and the little of the world that it may ask."""
+"""The base of all sensors, and the part of the world that a sensor may ask."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import inf, pi
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,10 +29,6 @@ from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 from mars2d.core.scene import Scene
 from mars2d.sensors.error_model import Imperfection
 
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
-    from mars2d.world.world import Addons
-
 __all__ = [
     "ANGLE",
     "COLOR",
@@ -52,15 +48,14 @@ Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
 NOTHING = -(2**31)
-"""What a ray has hit that hits nothing; bodies are >= 0, obstacles -1, -2, ..."""
+"""The number of the body that a ray hits where it hits none; bodies are >= 0, obstacles < 0."""
 
-
-MOST_WAITING = 100_000
-"""How many control steps may lie between measurements, or one may be on its way."""
+MAX_STEPS = 100_000
+"""The most control steps between two measurements, and from a measurement to its arrival."""
 
 
 class Surroundings(Protocol):
-    """What a sensor may ask of the world. Points are (x, y) in metres, in the world's frame.
+    """The questions that a sensor may ask of the world. Points are (x, y) [m] in its frame.
 
     `ignore` is the index of the robot that asks: it never sees itself. Bodies are numbered robots
     first, then props; obstacle k is -1 - k.
@@ -83,8 +78,8 @@ class Surroundings(Protocol):
         """The poses of all props, (3, p)."""
 
     @property
-    def addons(self) -> Addons:
-        """The add-ons by name: what of the experiment's own there is to measure."""
+    def addons(self) -> Any:
+        """The add-ons, as attributes by their names: what the experiment itself adds to measure."""
 
     @property
     def beacons(self) -> Mapping[str, Point]:
@@ -92,7 +87,7 @@ class Surroundings(Protocol):
 
     @property
     def driven(self) -> Sequence[tuple[float, Float]]:
-        """What the drives asked for in the last control step: (seconds, twist (3, n)) in turn.
+        """The twists that the drives asked for in the last control step: (seconds, (3, n)) in turn.
 
         A twist is (forward [m/s], left [m/s], spin [rad/s]), linear velocities along the axes of
         the robot or, for a drive whose `frame` is "world", of the world. Empty at the start.
@@ -139,7 +134,8 @@ class Surroundings(Protocol):
     ) -> NDArray[np.bool_]:
         """Return whether something stands between `start` and points (k, 2).
 
-        bodies: (k,) or one, what a point belongs to and is not hidden by; NOTHING if to none.
+        bodies: (k,) or one: the body that each point belongs to, which does not hide it, or
+        NOTHING.
         """
 
     def color(self, body: int) -> str:
@@ -150,7 +146,7 @@ class Surroundings(Protocol):
 
 
 class Sighting(NamedTuple):
-    """Where something is seen: range [m], bearing [rad] from ahead, and which robot, if known."""
+    """A thing that is seen: range [m], bearing [rad] from ahead, and the robot's index if known."""
 
     range: float
     bearing: float
@@ -158,12 +154,13 @@ class Sighting(NamedTuple):
 
 
 FULL = 2 * pi
+
 ROUNDED = 1e-5
-"""A full circle may be written with as few digits as this makes of it, relatively."""
+"""The relative error that a value written by hand may have: a full circle, or a rate."""
 
 
 def sight_angle(*, default: float, doc: str) -> Any:
-    """Declare a field that is an angle within which something is seen: 0 < angle <= 2 pi."""
+    """Declare a field that holds an angle of view, 0 < angle <= 2 pi."""
 
     def check(name: str, value: object) -> float:
         expected = "a number > 0 and <= 2 pi"
@@ -210,23 +207,23 @@ class Sensor(Stateful):
     >>> Compass(noise=0.02).key
     'compass'
 
-    `read` measures perfectly. What makes a device imperfect is done to its reading here, in this
-    order: noise, outliers, limits and wrapping, resolution, drop-outs, latency. `quantities` says
-    what is measured: one `Quantity`, and the reading may have any shape; or several, and the last
-    axis of the reading has one entry for each.
+    `read` measures perfectly. The base then adds the errors of a device, in this order: noise,
+    outliers, limits and wrapping, resolution, drop-outs, latency. `quantities` says what is
+    measured: one `Quantity`, and the reading may have any shape; or several, and the last axis of
+    the reading has one entry for each.
 
-    What is not there, is lost or has not arrived yet reads inf as a distance, False as a flag, and
-    nan otherwise.
+    A thing that is not there, a lost value, and a value that has not arrived yet read inf as a
+    distance, False as a flag, and nan otherwise.
 
-    Each robot of each world has a copy of its own: methods may keep things in attributes of self.
+    Each robot of each world has its own copy, so methods may set attributes of self.
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (NUMBER,)
 
     stays: ClassVar[bool] = False
-    """Whether what it draws lies where things are, as the points that a laser has met.
+    """Whether its drawing shows where things are, such as the points that a laser has hit.
 
-    Then a film that shows a robot between control steps draws it where it was when it measured.
+    A film that shows a robot between control steps then draws it at the pose of the measurement.
     """
 
     name: str | None = text(default=None, optional=True, doc="the name of the reading")
@@ -291,19 +288,18 @@ class Sensor(Stateful):
                     f"times as far off as its noise, which is 0: give {kind}.noise, too"
                 )
 
-    # -- what a sensor of one's own may write -------------------------------------------------
+    # -- methods to override -------------------------------------------------------------------
 
-    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:
-        """Do what is to be done once, before the first reading."""
+    def on_start(self, robot: Any, world: Surroundings, rng: np.random.Generator) -> None:
+        """Prepare, once, before the first reading."""
 
-    def on_step(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:
-        """Do what is to be done at each control step, whether a reading is due or not."""
+    def on_step(self, robot: Any, world: Surroundings, rng: np.random.Generator) -> None:
+        """Follow the robot: called at each control step, whether a reading is due or not."""
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Any:
+    def read(self, robot: Any, world: Surroundings, rng: np.random.Generator) -> Any:
         """Return the perfect reading now: a number, a bool, or an array of a shape that stays.
 
-        robot: the robot that carries the sensor, with everything known of it.
-        rng: the random stream of this one sensor.
+        robot: the robot that carries the sensor, a `RobotLike`. rng: this sensor's random stream.
         """
         raise NotImplementedError(
             f"{type(self).__name__} needs a method read(self, robot, world, rng)"
@@ -311,26 +307,26 @@ class Sensor(Stateful):
 
     def read_all(
         self,
-        robots: Sequence[RobotView],
+        robots: Sequence[Any],
         world: Surroundings,
         rngs: Sequence[np.random.Generator],
     ) -> Sequence[Any] | NDArray[Any]:
         """Return the perfect readings of several robots that carry such a sensor, one each.
 
-        By default each is asked to `read`. A sensor that writes it anew is read once for all robots
-        whose sensors are equal, if that is quicker: then it must not depend on what is kept in
-        attributes of self, and return a new array, or list, each time. rngs: one for each robot.
+        By default this calls `read` for each. Where a sensor class overrides it, robots with equal
+        sensors are read in one call: it must not depend on attributes that methods have set, and
+        must return a new array or list each time. rngs: one for each robot.
         """
         return [self.read(robot, world, rng) for robot, rng in zip(robots, rngs, strict=True)]
 
     def shown(self, reading: Any) -> Any:
-        """Return what a law finds under ``robot.sense``, made of the reading: here, itself."""
+        """Return the value that a law finds under ``robot.sense``; by default the reading."""
         return reading
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
-        """Draw field of view and reading for a robot at `pose` (3,). By default, nothing."""
+        """Draw the field of view and the reading for a robot at `pose` (3,); by default nothing."""
 
-    # -- when it measures --------------------------------------------------------------------
+    # -- when it measures ----------------------------------------------------------------------
 
     @property
     def scan_angles(self) -> Float | None:
@@ -346,15 +342,15 @@ class Sensor(Stateful):
         return steps_until(self.latency, sampling_time)
 
     def check_timing(self, name: str, sampling_time: float) -> None:
-        """Raise InputError if it would measure between control steps, or hold too much back.
+        """Raise InputError if it would measure between control steps, or too rarely, or too late.
 
         name: of the sensor, for the message. sampling_time: between control steps, seconds.
         """
         if self.rate is not None:
-            if self.rate * sampling_time * MOST_WAITING < 1:
+            if self.rate * sampling_time * MAX_STEPS < 1:
                 raise wrong(
                     f"{name}: rate", self.rate,
-                    f"one measurement in at most {MOST_WAITING} x {sampling_time:g} s",
+                    f"one measurement in at most {MAX_STEPS} x {sampling_time:g} s",
                 )  # fmt: skip
             exact = 1 / (self.rate * sampling_time)
             if abs(exact - round(exact)) > ROUNDED * exact or round(exact) < 1:
@@ -364,13 +360,13 @@ class Sensor(Stateful):
                     f"{sampling_rate} Hz, divided by a whole number, as "
                     f"{sampling_rate} / {max(round(exact), 1)}"
                 )
-        if self.latency / sampling_time > MOST_WAITING:
+        if self.latency / sampling_time > MAX_STEPS:
             raise wrong(
                 f"{name}: latency", self.latency,
-                f"at most {MOST_WAITING} sampling times of {sampling_time:g} s",
+                f"at most {MAX_STEPS} sampling times of {sampling_time:g} s",
             )  # fmt: skip
 
-    # -- what it has ---------------------------------------------------------------------------
+    # -- where it sits, and its errors ---------------------------------------------------------
 
     def placed(self, pose: Float) -> Float:
         """Return the pose (3,) of the sensor on a robot at `pose`; of many, (3, m)."""
@@ -403,25 +399,25 @@ class Sensor(Stateful):
         return self._imperfection.none
 
     def measured(self, reading: Any, rng: np.random.Generator) -> Any:
-        """Return what the device makes of a perfect reading: noise and all but the latency."""
+        """Return a perfect reading with the errors of the device, all but the latency."""
         return self._imperfection.of(reading, rng)
 
     def measured_all(
         self, readings: Sequence[Any] | NDArray[Any], rngs: Sequence[np.random.Generator]
     ) -> Any:
-        """Return what devices make of perfect readings, one each; an array of what is one."""
+        """Return the perfect readings of several robots with errors; an array may stay one."""
         return self._imperfection.of_all(readings, rngs)
 
     def lost(self, reading: Any) -> Any:
-        """Return what is read in place of a reading that has not arrived."""
+        """Return the reading in place of one that has not arrived."""
         return self._imperfection.lost(reading)
 
 
 class Scanner(Sensor):
-    """The base of sensors that look many ways at once: a robot reads what a team of one reads."""
+    """The base of sensors with many beams: `read` is `read_all` of a team of one."""
 
     stays: ClassVar[bool] = True
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Any:
+    def read(self, robot: Any, world: Surroundings, rng: np.random.Generator) -> Any:
         """Return the perfect reading now."""
         return self.read_all([robot], world, [rng])[0]

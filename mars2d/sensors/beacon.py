@@ -1,16 +1,17 @@
-"""Where are the lamps? Range and bearing of beacons, by name."""
+"""Range and bearing of beacons, by name."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from math import inf, pi
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
+from typing import Any, ClassVar, NoReturn
 
 import numpy as np
 
 from mars2d.core import checks
 from mars2d.core.description import entry, flag, number, wrong
 from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, shown
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
@@ -24,9 +25,6 @@ from mars2d.sensors.base import (
     sight_angle,
 )
 
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
-
 __all__ = ["Beacon", "Sightings"]
 
 FAR = 50.0
@@ -34,7 +32,7 @@ FAR = 50.0
 
 
 class Sightings(Mapping[str, Sighting]):
-    """Where each beacon is seen, by name; one that is not seen has range inf and bearing nan.
+    """The sighting of each beacon by its name: range inf and bearing nan where it is not seen.
 
     Raises UnknownNameError for a name that no beacon has.
     """
@@ -91,7 +89,7 @@ def _known(beacons: Mapping[str, Point]) -> list[str]:
 
 
 def _place(name: str, beacons: Mapping[str, Point]) -> Point:
-    """Return where an add-on says that a beacon is; infinitely far away if it is there no more."""
+    """Return where an add-on says that a beacon is; infinitely far away if it is gone."""
     if name not in beacons:
         return inf, inf
     try:
@@ -104,15 +102,15 @@ def _place(name: str, beacons: Mapping[str, Point]) -> Point:
 
 
 class Beacon(Sensor):
-    """Measures range and bearing of the world's beacons, which the add-on Beacon puts there.
+    """Measures the range and bearing of the beacons that the add-on Beacon puts into the world.
 
     A law finds a mapping from each beacon's name to a `Sighting`; one that is not seen has range
     inf and bearing nan. The record has rows (range [m], bearing [rad]), (k, 2), in the order of
     `names` or else of the alphabet. Bearings are from straight ahead, counter-clockwise, in
     (-pi, pi].
 
-    A beacon is seen if nothing but the robot that looks lies before it: no obstacle, no prop, no
-    other robot. What is not seen has neither noise nor outliers.
+    A beacon is seen unless an obstacle, a prop or another robot stands before it. One that is not
+    seen has neither noise nor outliers.
 
     Source: Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 6.6.
     """
@@ -129,8 +127,8 @@ class Beacon(Sensor):
         default=None, check=_names, doc="the beacons that it looks for; None: all that there are"
     )
 
-    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
-        """Take which beacons there are. Raises InputError if there are none, or not such."""
+    def on_start(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+        """Look the beacons up. Raises InputError if there are none, or none of such a name."""
         known = _known(world.beacons)
         if not known:
             raise InputError(
@@ -145,8 +143,8 @@ class Beacon(Sensor):
                     f"{nearest(name, known)}"
                 )
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
-        """Return rows (k, 2) of range and bearing, (inf, nan) for what is not seen."""
+    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+        """Return rows (k, 2) of range and bearing, (inf, nan) for a beacon that is not seen."""
         there = world.beacons
         points = np.array([_place(name, there) for name in self._beacons])
         return sighted(
@@ -160,12 +158,12 @@ class Beacon(Sensor):
         )
 
     def measured(self, reading: Float, rng: np.random.Generator) -> Float:
-        """Return what the device makes of a perfect reading; what is not seen stays so."""
+        """Return a perfect reading with errors; a beacon that is not seen stays unseen."""
         rows: Float = super().measured(reading, rng)
         return rows if self._perfect else hold_missing(rows, reading)
 
     def shown(self, reading: Float) -> Sightings:
-        """Return where each beacon is seen, by name."""
+        """Return the sighting of each beacon, by name."""
         rows = zip(self._beacons, reading.tolist(), strict=True)
         return Sightings({name: Sighting(*row) for name, row in rows})
 

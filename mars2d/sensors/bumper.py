@@ -1,21 +1,19 @@
-"""Has the robot been touched, and on which side? A ring of switches."""
+"""A ring of switches that tell on which side the robot was touched."""
 
 from __future__ import annotations
 
 from collections import deque
 from functools import cached_property
 from math import atan2, floor, pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.description import integer, number
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
 from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["Bumper"]
 
@@ -28,8 +26,8 @@ class Bumper(Sensor):
     The reading is an array (sectors,) of True and False. The sectors share the field of view
     evenly, from the right to the left of the heading: two over pi are the right and the left side
     of the front. Over a full circle the first one is in the middle of the back: four are back,
-    right, front and left. What counts is the bearing of the point of contact from the sensor, which
-    is best mounted in the middle of the robot.
+    right, front and left. The bearing of the point of contact from the sensor counts, so it is best
+    mounted in the middle of the robot.
 
     >>> Bumper(sectors=2, field_of_view=3.0).angles.tolist()
     [-0.75, 0.75]
@@ -54,12 +52,12 @@ class Bumper(Sensor):
         angles.flags.writeable = False
         return angles
 
-    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+    def on_start(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
         """Begin untouched."""
         self._pose = robot.pose
         self._touches: deque[NDArray[np.bool_]] = deque(maxlen=self.period(world.sampling_time))
 
-    def on_step(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+    def on_step(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
         """Note in which sectors the robot was touched in the last control step."""
         touched = np.zeros(self.sectors, dtype=bool)
         step = world.sampling_time
@@ -79,7 +77,7 @@ class Bumper(Sensor):
 
     def read(
         self,
-        robot: RobotView,  # noqa: ARG002
+        robot: RobotLike,  # noqa: ARG002
         world: Surroundings,  # noqa: ARG002
         rng: np.random.Generator,  # noqa: ARG002
     ) -> NDArray[np.bool_]:

@@ -1,4 +1,4 @@
-"""What makes a sensor's reading imperfect: noise, outliers, limits, resolution, drop-outs."""
+"""The errors of a device: noise, outliers, limits, resolution, drop-outs."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ def as_numbers(name: str, reading: Any, example: str) -> NDArray[Any]:
 
 @dataclass(frozen=True)
 class Imperfection:
-    """What a device makes of perfect readings.
+    """Turns perfect readings into those of a device.
 
-    name: of the sensor, for messages. noise, resolution: one for each quantity. top: the longest
-    distance that it reads, metres.
+    name: of the sensor, for messages. noise, resolution: one for each quantity. top: its range,
+    metres.
     """
 
     name: str
@@ -48,16 +48,16 @@ class Imperfection:
 
     @cached_property
     def none(self) -> bool:
-        """Whether there is nothing that makes a reading imperfect."""
+        """Whether the device has no errors."""
         return not (any(self.noise) or any(self.resolution) or self.outliers or self.dropouts)
 
     @cached_property
     def _limited(self) -> bool:
-        """Whether something of a reading has to lie within limits."""
+        """Whether a quantity of the reading has limits."""
         return any(quantity.kind not in ("number", "flag") for quantity in self.quantities)
 
     def of(self, reading: Any, rng: np.random.Generator) -> Any:
-        """Return what the device makes of a perfect reading."""
+        """Return a perfect reading with errors."""
         true = self._checked(reading)
         if self.none and not self._limited:
             return reading
@@ -74,16 +74,16 @@ class Imperfection:
     def of_all(
         self, readings: Sequence[Any] | NDArray[Any], rngs: Sequence[np.random.Generator]
     ) -> Any:
-        """Return what equal devices make of perfect readings, each with random numbers of its own.
+        """Return the perfect readings of equal devices with errors, each by its own random numbers.
 
-        Where no chance is in it, an array is treated as one.
+        An array stays an array where nothing is random.
         """
         if self.none and isinstance(readings, np.ndarray):
             return self.of(readings, rngs[0])
         return [self.of(reading, rng) for reading, rng in zip(readings, rngs, strict=True)]
 
     def lost(self, reading: Any) -> Any:
-        """Return what is read in place of a reading that has not arrived."""
+        """Return the reading in place of one that has not arrived."""
         result = np.array(self._checked(reading))
         result[...] = self._missing(result)
         return result if result.ndim else result.item()
@@ -95,7 +95,7 @@ class Imperfection:
         return missing[0] if len(missing) == 1 else np.array(missing)
 
     def _rows(self, result: NDArray[Any]) -> tuple[int, ...]:
-        """Return the shape of what is lost as one: a value, a pixel, or one of each quantity."""
+        """Return the shape of the parts that are lost as a whole: values, pixels, or rows."""
         whole = len(self.quantities) > 1 or (self.quantities[0].kind == "color" and result.ndim)
         return result.shape[:-1] if whole else result.shape
 
@@ -123,7 +123,7 @@ class Imperfection:
         if self.outliers:
             pixels = quantity.kind == "color" and true.ndim > 0
             shape = (*true.shape[:-1], 1) if pixels else true.shape
-            # What is not there stays so; but a distance may be read where there is nothing.
+            # A missing value stays missing; but a distance may be read where there is nothing.
             struck = (rng.random(shape) < self.outliers) & ~np.isnan(true)
             values = np.where(struck, quantity.outlier(true, noise, self.top, rng), values)
         values = quantity.limited(values, self.top)

@@ -1,17 +1,15 @@
-"""What colour is the floor beneath me? For lines to follow and places to find."""
+"""The colour of the floor beneath the robot, to follow lines and to find places."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.errors import LawError, shown
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, color_of
 from mars2d.sensors.base import COLOR, Float, Quantity, Sensor, Surroundings
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["Ground"]
 
@@ -19,13 +17,14 @@ __all__ = ["Ground"]
 class Ground(Sensor):
     """Measures the colour of the floor beneath its mount: red, green and blue from 0 to 1.
 
-    The reading is an array (3,). Where no add-on says anything of the floor it is white; the add-on
-    Floor paints it. It looks at a point, and sees the floor beneath robots, props and obstacles.
+    The reading is an array (3,). The floor is white where no add-on gives it a colour; the add-on
+    Floor does. The sensor looks at one point, and sees the floor beneath robots, props and
+    obstacles.
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (COLOR,)
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return red, green and blue, (3,), from 0 to 1."""
         x, y, _ = self.placed(robot.pose).tolist()
         found = world.ground((x, y))

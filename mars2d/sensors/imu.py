@@ -1,23 +1,21 @@
-"""How do I accelerate, how do I turn? The inertial measurement unit."""
+"""The inertial measurement unit: accelerations and rate of turn."""
 
 from __future__ import annotations
 
 from math import cos, sin, sqrt
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.description import entry, real, wrong
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["Imu"]
 
 ARROW = 0.2
-"""An acceleration is drawn as an arrow of so many metres for each m/s^2."""
+"""The length of an arrow for an acceleration of 1 m/s^2, metres."""
 
 
 def _three(name: str, value: object) -> tuple[float, float, float]:
@@ -44,12 +42,12 @@ class Imu(Sensor):
     time T, and ax = (change of u) / T - omega w, ay = (change of w) / T + omega u, with u and w at
     the end of the step. That is exact where velocities change at control steps only, as they do in
     free motion, and else to the first order of T. At the start there is no last step: the
-    means are 0, and what is read is the bias, the walk and the noise alone.
+    means are 0, and only the bias, the walk and the noise are read.
 
     Two constant errors are added: `bias`, and a random walk that begins at 0 and gains a standard
     deviation of `bias_walk` times the root of the time.
 
-    The robot stands upright on a level floor: there is no gravity in it.
+    The robot stands upright on a level floor, so gravity does not show.
 
     Source: Titterton and Weston, Strapdown Inertial Navigation Technology (2004), sections 3.4 and
     4.4.
@@ -69,13 +67,13 @@ class Imu(Sensor):
         doc="standard deviation that the errors gain in one second; it grows with the root of it",
     )  # fmt: skip
 
-    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+    def on_start(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
         """Begin without a step before."""
         self._last: tuple[float, float, float] | None = None
         self._mean = np.zeros(3)
         self._walked = np.zeros(3)
 
-    def on_step(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:
+    def on_step(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:
         """Take the means over the last control step."""
         heading = float(self.placed(robot.pose)[2])
         ahead, left = self._speed(robot, heading)
@@ -91,7 +89,7 @@ class Imu(Sensor):
                 self._walked = self._walked + step * rng.standard_normal(3)
         self._last = ahead, left, heading
 
-    def _speed(self, robot: RobotView, heading: float) -> tuple[float, float]:
+    def _speed(self, robot: RobotLike, heading: float) -> tuple[float, float]:
         """Return the mount's velocity [m/s] ahead and to the left of its own heading."""
         vx, vy, omega = robot.velocity.tolist()
         x, y = (self.placed(robot.pose) - robot.pose)[:2].tolist()
@@ -99,7 +97,7 @@ class Imu(Sensor):
         c, s = cos(heading), sin(heading)
         return c * vx + s * vy, c * vy - s * vx
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return the means (3,) over the last control step, with the bias."""
         return self._mean + self.bias + self._walked
 

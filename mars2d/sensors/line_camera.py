@@ -1,26 +1,24 @@
-"""What colour has what is seen? A camera with one line of pixels."""
+"""A camera with one line of pixels: the colours of the things in view."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
 from math import isnan, nan, pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.description import integer, number
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, color_of, faded, rgb
 from mars2d.geometry.bearings import beam_angles
 from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Scanner, Surroundings, sight_angle
 
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
-
 __all__ = ["LineCamera"]
 
 NEAR, FAR = 0.07, 0.085
-"""Between these shares of the range the line of pixels is drawn."""
+"""The line of pixels is drawn between these shares of the range."""
 
 
 class LineCamera(Scanner):
@@ -44,11 +42,11 @@ class LineCamera(Scanner):
 
     def read_all(
         self,
-        robots: Sequence[RobotView],
+        robots: Sequence[RobotLike],
         world: Surroundings,
         rngs: Sequence[np.random.Generator],  # noqa: ARG002
     ) -> Float:
-        """Return the colours (m, pixels, 3) of what the pixels see."""
+        """Return the colours (m, pixels, 3) that the pixels see."""
         mine = [robot.index for robot in robots]
         _, bodies = world.sights(self.placed(world.pose[:, mine]), self.angles, self.range, mine)
         seen, which = np.unique(bodies, return_inverse=True)

@@ -1,19 +1,17 @@
-"""How far have I come? Dead reckoning from what the wheels turn."""
+"""Dead reckoning from the turning of the wheels."""
 
 from __future__ import annotations
 
 from math import cos, sin, sqrt
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.description import choice, entry, number, real, wrong
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene
 from mars2d.geometry.dead_reckoning import draw_pose, odometry_covariance, sinc
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["Odometry", "odometry_covariance"]
 
@@ -39,15 +37,15 @@ def _step(name: str, value: object) -> float:
 class Odometry(Sensor):
     """Estimates its own pose from the turning of its wheels: x [m], y [m], theta [rad].
 
-    The reading is an array (3,); theta is not wrapped. It integrates exactly, as arcs, what the
-    drive made the wheels do. So where the wheels slip, the estimate goes on and the robot does not.
+    The reading is an array (3,); theta is not wrapped. It integrates the turning of the wheels
+    exactly, as arcs. So where the wheels slip, the estimate goes on and the robot does not.
 
     On a drive of two wheels, their rims turn by v -+ wheel_semiaxis * omega. On any other drive
-    three wheels roll along that measure only: two as far to the left and right of the pose as the
-    robot's radius (or the drive's own `wheel_semiaxis`), one across. Each wheel's travel s is read
-    as scale * s + drift * sqrt(|s|) * n with n a number of the standard normal distribution, and
-    the spin is the difference of the two, divided by the distance that the wheels are believed to
-    have. That across has the scale 1.
+    three wheels that only measure roll along: two to the left and right of the pose, as far as the
+    robot's radius (or the drive's own `wheel_semiaxis`), and one across. Each wheel's travel s is
+    read as scale * s + drift * sqrt(|s|) * n with n a number of the standard normal distribution,
+    and the spin is the difference of left and right over the believed distance of the wheels. The
+    wheel across has the scale 1.
 
     The shared fields `noise`, `outliers` and `resolution` concern the reading and don't add up.
 
@@ -88,18 +86,18 @@ class Odometry(Sensor):
         if self.mount != (0.0, 0.0, 0.0):
             raise wrong("Odometry.mount", self.mount, "(0, 0, 0): it measures at the wheels")
 
-    def on_start(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
+    def on_start(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
         """Begin at the origin."""
         own = getattr(robot.drive, "wheel_semiaxis", None)
         self._semiaxis = robot.radius if own is None else float(own)
         x, y, theta = robot.pose.tolist()
         self._estimate = (0.0, 0.0, 0.0) if self.origin == "start" else (x, y, theta)
         self._heading = theta
-        self._turned = [0.0, 0.0, 0.0]  # what the wheels did in all: left, right, across
+        self._turned = [0.0, 0.0, 0.0]  # travel in all, metres: left, right, across
         self._counted = [0.0, 0.0, 0.0]
 
-    def on_step(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> None:
-        """Add what the wheels turned in the last control step."""
+    def on_step(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:
+        """Add the turning of the wheels in the last control step."""
         for seconds, twist in world.driven:
             forward, left, spin = (seconds * twist[:, robot.index]).tolist()
             if robot.drive.frame == "world":
@@ -110,7 +108,7 @@ class Odometry(Sensor):
         self._heading = float(robot.pose[2])
 
     def _roll(self, travel: list[float], rng: np.random.Generator) -> None:
-        """Add what the wheels (left, right, across) have truly turned by, metres."""
+        """Add the true travels of the wheels (left, right, across), metres."""
         if self.encoder_step:
             travel = [self._ticks(wheel, way) for wheel, way in enumerate(travel)]
         left, right, across = (
@@ -132,12 +130,12 @@ class Odometry(Sensor):
         more, self._counted[wheel] = counted - self._counted[wheel], counted
         return more
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return the estimate (3,)."""
         return np.array(self._estimate)
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
-        """Draw where it takes itself to be in the world, if that is what it estimates."""
+        """Draw the estimated pose, if it is one in the world's frame."""
         if self.origin == "world":
             draw_pose(scene, reading, color)
 

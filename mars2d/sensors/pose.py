@@ -1,17 +1,15 @@
-"""Where am I? Position and heading, as a GPS and a compass give them."""
+"""Position and heading, as a GPS and a compass give them."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene
 from mars2d.geometry.dead_reckoning import draw_pose
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["Pose"]
 
@@ -33,10 +31,10 @@ class Pose(Sensor):
         Quantity("theta", "rad"),
     )
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return the pose (3,) of the mount."""
         return self.placed(robot.pose)
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:  # noqa: ARG002
-        """Draw a ring where it takes itself to be, with its heading."""
+        """Draw a ring at the measured position, with the heading."""
         draw_pose(scene, reading, color)

@@ -1,18 +1,16 @@
-"""Is something close? The sensor of the paper's Algorithm 2."""
+"""Whether something is close: the sensor of the paper's Algorithm 2."""
 
 from __future__ import annotations
 
 from math import cos, hypot, pi, sin
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.description import number
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
 from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["Proximity"]
 
@@ -31,7 +29,7 @@ class Proximity(Sensor):
     range: float = number(above=0, high=1e6, unit="m", doc="how far it sees, from its mount")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about the heading")
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> bool:  # noqa: ARG002
+    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> bool:  # noqa: ARG002
         """Return whether something is within range and field of view."""
         x, y, theta = self.placed(robot.pose).tolist()
         me = robot.index

@@ -1,33 +1,31 @@
-"""Where are the others? Range and bearing of the robots in view."""
+"""Range and bearing of the other robots in view."""
 
 from __future__ import annotations
 
 from math import inf, pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.description import flag, number
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
 from mars2d.sensors.base import Float, Quantity, Sensor, Sighting, Surroundings, sight_angle
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["RangeBearing"]
 
 
 class RangeBearing(Sensor):
-    """Measures range and bearing of the other robots in view, from the sensor to their poses.
+    """Measures the range and bearing of the other robots in view, from the sensor to their poses.
 
     A law finds a tuple of `Sighting`, nearest first, of the robots that are seen. The record has
-    rows (range [m], bearing [rad]), (inf, nan) for what is not seen: with identity (n, 2), row i
-    for robot i, its own always missing; without it (n - 1, 2), nearest first. Bearings are from
-    straight ahead, counter-clockwise, in (-pi, pi].
+    rows (range [m], bearing [rad]), (inf, nan) for a robot that is not seen: with identity (n, 2),
+    row i for robot i, its own always missing; without it (n - 1, 2), nearest first. Bearings are
+    from straight ahead, counter-clockwise, in (-pi, pi].
 
-    A robot is seen if nothing but the robot that looks lies on the line to its pose: no obstacle,
-    no prop, no other robot. What is not seen has neither noise nor outliers.
+    A robot is seen unless an obstacle, a prop or a third robot lies on the line to its pose. One
+    that is not seen has neither noise nor outliers.
 
     Sources: Casini & Garulli (2016), section 6.4; Ceccarelli et al. (2008).
     """
@@ -42,7 +40,7 @@ class RangeBearing(Sensor):
     )
     identity: bool = flag(default=True, doc="whether it knows which robot it sees")
 
-    def read(self, robot: RobotView, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return rows of range and bearing: of robot i, or without identity nearest first."""
         everyone = np.arange(world.pose.shape[1])
         rows = sighted(
@@ -60,7 +58,7 @@ class RangeBearing(Sensor):
         return _nearest_first(rows[everyone != robot.index])
 
     def measured(self, reading: Float, rng: np.random.Generator) -> Float:
-        """Return what the device makes of a perfect reading; what is not seen stays so."""
+        """Return a perfect reading with errors; a robot that is not seen stays unseen."""
         rows: Float = super().measured(reading, rng)
         if self._perfect:
             return rows
@@ -68,7 +66,7 @@ class RangeBearing(Sensor):
         return rows if self.identity else _nearest_first(rows)
 
     def shown(self, reading: Float) -> tuple[Sighting, ...]:
-        """Return what is seen, nearest first."""
+        """Return the sightings, nearest first."""
         robots = np.flatnonzero(np.isfinite(reading[:, 0]))
         seen = [
             Sighting(distance, bearing, i if self.identity else None)

@@ -1,27 +1,25 @@
-"""How far is it in many directions? A laser scanner."""
+"""A laser scanner: the distances along many beams."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
 from math import pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.description import integer, number
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
 from mars2d.sensors.base import DISTANCE, Float, Quantity, Scanner, Surroundings, sight_angle
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["RangeFinder"]
 
 
 class RangeFinder(Scanner):
-    """Measures along evenly spaced beams how far it is to the first surface: a laser scanner.
+    """Measures the distance to the first surface along evenly spaced beams: a laser scanner.
 
     The reading is an array (beams,), metres from the sensor; inf where nothing is within range. The
     first beam points half the field of view to the right of the heading, the last one as much to
@@ -51,7 +49,7 @@ class RangeFinder(Scanner):
 
     def read_all(
         self,
-        robots: Sequence[RobotView],
+        robots: Sequence[RobotLike],
         world: Surroundings,
         rngs: Sequence[np.random.Generator],  # noqa: ARG002
     ) -> Float:
@@ -60,7 +58,7 @@ class RangeFinder(Scanner):
         return world.scans(self.placed(world.pose[:, mine]), self.angles, self.range, mine)
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
-        """Draw what the beams sweep, and a dot where one has met something."""
+        """Draw the area that the beams sweep, and a dot where one has hit something."""
         x, y, theta = self.placed(pose).tolist()
         angles = theta + self.angles
         far = np.minimum(reading, self.range)

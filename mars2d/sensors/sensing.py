@@ -1,21 +1,19 @@
-"""Sensors at work: when each measures, when its reading arrives, and what a law finds of it."""
+"""Sensors at work: when each measures, and when its reading arrives under ``robot.sense``."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import UnknownNameError, nearest
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.usercode import called
 from mars2d.sensors.base import Sensor, Surroundings
-
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
 
 __all__ = ["Device", "Sense", "Sensing"]
 
@@ -29,7 +27,7 @@ class Sense(SimpleNamespace):
         super().__init__()
         self._robot = robot
         self._names: list[str] = []  # of all sensors
-        self._due: dict[str, Callable[[], Any]] = {}  # what measures when it is asked for
+        self._due: dict[str, Callable[[], Any]] = {}  # measured when asked for
 
     def _expect(self, name: str, measure: Callable[[], Any]) -> None:
         """Let a reading be measured when it is asked for."""
@@ -60,22 +58,22 @@ class Sense(SimpleNamespace):
 class Device:
     """One sensor on one robot.
 
-    reading: what is recorded and drawn at this control step; None if nothing was measured.
+    reading: the one that is recorded and drawn at this control step; None if none was measured.
     """
 
     def __init__(
         self,
         sensor: Sensor,
-        robot: RobotView,
+        robot: RobotLike,
         world: Surroundings,
         stream: Callable[[str], np.random.Generator],
     ) -> None:
-        """Take the sensor, its robot and world, and what makes a random stream of a name."""
+        """Take the sensor, its robot and surroundings; stream: makes a random stream of a name."""
         self.described = sensor
         self.sensor = sensor.live()
         self.key, self.robot = sensor.key, robot.index
         self.reading: Any = None
-        self._shown: Any = None  # what a law gets of it
+        self._shown: Any = None  # the value that a law finds
         self.view, self.world = robot, world
         self._stream, self._name = stream, f"sensor {robot.name} {sensor.key}"
         self.rng = stream(self._name)
@@ -93,12 +91,12 @@ class Device:
             self.sensor.on_start(robot, world, self.rng)
 
     def follow(self) -> None:
-        """Do what the sensor does at each control step, whether it is read or not."""
+        """Call the sensor's `on_step`."""
         with called(f"sensor {self.key!r}", self.sensor.on_step):
             self.sensor.on_step(self.view, self.world, self.rng)
 
     def step(self, iteration: int) -> None:
-        """Measure, if it is time, and show what has arrived."""
+        """Measure, if it is time, and show the latest reading that has arrived."""
         if self.when_asked:
             self.reading = None
             self._sense._expect(self.key, lambda: self._measured_when_asked(iteration))
@@ -108,7 +106,7 @@ class Device:
         self.show(iteration)
 
     def send(self, measured: Any, iteration: int) -> None:
-        """Let a measurement of this control step be on its way."""
+        """Send a measurement of this control step on its way."""
         if self.age == 0:
             self._take(measured)
             return
@@ -118,21 +116,21 @@ class Device:
         self._on_its_way.append((iteration + self.age, measured))
 
     def show(self, iteration: int) -> None:
-        """Show what has arrived by this control step."""
+        """Show the latest reading that has arrived by this control step."""
         if self._on_its_way and self._on_its_way[0][0] <= iteration:
             self._take(self._on_its_way.popleft()[1])
         self._readings[self.key] = self._shown
 
     def hide(self) -> None:
-        """Let nobody take the reading of the control step before for that of this one."""
+        """Remove the reading of the last control step, so that nobody takes it for a new one."""
         self._readings.pop(self.key, None)
 
     def close(self) -> None:
-        """Let nothing of this control step be measured any more, since things begin to move."""
+        """Measure nothing more of this control step: things begin to move."""
         self._sense._due.pop(self.key, None)
 
     def _measured_when_asked(self, iteration: int) -> Any:
-        """Measure with random numbers of this control step's own: asking changes nothing later."""
+        """Measure with a random stream of this step alone, so that asking changes nothing later."""
         self._take(self._measured(self._stream(f"{self._name} {iteration}")))
         return self._shown
 
@@ -142,7 +140,7 @@ class Device:
             return _kept(self.sensor.measured(reading, rng))
 
     def _take(self, reading: Any) -> None:
-        """Let this be the reading from now on."""
+        """Keep a reading as the latest one."""
         self.reading = self._shown = reading
         if self._shows_more:
             with called(f"sensor {self.key!r}", self.sensor.shown):
@@ -150,9 +148,9 @@ class Device:
 
 
 class _Team:
-    """Devices with equal sensors that are read together.
+    """Devices with equal sensors, which are read together.
 
-    readings: those that are recorded at this control step, as one array; None if they are not one.
+    readings: those that are recorded at this control step as one array, or None.
     """
 
     def __init__(self, devices: list[Device]) -> None:
@@ -164,7 +162,7 @@ class _Team:
         self.readings: NDArray[Any] | None = None
 
     def step(self, iteration: int) -> None:
-        """Measure, if it is time, and show what has arrived."""
+        """Measure, if it is time, and show the latest reading that has arrived."""
         if iteration % self._first.period == 0:
             for device, measured in zip(self.devices, self._measured(), strict=True):
                 device.send(measured, iteration)
@@ -185,9 +183,9 @@ class _Team:
 
 
 class Sensing:
-    """All devices of a world at work, those that are equal and measure alike read together.
+    """All devices of a world; equal ones are read together.
 
-    devices: one by one, robot by robot.
+    devices: robot by robot.
     """
 
     def __init__(self, devices: Sequence[Device]) -> None:
@@ -208,24 +206,24 @@ class Sensing:
         }
 
     def hide(self) -> None:
-        """Let nobody take readings of the control step before for those of this one."""
+        """Remove the readings of the last control step."""
         for device in self.devices:
             device.hide()
 
     def step(self, iteration: int) -> None:
-        """Read all sensors that are due, and show what has arrived; all follow before that."""
+        """Call each `on_step`, then read all sensors that are due and show what has arrived."""
         for device in self._following:
             device.follow()
         for part in self._parts:
             part.step(iteration)
 
     def close(self) -> None:
-        """Let nothing of this control step be measured any more."""
+        """Measure nothing more of this control step."""
         for device in self._when_asked:
             device.close()
 
     def recorded(self) -> dict[str, Sequence[Any] | NDArray[Any]]:
-        """Return the readings that are to be recorded, robot by robot, by the sensors' names."""
+        """Return the readings to be recorded, robot by robot, by the sensors' names."""
         readings: dict[str, Sequence[Any] | NDArray[Any]] = {}
         for key, devices in self._recorded.items():
             block = self._whole[key].readings if key in self._whole else None
@@ -234,7 +232,7 @@ class Sensing:
 
 
 def _grouped(devices: Sequence[Device]) -> list[list[Device]]:
-    """Return devices that are read together, in the order of the first of each group."""
+    """Return groups of devices that are read together, in the order of their first ones."""
     groups: dict[Device | Sensor, list[Device]] = {}
     for device in devices:
         groups.setdefault(device.described if _may_join(device) else device, []).append(device)
@@ -247,7 +245,7 @@ def _may_join(device: Device) -> bool:
         return False
     try:
         hash(device.described)
-    except TypeError:  # a field of the user's own, such as a list
+    except TypeError:  # it has a field that can't be hashed, such as a list
         return False
     return True
 

@@ -1,28 +1,26 @@
-"""How far is the nearest thing in each of several cones? A ring of sonars."""
+"""A ring of sonars: the distance to the nearest thing in each of several cones."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from math import cos, inf, pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.description import integer, number
+from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
 from mars2d.sensors.base import DISTANCE, Float, Quantity, Scanner, Surroundings, sight_angle
 
-if TYPE_CHECKING:
-    from mars2d.world.views import RobotView
-
 __all__ = ["SonarRing"]
 
 
 class SonarRing(Scanner):
-    """Measures in each of several cones how far it is to the nearest surface: a ring of sonars.
+    """Measures the distance to the nearest surface in each of several cones: a ring of sonars.
 
     The reading is an array (sonars,), metres from the sensor; inf where nothing is within range.
     The cones' axes are spaced as the beams of a RangeFinder. The nearest point of each surface
@@ -49,7 +47,7 @@ class SonarRing(Scanner):
 
     def read_all(
         self,
-        robots: Sequence[RobotView],
+        robots: Sequence[RobotLike],
         world: Surroundings,
         rngs: Sequence[np.random.Generator],  # noqa: ARG002
     ) -> Float:
@@ -67,7 +65,7 @@ class SonarRing(Scanner):
         return np.asarray(np.minimum(rays, nearest))
 
     def _nearest(self, x: float, y: float, theta: float, points: Iterator[Point]) -> Float:
-        """Return how far the nearest point in each cone is, (sonars,); inf where there is none."""
+        """Return the distances (sonars,) of the nearest points in the cones; inf where none is."""
         axes = theta + self.angles
         near = np.array(list(points)).reshape(-1, 2)
         dx, dy = near[:, :1] - x, near[:, 1:] - y

@@ -1,4 +1,4 @@
-"""The channel: carries the messages of one world, as its add-on Communication says."""
+"""The channel: carries the messages of one world, by the rules of its add-on Communication."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import marshal
 from collections import defaultdict
 from functools import cached_property
 from math import nan
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,10 +26,8 @@ from mars2d.record.message import (
     as_text,
 )
 from mars2d.scenario.neighbours import Everyone, within
-
-if TYPE_CHECKING:
-    from mars2d.record.recorder import Recorder
-    from mars2d.world.world import World
+from mars2d.world.state import State
+from mars2d.world.surroundings import Around
 
 __all__ = ["Channel"]
 
@@ -39,18 +37,18 @@ WHO = "a robot's index or name, a list of these, or None for all in reach"
 
 
 class _Sent(NamedTuple):
-    """What a robot has sent in the present control step: to whom, and whether it gets there."""
+    """A message of the present control step: its receivers, and whether it reaches them."""
 
     sender: int
     step: int  # the iteration
     text: str
     size: int
     receivers: Int  # (k,)
-    status: NDArray[np.uint8]  # (k,), what becomes of it as far as that is known
+    status: NDArray[np.uint8]  # (k,), as far as it is known
 
 
 class _Letter:
-    """A message for all that it arrives at. It is parsed when the first of them looks at it."""
+    """A message for all its receivers. It is parsed when the first of them looks at it."""
 
     def __init__(self, sender: int, name: str, time: float, text: str) -> None:
         self._head, self._text = (sender, name, time), text
@@ -61,13 +59,13 @@ class _Letter:
 
     @cached_property
     def _packed(self) -> bytes | None:
-        """What to make copies of the content from; None if it can't be changed anyway."""
+        """The content as bytes, to make copies from; None if it is immutable."""
         content = self._message.content
         # Lists and dicts are copied by this several times as fast as they are parsed.
         return marshal.dumps(content) if isinstance(content, (list, dict)) else None
 
     def opened(self) -> Message:
-        """Return the message with a content that no other receiver can change."""
+        """Return the message, with a copy of the content that no other receiver can change."""
         packed = self._packed
         return self._message if packed is None else Message(*self._head, marshal.loads(packed))
 
@@ -75,14 +73,14 @@ class _Letter:
 class Channel:
     """Carries messages from robot to robot.
 
-    In a control step, `deliver` comes first, then anybody may `send`, and `transmit` ends it. All
-    chance lies in `transmit`, which takes the senders in order: so what becomes of a message does
-    not depend on the order in which laws are asked.
+    In a control step, `deliver` comes first, then anybody may `send`, and `transmit` ends it. Only
+    `transmit` draws random numbers, sender by sender, so the fate of a message does not depend on
+    the order in which laws are asked.
     """
 
-    def __init__(self, world: World, model: Communication, recorder: Recorder) -> None:
-        """Take the world, the live add-on, whose random stream is drawn from, and the recorder."""
-        self._world, self._model, self._recorder = world, model, recorder
+    def __init__(self, world: State, around: Around, model: Communication) -> None:
+        """Take the world, its surroundings, and the live add-on, whose random stream is used."""
+        self._world, self._around, self._model = world, around, model
         self._names = [str(robot.name) for robot in world.scenario.robots]
         self._indices = {name: i for i, name in enumerate(self._names)}
         dt = world.scenario.sampling_time
@@ -109,7 +107,7 @@ class Channel:
         return self._inbox[robot]
 
     def deliver(self) -> None:
-        """Put into the inboxes what arrives at the present control step; empty all others."""
+        """Fill the inboxes with the messages that arrive now; empty all others."""
         self._arrived = self._coming.pop(self._world.iteration, [])
         self._letters, self._inbox = None, {}
 
@@ -132,7 +130,7 @@ class Channel:
         self._sent.append(_Sent(sender, self._world.iteration, text, size, receivers, status))
 
     def transmit(self) -> None:
-        """Let all that was sent in the present control step go its way, and record it."""
+        """Send off the messages of the present control step, and record them."""
         sent, self._sent = sorted(self._sent, key=lambda item: item.sender), []
         self._used.clear()
         dt = self._world.scenario.sampling_time
@@ -150,10 +148,10 @@ class Channel:
             rows["time"], rows["sender"], rows["size"] = step * dt, sender, size
             rows["arrival"] = np.where(arrives, (step + self._steps) * dt, nan)
             rows["receiver"], rows["status"] = receivers, status
-            self._recorder.write_messages(text, rows)
+            self._world.recorder.write_messages(text, rows)
 
     def _lost(self, sender: int, receivers: Int, step: int) -> NDArray[np.bool_]:
-        """Return which receivers (k,) a message is lost to. A perfect link draws no number."""
+        """Return the receivers that lose a message, as a mask (k,). Perfect links draw nothing."""
         model = self._model
         if model.burst is not None:
             burst, links = model.burst, [(sender, receiver) for receiver in receivers.tolist()]
@@ -164,7 +162,7 @@ class Channel:
         return np.zeros(len(receivers), dtype=bool)
 
     def _is_bad(self, burst: Burst, link: tuple[int, int], step: int) -> bool:
-        """Return whether a link is bad now; it stays so for the whole control step."""
+        """Return whether a link is bad during the present control step."""
         known, bad = self._links.get(link, (step, None))
         if bad is None or step > known:
             bad = burst.turns(bad, step - known, self._model.rng)
@@ -174,7 +172,7 @@ class Channel:
     # -- to whom -------------------------------------------------------------------------------
 
     def _receivers(self, sender: int, to: Any) -> Int:
-        """Return to whom a message is sent (k,), each robot once, by index."""
+        """Return the receivers of a message by index (k,), each once."""
         if to is None:
             return np.delete(np.arange(len(self._names)), sender)
         if isinstance(to, np.ndarray):
@@ -201,7 +199,7 @@ class Channel:
         return found
 
     def _reached(self, sender: int, others: Int) -> NDArray[np.bool_]:
-        """Return which of the others (k,) the channel reaches from where the sender is."""
+        """Return a mask (k,) of the others that the channel reaches from the sender's position."""
         world, model = self._world, self._model
         reached = np.ones(len(others), dtype=bool)
         if model.neighbours_only and type(world.scenario.neighbours) is not Everyone:
@@ -212,11 +210,11 @@ class Channel:
         if model.line_of_sight and reached.any():
             near = np.flatnonzero(reached)
             start, there = (float(x[sender]), float(y[sender])), world.pose[:2, others[near]].T
-            reached[near] = ~world.surroundings.hidden(start, there, others[near], sender)
+            reached[near] = ~self._around.hidden(start, there, others[near], sender)
         return reached
 
     def _hearers_of(self, sender: int) -> Int:
-        """Return whose neighbour a robot is now, by index; worked out once a control step."""
+        """Return the robots whose neighbour a robot is, by index; computed once a control step."""
         world, (asked, hearers) = self._world, self._hearers
         if asked < 0 or (asked != world.iteration and not world.scenario.neighbours.fixed):
             found: list[list[int]] = [[] for _ in self._names]

@@ -1,4 +1,4 @@
-"""Control laws: how a law is called, and what it may return."""
+"""Control laws: how they are called, and the commands that they may return."""
 
 from __future__ import annotations
 
@@ -9,20 +9,21 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core import checks
 from mars2d.core.errors import LawError, shown
 from mars2d.core.usercode import called, definition, name_of
 
-__all__ = ["Law", "commands", "robot_command", "team_command"]
+__all__ = ["Law", "Laws", "robot_command", "team_command"]
 
 Float = NDArray[np.float64]
 
 LARGEST = 1e300
-"""No entry of a command is larger, in whatever unit: what drives make of it stays a float."""
+"""The largest entry of a command, in any unit, so that the drives' results stay floats."""
 
 BOUNDED = "a command must be finite"
 
 PLAIN = frozenset({int, float, np.float64})
-"""Numbers that need not be looked at twice; most laws return a pair of them."""
+"""The types of numbers that need no conversion; most laws return a pair of them."""
 
 
 class Law:
@@ -34,7 +35,7 @@ class Law:
     def __init__(
         self, function: Callable[[Any], Any], subject: Any, still: Any = (0.0, 0.0)
     ) -> None:
-        """Take the user's function, what it is called with, and the command to stand still."""
+        """Take the user's function, its argument, and the command to stand still."""
         self.function = function
         self._subject = subject
         self._still = still
@@ -43,7 +44,7 @@ class Law:
         self._calling = called(self.name, function)
 
     def command(self) -> Any:
-        """Return what the law commands now, unchecked. Raises LawError where the law raises."""
+        """Return the law's command now, unchecked. Raises LawError where the law raises."""
         with self._calling:
             if self._running is None:
                 result = self.function(self._subject)
@@ -108,16 +109,57 @@ def _numbers(value: Any) -> Float | None:
     return found.astype(float) if found.dtype.kind in "iuf" else None
 
 
-def commands(central: Law | None, own: Sequence[tuple[int, Law]], idle: Float) -> Float:
-    """Ask all laws for their commands and return them as one array (2, n).
+class Laws:
+    """All laws of a world: that of the whole team, and those of single robots.
 
-    central: the law of the whole team, if there is one; own: robots with laws of their own, which
-    override their columns; idle: zeros (2, n), for robots without a law.
+    A robot's own law overrides its column of the team's command.
     """
-    if central is None:
-        command = idle.copy()
-    else:
-        command = team_command(central.command(), idle.shape[1], central.refuse)
-    for i, law in own:
-        command[0, i], command[1, i] = robot_command(law, law.command())
-    return command
+
+    def __init__(self, robots: int) -> None:
+        """Take how many robots there are; they stand still until `renew` brings laws."""
+        self._still = np.zeros((2, robots))
+        self._central: Law | None = None
+        self._own: list[tuple[int, Law]] = []
+
+    @property
+    def function(self) -> Callable[[Any], Any] | None:
+        """The team's law as the user gave it, or None."""
+        return None if self._central is None else self._central.function
+
+    def renew(
+        self,
+        control: Callable[[Any], Any] | None,
+        team_view: Any,
+        controllers: Sequence[Callable[[Any], Any] | None],
+        robot_view: Callable[[int], Any],
+    ) -> None:
+        """Take the team's law and each robot's; a law that is there already goes on.
+
+        team_view: what a new law of the team is called with. robot_view: returns the same for a
+        robot's own law, by the robot's index. Raises InputError where
+        `control` is no law.
+        """
+        if control is None:
+            self._central = None
+        elif self.function is not control:
+            checks.law("control", control, "the world")
+            self._central = Law(control, team_view, self._still)
+        before = dict(self._own)
+        self._own = []
+        for i, controller in enumerate(controllers):
+            if controller is not None:
+                law = before.get(i)
+                if law is None or law.function is not controller:
+                    law = Law(controller, robot_view(i))
+                self._own.append((i, law))
+
+    def commands(self) -> Float:
+        """Ask all laws for their commands and return them as one array (2, n)."""
+        central, robots = self._central, self._still.shape[1]
+        if central is None:
+            command = self._still.copy()
+        else:
+            command = team_command(central.command(), robots, central.refuse)
+        for i, law in self._own:
+            command[0, i], command[1, i] = robot_command(law, law.command())
+        return command

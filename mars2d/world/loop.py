@@ -21,7 +21,7 @@ __all__ = ["Interrupted", "open_world", "simulate", "watch_by"]
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a run; `record` is what was recorded until then."""
+    """Ctrl-C during a run; `record` is the record until then."""
 
     def __init__(self, record: Record) -> None:
         super().__init__("interrupted")
@@ -38,11 +38,10 @@ def simulate(
     """Run an opened experiment to its end and return the world, which is over.
 
     speed: simulated seconds per second, > 0, or "max". watchers: called with the world at each
-    control step, once its sensors have been read: to draw, to count, to wait. log: what writes each
-    control step to a file when it is done, and is closed at the end, whatever that is; it keeps the
-    columns of the record in files, too. A LawError that ends the run carries what was recorded
-    until then as its `record`; a DiskError of the log, and Interrupted, which Ctrl-C raises, do as
-    well.
+    control step, after its sensors are read: to draw, to count, to wait. log: writes each control
+    step to a file when it is done, and keeps the columns of the record in files; it is closed at
+    the end in any case. A LawError that ends the run carries the record until then as its `record`,
+    and so do a DiskError of the log and Interrupted, which Ctrl-C raises.
     """
     every: list[Watcher] = [*watchers]
     if speed != "max":
@@ -76,7 +75,7 @@ def open_world(
 ) -> World:
     """Return the world of an experiment, which calls the watchers at each control step.
 
-    storage: what keeps the columns of its record. Raises InputError, which names the file.
+    storage: makes the columns of its record. Raises InputError, which names the file.
     """
     try:
         return World(
@@ -93,7 +92,7 @@ def open_world(
 
 
 def watch_by(watchers: Sequence[Watcher]) -> Watcher | None:
-    """Return what calls all watchers at each control step; None if there are none."""
+    """Return a function that calls all watchers; None if there are none."""
 
     def watch(world: World) -> None:
         for watcher in watchers:

@@ -1,11 +1,11 @@
-"""Hands on a running world: they drive robots, put bodies elsewhere, pull them, hold them."""
+"""The operator of a running world: drives robots, moves and pulls bodies, changes the scenario."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import ceil, cos, dist, hypot, sin, sqrt
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,43 +17,42 @@ from mars2d.core.plane import Point
 from mars2d.physics.engine import Engine
 from mars2d.physics.kinematics import Kinematics
 from mars2d.record.interventions import Change, Intervention, Place, Pull, Steer
+from mars2d.scenario.changes import check_same, with_poses
 from mars2d.scenario.placement import obstruction
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.interfaces import Operated
 
-if TYPE_CHECKING:
-    from mars2d.world.world import World
-
-__all__ = ["Hands", "fixed", "forceless"]
+__all__ = ["Operator", "fixed", "forceless"]
 
 Float = NDArray[np.float64]
 
 SLICE = 0.01
-"""How often a spring that pulls is looked at, seconds."""
+"""The longest time that the force of a spring stays the same, seconds."""
 
 STIFFNESS = 24.0
-"""How quickly a spring draws in what it pulls: the natural frequency of critical damping, rad/s."""
+"""The natural frequency of a spring that pulls, critically damped, rad/s."""
 
-STRONGEST, FASTEST = 1e6, 100.0
-"""Bounds of what may pull, N and m/s; quicker ones need ever more substeps."""
+MAX_FORCE, MAX_SPEED = 1e6, 100.0
+"""The bounds of a pull, N and m/s; quicker ones need ever more substeps."""
 
 ROUNDING = 1e-9
-"""How far off a body a point of it may be, in parts of the body's reach."""
+"""The rounding error of a point of a body, in parts of the body's radius."""
 
 TINY = 1e-12
-"""No length or force is divided by less."""
+"""The smallest length or force that is a divisor."""
 
 
-class Hands:
-    """What is done to a world from outside, besides what its laws command.
+class Operator:
+    """Does to a world what is done from outside, besides the commands of its laws.
 
     log: all of it but the commands, in order, as data; see `mars2d.record.interventions`.
     """
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: Operated) -> None:
         """Take the world; nothing is done to it yet."""
         self._world = world
         self._driven: dict[int, tuple[float, float]] = {}
-        self._steered: set[int] = set()  # of whom the log says so
+        self._steered: set[int] = set()  # those that the log says are driven
         self._pulls: dict[int, Pull] = {}
         self._held: list[int] = []
         self._force: dict[int, float] = {}
@@ -62,7 +61,7 @@ class Hands:
     # -- commands -----------------------------------------------------------------------------
 
     def hold(self, robot: str | int) -> None:
-        """Let a robot stand still from now on, whatever its law or a hand says."""
+        """Let a robot stand still from now on, whatever its law or the operator commands."""
         index = self._world.scenario.index_of("World.hold", robot)
         if index not in self._held:
             self._held.append(index)
@@ -70,16 +69,16 @@ class Hands:
     def steer(self, robot: str | int, command: ArrayLike | None) -> None:
         """Give a robot this command (2,) from now on in place of its law's; None: its law's again.
 
-        Its law is asked all the same, so that it knows what goes on when it takes over again.
+        Its law is asked all the same, so that it is up to date when it takes over again.
         """
-        index = self._world.scenario.index_of("Hands.steer", robot)
+        index = self._world.scenario.index_of("Operator.steer", robot)
         if command is None:
             self._drive_no_more(index)
             return
         pair = command.tolist() if isinstance(command, np.ndarray) else command
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
-            raise wrong("Hands.steer(command)", command, "two numbers, or None")
-        first, second = (real("Hands.steer(command)", number, "a number") for number in pair)
+            raise wrong("Operator.steer(command)", command, "two numbers, or None")
+        first, second = (real("Operator.steer(command)", number, "a number") for number in pair)
         if index not in self._steered:
             self._note(Steer(self._world.iteration, index, driven=True))
         self._driven[index] = first, second
@@ -90,12 +89,12 @@ class Hands:
             self._note(Steer(self._world.iteration, robot, driven=False))
 
     def _note(self, steer: Steer) -> None:
-        """Tell that a robot is driven from now on, or no more."""
+        """Log that a robot is driven from now on, or no more."""
         (self._steered.add if steer.driven else self._steered.discard)(steer.robot)
         self.log.append(steer)
 
     def let_go(self) -> None:
-        """Let go of all that is driven or pulled."""
+        """Let go of all robots that are driven and all bodies that are pulled."""
         for robot in sorted(self._steered):
             self._drive_no_more(robot)
         for pull in self.pulls:
@@ -103,11 +102,11 @@ class Hands:
 
     @property
     def driven(self) -> Sequence[int]:
-        """The robots that hands drive, by index."""
+        """The robots that are driven, by index."""
         return tuple(self._driven)
 
     def command(self, wanted: Float) -> Float:
-        """Return the commands (2, n) that are given in place of those that laws want."""
+        """Return the laws' commands (2, n), replaced for robots that are driven or held."""
         if not (self._driven or self._held):
             return wanted
         given = wanted.copy()
@@ -121,12 +120,12 @@ class Hands:
     def place(self, body: str | int, pose: Sequence[float]) -> None:
         """Put a robot or prop at a pose (x, y [m], theta [rad]), where it stands still at first.
 
-        body: its name or index in `Scenario.bodies`. Sensors have read before that. Raises
-        InputError where it would overlap something, and for what a joint holds.
+        body: its name or index in `Scenario.bodies`. Sensors are read before. Raises InputError
+        where it would overlap something, and for a body that a joint holds.
         """
         world = self._world
-        index = world.scenario.body_index_of("Hands.place", body)
-        place = Place(world.iteration, index, checks.pose("Hands.place(pose)", pose))
+        index = world.scenario.body_index_of("Operator.place", body)
+        place = Place(world.iteration, index, checks.pose("Operator.place(pose)", pose))
         fault = fixed(world.scenario, index)
         if fault:
             raise InputError(fault)
@@ -140,6 +139,24 @@ class Hands:
         world.rebuild(world.motion.moved({index: place.pose}))
         self.log.append(place)
 
+    def change(
+        self,
+        scenario: Scenario,
+        control: Callable[[Any], Any] | None = None,
+        moved: Mapping[int, tuple[float, float, float]] | None = None,
+    ) -> None:
+        """Go on with another scenario, see `World.change`."""
+        world, moved = self._world, dict(moved or {})
+        check_same(world.scenario, scenario)
+        if control is not None:
+            checks.law("control", control, "the world")
+        world.observe()
+        start = world.motion.moved(moved)
+        moves_on = not moved and scenario.surfaces == world.scenario.surfaces
+        changed = scenario if moves_on else with_poses(scenario, start.state[:, :3].T)
+        self.log.append(Change(world.iteration, scenario, tuple(moved.items()), control))
+        world.go_on(changed, control, None if moves_on else start)
+
     def pull(
         self,
         body: str | int,
@@ -148,36 +165,36 @@ class Hands:
         force: float = 20.0,
         speed: float = 2.0,
     ) -> None:
-        """Pull a robot or prop by a spring from now on, until another word of it.
+        """Pull a robot or prop by a spring from now on, until it is called again.
 
-        grip: the point of the body that is held, in its frame [m]. target: where it is pulled to
-        [m]; None lets go. force: the most that the spring pulls with, N. speed: the most at which
-        it draws, m/s. Raises InputError where no forces act, as with physics="stop".
+        grip: the point of the body that is held, in its frame [m]. target: the point that it is
+        pulled to [m]; None lets go. force: of the spring at most, N. speed: of the grip at most,
+        m/s. Raises InputError where no forces act, as with physics="stop".
         """
         world = self._world
-        index = world.scenario.body_index_of("Hands.pull", body)
+        index = world.scenario.body_index_of("Operator.pull", body)
         fault = forceless(world.scenario, index)
         if fault:
             raise InputError(fault)
         pull = Pull(
             world.iteration,
             index,
-            checks.point("Hands.pull(grip)", grip),
-            None if target is None else checks.point("Hands.pull(target)", target),
-            real("Hands.pull(force)", force),
-            real("Hands.pull(speed)", speed),
+            checks.point("Operator.pull(grip)", grip),
+            None if target is None else checks.point("Operator.pull(target)", target),
+            real("Operator.pull(force)", force),
+            real("Operator.pull(speed)", speed),
         )
         center, radius = world.scenario.bodies[index].shape.bound
         if dist(pull.grip, center) > radius * (1 + ROUNDING):
-            raise wrong("Hands.pull(grip)", grip, f"a point of the body, within {radius:g} m")
-        if not 0 < pull.force <= STRONGEST:
-            raise wrong("Hands.pull(force)", force, f"a number > 0 and <= {STRONGEST:g} [N]")
-        if not 0 < pull.speed <= FASTEST:
-            raise wrong("Hands.pull(speed)", speed, f"a number > 0 and <= {FASTEST:g} [m/s]")
+            raise wrong("Operator.pull(grip)", grip, f"a point of the body, within {radius:g} m")
+        if not 0 < pull.force <= MAX_FORCE:
+            raise wrong("Operator.pull(force)", force, f"a number > 0 and <= {MAX_FORCE:g} [N]")
+        if not 0 < pull.speed <= MAX_SPEED:
+            raise wrong("Operator.pull(speed)", speed, f"a number > 0 and <= {MAX_SPEED:g} [m/s]")
         self._pull(pull)
 
     def _pull(self, pull: Pull) -> None:
-        """Keep what is said last of a body; of what is said in one control step, only that."""
+        """Keep the last pull of a body, and log it in place of others of the same control step."""
         said = [i for i in self.log if isinstance(i, Pull) and i.body == pull.body]
         if said and said[-1].row == pull.row:
             last = said.pop()
@@ -194,21 +211,19 @@ class Hands:
 
     @property
     def pulls(self) -> Sequence[Pull]:
-        """What is pulled now."""
+        """The pulls that act now."""
         return tuple(self._pulls.values())
 
     def force(self, body: int) -> float:
-        """Return how strongly a body was pulled at the end of the last control step, N."""
+        """Return the force on a body at the end of the last control step, N."""
         return self._force.get(body, 0.0)
 
     def redo(self, intervention: Intervention) -> None:
-        """Do again what was done to another world of the same run."""
+        """Repeat an intervention in another world of the same run."""
         if isinstance(intervention, Place):
             self.place(intervention.body, intervention.pose)
         elif isinstance(intervention, Change):
-            self._world.change(
-                intervention.scenario, intervention.control, dict(intervention.moved)
-            )
+            self.change(intervention.scenario, intervention.control, dict(intervention.moved))
         elif isinstance(intervention, Steer):
             self._note(intervention)
         else:
@@ -219,7 +234,7 @@ class Hands:
     def drive(
         self, engine: Engine | Kinematics, twist: Float, duration: float, time: float
     ) -> None:
-        """Let an engine move everything for `duration` seconds, with what is pulled."""
+        """Let an engine move everything for `duration` seconds, under the pulls."""
         self._force = {}
         if not (self._pulls and isinstance(engine, Engine)):
             engine.drive(twist, duration, time)
@@ -235,7 +250,7 @@ class Hands:
         engine.let_go()
 
     def _longest_slice(self, engine: Engine) -> float:
-        """Return how long springs may act unchanged at most, seconds."""
+        """Return the longest time that springs may act unchanged, seconds."""
         bodies = self._world.scenario.bodies
         most = max(
             min(pull.force / bodies[pull.body].inertia.mass, 4 * STIFFNESS * pull.speed)
@@ -244,7 +259,7 @@ class Hands:
         return engine.step_under(most)
 
     def _tug(self, engine: Engine, pull: Pull, pose: Float, velocity: Float) -> None:
-        """Let a spring act on a body as it is pulled now."""
+        """Let a spring act on a body."""
         fx, fy, torque = self._spring(pull, pose, velocity)
         self._force[pull.body] = hypot(fx, fy)
         if not engine.bears(pull.body, hypot(fx, fy), abs(torque)):
@@ -261,7 +276,7 @@ class Hands:
         wx, wy = pull.target[0] - x - ax, pull.target[1] - y - ay
         way = max(hypot(wx, wy), TINY)
         felt = 1.0 / (1.0 / mass + (ax * ax + ay * ay) / moment)  # at the grip, across the arm
-        # No faster than it can be braked again before it is there.
+        # No faster than it can brake before the target.
         speed = min(STIFFNESS / 2 * way, pull.speed, sqrt(pull.force / felt * way))
         fx = 2 * STIFFNESS * felt * (speed / way * wx - (vx - spin * ay))
         fy = 2 * STIFFNESS * felt * (speed / way * wy - (vy + spin * ax))
@@ -270,7 +285,7 @@ class Hands:
 
 
 def forceless(scenario: Scenario, body: int) -> str:
-    """Return why a body can't be pulled, in words, or ""."""
+    """Return the reason why a body can't be pulled, or ""."""
     if scenario.physics == "contact":
         return ""
     return (
@@ -280,7 +295,7 @@ def forceless(scenario: Scenario, body: int) -> str:
 
 
 def fixed(scenario: Scenario, body: int) -> str:
-    """Return why a body can't be put elsewhere, in words, or ""."""
+    """Return the reason why a body can't be put elsewhere, or ""."""
     if all(body not in (tie.a, tie.b) for tie in scenario.ties):
         return ""
     return (

@@ -1,4 +1,4 @@
-"""Wall-clock pacing: the simulation waits for real time, and nothing else knows the clock."""
+"""Wall-clock pacing: only this module knows the clock."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ __all__ = ["RealTime"]
 
 
 class HasTime(Protocol):
-    """What a pace is asked for: something with a simulated time."""
+    """An object with a simulated time."""
 
     @property
     def time(self) -> float:
@@ -17,10 +17,10 @@ class HasTime(Protocol):
 
 
 class RealTime:
-    """Waits until the wall clock has gone on as far as the simulated time, times 1 / factor."""
+    """Waits until the wall clock has gone on by the simulated time / factor."""
 
     def __init__(self, factor: float = 1.0) -> None:
-        """Take how many simulated seconds go into a second, > 0."""
+        """Take the simulated seconds per second, > 0."""
         self._factor = factor
         self._start: float | None = None
 

@@ -1,11 +1,10 @@
-"""What sensors ask, answered by a world: rays, points, colours, beacons."""
+"""The surroundings of a world's robots: rays, points, colours and beacons, for the sensors."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import isfinite
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,11 +15,9 @@ from mars2d.core.plane import Point
 from mars2d.core.usercode import called
 from mars2d.geometry.ray_casting import Fans
 from mars2d.output.layers.bodies import OBSTACLE, prop_colors
-from mars2d.physics.space import Space
 from mars2d.sensors.base import NOTHING
-
-if TYPE_CHECKING:
-    from mars2d.world.world import Addons, World
+from mars2d.world.live_addons import Addons
+from mars2d.world.state import State
 
 __all__ = ["Around"]
 
@@ -28,19 +25,19 @@ Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
 WHITE = (1.0, 1.0, 1.0)
-"""The colour of a floor of which nothing is said."""
+"""The colour of the floor where no add-on gives it one."""
 
 
 class Around:
     """The Surroundings of one world's sensors; see `mars2d.sensors.Surroundings`."""
 
-    def __init__(self, world: World, space: Space) -> None:
+    def __init__(self, world: State) -> None:
         self._world = world
-        self.renew(space)
+        self.renew()
 
-    def renew(self, space: Space) -> None:
-        """Take another space, after the world was changed; what was worked out is forgotten."""
-        self._space = space
+    def renew(self) -> None:
+        """Drop all caches, after bodies, obstacles or add-ons were changed."""
+        self._space = self._world.engine.space
         self._placed: Float | None = None  # the poses at which the fans' bodies are
         for name in ("_fans", "_colors", "_addons"):
             vars(self).pop(name, None)
@@ -67,7 +64,7 @@ class Around:
 
     @property
     def driven(self) -> Sequence[tuple[float, Float]]:
-        """What the drives asked for in the last control step."""
+        """The twists that the drives asked for in the last control step."""
         return self._world.driven
 
     # -- rays and points -------------------------------------------------------------------
@@ -83,31 +80,31 @@ class Around:
         return self._space.nearby(point, limit, ignore)
 
     def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
-        """Return how far a ray goes until the first surface, metres; inf if none is hit."""
+        """Return the length of a ray to the first surface, metres; inf if none is hit."""
         _check_look("start", start, "length", length)
         _check_all("angle", angle)
         return float(self._space.rays.distances(start, np.array([angle]), length, ignore)[0])
 
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
-        """Return how far rays at angles (k,) go, (k,) metres; inf where nothing is hit."""
+        """Return the lengths of rays at angles (k,), metres; inf where nothing is hit."""
         return np.asarray(self.scans(_upright(start), angles, length, [ignore])[0])
 
     def sight(
         self, start: Point, angles: Float, length: ArrayLike, ignore: int
     ) -> tuple[Float, Int]:
-        """Return how far rays go, and which body each hits, NOTHING if none."""
+        """Return the lengths of rays, and the body that each hits, NOTHING if none."""
         distances, bodies = self.sights(_upright(start), angles, length, [ignore])
         return distances[0], bodies[0]
 
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
-        """Return how far rays from poses (3, m) at bearings (k,) go, (m, k) metres."""
+        """Return the lengths (m, k) of rays from poses (3, m) at bearings (k,), metres."""
         _check_fans(poses, bearings, length)
         return self._fans_now.distances(poses, bearings, length, ignore)
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
-        """Return how far rays from poses (3, m) at bearings (k,) go, and what each hits."""
+        """Return the lengths of rays as `scans`, and the body that each hits, (m, k)."""
         _check_fans(poses, bearings, length)
         return self._fans_now.sight(poses, bearings, length, ignore, NOTHING)
 
@@ -144,7 +141,7 @@ class Around:
         scenario = self._world.scenario
         return (*scenario.colors, *prop_colors(scenario.props))
 
-    # -- what add-ons put there ----------------------------------------------------------------
+    # -- add-ons ----------------------------------------------------------------
 
     @cached_property
     def _addons(self) -> tuple[Addon, ...]:
@@ -157,7 +154,7 @@ class Around:
 
     @property
     def beacons(self) -> Mapping[str, Point]:
-        """Where the beacons are now, by name."""
+        """The positions of the beacons now, by name."""
         found: dict[str, Point] = {}
         for addon in self._addons:
             with called(f"add-on {addon.key!r}", addon.beacons):
@@ -175,12 +172,12 @@ class Around:
 
 
 def _upright(start: Point) -> Float:
-    """Return the pose (3, 1) of a fan that starts in a point, and whose bearings are angles."""
+    """Return a point as a pose (3, 1) of heading 0, so that bearings are angles."""
     return np.array([[start[0]], [start[1]], [0.0]])
 
 
 def _check_look(what: str, point: Point, how_far: str, limit: float) -> None:
-    """Refuse what a sensor can't ask with: a look from nowhere would find nothing, and say so."""
+    """Raise InputError for a point or length that is not finite, which would find nothing."""
     if not (isfinite(point[0]) and isfinite(point[1])):
         raise InputError(f"{what} = {point}: expected finite numbers")
     if not limit >= 0:  # nor is NaN
@@ -188,7 +185,7 @@ def _check_look(what: str, point: Point, how_far: str, limit: float) -> None:
 
 
 def _check_fans(poses: Float, bearings: Float, length: ArrayLike) -> None:
-    """Refuse rays from nowhere, to nowhere, or of no length."""
+    """Raise InputError for poses or bearings that are not finite, and for negative lengths."""
     _check_all("poses", poses)
     _check_all("bearings", bearings)
     if not np.greater_equal(length, 0).all():

@@ -1,4 +1,4 @@
-"""Driving by hand: from a stick to the command of a drive, and who it is that is driven."""
+"""Driving by hand: from a stick to the command of a drive, and the robot that is driven."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from mars2d.scenario.scenario import Scenario
 __all__ = ["Stick", "command_of", "ramped", "robot_of"]
 
 RISE, FALL = 4.0, 8.0
-"""How quickly a stick follows the keys, in parts of its way in a second: out, and back."""
+"""The speeds at which a stick follows the keys, outwards and back, full deflections per s."""
 
 
 class Stick(NamedTuple):
-    """Where a stick is held: across, to the right, and ahead; each from -1 to 1."""
+    """The deflection of a stick: across, to the right, and ahead; each from -1 to 1."""
 
     across: float = 0.0
     ahead: float = 0.0
 
     def within(self, most: float = 1.0) -> Stick:
-        """Return it no farther out than `most` in any direction."""
+        """Return the same direction with a deflection of at most `most`."""
         share = most / max(hypot(*self), most)
         return Stick(share * self.across, share * self.ahead)
 
@@ -39,7 +39,7 @@ def command_of(drive: Drive, stick: Stick) -> tuple[float, float]:
 
 
 def ramped(stick: Stick, wanted: Stick, duration: float) -> Stick:
-    """Return where a stick is `duration` seconds later that is on its way to where it is wanted."""
+    """Return the position of a stick that is on its way, `duration` seconds later."""
     return Stick(*(_towards(a, b, duration) for a, b in zip(stick, wanted, strict=True)))
 
 
@@ -50,7 +50,7 @@ def _towards(value: float, wanted: float, duration: float) -> float:
 
 
 def robot_of(scenario: Scenario, who: str | int, field: str = "human =") -> int:
-    """Return the index of the robot that `who` names: by its name, its index, or a game's role.
+    """Return the index of the robot that `who` names: its name, its index, or a role of a game.
 
     Of several robots in a role it is the first. Raises InputError, which begins with `field` and
     ends with the nearest name, if there is none.

@@ -1,4 +1,4 @@
-"""Run a record again, and say where the numbers part."""
+"""Run a record again, and find where the numbers depart."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ __all__ = ["Departure", "other_versions", "rerun"]
 
 @dataclass(frozen=True)
 class Departure:
-    """Where a record and itself run again part first.
+    """The first difference between a record and the same run again.
 
-    row, time [s]: of the record. what: "pose", "effort" or "contact". bodies: the names of the one
-    that departs most, or of the pair in touch. metres, radians: how far its pose is off. how: the
-    rest in words.
+    row, time [s]: of the record. what: "pose", "effort" or "contact". bodies: the name of the one
+    that departs most, or of the pair in touch. metres, radians: the error of its pose. how: the
+    rest, in words.
     """
 
     row: int
@@ -72,7 +72,7 @@ def rerun(record: Record, progress: Callable[[int], None] | None = None) -> Depa
     row = -1
     for row, command in enumerate(record.command):
         for intervention in done[row]:
-            world.hands.redo(intervention)
+            world.operator.redo(intervention)
         departure = _departs(row, world, record)
         if departure is not None:
             break
@@ -85,7 +85,7 @@ def rerun(record: Record, progress: Callable[[int], None] | None = None) -> Depa
 
 
 def other_versions(record: Record) -> dict[str, tuple[str, str]]:
-    """Return which versions differ: by its name, that of the record and the one here."""
+    """Return the versions that differ, by name: that of the record, and the one here."""
     here = versions()
     return {
         name: (record.versions[name], here[name])
@@ -95,9 +95,9 @@ def other_versions(record: Record) -> dict[str, tuple[str, str]]:
 
 
 def _in_motion(scenario: Scenario) -> Scenario:
-    """Return a scenario with all that matters to motion: of add-ons that is their obstacles.
+    """Return a scenario with only the parts that matter to motion: of add-ons, their obstacles.
 
-    What add-ons do else may need laws, which are not there, and end the experiment.
+    Other things that add-ons do may need laws, which are not there, and may end the experiment.
     """
     addons = [
         Map(
@@ -113,14 +113,14 @@ def _in_motion(scenario: Scenario) -> Scenario:
 
 
 def _in_motion_of(intervention: Intervention) -> Intervention:
-    """Return an intervention with all that matters to motion."""
+    """Return an intervention with only the parts that matter to motion."""
     if isinstance(intervention, Change):
         return replace(intervention, scenario=_in_motion(intervention.scenario), control=None)
     return intervention
 
 
 def _departs(row: int, world: World, record: Record) -> Departure | None:
-    """Return where a world and a row of a record part, if they do."""
+    """Return the difference between a world and a row of a record, or None."""
     time = float(record.time[row])
     recorded = np.hstack([record.pose[row], record.prop_pose[row]])
     pose = np.hstack([world.pose, world.prop_pose])
@@ -152,9 +152,9 @@ def _departs(row: int, world: World, record: Record) -> Departure | None:
 
 
 def _contacts_depart(first: Record, second: Record, last: int) -> Departure | None:
-    """Return where the contacts of two records part, up to a row; None if they do not.
+    """Return the first difference between the contacts of two records up to a row, or None.
 
-    A run that was broken off may have contacts of a control step that its rows do not tell of.
+    A run that was broken off may have contacts of a control step that has no row.
     """
     mine, other = (_contacts_until(record, first, last) for record in (first, second))
     count = min(len(mine), len(other))

@@ -1,23 +1,20 @@
-"""What a law may see: the views of a robot, its neighbours, props and the team, by information."""
+"""The views of robots, neighbours and props that laws are given, by their information."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
+from typing import Any, ClassVar, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.errors import LawError, UnknownNameError, nearest
-from mars2d.core.plane import Outline
 from mars2d.record.message import Message
 from mars2d.sensors.sensing import Sense
-
-if TYPE_CHECKING:
-    from mars2d.world.world import Addons, World
+from mars2d.world.interfaces import Seen
 
 __all__ = [
     "VIEWS",
@@ -28,18 +25,19 @@ __all__ = [
     "PropView",
     "RobotView",
     "SensorsOnlyView",
-    "TeamPositionsView",
+    "unknown",
+    "unseen",
 ]
 
 Float = NDArray[np.float64]
 
 
 class _Unseen(property):
-    """What a law may not read."""
+    """An attribute that a law may not read."""
 
 
-def _unseen(what: str, sees: str, instead: str = "") -> Any:
-    """Return a property that a law may not read that sees no more than `sees`."""
+def unseen(what: str, sees: str, instead: str = "") -> Any:
+    """Return a property that refuses a law that sees no more than `sees`."""
 
     def refuse(_: object) -> NoReturn:
         hint = f"; there is {instead}" if instead else ""
@@ -48,56 +46,60 @@ def _unseen(what: str, sees: str, instead: str = "") -> Any:
     return _Unseen(refuse, doc=f"Refuse: a law that sees {sees} only does not know it.")
 
 
-def _alone(values: Float) -> Float:
+def alone(values: Float) -> Float:
     """Return a copy that can't be written. A view would lead, as its `base`, to all robots."""
     copy = values.copy()
     copy.setflags(write=False)
     return copy
 
 
-MOST_KNOWN = 30
-"""Up to so many names of what there is are listed, where none is near."""
+MAX_LISTED = 30
+"""The most names that an error lists where none is near."""
 
 
-def _unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
+def unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
+    """Raise UnknownNameError: a view has no such name.
+
+    kind: the view in words. more: names that it has besides those of its class.
+    """
     kind_of_view = type(view)
     known = [
         item
         for item in dir(kind_of_view)
         if not (item.startswith("_") or isinstance(getattr(kind_of_view, item), _Unseen))
     ]
-    hint = nearest(name, [*known, *more], most=MOST_KNOWN)
+    hint = nearest(name, [*known, *more], most=MAX_LISTED)
     raise UnknownNameError(f"{kind} has no {name!r}{hint}")
 
 
 class Mind:
-    """What a robot keeps for itself: its readings, its memory between steps, its random stream."""
+    """The private parts of a robot: its readings, its memory between steps, its random stream."""
 
-    def __init__(self, world: World, name: str) -> None:
+    def __init__(self, name: str, stream: Callable[[str], np.random.Generator]) -> None:
         self.sense = Sense(name)
         self.memory = SimpleNamespace()
-        self._world, self._name = world, name
+        self._name, self._stream = name, stream
 
     @cached_property
     def rng(self) -> np.random.Generator:
         """The robot's own random stream."""
-        return self._world.stream(f"robot {self._name}")
+        return self._stream(f"robot {self._name}")
 
 
 class _Body:
-    """What a law sees of a body: the base of the views of robots, neighbours and props."""
+    """The base of the views of robots, neighbours and props."""
 
     _kind: ClassVar[str]
-    """What an error calls it."""
+    """The name of such a body in an error."""
 
     _more: ClassVar[tuple[str, ...]] = ()
-    """What it has besides the properties of its class."""
+    """The attributes that it has besides the properties of its class."""
 
-    def __init__(self, world: World, index: int) -> None:
+    def __init__(self, world: Seen, index: int) -> None:
         self._world, self._index = world, index
 
     def __getattr__(self, name: str) -> NoReturn:
-        _unknown(self, self._kind, name, *self._more)
+        unknown(self, self._kind, name, *self._more)
 
     @property
     def index(self) -> int:
@@ -106,14 +108,14 @@ class _Body:
 
 
 class Neighbour(_Body):
-    """Another robot, as far as it is seen: its index, name, position (2,) and pose (3,).
+    """Another robot, as its neighbour sees it: its index, name, position (2,) and pose (3,).
 
-    A law may keep it, and finds it where it is at each step, as long as it is a neighbour.
+    A law may keep it: its pose is the present one at each step, as long as it is a neighbour.
     """
 
     _kind = "a neighbour"
 
-    def __init__(self, world: World, index: int, whose: int) -> None:
+    def __init__(self, world: Seen, index: int, whose: int) -> None:
         """Take the world, its index, and that of the robot whose neighbour it is."""
         super().__init__(world, index)
         self._whose = whose
@@ -136,22 +138,22 @@ class Neighbour(_Body):
     @property
     def position(self) -> Float:
         """The other robot's position (2,): x, y [m]."""
-        return _alone(self._seen()[:2])
+        return alone(self._seen()[:2])
 
     @property
     def pose(self) -> Float:
         """The other robot's pose (3,): x, y [m], theta [rad]."""
-        return _alone(self._seen())
+        return alone(self._seen())
 
 
 class NeighbourPosition(Neighbour):
-    """Another robot of which only the position is seen."""
+    """Another robot whose position alone is seen."""
 
-    pose = _unseen("a neighbour's pose", "positions", "neighbour.position")
+    pose = unseen("a neighbour's pose", "positions", "neighbour.position")
 
 
 class PropView(_Body):
-    """A prop as laws and add-ons see it: its index in ``scenario.props``, name, pose, velocity."""
+    """A prop: its index in ``scenario.props``, name, pose and velocity."""
 
     _kind = "a prop"
 
@@ -172,7 +174,7 @@ class PropView(_Body):
 
 
 class RobotView(_Body):
-    """What the law of one robot may see and use, with full information.
+    """A robot, as its law sees and uses it with full information.
 
     sense: the readings of its sensors. memory: a place to keep things between steps.
     """
@@ -181,7 +183,7 @@ class RobotView(_Body):
     _more = ("sense", "memory")
     _neighbour: type[Neighbour] = Neighbour
 
-    def __init__(self, world: World, index: int, mind: Mind) -> None:
+    def __init__(self, world: Seen, index: int, mind: Mind) -> None:
         super().__init__(world, index)
         self._mind = mind
         self.sense = mind.sense
@@ -217,7 +219,7 @@ class RobotView(_Body):
     @property
     def command(self) -> Float:
         """The last command (2,) that was issued, after saturation; zeros at first."""
-        return _alone(self._world.command[:, self._index])
+        return alone(self._world.command[:, self._index])
 
     @property
     def effort(self) -> float:
@@ -244,24 +246,24 @@ class RobotView(_Body):
         return self._world.channel.inbox(self._index)
 
     @property
-    def world(self) -> World:
+    def world(self) -> Any:
         """The whole world: all poses, props, contacts, obstacles, add-ons."""
-        return self._world
+        return self._world.view
 
     @property
     def position(self) -> Float:
         """The robot's own position (2,): x, y [m]."""
-        return _alone(self._world.pose[:2, self._index])
+        return alone(self._world.pose[:2, self._index])
 
     @property
     def pose(self) -> Float:
         """The robot's own pose (3,): x, y [m], theta [rad, not wrapped]."""
-        return _alone(self._world.pose[:, self._index])
+        return alone(self._world.pose[:, self._index])
 
     @property
     def velocity(self) -> Float:
         """The robot's own velocity (3,): x', y' [m/s], theta' [rad/s]."""
-        return _alone(self._world.velocity[:, self._index])
+        return alone(self._world.velocity[:, self._index])
 
     @property
     def neighbours(self) -> tuple[Neighbour, ...]:
@@ -287,27 +289,27 @@ class RobotView(_Body):
 
 
 class PartialView(RobotView):
-    """What a law may use that sees its own state and its neighbours, but not the whole world."""
+    """A robot whose law sees its own state and its neighbours, but not the whole world."""
 
-    world = _unseen("robot.world", "itself and its neighbours", "robot.neighbours")
+    world = unseen("robot.world", "itself and its neighbours", "robot.neighbours")
 
 
 class PositionsView(PartialView):
-    """What a law may use that sees its own pose, and of its neighbours their positions alone."""
+    """A robot whose law sees its own state, and the positions of its neighbours."""
 
     _neighbour = NeighbourPosition
-    world = _unseen("robot.world", "itself and its neighbours' positions", "robot.neighbours")
+    world = unseen("robot.world", "itself and its neighbours' positions", "robot.neighbours")
 
 
 class SensorsOnlyView(RobotView):
-    """What a law may use that sees sensors only: no pose, no other robots, no points of contact."""
+    """A robot whose law sees sensors only: no pose, no other robots, no points of contact."""
 
-    world = _unseen("robot.world", "sensors")
-    position = _unseen("robot.position", "sensors")
-    pose = _unseen("robot.pose", "sensors")
-    velocity = _unseen("robot.velocity", "sensors")
-    neighbours = _unseen("robot.neighbours", "sensors")
-    contacts = _unseen("robot.contacts", "sensors")
+    world = unseen("robot.world", "sensors")
+    position = unseen("robot.position", "sensors")
+    pose = unseen("robot.pose", "sensors")
+    velocity = unseen("robot.velocity", "sensors")
+    neighbours = unseen("robot.neighbours", "sensors")
+    contacts = unseen("robot.contacts", "sensors")
 
 
 VIEWS: dict[str, type[RobotView]] = {
@@ -316,89 +318,4 @@ VIEWS: dict[str, type[RobotView]] = {
     "positions": PositionsView,
     "sensors": SensorsOnlyView,
 }
-"""What a robot's law is given, by ``Robot.sees``."""
-
-
-class RobotPositionView(PositionsView):
-    """A robot as the law of a team sees it that sees positions only."""
-
-    pose = _unseen("robot.pose", "positions", "robot.position")
-    velocity = _unseen("robot.velocity", "positions", "robot.position")
-    contacts = _unseen("robot.contacts", "positions", "robot.position")
-    world = _unseen("robot.world", "positions")
-
-
-class TeamPositionsView:
-    """What the law of a team may use that sees positions only: no headings, no velocities."""
-
-    def __init__(self, world: World, minds: list[Mind]) -> None:
-        self._world = world
-        self.robots = tuple(RobotPositionView(world, i, mind) for i, mind in enumerate(minds))
-
-    def __getattr__(self, name: str) -> NoReturn:
-        world = vars(self).get("_world")  # None in a copy that is not yet filled
-        if hasattr(type(world), name) or (world is not None and name in vars(world)):
-            raise LawError(
-                f"this law sees positions only: world.{name} is not available; "
-                "there is world.position"
-            )
-        _unknown(self, "a world", name, "robots")
-
-    @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
-        return self._world.time
-
-    @property
-    def sampling_time(self) -> float:
-        """The time from one command to the next, seconds."""
-        return self._world.sampling_time
-
-    @property
-    def iteration(self) -> int:
-        """The number of control steps done."""
-        return self._world.iteration
-
-    @property
-    def position(self) -> Float:
-        """The positions (2, n): x, y [m]."""
-        return _alone(self._world.position)
-
-    @property
-    def command(self) -> Float:
-        """The last command (2, n) that was issued, after saturation; zeros at first."""
-        return _alone(self._world.command)
-
-    @property
-    def effort(self) -> Float:
-        """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1."""
-        return _alone(self._world.effort)
-
-    @property
-    def workspace(self) -> Outline | None:
-        """The polygon in which the robots move, or None."""
-        return self._world.workspace
-
-    @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-        return self._world.bounds
-
-    @property
-    def obstacles(self) -> tuple[Outline, ...]:
-        """The outlines of all obstacles."""
-        return self._world.obstacles
-
-    @property
-    def addons(self) -> Addons:
-        """The add-ons by name: the law may ask what the experiment has put there."""
-        return self._world.addons
-
-    @property
-    def rng(self) -> np.random.Generator:
-        """The random stream of the team's law."""
-        return self._world.rng
-
-    def stop(self, why: str) -> None:
-        """End the experiment, with the present control step, and say why."""
-        self._world.stop(why)
+"""The view that a robot's law is given, by ``Robot.sees``."""

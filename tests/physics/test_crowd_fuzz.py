@@ -208,7 +208,7 @@ def most_substeps(world: World, path: float) -> float:
     that bound is asked for vertices beside each other, too, so an edge that turns on a corner takes
     many. Fifty are for drives that brake spins, and for substeps that grow.
     """
-    engine = world._engine
+    engine = world.simulation.engine
     if not isinstance(engine, Engine):
         return inf
     return 50 + 2 * world.sampling_time / engine._contact_step + 64 * 2 * path / engine._entry
@@ -218,7 +218,7 @@ def most_substeps(world: World, path: float) -> float:
 def watched(world: World) -> Iterator[Watch]:
     """Look at all bodies after each step of the engine."""
     watch = Watch()
-    space: pymunk.Space = world._engine.space._space
+    space: pymunk.Space = world.simulation.engine.space._space
     movers = [body for body in space.bodies if body.body_type == pymunk.Body.DYNAMIC]
     shapes = [(i, shape) for i, body in enumerate(movers) for shape in body.shapes]
     moving = len(shapes)

@@ -44,7 +44,7 @@ def plain() -> Iterator[None]:
 
 
 def uses_kernel(world: World) -> bool:
-    return world._engine._kernel is not None
+    return world.simulation.engine._kernel is not None
 
 
 def twins(scenario: Scenario, law: Law, seed: int = 0) -> tuple[World, World]:
@@ -369,7 +369,7 @@ def test_an_array_of_the_wrong_size_is_refused():
 def test_a_motion_that_can_not_go_on_is_an_error():
     """No gate lets such twists pass; if one did, time would stand still without an end."""
     scenario = Scenario(robots=[Robot(), Robot(pose=(0.31, 0, 0))], workspace=None)
-    engine = World(scenario)._engine
+    engine = World(scenario).simulation.engine
     twist = np.array([[1e200, 0.0], [0.0, 0.0], [0.0, 0.0]])
     for _ in range(2):  # it does not go on either
         with pytest.raises(FloatingPointError, match="not finite"):
@@ -388,7 +388,7 @@ for speed in (1e200, 1e300, np.inf, np.nan):
     twist[:, ::3] = speed
     for _ in range(3):
         try:
-            world._engine.drive(twist, 0.1, 0.0)
+            world.simulation.engine.drive(twist, 0.1, 0.0)
         except FloatingPointError:
             pass
 print("over")

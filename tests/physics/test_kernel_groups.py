@@ -44,7 +44,7 @@ def test_only_large_teams_of_about_equal_masses_are_stepped_in_groups():
     def groups(n, heaviest=1.0):
         robots = [Robot(pose=(*place(i), 0.0)) for i in range(n - 1)]
         robots.append(Robot(pose=(-9.0, 0.0, 0.0), mass=heaviest))
-        return World(scenario(robots))._engine._groups
+        return World(scenario(robots)).simulation.engine._groups
 
     assert groups(2 * GROUP - 1) == 1
     assert groups(2 * GROUP) == 2
@@ -140,7 +140,7 @@ def test_groups_stay_small_while_robots_wander_and_meet():
     world = world_of(team(400, 0.05))
     for _ in range(200):
         world.step()
-    kernel = world._engine._kernel
+    kernel = world.simulation.engine._kernel
     sizes = [kernel._lib.mars2d_kernel_group_size(kernel._kernel, g) for g in range(400 // GROUP)]
     assert sum(sizes) == 400
     assert max(sizes) < 2 * GROUP

@@ -477,7 +477,7 @@ def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
         for center in rng.uniform(2, 6, (10, 2))
     ]
     world = world_of(outlines, robots)
-    space = world._engine.space._space
+    space = world.simulation.engine.space._space
     for robot in range(5):
         x, y, _ = rng.uniform(-5, 5, 3)
         angles, reach = rng.uniform(-4, 4, 400), rng.uniform(1, 9)
@@ -488,6 +488,6 @@ def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
             for end in zip(ends_x.tolist(), ends_y.tolist(), strict=True)
         ]
         public = [inf if hit is None else hit.alpha * reach for hit in hits]
-        ours = world._engine.space.rays.distances((x, y), angles, reach, robot)
+        ours = world.simulation.engine.space.rays.distances((x, y), angles, reach, robot)
         assert ours.tolist() == public
         assert np.isfinite(public).any()

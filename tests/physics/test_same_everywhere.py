@@ -43,7 +43,7 @@ def digest(record) -> str:
 def discs() -> str:
     """The digest of the bustle of discs, which the kernel in C moves where there is one."""
     world = bustle(discs=True)
-    assert bool(reason_without()) == (world._engine._kernel is None)
+    assert bool(reason_without()) == (world.simulation.engine._kernel is None)
     while not world.over:
         world.step()
     assert world.record.collisions >= 5

@@ -90,7 +90,7 @@ def test_done_again_on_another_world_they_give_the_same():
     for command in first.history.command:
         while log and log[0].row == second.iteration:
             second.hands.redo(log.pop(0))
-        second.follow(command)
+        second.simulation.follow(command)
     assert np.array_equal(first.history.pose, second.history.pose)
     assert second.hands.log == first.hands.log
 

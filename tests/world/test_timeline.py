@@ -14,7 +14,8 @@ from mars2d.cli import outputs
 from mars2d.core.errors import InputError
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
 from mars2d.world.loop import simulate
-from mars2d.world.timeline import PARKED, Timeline
+from mars2d.world.past import PARKED
+from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 
 WALL = Map([[(1.0, 2.0), (2.0, 2.0)]], name="drawn")
@@ -179,7 +180,7 @@ def test_worlds_that_wait_change_nothing(memory):
     idle(timeline)
     timeline.go(120)
     idle(timeline, 4000)
-    rows = sorted(world.iteration for world in timeline._waiting)
+    rows = sorted(world.iteration for world in timeline._past.waiting)
     assert set(rows) >= {24, 48, 72, 96}
     finish(timeline)
     assert timeline.record.digest == expected.digest
@@ -195,7 +196,7 @@ def test_no_more_worlds_wait_than_said(memory):
     for row in range(149, 0, -7):
         timeline.go(row)
         idle(timeline, 30)
-        assert len(timeline._waiting) <= PARKED + 1
+        assert len(timeline._past.waiting) <= PARKED + 1
     timeline.branch()
     assert timeline.world.iteration == timeline.row
 
@@ -204,7 +205,7 @@ def test_nothing_waits_before_somebody_goes_back(memory):
     timeline = Timeline(open_experiment(memory), 3)
     run_to(timeline, 100)
     idle(timeline, 10)
-    assert not timeline._waiting
+    assert not timeline._past.waiting
 
 
 # -- hands -----------------------------------------------------------------------------------------
@@ -502,7 +503,9 @@ def test_an_experiment_that_is_not_from_a_file(capsys):
     finish(timeline)
     timeline.go(11)
     idle(timeline, 20)
-    assert timeline._waiting == []  # it would share what the law remembers, if that lies elsewhere
+    assert (
+        timeline._past.waiting == []
+    )  # it would share what the law remembers, if that lies elsewhere
     timeline.branch()
     assert timeline.remark == ""
     finish(timeline)
@@ -605,7 +608,7 @@ def test_a_way_back_can_be_broken_off(memory, monkeypatch):
         return len(told) < 2
 
     with monkeypatch.context() as patch, pytest.raises(InputError, match="nothing was changed"):
-        patch.setattr("mars2d.world.timeline.SLICE", 0.001)
+        patch.setattr("mars2d.world.past.SLICE", 0.001)
         timeline.branch(progress)
     assert len(told) == 2
     assert 0 <= told[0] <= told[1] < 1
@@ -660,13 +663,13 @@ scenario = Scenario(robots=[Robot(controller=law)])
         timeline.idle(0.010)
         late.append(time.perf_counter() - start - 0.010)
     assert sorted(late)[5] < 0.006
-    reached = timeline._waiting[0].iteration
+    reached = timeline._past.waiting[0].iteration
     assert reached > 10
     start = time.perf_counter()
     for _ in range(20):
         timeline.idle(0.001)  # less than a control step takes
     assert time.perf_counter() - start < 0.02
-    assert timeline._waiting[0].iteration <= reached + 1
+    assert timeline._past.waiting[0].iteration <= reached + 1
 
 
 # -- the experiment read again ---------------------------------------------------------------------

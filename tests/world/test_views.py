@@ -12,14 +12,8 @@ from mars2d import Addon, Holonomic, LawError, Robot, Scenario, Sensor, Within, 
 from mars2d.addons import Communication
 from mars2d.cli.command_line import BAD_INPUT, main
 from mars2d.core.errors import UnknownNameError
-from mars2d.world.views import (
-    VIEWS,
-    Neighbour,
-    PropView,
-    RobotPositionView,
-    RobotView,
-    TeamPositionsView,
-)
+from mars2d.world.team_view import RobotPositionView, TeamPositionsView
+from mars2d.world.views import VIEWS, Neighbour, PropView, RobotView
 
 OF_ITSELF = {
     "command", "drive", "effort", "inbox", "index", "memory", "name", "radius", "rng",
@@ -52,13 +46,16 @@ OF_POSITIONS = {
 """What of `world` a law may touch that sees positions only."""
 
 MORE = {
-    "break_off", "change", "channel", "contacts", "control", "driven", "filename", "finished",
-    "follow", "frame", "geometric_center", "hands", "history", "hold", "motion",
+    "contacts", "filename", "finished", "frame", "geometric_center", "history", "hold",
     "neighbour_indices", "observe", "over", "over_message", "pose", "prop_pose", "prop_velocity",
-    "props", "rebuild", "record", "recorder", "scenario", "seed", "step", "stream", "surroundings",
-    "velocity", "watch",
+    "props", "record", "scenario", "seed", "step", "stream", "surroundings", "velocity",
 }  # fmt: skip
 """What else there is, which tells more than positions."""
+
+OF_WHO_RUNS_IT = {
+    "break_off", "change", "control", "hands", "operator", "recorder", "simulation", "watch",
+}  # fmt: skip
+"""What a World has and no law."""
 
 
 def names(thing):
@@ -69,8 +66,9 @@ def views():
     """A view of each setting."""
     robots = [Robot(sees=sees).at(k, 0) for k, sees in enumerate(VIEWS)]
     world = World(Scenario(robots=robots))
-    own = {sees: VIEWS[sees](world, i, world._minds[i]) for i, sees in enumerate(VIEWS)}
-    return own | {"team": TeamPositionsView(world, world._minds).robots[0]}
+    inside = world.simulation
+    own = {sees: VIEWS[sees](inside, i, inside.minds[i]) for i, sees in enumerate(VIEWS)}
+    return own | {"team": TeamPositionsView(world).robots[0]}
 
 
 def asked(question, sees, **fields):
@@ -119,7 +117,9 @@ def test_each_name_of_a_robot_is_known_to_this_test():
 
 
 def test_each_name_of_a_world_is_known_to_this_test():
-    assert names(World(Scenario())) == OF_POSITIONS | MORE
+    world = World(Scenario())
+    assert names(world) == OF_POSITIONS | MORE | OF_WHO_RUNS_IT
+    assert names(world.robots[0].world) == OF_POSITIONS | MORE
 
 
 def test_each_setting_is_known_to_this_test():
@@ -168,7 +168,7 @@ def test_a_teams_law_that_sees_positions_may_use(name):
     assert asked_world(lambda world: getattr(world, name)) is not None
 
 
-@pytest.mark.parametrize("name", sorted(MORE))
+@pytest.mark.parametrize("name", sorted(MORE | OF_WHO_RUNS_IT))
 def test_a_teams_law_that_sees_positions_is_refused(name):
     with pytest.raises(LawError) as raised:
         asked_world(lambda world: getattr(world, name))

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     import shapely
 
 __all__ = [
+    "MAX_PIECES",
+    "MAX_POINTS",
     "METRES",
-    "MOST_PIECES",
-    "MOST_POINTS",
     "Drawing",
     "Piece",
     "Unit",
@@ -37,15 +37,14 @@ Float = NDArray[np.float64]
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 """The units that a drawing can be in, by name, in metres."""
 
-MOST_PIECES = 30_000
-MOST_POINTS = 100_000
-"""A drawing has no more pieces, and no more points, than these."""
+MAX_PIECES, MAX_POINTS = 30_000, 100_000
+"""The most pieces and points of a drawing."""
 
 NO_LAYER = "no layer"
-"""The layer of what is in none."""
+"""The layer of a piece that is in none."""
 
-SMALLEST, LARGEST = 2.0, 500.0
-"""A map whose longer side is beyond these has probably another unit, metres."""
+USUAL = (2.0, 500.0)
+"""The longer side of a usual map, metres; beyond it the unit is probably wrong."""
 
 LIKELY = (4.0, 200.0)
 """The longer side of a map in the unit that it was drawn in, metres."""
@@ -53,7 +52,7 @@ LIKELY = (4.0, 200.0)
 
 @dataclass(frozen=True)
 class Unit:
-    """What one unit of a drawing is: its name, its length in metres, and who says so."""
+    """The unit of a drawing: its name, its length in metres, and where that was said."""
 
     name: str
     metres: float
@@ -75,11 +74,11 @@ class Piece:
 
 @dataclass(frozen=True)
 class Drawing:
-    """What a file holds: its pieces by layer, in metres, and what was left out.
+    """The contents of a file: its pieces by layer, in metres, and counts of those left out.
 
-    source: the file's name. kind: what it is, in words. notes: more to say of it, as names and
-    texts. hidden: layers that are not shown unless they are named. skipped: how many things of
-    which kind were not read. others: how many pieces lie in layers that were not chosen. apart:
+    source: the file's name. kind: of the file, in words. notes: remarks, as names and texts.
+    hidden: layers that are not shown unless they are named. skipped: the number of things that
+    were not read, by kind. others: the number of pieces in layers that were not chosen. apart:
     its areas are known not to overlap.
     """
 
@@ -95,7 +94,7 @@ class Drawing:
 
     @cached_property
     def layers(self) -> dict[str, int]:
-        """How many pieces each layer has, those with most first."""
+        """The number of pieces of each layer, the largest first."""
         return dict(Counter(piece.layer for piece in self.pieces).most_common())
 
     @cached_property
@@ -114,9 +113,9 @@ class Drawing:
 
     @property
     def hint(self) -> str:
-        """What to say of a size that is hardly that of a map, or nothing."""
+        """A remark on a size that is hardly that of a map, or nothing."""
         longer = max(self.size)
-        if SMALLEST <= longer <= LARGEST or not self.unit.name:
+        if USUAL[0] <= longer <= USUAL[1] or not self.unit.name:
             return ""
         drawn = longer / self.unit.metres
         fits = {
@@ -124,7 +123,7 @@ class Drawing:
             for name, metres in METRES.items()
             if LIKELY[0] <= drawn * metres <= LIKELY[1]
         }
-        size = "small" if longer < SMALLEST else "large"
+        size = "small" if longer < USUAL[0] else "large"
         better = " or ".join(f"unit={name} ({long:.3g} m)" for name, long in fits.items())
         ask = f": is it {better}?" if better else ": is the unit right?"
         return f"{longer:.3g} m is {size} for a map of robots{ask}"
@@ -163,7 +162,7 @@ class Drawing:
         return replace(self, pieces=tuple(Piece(p.layer, geometry) for p, geometry in pieces))
 
     def check_size(self) -> None:
-        """Refuse what is too far away, or has no size. Raises InputError."""
+        """Raise InputError for a drawing that is too far away, or has no size."""
         xmin, xmax, ymin, ymax = self.bounds
         far = max(map(abs, (xmin, xmax, ymin, ymax)))
         if not isfinite(far) or far > MAX_COORDINATE:
@@ -179,9 +178,9 @@ class Drawing:
 
 
 def wall(name: str, layer: str, points: Float, metres: float) -> Piece | None:
-    """Return a wall through points (k, 2) in a unit of some metres; None if it has no length.
+    """Return a wall through points (k, 2) in units of `metres`; None if it has no length.
 
-    Raises InputError, which begins with `name`, for coordinates that are no numbers.
+    Raises InputError, which begins with `name`, for coordinates that are not finite.
     """
     import shapely
 
@@ -193,7 +192,7 @@ def wall(name: str, layer: str, points: Float, metres: float) -> Piece | None:
 
 
 def check_finite(name: str, points: Float) -> None:
-    """Refuse coordinates (k, 2) that are no numbers, or absurd ones. Raises InputError."""
+    """Raise InputError for coordinates (k, 2) that are not finite, or absurdly large."""
     wild = ~(np.abs(points) < 1e15)
     if wild.any():
         raise InputError(f"{name}: a coordinate is {points[wild][0]}: expected a finite number")
@@ -206,7 +205,7 @@ def layer_name(name: object, otherwise: str = NO_LAYER) -> str:
 
 
 class Tally:
-    """Counts what is read of a file, and refuses too much of it."""
+    """Counts the pieces and points that are read of a file, and refuses too many."""
 
     def __init__(self, name: str) -> None:
         self._name = name
@@ -216,17 +215,17 @@ class Tally:
         """Count pieces with so many points in all. Raises InputError beyond the limits."""
         self._pieces += pieces
         self._points += points
-        if self._pieces > MOST_PIECES:
-            raise InputError(f"{self._name}: more than {MOST_PIECES} pieces; choose fewer layers")
-        if self._points > MOST_POINTS:
-            raise InputError(f"{self._name}: more than {MOST_POINTS} points; draw it with fewer")
+        if self._pieces > MAX_PIECES:
+            raise InputError(f"{self._name}: more than {MAX_PIECES} pieces; choose fewer layers")
+        if self._points > MAX_POINTS:
+            raise InputError(f"{self._name}: more than {MAX_POINTS} points; draw it with fewer")
 
 
 @contextlib.contextmanager
 def broken(name: str, kind: str) -> Iterator[None]:
-    """Turn what a reader of files raises into an InputError: `name` can't be read as `kind`."""
+    """Turn any error of a reader into an InputError: `name` can't be read as `kind`."""
     try:
-        with np.errstate(all="ignore"):  # numbers that are none are looked for anyway
+        with np.errstate(all="ignore"):  # coordinates are checked later
             yield
     except InputError as error:
         if str(error).startswith(name):
@@ -238,14 +237,14 @@ def broken(name: str, kind: str) -> Iterator[None]:
         raise InputError(f"{name}: can't be read as {kind}: it needs too much memory") from None
     except RecursionError:
         raise InputError(f"{name}: can't be read as {kind}: it is nested too deeply") from None
-    except Exception as error:  # libraries raise whatever comes
+    except Exception as error:  # libraries raise all kinds
         text = " ".join(str(error).split()) or type(error).__name__
         said = text if len(text) <= 120 else f"{text[:117]}..."
         raise InputError(f"{name}: can't be read as {kind}: {said}") from error
 
 
 def check_bytes(name: str, path: Path, most: int) -> None:
-    """Refuse a file of more than so many bytes. Raises InputError, which begins with `name`."""
+    """Raise InputError, which begins with `name`, for a file of more than `most` bytes."""
     size = path.stat().st_size
     if size > most:
         raise InputError(f"{name}: {size / 1e6:.3g} MB; expected at most {most / 1e6:g} MB")

@@ -37,31 +37,31 @@ __all__ = ["read_dxf"]
 Float = NDArray[np.float64]
 
 UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
-"""What the header's $INSUNITS says, as far as maps are drawn in it."""
+"""The units of the header's $INSUNITS in which maps are drawn."""
 
 LINES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
 AREAS = ("SOLID", "TRACE")
 """The kinds of entities that are read, besides INSERT."""
 
 ENTITY = re.compile(rb"\n[ \t]*+0[ \t]*+\r?\n[A-Z]|\0\0[A-Z]")
-"""Where an entity begins, or a table's entry, in text and in binary: the code 0, and its name."""
+"""The beginning of an entity or a table's entry, in text and in binary: code 0 and its name."""
 
-MOST_ENTITIES = 200_000
-"""In the whole file; the library makes an object of each before anything can be chosen."""
+MAX_ENTITIES = 200_000
+"""The most in a file: the library makes an object of each before any can be left out."""
 
-DEEPEST = 16
-MOST_CURVES = 1_000
-"""Blocks in blocks, and control points of one spline, go up to this."""
+MAX_DEPTH = 16
+"""The deepest nesting of blocks."""
 
-MOST_DEGREE = 11
+MAX_CONTROLS, MAX_DEGREE = 1_000, 11
+"""The most control points of a spline, and its highest degree."""
 
 FLATNESS = 2e-4
-"""How far a curve may lie from its points, in its own size."""
+"""The largest distance of a curve from its points, in parts of its own size."""
 
 
 @dataclass(frozen=True)
 class _Shape:
-    """What is drawn: points (k, 3) in the file's unit. In a block, layer ``0`` is the outer one."""
+    """Points (k, 3) in the file's unit. In a block, layer ``0`` is the outer one."""
 
     layer: str
     points: Float
@@ -80,8 +80,8 @@ def read_dxf(path: Path, unit: Unit | None) -> Drawing:
         import ezdxf
 
         _quiet()
-        if sum(1 for _ in ENTITY.finditer(path.read_bytes())) > MOST_ENTITIES:
-            raise InputError(f"{name}: more than {MOST_ENTITIES} entities; save a part of it")
+        if sum(1 for _ in ENTITY.finditer(path.read_bytes())) > MAX_ENTITIES:
+            raise InputError(f"{name}: more than {MAX_ENTITIES} entities; save a part of it")
         document = ezdxf.filemanagement.readfile(path)
         reader = _Reader(name, document)
         shapes = reader.layout()
@@ -99,7 +99,7 @@ def read_dxf(path: Path, unit: Unit | None) -> Drawing:
 
 
 def _quiet() -> None:
-    """Let the library's log go nowhere, unless the program that uses us wants it."""
+    """Drop the library's log, unless the program that uses us wants it."""
     log = logging.getLogger("ezdxf")
     if not log.handlers:
         log.addHandler(logging.NullHandler())
@@ -179,10 +179,10 @@ class _Reader:
             Tally(self._name).add(len(corners))  # before anything is made of it
         if entity.dxftype() == "SPLINE":
             count = max(len(dxf.control_points), len(dxf.fit_points), len(dxf.knots) // 2)
-            if count > MOST_CURVES or not 1 <= dxf.dxf.degree <= MOST_DEGREE:
+            if count > MAX_CONTROLS or not 1 <= dxf.dxf.degree <= MAX_DEGREE:
                 raise InputError(
                     f"{self._name}: a SPLINE of degree {dxf.dxf.degree} with {count} control "
-                    f"points; expected up to {MOST_DEGREE} and {MOST_CURVES}"
+                    f"points; expected up to {MAX_DEGREE} and {MAX_CONTROLS}"
                 )
         line = make_path(entity)
         points = np.array([tuple(v) for v in line.control_vertices()]).reshape(-1, 3)
@@ -195,7 +195,7 @@ class _Reader:
         return np.array([tuple(v) for v in curve]).reshape(-1, 3)
 
     def _inserted(self, insert: Insert, tally: Tally) -> list[_Shape]:
-        """Return what a block's reference draws, each time that it does."""
+        """Return the shapes of a block's reference, once for each time that it repeats them."""
         from ezdxf.math import Vec3
 
         shapes = self._block(insert.dxf.name)
@@ -225,8 +225,8 @@ class _Reader:
             return self._blocks[key]
         if key in self._open:
             raise InputError(f"{self._name}: the block {shown(name)} contains itself")
-        if len(self._open) >= DEEPEST:
-            raise InputError(f"{self._name}: blocks within blocks, more than {DEEPEST} deep")
+        if len(self._open) >= MAX_DEPTH:
+            raise InputError(f"{self._name}: blocks within blocks, more than {MAX_DEPTH} deep")
         block = self._document.blocks.get(name)
         if block is None:
             self.skipped["INSERT of a missing block"] += 1

@@ -33,11 +33,11 @@ __all__ = ["read_geojson", "read_wkt"]
 
 Float = NDArray[np.float64]
 
-DEEPEST = 16
-"""Collections in collections, brackets in brackets."""
+MAX_DEPTH = 16
+"""The deepest nesting of collections and brackets."""
 
 LAYER_NAMES = ("layer", "Layer", "name")
-"""Properties of a feature that name its layer, the first that is there."""
+"""The properties of a feature that may name its layer; the first one counts."""
 
 METRES = Unit.named("m", "supposed: the format names none")
 
@@ -70,7 +70,7 @@ def read_wkt(path: Path, unit: Unit | None) -> Drawing:
         for text in _statements(name, path.read_text(encoding="utf-8-sig")):
             whole = shapely.from_wkt(text)
             parts = [whole]
-            for _ in range(DEEPEST):  # collections hold collections
+            for _ in range(MAX_DEPTH):  # collections hold collections
                 parts = shapely.get_parts(parts).tolist()
             for part in parts:
                 reader.add(part)
@@ -82,7 +82,7 @@ def _no_number(text: str) -> float:
 
 
 class _Reader:
-    """Collects pieces, and counts what is none."""
+    """Collects pieces, and counts the other things."""
 
     def __init__(self, name: str, unit: Unit) -> None:
         self._name, self._unit = name, unit
@@ -91,7 +91,7 @@ class _Reader:
         self._skipped: Counter[str] = Counter()
 
     def drawing(self, kind: str) -> Drawing:
-        """Return what was collected."""
+        """Return the pieces as a drawing."""
         return Drawing(
             self._name, kind, self._unit, tuple(self._pieces), skipped=dict(self._skipped)
         )
@@ -156,8 +156,8 @@ def _geometries(
     name: str, data: Any, layer: str, depth: int
 ) -> Iterator[tuple[str, dict[str, Any]]]:
     """Yield the single geometries of GeoJSON with the layer of each."""
-    if depth > DEEPEST:
-        raise InputError(f"{name}: collections in collections, more than {DEEPEST} deep")
+    if depth > MAX_DEPTH:
+        raise InputError(f"{name}: collections in collections, more than {MAX_DEPTH} deep")
     kind = data.get("type") if isinstance(data, dict) else None
     if kind == "FeatureCollection" and isinstance(data.get("features"), list):
         for feature in data["features"]:
@@ -190,8 +190,8 @@ def _statements(name: str, text: str) -> Iterator[str]:
         statement += line.strip() + " "
         for character in line:
             depth += (character == "(") - (character == ")")
-            if depth > DEEPEST:
-                raise InputError(f"{name}: brackets in brackets, more than {DEEPEST} deep")
+            if depth > MAX_DEPTH:
+                raise InputError(f"{name}: brackets in brackets, more than {MAX_DEPTH} deep")
         if depth <= 0 and statement.strip():
             yield statement
             depth, statement = 0, ""

@@ -1,54 +1,65 @@
-"""From a drawing to obstacles: merged, simplified, and cut so that none has a hole."""
+"""The obstacles of a drawing: merged, simplified, cut so that none has a hole, and described."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mars2d.addons.maps.drawing import Drawing
-from mars2d.addons.maps.regions import GRID, joined
-from mars2d.addons.maps.simplify import simple_area, simple_line
+from mars2d.addons.maps.drawing import Drawing, listed
+from mars2d.addons.maps.regions import GRID, joined, simple_area, simple_line
 from mars2d.core.description import real, wrong
-from mars2d.core.errors import InputError
-from mars2d.core.plane import Outline
+from mars2d.core.errors import InputError, counted
+from mars2d.core.plane import Outline, Point, lines_and_areas
 
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["TOLERANCE", "Obstacles", "obstacles"]
+__all__ = ["TOLERANCE", "Obstacles", "described", "nearest_room", "obstacles"]
 
 TOLERANCE = 0.02
-"""How far corners may move to have fewer of them, unless somebody says so, metres."""
+"""The default of the distance that corners may move so that there are fewer, metres."""
 
-MOST_CORNERS = 20_000
-"""A map has no more corners than this: an engine's step must stay quick."""
+MAX_CORNERS = 20_000
+"""The most corners of a map: a step of the engine must stay quick."""
 
-LARGEST_TOLERANCE = 10.0
+MAX_TOLERANCE = 10.0
+"""Metres."""
 
-SMALLEST = 1e-6
-"""Outlines of less area are no obstacles, square metres."""
+MIN_AREA = 1e-6
+"""The area below which an outline is no obstacle, m^2."""
+
+MAX_LAYERS = 24
+"""The most layers that a description names."""
+
+SPARE = (4.0, 1.0, 0.05)
+"""The distances from walls at which a disc may stand, in its radii, the best first."""
+
+NOOK = 0.03
+"""Rooms smaller than this share of the largest one are nooks, in which nothing is to stand."""
 
 
 @dataclass(frozen=True)
 class Obstacles:
-    """What stands in the way: closed outlines, and walls of two or more corners [m]."""
+    """Closed outlines, and walls of two or more corners [m]."""
 
     outlines: tuple[Outline, ...]
     walls: tuple[Outline, ...]
 
     @property
     def corners(self) -> int:
-        """How many corners all of them have together."""
+        """The number of corners of all of them."""
         return sum(map(len, (*self.outlines, *self.walls)))
 
 
 def obstacles(drawing: Drawing, tolerance: float = TOLERANCE) -> Obstacles:
     """Return the obstacles of a drawing; they differ from it by no more than `tolerance` metres.
 
-    Areas that touch are merged, and cut open where there is room inside, so that it stays free.
-    What is drawn twice counts once. Raises InputError for too many corners, or if none is left.
+    Areas that touch are merged, and cut open where there is room inside, so that it stays free. A
+    line or area that is drawn twice counts once. Raises InputError for too many corners, or if none
+    is left.
     """
     import shapely
 
@@ -63,7 +74,7 @@ def obstacles(drawing: Drawing, tolerance: float = TOLERANCE) -> Obstacles:
     outlines = tuple(
         tuple(map(tuple, shapely.get_coordinates(part)[:-1].tolist()))
         for area in simple.tolist()
-        if area.area > SMALLEST
+        if area.area > MIN_AREA
         for part in _without_holes(area)
     )
     lines = [g for g in geometries if g.geom_type == "LineString"]
@@ -79,18 +90,18 @@ def obstacles(drawing: Drawing, tolerance: float = TOLERANCE) -> Obstacles:
 
 
 def _check_corners(name: str, count: int, tolerance: float) -> None:
-    if count > MOST_CORNERS:
+    if count > MAX_CORNERS:
         raise InputError(
-            f"{name}: {count} corners or more, expected at most {MOST_CORNERS}: "
+            f"{name}: {count} corners or more, expected at most {MAX_CORNERS}: "
             f"choose fewer layers, or a tolerance above {tolerance:g} m"
         )
 
 
 def tolerance_of(value: object) -> float:
     """Check a tolerance [m]."""
-    expected = f"metres, a number >= 0 and <= {LARGEST_TOLERANCE:g}"
+    expected = f"metres, a number >= 0 and <= {MAX_TOLERANCE:g}"
     result = real("tolerance", value, expected)
-    if not 0 <= result <= LARGEST_TOLERANCE:
+    if not 0 <= result <= MAX_TOLERANCE:
         raise wrong("tolerance", value, expected)
     return result
 
@@ -113,7 +124,7 @@ def _without_holes(area: shapely.Polygon) -> list[shapely.Polygon]:
     faces = shapely.get_parts(shapely.polygonize(edges))
     shapely.prepare(area)
     inside = shapely.contains(area, shapely.point_on_surface(faces))
-    pieces = [face for face in faces[inside].tolist() if face.area > SMALLEST]
+    pieces = [face for face in faces[inside].tolist() if face.area > MIN_AREA]
     if any(len(piece.interiors) >= len(area.interiors) for piece in pieces):
         pieces = _halves(area)  # nothing was won
     return [part for piece in pieces for part in _without_holes(piece)]
@@ -144,7 +155,7 @@ def _halves(area: shapely.Polygon) -> list[shapely.Polygon]:
     middle = (left + right) / 2
     boxes = [shapely.box(xmin, ymin, middle, ymax), shapely.box(middle, ymin, xmax, ymax)]
     halves = shapely.get_parts(shapely.intersection(area, boxes, grid_size=GRID)).tolist()
-    return [half for half in halves if half.geom_type == "Polygon" and half.area > SMALLEST]
+    return [half for half in halves if half.geom_type == "Polygon" and half.area > MIN_AREA]
 
 
 def _merged(lines: list[shapely.LineString], tolerance: float) -> list[shapely.LineString]:
@@ -169,3 +180,76 @@ def _merged(lines: list[shapely.LineString], tolerance: float) -> list[shapely.L
     rounded = shapely.get_parts(shapely.set_precision(simple, GRID, mode="pointwise"))
     clean = shapely.remove_repeated_points(rounded, GRID / 2)
     return [part for part in clean.tolist() if part.length > GRID]
+
+
+def described(drawing: Drawing, found: Obstacles, tolerance: float) -> list[tuple[str, str]]:
+    """Return a description of a map and its obstacles, as pairs of a name and a text.
+
+    found: the obstacles, at a tolerance in metres.
+    """
+    (width, height), (xmin, xmax, ymin, ymax) = drawing.size, drawing.bounds
+    unit = f"{drawing.unit.name}, {drawing.unit.source}"
+    rows = [
+        ("map", f"{drawing.source}, {drawing.kind}"),
+        ("size", f"{width:.4g} m x {height:.4g} m"),
+        ("from, to", f"({xmin:.5g}, {ymin:.5g}), ({xmax:.5g}, {ymax:.5g})"),
+        ("unit", unit if drawing.unit.name else drawing.unit.source),
+        ("hint", drawing.hint),
+        *drawing.notes,
+        *_layers(drawing),
+        ("not read", listed(drawing.skipped)),
+        ("obstacles", _counts(found)),
+        ("corners", f"{found.corners}, within {tolerance:g} m"),
+    ]
+    return [(name, text) for name, text in rows if text]
+
+
+def _layers(drawing: Drawing) -> list[tuple[str, str]]:
+    """Return a row for each layer: those that were read, then the others."""
+    both = [(name, count, "") for name, count in drawing.layers.items()]
+    for name, count in drawing.others.items():
+        hidden = "hidden, " if name in drawing.hidden else ""
+        both.append((name, count, f" ({hidden}not read)"))
+    if len(both) < 2:
+        return []
+    width = max(len(name) for name, _, _ in both[:MAX_LAYERS])
+    rows = [
+        ("" if k else "layers", f"{name:<{width}}  {counted(count, 'piece')}{more}")
+        for k, (name, count, more) in enumerate(both[:MAX_LAYERS])
+    ]
+    rest = sum(count for _, count, _ in both[MAX_LAYERS:])
+    more = [("", f"and {len(both) - MAX_LAYERS} more, {counted(rest, 'piece')}")] if rest else []
+    return [*rows, *more]
+
+
+def _counts(found: Obstacles) -> str:
+    parts = [(len(found.outlines), "outline"), (len(found.walls), "wall")]
+    return ", ".join(counted(count, thing) for count, thing in parts if count)
+
+
+def nearest_room(
+    place: Point, radius: float, outlines: Sequence[Outline], workspace: Outline
+) -> Point | None:
+    """Return the point nearest to a place where a disc stands within a workspace, off obstacles.
+
+    place: (x, y) [m]; it is returned itself if the disc can stand there. radius: of the disc [m].
+    A place with room to turn and drive is preferred to a gap or a corner. Returns None if there is
+    no room.
+    """
+    import shapely
+
+    where = shapely.Point(place)
+    shapes = lines_and_areas(outlines)
+    taken = shapely.union_all(shapely.buffer(shapes, radius, quad_segs=4))
+    free = shapely.difference(shapely.Polygon(workspace), taken)
+    if shapely.covers(free, where):
+        return place
+    for spare in SPARE:
+        inner = shapely.buffer(free, -spare * radius)
+        if not inner.is_empty:
+            parts = shapely.get_parts(inner)
+            areas = shapely.area(parts)
+            rooms = shapely.multipolygons(parts[areas >= NOOK * areas.max()])
+            _, nearest = shapely.shortest_line(where, rooms).coords
+            return float(nearest[0]), float(nearest[1])
+    return None

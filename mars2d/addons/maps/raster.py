@@ -5,42 +5,56 @@ from __future__ import annotations
 from dataclasses import replace
 from math import cos, isfinite, pi, sin
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.maps.drawing import Drawing, Piece, Unit, broken, check_bytes
-from mars2d.addons.maps.grid import IMAGES, MOST_BYTES, cells, read_image
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.picture import opened_image
 
-__all__ = ["read_occupancy", "read_picture"]
+if TYPE_CHECKING:
+    import shapely
+
+__all__ = ["IMAGES", "MAX_BYTES", "read_occupancy", "read_picture"]
 
 Mask = NDArray[np.bool_]
+Gray = NDArray[np.float32]
 Pose = tuple[float, float, float]
 
-MOST_BRACKETS = 100
+IMAGES = {".png": "PNG", ".pgm": "PPM", ".jpg": "JPEG", ".jpeg": "JPEG"}
+"""The suffixes of images, and Pillow's names of their formats."""
+
+MAX_BYTES = 20_000_000
+"""The largest file of an image, bytes."""
+
+MAX_CORNERS = 100_000
+"""The most corners of occupied cells: an image with more is noise, not a map."""
+
+MAX_BRACKETS = 100
+"""The most brackets in the YAML of an occupancy grid."""
 
 MODES = ("trinary", "scale", "raw")
 KEYS = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode")
 
 OCCUPIED = 0.65
-"""A cell is occupied beyond this, where the file does not say."""
+"""The share above which a cell is occupied, unless the file gives one."""
 
 DARK = 127.5
-"""Pixels of an image that are darker are wall, from 0 to 255."""
+"""The brightness below which a pixel of an image is solid, from 0 to 255."""
 
-LARGEST_CELL = 1000.0
-"""Metres."""
+MAX_CELL = 1000.0
+"""The largest size of a pixel, metres."""
 
 
 def read_picture(path: Path, resolution: float) -> Drawing:
-    """Read a plain image: what is darker than middle grey is solid, what is transparent is free.
+    """Read a plain image: pixels darker than middle grey are solid, transparent ones are free.
 
     resolution: metres per pixel. The lower left corner is (0, 0). Raises InputError.
     """
-    gray, clear = read_image(path.name, path)
+    gray, clear = _read_image(path.name, path)
     dark = (gray < DARK) & ~clear
     return _drawing(path.name, "an image", dark, _checked(path.name, resolution), (0.0, 0.0, 0.0))
 
@@ -48,7 +62,7 @@ def read_picture(path: Path, resolution: float) -> Drawing:
 def read_occupancy(path: Path) -> Drawing:
     """Read an occupancy grid as ROS's map_server keeps it: a YAML file and an image beside it.
 
-    What is occupied is solid; what is free, and what nobody knows, is free. Raises InputError.
+    Occupied cells are solid; free and unknown ones are free. Raises InputError.
     """
     name = path.name
     fields = _fields(name, path)
@@ -68,7 +82,7 @@ def read_occupancy(path: Path) -> Drawing:
             "0 <= free_thresh <= occupied_thresh <= 1"
         )
     image = _beside(name, path, fields["image"])
-    gray, clear = read_image(f"{name}: image {image.name}", image)
+    gray, clear = _read_image(f"{name}: image {image.name}", image)
     if mode == "raw":
         share, unknown = gray / 100, (gray > 100) | clear
     else:
@@ -91,7 +105,7 @@ def _drawing(name: str, kind: str, occupied: Mask, cell: float, origin: Pose) ->
         x, y, yaw = origin
         c, s = cell * cos(yaw), cell * sin(yaw)
         turn = np.array([[c, s], [-s, c]])
-        found = cells(name, occupied)
+        found = _cells(name, occupied)
         if not found:
             raise InputError(f"{name}: expected walls; no pixel is occupied")
         placed = shapely.transform(found, lambda xy: xy @ turn + (x, y))
@@ -101,10 +115,10 @@ def _drawing(name: str, kind: str, occupied: Mask, cell: float, origin: Pose) ->
 
 
 def _checked(name: str, resolution: Any) -> float:
-    expected = f"metres per pixel, a number > 0 and <= {LARGEST_CELL:g}"
+    expected = f"metres per pixel, a number > 0 and <= {MAX_CELL:g}"
     if isinstance(resolution, bool) or not isinstance(resolution, (int, float)):
         raise wrong(f"{name}: resolution", resolution, expected)
-    if not 1e-5 < resolution <= LARGEST_CELL:
+    if not 1e-5 < resolution <= MAX_CELL:
         raise wrong(f"{name}: resolution", resolution, expected)
     return float(resolution)
 
@@ -120,13 +134,13 @@ def _origin(name: str, value: Any) -> Pose:
 
 
 def _fields(name: str, path: Path) -> dict[str, Any]:
-    """Return what a YAML file says, plain values only."""
+    """Return the fields of a YAML file, plain values only."""
     import yaml
 
     with broken(name, "YAML"):
         text = path.read_text(encoding="utf-8")
-        if max(text.count("["), text.count("{")) > MOST_BRACKETS:
-            raise InputError(f"{name}: more than {MOST_BRACKETS} brackets")
+        if max(text.count("["), text.count("{")) > MAX_BRACKETS:
+            raise InputError(f"{name}: more than {MAX_BRACKETS} brackets")
         for token in yaml.scan(text, Loader=yaml.SafeLoader):
             if isinstance(token, (yaml.AliasToken, yaml.AnchorToken)):
                 raise InputError(f"{name}: has an alias or anchor (& or *), which is refused")
@@ -156,5 +170,68 @@ def _beside(name: str, path: Path, image: Any) -> Path:
         raise wrong(f"{name}: image", image, f"{expected}, no link that leads elsewhere")
     if not found.is_file():
         raise InputError(f"{name}: image = {image!r}: there is no such file beside it")
-    check_bytes(f"{name}: image {image}", found, MOST_BYTES)
+    check_bytes(f"{name}: image {image}", found, MAX_BYTES)
     return found
+
+
+def _read_image(name: str, path: Path) -> tuple[Gray, Mask]:
+    """Return the brightness of an image's pixels from 0 to 255, and where they are transparent.
+
+    Both are (rows, columns), the upper row first; colours count by the mean of their channels.
+    Raises InputError, which begins with `name`.
+    """
+    with opened_image(name, path, IMAGES[path.suffix.lower()]) as image:
+        if image.mode == "L":
+            gray = np.asarray(image, dtype=np.float32)
+            return gray, np.zeros(gray.shape, dtype=bool)
+        pixels = np.asarray(image.convert("RGBA"))
+    return pixels[..., :3].mean(axis=2, dtype=np.float32), pixels[..., 3] == 0
+
+
+def _cells(name: str, occupied: Mask) -> list[shapely.Polygon]:
+    """Return the outlines of occupied cells (rows, columns), those that share an edge as one.
+
+    A cell is a square of side 1, the lower left one at (0, 0). Raises InputError, which begins
+    with `name`, for more corners than a map has.
+    """
+    import shapely
+
+    rows, columns = occupied.shape
+    inside = np.zeros((rows + 2, columns + 2), dtype=bool)
+    inside[1:-1, 1:-1] = occupied[::-1]  # the lower row first
+    across = inside[1:, 1:-1] != inside[:-1, 1:-1]  # edges along x: (rows + 1, columns)
+    along = (inside[1:-1, 1:] != inside[1:-1, :-1]).T  # edges along y: (columns + 1, rows)
+    corner = _ends(across) & _ends(along).T
+    count = int(corner.sum())
+    if count > MAX_CORNERS:
+        raise InputError(
+            f"{name}: the occupied cells have {count} corners, expected at most {MAX_CORNERS}: "
+            "is it a map? smooth it, or make it coarser"
+        )
+    y, x1, x2 = _runs(across, corner)
+    x, y1, y2 = _runs(along, corner.T)
+    ends = np.vstack([np.column_stack([x1, y, x2, y]), np.column_stack([x, y1, x, y2])])
+    lines = shapely.linestrings(ends.reshape(-1, 2, 2).astype(float))
+    faces = shapely.get_parts(shapely.polygonize(lines))
+    middle = np.floor(shapely.get_coordinates(shapely.point_on_surface(faces))).astype(int)
+    column, row = middle.reshape(-1, 2).T
+    chosen: list[shapely.Polygon] = faces[inside[row + 1, column + 1]].tolist()
+    return chosen
+
+
+def _ends(edges: Mask) -> Mask:
+    """Return the points of each line that an edge touches, as a mask (lines, edges + 1)."""
+    points = np.zeros((edges.shape[0], edges.shape[1] + 1), dtype=bool)
+    points[:, :-1] |= edges
+    points[:, 1:] |= edges
+    return points
+
+
+def _runs(edges: Mask, corner: Mask) -> tuple[NDArray[np.int64], ...]:
+    """Return where edges (lines, k) run straight on between corners: line, first and last point."""
+    none = np.zeros((edges.shape[0], 1), dtype=bool)
+    before = np.hstack([none, edges[:, :-1]])
+    after = np.hstack([edges[:, 1:], none])
+    line, first = np.nonzero(edges & (~before | corner[:, :-1]))
+    _, last = np.nonzero(edges & (~after | corner[:, 1:]))
+    return line, first, last + 1

@@ -1,4 +1,4 @@
-"""Which reader reads which file, and the options that it takes."""
+"""Reads a map from a file of any kind, with the options that the kind takes."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.addons.maps.drawing import METRES, Drawing, Unit, check_bytes
-from mars2d.addons.maps.grid import IMAGES, MOST_BYTES
+from mars2d.addons.maps.raster import IMAGES, MAX_BYTES, read_occupancy, read_picture
 from mars2d.core.checks import point
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, likely
 
 __all__ = ["SUFFIXES", "advice", "read"]
 
-LARGEST = {
+MAX_SIZES = {
     **dict.fromkeys((".dxf", ".svg", ".geojson", ".json", ".wkt"), 10_000_000),
     **dict.fromkeys((".yaml", ".yml"), 64_000),
-    **dict.fromkeys(IMAGES, MOST_BYTES),
+    **dict.fromkeys(IMAGES, MAX_BYTES),
 }
-"""How large files of each kind may be, bytes."""
+"""The largest files of each kind, bytes."""
 
-SUFFIXES = tuple(LARGEST)
+SUFFIXES = tuple(MAX_SIZES)
 """The suffixes of files that are maps."""
 
 TAKES = {
@@ -45,8 +45,8 @@ def read(
 
     layers: names or patterns such as ``*WALL*``, a list or one text with commas; None: all that
     are shown. unit: that of the file, ``mm``, ``cm``, ``m``, ``in``, ``ft`` or a number of metres,
-    in place of what the file says. resolution: metres per pixel, for images, which don't say. at:
-    (x, y) [m] of the lower left corner of what is read; None: where the file has it. Raises
+    in place of what the file says. resolution: metres per pixel, for images. at: (x, y)
+    [m] of the lower left corner of the map; None: where the file has it. Raises
     InputError, which names the file, what is wrong with it, and what was expected.
     """
     suffix = path.suffix.lower()
@@ -93,22 +93,20 @@ def _read(path: Path, suffix: str, unit: Unit | None, resolution: Any) -> Drawin
         from mars2d.addons.maps.geo import read_wkt
 
         return read_wkt(path, unit)
-    from mars2d.addons.maps.raster import read_occupancy, read_picture
-
     if suffix in IMAGES:
         return read_picture(path, resolution)
     return read_occupancy(path)
 
 
 def _check_file(path: Path, suffix: str) -> None:
-    """Refuse what is no file, or too large a one, before it is read."""
+    """Raise InputError for a path that is no file, or too large a file, before it is read."""
     if path.is_dir():
         raise InputError(f"{path}: a folder; expected a map, a file that ends in {suffix}")
     if not path.is_file():
         folder = path.parent
         beside = [f for f in folder.iterdir() if f.suffix in SUFFIXES] if folder.is_dir() else []
         raise InputError(f"{path}: there is no such file{likely(path, map(str, beside))}")
-    check_bytes(path.name, path, LARGEST[suffix])
+    check_bytes(path.name, path, MAX_SIZES[suffix])
     if not path.stat().st_size:
         raise InputError(f"{path.name}: an empty file; expected a map")
     if not os.access(path, os.R_OK):

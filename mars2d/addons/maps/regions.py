@@ -1,4 +1,4 @@
-"""Areas from rings of points, and lines cut where they cross, within limits."""
+"""Areas from rings of points, and lines and areas with fewer corners, within limits."""
 
 from __future__ import annotations
 
@@ -13,29 +13,37 @@ from mars2d.core.errors import InputError
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["GRID", "check_crossings", "joined", "region"]
+__all__ = ["GRID", "check_crossings", "joined", "region", "simple_area", "simple_line"]
 
 Float = NDArray[np.float64]
 
 GRID = 1e-5
-"""Corners are rounded to this, metres."""
+"""The step to which corners are rounded, metres."""
 
-MOST_AREAS = 10_000
-"""So many areas can be joined."""
+MAX_AREAS = 10_000
+"""The most areas that can be joined."""
 
-MOST_CROSSINGS = 30_000
-MOST_NEAR = 500_000
-"""So many pairs of edges may cross, and may have boxes that overlap: to cut more takes for ever."""
+MAX_CROSSINGS, MAX_NEAR = 30_000, 500_000
+"""The most pairs of edges that cross, and whose boxes overlap: cutting more takes for ever."""
 
-AT_ONCE = 2_000_000
-"""So many answers are looked at together."""
+BATCH = 2_000_000
+"""The number of pairs that are looked at together."""
+
+MAX_LINE = 500
+"""The most corners of a line that is simplified as one: the library recurses as deep as that."""
+
+LOSS = 0.25
+"""The share of its area that a simpler outline may gain or lose."""
+
+TRIALS = 3
+"""The number of tolerances that are tried, each half of the one before."""
 
 
 def region(name: str, rings: Sequence[Float], *, even_odd: bool = False) -> list[shapely.Polygon]:
     """Return the area that rings (k, 2) of points [m] fill, as polygons, with their holes.
 
-    even_odd: a point lies inside if it is surrounded an odd number of times; else if it is
-    surrounded more often in one sense than in the other, as drawing programs have it.
+    even_odd: a point lies inside if it is surrounded an odd number of times; else, as in drawing
+    programs, if it is surrounded more often in one sense than in the other.
     """
     import shapely
 
@@ -64,28 +72,64 @@ def joined(name: str, polygons: Sequence[shapely.Geometry]) -> list[shapely.Poly
 
     if not polygons:
         return []
-    if len(polygons) > MOST_AREAS:
-        raise InputError(f"{name}: {len(polygons)} areas; expected at most {MOST_AREAS}")
+    if len(polygons) > MAX_AREAS:
+        raise InputError(f"{name}: {len(polygons)} areas; expected at most {MAX_AREAS}")
     check_crossings(name, polygons)
     whole = shapely.set_precision(shapely.union_all(polygons), GRID)
     parts = shapely.get_parts(whole).tolist()
     return [part for part in parts if part.geom_type == "Polygon"]
 
 
+def simple_line(points: Float, tolerance: float) -> Float:
+    """Return points (k, 2) of a line with fewer corners, no more than `tolerance` metres off.
+
+    Both ends stay, and every 500th corner of a long line. Source: Douglas and Peucker (1973).
+    """
+    import shapely
+
+    if not tolerance or len(points) < 3:
+        return points
+    pieces = [points[k : k + MAX_LINE + 1] for k in range(0, len(points) - 1, MAX_LINE)]
+    lines = [shapely.LineString(piece) for piece in pieces]
+    simple = shapely.simplify(lines, tolerance, preserve_topology=False)
+    found = [shapely.get_coordinates(line) for line in simple.tolist()]
+    return np.concatenate([*(piece[:-1] for piece in found[:-1]), found[-1]])
+
+
+def simple_area(area: shapely.Polygon, tolerance: float) -> shapely.Polygon:
+    """Return a polygon with fewer corners, no more than `tolerance` metres off.
+
+    Where it would cross itself or lose its shape, smaller tolerances are tried; if none works, it
+    stays as it is.
+    """
+    import shapely
+
+    rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(area)]
+    for trial in range(TRIALS):
+        within = tolerance / 2**trial
+        shell, *holes = (simple_line(ring, within) for ring in rings)
+        if len(shell) < 4 or any(len(hole) < 4 for hole in holes):
+            continue
+        found = shapely.Polygon(shell, holes)
+        if found.is_valid and abs(found.area / area.area - 1) <= LOSS:
+            return found
+    return area
+
+
 def check_crossings(name: str, geometries: Sequence[shapely.Geometry]) -> None:
-    """Refuse what crosses itself so often that nobody drew it. Raises InputError."""
+    """Raise InputError for lines that cross each other so often that nobody drew them."""
     import shapely
 
     edges = shapely.linestrings(_edges(geometries))
     tree = shapely.STRtree(edges)
-    at_once = max(16, AT_ONCE // max(len(edges), 1))
+    at_once = max(16, BATCH // max(len(edges), 1))
     near = crossing = 0
     for first in range(0, len(edges), at_once):
         some = edges[first : first + at_once]
         near += tree.query(some).shape[1]
-        if near < MOST_NEAR + 16 * len(edges):
+        if near < MAX_NEAR + 16 * len(edges):
             crossing += tree.query(some, "crosses").shape[1] // 2
-        if near > MOST_NEAR + 16 * len(edges) or crossing > MOST_CROSSINGS:
+        if near > MAX_NEAR + 16 * len(edges) or crossing > MAX_CROSSINGS:
             raise InputError(f"{name}: its lines cross each other too many times")
 
 
@@ -112,12 +156,12 @@ def _turns(name: str, points: Float, edges: Float) -> NDArray[np.int64]:
     rays = shapely.linestrings(np.stack([points, ends], axis=1))
     tree = shapely.STRtree(shapely.linestrings(edges))
     turns = np.zeros(len(points), dtype=np.int64)
-    at_once = max(16, AT_ONCE // len(edges))
+    at_once = max(16, BATCH // len(edges))
     met = 0
     for first in range(0, len(points), at_once):
         ray, edge = tree.query(rays[first : first + at_once])
         met += len(ray)
-        if met > 10 * AT_ONCE:
+        if met > 10 * BATCH:
             raise InputError(f"{name}: an area of too many parts within parts")
         (x, y), (x1, y1), (x2, y2) = points[first + ray].T, edges[edge, 0].T, edges[edge, 1].T
         left = (x2 - x1) * (y - y1) - (x - x1) * (y2 - y1)

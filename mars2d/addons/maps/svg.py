@@ -1,4 +1,4 @@
-"""SVG drawings: what is filled is solid, what is a line is a wall."""
+"""SVG drawings: filled shapes are solid, lines are walls."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.maps.drawing import (
+    MAX_POINTS,
     METRES,
-    MOST_POINTS,
     NO_LAYER,
     Drawing,
     Piece,
@@ -37,26 +37,30 @@ SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}href"
 LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 
-MOST_ELEMENTS = 20_000
-DEEPEST = 64
-MOST_WORK = 50_000_000
-"""Elements with all that `use` repeats, groups in groups, and characters that are looked at."""
+MAX_ELEMENTS = 20_000
+"""The most elements, with those that `use` repeats."""
 
-MOST_DIGITS = 100
-"""Of a number; patterns of colours and fonts take the square of it."""
+MAX_DEPTH = 64
+"""The deepest nesting of groups."""
+
+MAX_WORK = 50_000_000
+"""The most characters that are looked at."""
+
+MAX_DIGITS = 100
+"""The most digits of a number; patterns of colours and fonts take the square of that."""
 
 ASIDE = ("symbol", "marker", "mask", "pattern", "clipPath", "filter", "metadata", "foreignObject")
 """Elements that draw nothing where they stand."""
 
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "in": 0.0254, "pt": 0.0254 / 72, "pc": 0.0254 / 6}
 PIXEL = 0.0254 / 96
-"""What CSS calls a pixel, metres."""
+"""The pixel of CSS, metres."""
 
 PAPER = 0.97
-"""What is filled with a lighter colour than this is paper, from 0 to 1."""
+"""The brightness above which a filled shape is paper, from 0 to 1."""
 
 ROUND = 128
-"""Points on a full turn of an arc; a Bezier curve has a quarter of them."""
+"""The points on a full turn of an arc; a Bezier curve has a quarter of them."""
 
 
 def read_svg(path: Path, unit: Unit | None) -> Drawing:
@@ -100,10 +104,10 @@ class _Builder(ET.TreeBuilder):
         """Count an element that begins."""
         self._depth += 1
         self._count += 1
-        if self._depth > DEEPEST:
-            raise InputError(f"{self._name}: elements within elements, more than {DEEPEST} deep")
-        if self._count > MOST_ELEMENTS:
-            raise InputError(f"{self._name}: more than {MOST_ELEMENTS} elements")
+        if self._depth > MAX_DEPTH:
+            raise InputError(f"{self._name}: elements within elements, more than {MAX_DEPTH} deep")
+        if self._count > MAX_ELEMENTS:
+            raise InputError(f"{self._name}: more than {MAX_ELEMENTS} elements")
         return super().start(tag, attrs)
 
     def end(self, tag: Any, /) -> Any:
@@ -124,19 +128,19 @@ def _parsed(name: str, data: bytes) -> ET.Element:
     if root.tag not in ("svg", f"{SVG}svg"):
         raise InputError(f"{name}: expected an SVG drawing; its root is <{shown(root.tag, 40)}>")
     _check_size(name, root)
-    if re.search(rf"\d{{{MOST_DIGITS + 1}}}", text):
-        raise InputError(f"{name}: a number of more than {MOST_DIGITS} digits")
+    if re.search(rf"\d{{{MAX_DIGITS + 1}}}", text):
+        raise InputError(f"{name}: a number of more than {MAX_DIGITS} digits")
     numbers = sum(
         len(re.findall(r"[\d.]+", e.get("d", "") + e.get("points", ""))) for e in root.iter()
     )
-    if numbers > 2 * MOST_POINTS:
-        raise InputError(f"{name}: more than {MOST_POINTS} points; draw it with fewer")
+    if numbers > 2 * MAX_POINTS:
+        raise InputError(f"{name}: more than {MAX_POINTS} points; draw it with fewer")
     _set_aside(root)
     return root
 
 
 class _Size(NamedTuple):
-    """What an element comes to with all that it contains and repeats.
+    """The size of an element with all that it contains and repeats.
 
     elements: how many. depth: how deep they are nested. work: characters of attributes, each as
     often as there are elements that inherit it.
@@ -148,14 +152,14 @@ class _Size(NamedTuple):
 
 
 def _check_size(name: str, root: ET.Element) -> None:
-    """Refuse elements that use themselves, or that repeat others without end."""
+    """Raise InputError for elements that use themselves, or repeat others without end."""
     by_id = {e.get("id"): e for e in root.iter() if e.get("id")}
     styles = [e for e in root.iter() if e.tag in ("style", f"{SVG}style")]
     for each in styles:
         each.text = re.sub(r"/\*.*?(?:\*/|\Z)", "", each.text or "", flags=re.DOTALL)
     style = sum(len(each.text or "") for each in styles)
     work = sum(_work_of_style(each.text or "") for each in styles)
-    if work > MOST_WORK:
+    if work > MAX_WORK:
         raise InputError(f"{name}: too many attributes and styles; simplify it")
     sizes: dict[ET.Element, _Size] = {}
     begun: set[ET.Element] = set()
@@ -163,7 +167,7 @@ def _check_size(name: str, root: ET.Element) -> None:
     def measure(element: ET.Element) -> _Size:
         if element in sizes:
             return sizes[element]
-        if element in begun or len(begun) > 2 * DEEPEST:
+        if element in begun or len(begun) > 2 * MAX_DEPTH:
             raise InputError(f"{name}: <use> of what it is part of: {shown(element.get('id'))}")
         begun.add(element)
         parts = [measure(child) for child in element]
@@ -180,11 +184,11 @@ def _check_size(name: str, root: ET.Element) -> None:
         work += _work_of_path(element.get("d", "")) * count
         work += style * (3 + element.get("class", "").count(" "))
         size = _Size(count, depth, work + sum(part.work for part in parts))
-        if size.elements > MOST_ELEMENTS:
-            raise InputError(f"{name}: more than {MOST_ELEMENTS} elements, by <use> of others")
-        if size.depth > DEEPEST:
-            raise InputError(f"{name}: <use> within <use>, more than {DEEPEST} deep")
-        if size.work > MOST_WORK:
+        if size.elements > MAX_ELEMENTS:
+            raise InputError(f"{name}: more than {MAX_ELEMENTS} elements, by <use> of others")
+        if size.depth > MAX_DEPTH:
+            raise InputError(f"{name}: <use> within <use>, more than {MAX_DEPTH} deep")
+        if size.work > MAX_WORK:
             raise InputError(f"{name}: too many attributes and styles; simplify it")
         sizes[element] = size
         return size
@@ -193,14 +197,14 @@ def _check_size(name: str, root: ET.Element) -> None:
 
 
 def _work_of(value: str) -> int:
-    """Return how many characters are looked at to read an attribute: more where ( is not closed."""
+    """Return the number of characters that reading an attribute looks at: more where ( is open."""
     return len(value) + sum(
         len(piece) * (piece.count("(") - 1) for piece in value.split(")") if piece.count("(") > 1
     )
 
 
 def _work_of_path(data: str) -> int:
-    """Return how many segments are looked at, as characters, to close a path's parts again."""
+    """Return the number of segments, as characters, that closing a path's parts looks at."""
     parts = re.split("[Mm]", data)
     closed = [len(re.findall("[Zz]", part)) for part in parts]
     pairs = zip(parts, closed, strict=True)
@@ -208,13 +212,13 @@ def _work_of_path(data: str) -> int:
 
 
 def _work_of_style(text: str) -> int:
-    """Return how many characters are looked at to read a <style>: more where { is not closed."""
+    """Return the number of characters that reading a <style> looks at: more where { is open."""
     before = sum(len(piece) ** 2 for piece in text.split("{"))
     return before + sum(len(piece) * piece.count("{") for piece in text.split("}"))
 
 
 def _set_aside(root: ET.Element) -> None:
-    """Put what draws nothing where it stands into <defs>, where it is found only by its id."""
+    """Put elements that draw nothing where they stand into <defs>: they are found by their ids."""
     names = {prefix + tag for tag in ASIDE for prefix in ("", SVG)}
     for parent in list(root.iter()):
         if parent.tag in ("defs", f"{SVG}defs"):
@@ -227,7 +231,7 @@ def _set_aside(root: ET.Element) -> None:
 
 
 def _unit(root: ET.Element) -> Unit:
-    """Return what a user unit is, by the drawing's width; metres if that has no unit."""
+    """Return the user unit, by the drawing's width; metres if that has no unit."""
     width, suffix = _length(root.get("width", ""))
     box = _view_box(root)
     if suffix in LENGTHS and width:
@@ -309,7 +313,7 @@ def _is_solid(shape: Any) -> bool:
 
 
 def _is_seen(color: Any, opacity: Any) -> bool:
-    """Return whether a colour is there and lets not all through."""
+    """Return whether there is a colour that is not fully transparent."""
     try:
         clear = opacity is not None and float(opacity) == 0
     except ValueError:

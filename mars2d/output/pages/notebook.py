@@ -10,7 +10,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from mars2d.record.frame import Frame
 if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
-    from mars2d.world.world import World
 
 __all__ = ["record_html", "record_svg", "scenario_svg", "world_svg"]
 
@@ -33,12 +32,36 @@ LARGEST = 4_000_000
 """The characters of a replay from which a notebook shows only the picture of its end."""
 
 
+class Shown(Protocol):
+    """The members of a `World` that its picture needs."""
+
+    @property
+    def scenario(self) -> Scenario:
+        """What is simulated now."""
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds."""
+
+    @property
+    def over(self) -> bool:
+        """Whether the experiment is over."""
+
+    @property
+    def over_message(self) -> str:
+        """Why the experiment is over."""
+
+    @property
+    def frame(self) -> Frame:
+        """The present instant."""
+
+
 def scenario_svg(scenario: Scenario) -> str:
     """Return a picture of a scenario at its start; it never raises."""
     return _picture(lambda: (_start(scenario), _described(scenario)), scenario.title)
 
 
-def world_svg(world: World) -> str:
+def world_svg(world: Shown) -> str:
     """Return a picture of a world as it is, with the paths so far; it never raises."""
 
     def picture() -> tuple[Frame, str]:

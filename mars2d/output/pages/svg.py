@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.maps.simplify import simple_line
+from mars2d.addons.maps.regions import simple_line
 from mars2d.core.scene import (
     Arrow,
     Circle,

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from math import ceil
 from pathlib import Path
-from typing import Self
+from typing import Self, cast
 
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.streams import check_seed
@@ -18,8 +18,8 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.isolation.observation import brief
 from mars2d.study.isolation.process import LawProcess
+from mars2d.world.simulation import Simulation
 from mars2d.world.views import RobotView
-from mars2d.world.world import World
 
 __all__ = ["Guard", "Limits", "Verdict"]
 
@@ -69,7 +69,7 @@ class Guard:
         self.verdicts: dict[str, Verdict] = {}
         self._processes: dict[str, LawProcess] = {}
         self._poller: _Poller | None = None
-        self._world: World | None = None
+        self._world: Simulation | None = None
         self._iteration = -1
 
     @property
@@ -111,7 +111,7 @@ class Guard:
 
     def _asking(self, robot: int) -> Callable[[RobotView], tuple[float, float]]:
         def control(view: RobotView) -> tuple[float, float]:
-            world = view._world
+            world = cast("Simulation", view._world)
             if world.iteration != self._iteration or world is not self._world:
                 self._ask_all(world)
             process = self._processes[self._drivers[robot]]
@@ -122,7 +122,7 @@ class Guard:
 
         return control
 
-    def _ask_all(self, world: World) -> None:
+    def _ask_all(self, world: Simulation) -> None:
         """Ask all laws, in parallel, for their commands of this control step."""
         if self._poller is None:
             raise InputError("the laws' processes do not run: use the Guard in a with statement")

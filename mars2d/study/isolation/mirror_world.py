@@ -21,7 +21,7 @@ from mars2d.world.channel import Channel
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView
 
 if TYPE_CHECKING:
-    from mars2d.world.world import World
+    from mars2d.world.interfaces import Seen
 
 __all__ = ["Mailbox", "MirrorWorld"]
 
@@ -102,7 +102,7 @@ def _refused(what: str) -> Any:
 class OtherView(RobotView):
     """Another law's robot, as seen by a law that sees the whole world."""
 
-    def __init__(self, world: World, index: int) -> None:
+    def __init__(self, world: Seen, index: int) -> None:
         self._world, self._index = world, index
 
     sense = _refused("sense")
@@ -136,12 +136,12 @@ class MirrorWorld:
             limit = int(briefing.limits.output * 1e6)
             self._mailbox = Mailbox([str(robot.name) for robot in described], limit)
         self._neighbours: dict[int, Sequence[int]] = {}
-        world = cast("World", self)
+        world: Seen = self
         names = [str(described[i].name) for i in briefing.robots]
         keys = [f"robot {name}" for name in names]
-        streams = cast("World", _Streams(dict(zip(keys, briefing.streams, strict=True))))
+        stream = _Streams(dict(zip(keys, briefing.streams, strict=True))).stream
         self._minds = {
-            i: Mind(streams, name) for i, name in zip(briefing.robots, names, strict=True)
+            i: Mind(name, stream) for i, name in zip(briefing.robots, names, strict=True)
         }
         for mind, sensors in zip(self._minds.values(), briefing.sensors, strict=True):
             mind.sense._names.extend(sensors)
@@ -201,6 +201,11 @@ class MirrorWorld:
         raise UnknownNameError(f"a world has no {name!r}{nearest(name, known, most=30)}")
 
     # -- the interface of World ------------------------------------------------------------------
+
+    @property
+    def view(self) -> MirrorWorld:
+        """Itself: it is all that a law may see."""
+        return self
 
     @property
     def time(self) -> float:

@@ -28,7 +28,7 @@ from mars2d.study.isolation.limits import Limits
 from mars2d.study.isolation.protocol import HEAD, STEP, STEP_HEAD, VELOCITIES, Layout
 
 if TYPE_CHECKING:
-    from mars2d.world.world import World
+    from mars2d.world.simulation import Simulation
 
 __all__ = ["Briefing", "Cast", "News", "Observer", "brief"]
 
@@ -178,7 +178,7 @@ class Observer:
         mask[:, [*robots]] = True
         return mask
 
-    def frame(self, world: World) -> bytes | memoryview:
+    def frame(self, world: Simulation) -> bytes | memoryview:
         """Return the frame of the current control step; the next call may overwrite it.
 
         Errors of sensors that are read pass through.
@@ -193,12 +193,12 @@ class Observer:
             return self._framed(world, pickle.dumps((changed, readings, inbox), 5))
         return self._framed(world, b"")
 
-    def again(self, world: World) -> bytes | memoryview:
+    def again(self, world: Simulation) -> bytes | memoryview:
         """Return the frame of the same control step again, without its `News`."""
         self._fill(world)
         return self._framed(world, b"")
 
-    def _framed(self, world: World, more: bytes) -> bytes | memoryview:
+    def _framed(self, world: Simulation, more: bytes) -> bytes | memoryview:
         contacts = self._contacts(world)
         length = self._layout.moving if self.velocities else self._layout.still
         kind = VELOCITIES if self.velocities else STEP
@@ -207,7 +207,7 @@ class Observer:
         frame = memoryview(self._buffer)[: HEAD.size + length]
         return b"".join((frame, contacts, more)) if contacts or more else frame
 
-    def _fill(self, world: World) -> None:
+    def _fill(self, world: Simulation) -> None:
         parts, mine = self._parts, self._mine
         np.copyto(parts["pose"], world.pose, where=self._placed)
         np.copyto(parts["command"], world.command, where=mine[:2])
@@ -230,7 +230,7 @@ class Observer:
         self._placed[2] = self._mask(1, headed)
         self._parts["pose"].fill(np.nan)
 
-    def _changed_neighbours(self, world: World) -> dict[int, tuple[int, ...]]:
+    def _changed_neighbours(self, world: Simulation) -> dict[int, tuple[int, ...]]:
         changed: dict[int, tuple[int, ...]] = {}
         if self._neighbours and world.scenario.neighbours.fixed:
             return changed
@@ -242,7 +242,7 @@ class Observer:
                     changed[robot] = tuple(found)
         return changed
 
-    def _changed_readings(self, world: World) -> dict[int, dict[str, Any]]:
+    def _changed_readings(self, world: Simulation) -> dict[int, dict[str, Any]]:
         changed: dict[int, dict[str, Any]] = {}
         for robot, names in zip(self._briefing.robots, self._briefing.sensors, strict=True):
             for name in names:
@@ -254,11 +254,11 @@ class Observer:
                 changed.setdefault(robot, {})[name] = _transferable(name, reading)
         return changed
 
-    def _inbox(self, world: World) -> dict[int, tuple[Message, ...]]:
+    def _inbox(self, world: Simulation) -> dict[int, tuple[Message, ...]]:
         arrived = {robot: world.channel.inbox(robot) for robot in self._briefing.robots}
         return {robot: messages for robot, messages in arrived.items() if messages}
 
-    def _contacts(self, world: World) -> bytes:
+    def _contacts(self, world: Simulation) -> bytes:
         rows = world.contacts
         if not len(rows) or not self._posed:
             return b""

@@ -35,7 +35,7 @@ from mars2d.study.isolation.protocol import (
 from mars2d.world.laws import LARGEST
 
 if TYPE_CHECKING:
-    from mars2d.world.world import World
+    from mars2d.world.simulation import Simulation
 
 __all__ = ["Fault", "LawProcess"]
 
@@ -83,7 +83,7 @@ class LawProcess:
         self.asked, self._since, self._allowed = False, 0.0, 0.0
         self._used = 0.0  # seconds on its clock
         self._late = ""  # its current line, once it is late
-        self._world: World | None = None
+        self._world: Simulation | None = None
         self._iteration = -1
         self._commands: Sequence[float] = ()
         self._places = {robot: 2 * k for k, robot in enumerate(briefing.robots)}
@@ -102,7 +102,7 @@ class LawProcess:
         """Send its briefing; it answers when it has loaded its file."""
         self._ask(framed(BRIEFING, pickle.dumps(self._briefing)), self._limits.start)
 
-    def look(self, world: World) -> bytes | memoryview:
+    def look(self, world: Simulation) -> bytes | memoryview:
         """Return the frame of a control step, for `tell`."""
         self._world, self._iteration = world, world.iteration
         return self._observer.frame(world)
@@ -200,7 +200,7 @@ class LawProcess:
         if self._used > self._limits.match:
             self._too_long()
 
-    def command(self, world: World, robot: int) -> tuple[float, float]:
+    def command(self, world: Simulation, robot: int) -> tuple[float, float]:
         """Return the command of one of its robots, after sending that robot's messages.
 
         Invalid messages are a fault: the law's process checks messages, so the law must have

@@ -134,7 +134,8 @@ def _record(experiment: Experiment, guard: Guard, seed: int) -> Record:
     except LawError as error:
         if not guard.verdicts or error.record is None:
             raise
-        return error.record
+        record: Record = error.record
+        return record
 
 
 def _roles(contest: Contest) -> tuple[str, ...]:

@@ -51,7 +51,9 @@ class _Hands(Protocol):
 class Logged(Protocol):
     """The members of a `World` that a log reads."""
 
-    filename: str
+    @property
+    def filename(self) -> str:
+        """The experiment's file, or ""."""
 
     @property
     def recorder(self) -> Recorder:

@@ -1,0 +1,330 @@
+"""The machinery behind a World: the control step, and how a running world is changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cached_property
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.addons.communication import Communication
+from mars2d.bodies.team import Drives
+from mars2d.core.delay import DelayLine
+from mars2d.core.errors import InputError, LawError, described
+from mars2d.core.interfaces import WorldLike
+from mars2d.core.plane import outside_polygon
+from mars2d.core.scene import Scene
+from mars2d.physics.motion import Start
+from mars2d.record.columns import DiskError, Storage
+from mars2d.record.record import Record
+from mars2d.scenario.scenario import Scenario
+from mars2d.sensors.sensing import Device, Sensing
+from mars2d.world.channel import Channel
+from mars2d.world.laws import Laws, team_command
+from mars2d.world.live_addons import Addons, Hooks
+from mars2d.world.operator import Operator
+from mars2d.world.state import State, frozen
+from mars2d.world.surroundings import Around
+from mars2d.world.views import VIEWS, Mind, PropView, RobotView
+
+__all__ = ["Simulation"]
+
+Float = NDArray[np.float64]
+Control = Callable[[Any], Any]
+
+
+class Simulation(State):
+    """A live simulation: its state, and everything that steps and changes it.
+
+    Users have a `World`, which passes their calls on to here. Laws have a `WorldView`, which leads
+    nowhere else.
+
+    operator: does to the world what is done from outside. watch: called with the world between
+    sensing and control. view: the world as laws may see it.
+    """
+
+    def __init__(self, scenario: Scenario, seed: int, filename: str, storage: Storage) -> None:
+        """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
+        super().__init__(scenario, seed, storage)
+        self.filename = filename
+        self.watch: Callable[[Any], None] | None = None
+        self._drawn = Scene()  # by the add-ons, at the end
+        self._stepping = True  # until `begin` is done
+        self._observed = -1  # the iteration that add-ons and sensors were last called for
+        self.operator = Operator(self)
+        n = len(scenario.robots)
+        drives = {str(robot.name): robot.drive for robot in scenario.robots}
+        self._drives = Drives(drives, scenario.sampling_time, self.stream)
+        delay = scenario.command_delay + self._drives.dead_time
+        self._delay = DelayLine(delay, scenario.sampling_time, n)
+        self._still = np.zeros((2, n))
+        self.props = tuple(PropView(self, i) for i in range(len(scenario.props)))
+        self.minds = [Mind(str(robot.name), self.stream) for robot in scenario.robots]
+        self.robots = [RobotView(self, i, mind) for i, mind in enumerate(self.minds)]
+        self._laws = Laws(n)
+        self._channel: Channel | None = None
+
+    def begin(
+        self, world: WorldLike, view: WorldLike, team_view: Any, control: Control | None
+    ) -> None:
+        """Take the laws, the add-ons and the sensors, and call the add-ons' `on_start`.
+
+        world: what add-ons and watchers are called with. view: ``robot.world`` of a law that sees
+        all. team_view: what the team's law is called with.
+        """
+        self._world, self.view, self._team_view = world, view, team_view
+        self._take_scenario({}, control)
+        live = vars(self.addons).values()
+        talk = next((addon for addon in live if isinstance(addon, Communication)), None)
+        self._channel = None if talk is None else Channel(self, self.surroundings, talk)
+        self._hooks.call("on_start", world)
+        around = self.surroundings  # sensors know all of the world, whatever the laws see
+        self.sensing = Sensing(
+            [
+                Device(sensor, view, around, self.stream)
+                for robot, view in zip(self.scenario.robots, self.robots, strict=True)
+                for sensor in robot.sensors
+            ]
+        )
+        self._stepping = False
+        if self.over:  # an add-on has stopped it at once
+            self._close()
+
+    def _take_scenario(self, there: dict[str, Any], control: Control | None) -> None:
+        """Take the scenario's workspace, add-ons and laws; those that are there already go on.
+
+        there: the live add-ons that stay, by name.
+        """
+        scenario = self.scenario
+        self._room = None if scenario.workspace is None else np.array(scenario.workspace)
+        self._laws.renew(
+            control,
+            self._team_view,
+            [robot.controller for robot in scenario.robots],
+            lambda i: VIEWS[scenario.robots[i].sees](self, i, self.minds[i]),
+        )
+        self.addons = Addons.of(scenario.addons, there, self.stream)
+        self._hooks = Hooks(self.addons)
+
+    # -- what there is -------------------------------------------------------------------------
+
+    @property
+    def channel(self) -> Channel:
+        """What carries the robots' messages. Raises LawError if they have nothing to talk by."""
+        if self._channel is None:
+            raise LawError("robots can't talk: add Communication() to Scenario.addons")
+        return self._channel
+
+    @property
+    def control(self) -> Control | None:
+        """The law of the team."""
+        return self._laws.function
+
+    @property
+    def record(self) -> Record:
+        """The record so far."""
+        return self.recorder.record(
+            self.seed,
+            self.over_message if self.over else "not over",
+            self.finished,
+            self.filename,
+            Scene([*self._drawn.shapes]),
+            self.operator.log,
+        )
+
+    @property
+    def readings(self) -> dict[str, list[tuple[int, Any]]]:
+        """The last readings by the sensors' names: (robot, reading)."""
+        readings: dict[str, list[tuple[int, Any]]] = {}
+        for device in self.sensing.devices:
+            if device.reading is not None:
+                readings.setdefault(device.key, []).append((device.robot, device.reading))
+        return readings
+
+    @cached_property
+    def surroundings(self) -> Around:
+        """What answers sensors and add-ons."""
+        return Around(self)
+
+    def draw_addons(self, scene: Scene) -> None:
+        """Let the add-ons draw the world as it is now."""
+        self._hooks.call("on_draw", self._world, scene)
+
+    # -- the control step ------------------------------------------------------------------------
+
+    def step(self, command: Any = None) -> None:
+        """Do one control step, see `WorldView.step`."""
+        if self.over:
+            raise InputError(f"the experiment is over: {self.over_message}")
+        with self._busy():
+            self._control_step(command)
+
+    def follow(self, command: Any) -> Float:
+        """Do one control step under a command (2, n) that is known from before.
+
+        The laws are asked all the same, so that they remember what they did then. Returns the
+        commands (2, n) that the laws ask for now, limited by the drives.
+        """
+        with self._busy():
+            return self._control_step(command, ask=True)
+
+    def observe(self) -> None:
+        """Call the add-ons and read the sensors, see `WorldView.observe`."""
+        if self._observed != self.iteration and not self.over:
+            with self._busy():
+                self._observe()
+            if self.over:  # an add-on has stopped it
+                self._close()
+
+    def stop(self, why: str) -> None:
+        """End the experiment with the present control step."""
+        if not self.over:
+            self.over, self.over_message = True, str(why)
+            if not self._stepping:
+                self._close()
+
+    def break_off(self, why: str) -> None:
+        """End the experiment at once, without a last control step, as after an error."""
+        if not self.over:
+            self.over, self.over_message, self.broken_off = True, str(why), True
+
+    @contextmanager
+    def _busy(self) -> Iterator[None]:
+        """Refuse to be entered from within; an error within ends the experiment."""
+        if self._stepping:
+            raise InputError(
+                "world.step() was called from within a step: by a law, sensor or add-on"
+            )
+        self._stepping = True
+        try:
+            yield
+        except (LawError, DiskError) as error:
+            if isinstance(error, LawError):
+                error.where = error.where or self.filename or None
+            self.break_off(f"Error: {error}")
+            error.record = self.record
+            raise
+        except InputError:  # of what was given to step(): it may be called again
+            raise
+        except KeyboardInterrupt:
+            self.break_off("Interrupted by Ctrl-C")
+            raise
+        except BaseException as error:  # a step that was not finished can't be gone on from
+            self.break_off(f"Error: {described(error)}")
+            raise
+        finally:
+            self._stepping = False
+
+    def _close(self) -> None:
+        """Do the control step that ends the experiment."""
+        with self._busy():
+            self._control_step(None)
+
+    def _control_step(self, command: Any, *, ask: bool = False) -> Float:
+        """Do what MARS's Algorithm 1 does in one pass of its loop; return what laws ask for."""
+        self._observe()
+        if self.watch is not None:
+            self.watch(self._world)
+        wanted = asked = self._still if command is None else self._given(command)
+        if ask or command is None:
+            asked = self._laws.commands()
+            wanted = asked if command is None else wanted
+        if ask:
+            asked = self._saturate(self.operator.command(asked))
+        self.command = frozen(self._saturate(self.operator.command(wanted)))
+        self._write_row()
+        self._check_workspace()
+        if self.iteration >= self.scenario.last_iteration:
+            self.stop(f"Time is over: {self.time:g} s")
+        if self.over:
+            self._hooks.call("on_stop", self._world)
+            self.draw_addons(self._drawn)
+        else:
+            self._drive()
+        if self._channel is not None:
+            self._channel.transmit()
+        return asked
+
+    def _observe(self) -> None:
+        if self._observed != self.iteration:
+            self._observed = self.iteration
+            if self._channel is not None:
+                self._channel.deliver()
+            self.sensing.hide()
+            self._hooks.call("on_step", self._world)
+            self.sensing.step(self.iteration)
+            self._hooks.call("on_sensed", self._world)
+
+    def _given(self, command: Any) -> Float:
+        def refuse(message: str) -> NoReturn:
+            raise InputError(f"World.step(command) {message.replace('returned', 'was given', 1)}")
+
+        return team_command(command, len(self.robots), refuse)
+
+    def _saturate(self, command: Float) -> Float:
+        """Limit the commands (2, n) to what each robot's drive can do after the last ones."""
+        return self._drives.limit(command, self.command)
+
+    def _write_row(self) -> None:
+        time = self.time
+        self.recorder.write(
+            time,
+            pose=self.pose,
+            command=self.command,
+            command_time=time + self.scenario.command_delay,
+            prop_pose=self.prop_pose,
+            effort=self.effort,
+            readings=self.sensing.recorded(),
+        )
+
+    def _check_workspace(self) -> None:
+        """End the experiment when a robot's centre has left the workspace, if that is asked for."""
+        if self._room is None or self.scenario.on_exit != "stop":
+            return
+        x, y = self.pose[:2]
+        outside = np.flatnonzero(outside_polygon(x, y, self._room))
+        if len(outside):
+            i = int(outside[0])
+            name = self.scenario.robots[i].name
+            self.stop(f"Out of bounds: {name} left the workspace at ({x[i]:.3g}, {y[i]:.3g})")
+
+    def _drive(self) -> None:
+        """Move the robots for one sampling time under the commands in effect."""
+        self.sensing.close()
+        time = self.time
+        self._drives.draw()
+        self.driven = []
+        for duration, command in self._delay.send(self.command):
+            twist = self._drives.twist(command)
+            self.driven.append((duration, twist))
+            self.operator.drive(self.engine, twist, duration, time)
+            time += duration
+        self.contacts = frozen(self.engine.take_contacts())
+        self.recorder.write_contacts(self.contacts)
+        self.take_poses()
+        self.effort = frozen(self.engine.take_effort())
+        self.iteration += 1
+
+    # -- changes while it runs -------------------------------------------------------------------
+
+    def go_on(self, scenario: Scenario, control: Control | None, start: Start | None) -> None:
+        """Go on with another scenario, checked before; laws and add-ons that stay remember.
+
+        start: how everything moves from now on, where bodies or obstacles were moved.
+        """
+        same = {addon.key for addon in self.scenario.addons if addon in scenario.addons}
+        self.scenario = scenario
+        there = {key: addon for key, addon in vars(self.addons).items() if key in same}
+        self._take_scenario(there, control)
+        if start is None:
+            self.surroundings.renew()
+        else:
+            self.rebuild(start)
+
+    def rebuild(self, start: Start) -> None:
+        """Go on with everything moving like this."""
+        self.restart_engine(start)
+        self.surroundings.renew()

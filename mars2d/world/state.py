@@ -1,0 +1,139 @@
+"""The state of a running world: the clock, the bodies, the random streams, and the rows so far."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.streams import stream
+from mars2d.core.usercode import called
+from mars2d.physics.engine import Engine
+from mars2d.physics.kinematics import Kinematics
+from mars2d.physics.motion import Start
+from mars2d.physics.settings import versions
+from mars2d.record.columns import Storage
+from mars2d.record.contact import CONTACT
+from mars2d.record.recorder import History, Recorder
+from mars2d.scenario.scenario import Scenario
+from mars2d.world.live_addons import Addons
+
+__all__ = ["State", "frozen"]
+
+ENGINES: dict[str, type[Engine | Kinematics]] = {
+    "contact": Engine,
+    "stop": Kinematics,
+    "ideal": Kinematics,
+}
+"""The class that moves the bodies, by Scenario.physics."""
+
+Float = NDArray[np.float64]
+
+
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
+    """Return a view that can't be written."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+class State:
+    """The state of a world at this instant; `Simulation` makes it go on.
+
+    All arrays are read only, and new at each control step. n robots, p props.
+
+    pose, prop_pose: (3, n) and (3, p): x, y [m], theta [rad]. command: (2, n), the last one, after
+    saturation. contacts: since the last control step. effort: (n,), 0 to 1, in that step. driven:
+    the twists that the drives asked for in it, see `Surroundings.driven`. engine: moves the bodies.
+    recorder: writes the rows. addons: by name.
+    """
+
+    def __init__(self, scenario: Scenario, seed: int, storage: Storage) -> None:
+        """Put the bodies where they start. storage: makes the columns of the record."""
+        self.scenario = scenario
+        self.seed = seed
+        self.iteration = 0
+        self.over = False
+        self.over_message = ""
+        self.broken_off = False
+        self.recorder = Recorder(scenario, storage, versions)
+        self.history = History(self.recorder)
+        self.addons = Addons()
+        n = len(scenario.robots)
+        self.command: Float = frozen(np.zeros((2, n)))
+        self.contacts: NDArray[np.void] = np.empty(0, dtype=CONTACT)
+        self.effort: Float = frozen(np.zeros(n))
+        self.driven: list[tuple[float, Float]] = []
+        self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
+        self.restart_engine(None)
+
+    def restart_engine(self, start: Start | None) -> None:
+        """Begin with a new engine; start: how everything moves, None for the scenario's start."""
+        self.engine = ENGINES[self.scenario.physics](self.scenario, start)
+        self.take_poses()
+        self._velocity_at = -1, self.pose
+
+    def take_poses(self) -> None:
+        """Take the poses of robots and props from the engine."""
+        n = len(self.scenario.robots)
+        pose = frozen(self.engine.pose)
+        self.pose, self.prop_pose = pose[:, :n], pose[:, n:]
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds."""
+        return self.iteration * self.scenario.sampling_time
+
+    @property
+    def sampling_time(self) -> float:
+        """The time from one command to the next, seconds."""
+        return self.scenario.sampling_time
+
+    @property
+    def finished(self) -> bool:
+        """Whether the experiment is over, and was not broken off."""
+        return self.over and not self.broken_off
+
+    @property
+    def velocity(self) -> Float:
+        """The robots' velocities (3, n): x', y' [m/s], theta' [rad/s]."""
+        return self._velocities[:, : self.pose.shape[1]]
+
+    @property
+    def prop_velocity(self) -> Float:
+        """The props' velocities (3, p)."""
+        return self._velocities[:, self.pose.shape[1] :]
+
+    @property
+    def _velocities(self) -> Float:
+        """The velocities of all bodies, asked of the engine once a control step."""
+        if self._velocity_at[0] != self.iteration:
+            self._velocity_at = self.iteration, frozen(self.engine.velocity)
+        return self._velocity_at[1]
+
+    @property
+    def motion(self) -> Start:
+        """How everything moves at this instant."""
+        return self.engine.motion
+
+    @cached_property
+    def rng(self) -> np.random.Generator:
+        """The random stream of the team's law."""
+        return self.stream("control")
+
+    def stream(self, name: str) -> np.random.Generator:
+        """Return a new random stream that depends on the seed and `name` alone."""
+        return stream(self.seed, name)
+
+    def neighbour_indices(self, robot: int) -> Sequence[int]:
+        """Return the robots that ``Scenario.neighbours`` makes a robot's neighbours now."""
+        asked, found = self._neighbours
+        rule = self.scenario.neighbours
+        if asked < 0 or (asked != self.iteration and not rule.fixed):
+            with called("Scenario.neighbours", rule.of):
+                found = rule.of(self.pose[:2])
+            self._neighbours = self.iteration, found
+        return found[robot]

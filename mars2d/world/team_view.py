@@ -1,0 +1,339 @@
+"""The views of the world that the law of a team is given: all of it, or positions only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import LawError
+from mars2d.core.plane import Outline
+from mars2d.record.frame import Frame
+from mars2d.record.record import Record
+from mars2d.record.recorder import History
+from mars2d.scenario.scenario import Scenario
+from mars2d.world.live_addons import Addons
+from mars2d.world.simulation import Simulation
+from mars2d.world.surroundings import Around
+from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknown, unseen
+
+__all__ = ["RobotPositionView", "TeamPositionsView", "WorldView"]
+
+Float = NDArray[np.float64]
+
+
+class WorldView:
+    """A running world, as a law with full information sees and uses it.
+
+    A law can stop the world and hold a robot; nothing here leads to the machinery that changes it.
+    `World` adds the rest, for whoever runs the world.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+
+    # -- the experiment ------------------------------------------------------------------------
+
+    @property
+    def scenario(self) -> Scenario:
+        """What is simulated now."""
+        return self._simulation.scenario
+
+    @property
+    def seed(self) -> int:
+        """The seed of all random streams."""
+        return self._simulation.seed
+
+    @property
+    def filename(self) -> str:
+        """The experiment's file, or ""."""
+        return self._simulation.filename
+
+    @property
+    def sampling_time(self) -> float:
+        """The time from one command to the next, seconds."""
+        return self._simulation.sampling_time
+
+    @property
+    def workspace(self) -> Outline | None:
+        """The polygon in which the robots move, or None."""
+        return self._simulation.scenario.workspace
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
+        return self._simulation.scenario.bounds
+
+    @property
+    def obstacles(self) -> tuple[Outline, ...]:
+        """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
+        return self._simulation.engine.space.obstacles
+
+    # -- this instant --------------------------------------------------------------------------
+
+    @property
+    def iteration(self) -> int:
+        """The number of control steps done."""
+        return self._simulation.iteration
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds: iteration x sampling time."""
+        return self._simulation.time
+
+    @property
+    def over(self) -> bool:
+        """Whether the experiment is over."""
+        return self._simulation.over
+
+    @property
+    def over_message(self) -> str:
+        """Why the experiment is over."""
+        return self._simulation.over_message
+
+    @property
+    def finished(self) -> bool:
+        """Whether the experiment is over, and was not broken off."""
+        return self._simulation.finished
+
+    @property
+    def pose(self) -> Float:
+        """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; new at each step."""
+        return self._simulation.pose
+
+    @property
+    def position(self) -> Float:
+        """The positions (2, n): x, y [m]. Read only; new at each step."""
+        return self._simulation.pose[:2]
+
+    @property
+    def velocity(self) -> Float:
+        """The robots' velocities (3, n) at this instant: x', y' [m/s], theta' [rad/s]."""
+        return self._simulation.velocity
+
+    @property
+    def prop_pose(self) -> Float:
+        """The poses of the props' centres of mass (3, p): x, y [m], theta [rad]. Read only."""
+        return self._simulation.prop_pose
+
+    @property
+    def prop_velocity(self) -> Float:
+        """The velocities of the props (3, p): x', y' [m/s], theta' [rad/s]."""
+        return self._simulation.prop_velocity
+
+    @property
+    def effort(self) -> Float:
+        """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1.
+
+        It is 0 for a robot that nothing holds or pushes. At 1 the wheels slip.
+        """
+        return self._simulation.effort
+
+    @property
+    def geometric_center(self) -> Float:
+        """The geometric centres (2, n) [m]: `Robot.center_offset` behind those of rotation."""
+        offset = np.array([robot.center_offset for robot in self.scenario.robots])
+        x, y, theta = self.pose
+        return np.array([x - offset * np.cos(theta), y - offset * np.sin(theta)])
+
+    @property
+    def command(self) -> Float:
+        """The last command (2, n) that was issued, after saturation; zeros at first. Read only."""
+        return self._simulation.command
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """The contacts since the last step, one row a pair, of dtype `mars2d.record.CONTACT`."""
+        return self._simulation.contacts
+
+    def neighbour_indices(self, robot: int) -> Sequence[int]:
+        """Return the robots that ``Scenario.neighbours`` makes a robot's neighbours now."""
+        return self._simulation.neighbour_indices(robot)
+
+    # -- its parts -----------------------------------------------------------------------------
+
+    @property
+    def robots(self) -> list[RobotView]:
+        """The robots, with everything known of them."""
+        return self._simulation.robots
+
+    @property
+    def props(self) -> tuple[PropView, ...]:
+        """The props."""
+        return self._simulation.props
+
+    @property
+    def addons(self) -> Addons:
+        """The add-ons by name: ``world.addons.map``."""
+        return self._simulation.addons
+
+    @property
+    def surroundings(self) -> Around:
+        """Answers sensors and add-ons: rays, distances, what hides what, beacons."""
+        return self._simulation.surroundings
+
+    @property
+    def rng(self) -> np.random.Generator:
+        """The random stream of the team's law."""
+        return self._simulation.rng
+
+    def stream(self, name: str) -> np.random.Generator:
+        """Return a new random stream that depends on the seed and `name` alone."""
+        return self._simulation.stream(name)
+
+    # -- the run so far ------------------------------------------------------------------------
+
+    @property
+    def history(self) -> History:
+        """The rows so far."""
+        return self._simulation.history
+
+    @property
+    def record(self) -> Record:
+        """The record so far."""
+        return self._simulation.record
+
+    @property
+    def frame(self) -> Frame:
+        """This instant, to be drawn; the readings are the last ones, see `observe`."""
+        now = self._simulation
+        return Frame(
+            scenario=now.scenario,
+            time=now.time,
+            iteration=now.iteration,
+            pose=now.pose,
+            path=now.history.pose[: now.iteration],
+            readings=now.readings,
+            over_message=now.over_message,
+            draw_addons=now.draw_addons,
+            prop_pose=now.prop_pose,
+            contacts=now.contacts,
+            effort=now.effort,
+            contact_log=now.recorder.contacts,
+            prop_path=now.history.prop_pose[: now.iteration],
+            effort_path=now.history.effort[: now.iteration],
+            messages=now.recorder.in_flight(now.time),
+            command_path=now.history.command[: now.iteration],
+            message_log=now.recorder.messages,
+            reading_path=partial(now.recorder.readings, now.iteration),
+        )
+
+    # -- what may be done ----------------------------------------------------------------------
+
+    def stop(self, why: str) -> None:
+        """End the experiment, with the present control step, and say why."""
+        self._simulation.stop(why)
+
+    def hold(self, robot: str | int) -> None:
+        """Let a robot stand still from now on, whatever its law says: it is out of the game.
+
+        robot: its index or name. Raises InputError if there is none.
+        """
+        self._simulation.operator.hold(robot)
+
+    def step(self, command: Any = None) -> None:
+        """Do one control step.
+
+        command: (2, n) to use in place of what the laws would command. Raises LawError when a law,
+        sensor or add-on fails, and InputError within a step, as a law would call it, and when the
+        experiment is over already.
+        """
+        self._simulation.step(command)
+
+    def observe(self) -> None:
+        """Call the add-ons and read the sensors for the present instant, as the next step would.
+
+        All robots are sensed before any is commanded. To call it again does nothing.
+        """
+        self._simulation.observe()
+
+
+class RobotPositionView(PositionsView):
+    """A robot, as a team's law sees it that sees positions only."""
+
+    pose = unseen("robot.pose", "positions", "robot.position")
+    velocity = unseen("robot.velocity", "positions", "robot.position")
+    contacts = unseen("robot.contacts", "positions", "robot.position")
+    world = unseen("robot.world", "positions")
+
+
+class TeamPositionsView:
+    """A running world, as a team's law sees it that sees positions only."""
+
+    def __init__(self, world: WorldView) -> None:
+        """Take the world, of which only this is shown."""
+        self._world = world
+        simulation = world._simulation
+        self.robots = tuple(
+            RobotPositionView(simulation, i, mind) for i, mind in enumerate(simulation.minds)
+        )
+
+    def __getattr__(self, name: str) -> NoReturn:
+        if hasattr(type(vars(self).get("_world")), name):  # None in a copy that is not yet filled
+            raise LawError(
+                f"this law sees positions only: world.{name} is not available; "
+                "there is world.position"
+            )
+        unknown(self, "a world", name, "robots")
+
+    @property
+    def time(self) -> float:
+        """The simulated time, seconds."""
+        return self._world.time
+
+    @property
+    def sampling_time(self) -> float:
+        """The time from one command to the next, seconds."""
+        return self._world.sampling_time
+
+    @property
+    def iteration(self) -> int:
+        """The number of control steps done."""
+        return self._world.iteration
+
+    @property
+    def position(self) -> Float:
+        """The positions (2, n): x, y [m]."""
+        return alone(self._world.position)
+
+    @property
+    def command(self) -> Float:
+        """The last command (2, n) that was issued, after saturation; zeros at first."""
+        return alone(self._world.command)
+
+    @property
+    def effort(self) -> Float:
+        """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1."""
+        return alone(self._world.effort)
+
+    @property
+    def workspace(self) -> Outline | None:
+        """The polygon in which the robots move, or None."""
+        return self._world.workspace
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
+        return self._world.bounds
+
+    @property
+    def obstacles(self) -> tuple[Outline, ...]:
+        """The outlines of all obstacles."""
+        return self._world.obstacles
+
+    @property
+    def addons(self) -> Addons:
+        """The add-ons by name: the law may ask what the experiment has put there."""
+        return self._world.addons
+
+    @property
+    def rng(self) -> np.random.Generator:
+        """The random stream of the team's law."""
+        return self._world.rng
+
+    def stop(self, why: str) -> None:
+        """End the experiment, with the present control step, and say why."""
+        self._world.stop(why)
