@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError, MissingExtraError, counted, shown
+from mars2d.core.files import atomic_write
 from mars2d.study.cells import cell, key_of, value_in, word_cell, word_in
 
 if TYPE_CHECKING:
@@ -206,7 +206,7 @@ def save_table(table: Table, path: str | Path) -> Path:
     if target.suffix.lower() != ".csv":
         raise InputError(f"{target}: expected a name that ends in .csv")
     lines = [file_header(table), *(file_line(table, result) for result in table.results)]
-    with replacing(target) as file:
+    with atomic_write(target) as file:
         file.write(b"".join(lines))
     return target
 

@@ -12,8 +12,8 @@ from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
-from mars2d.core.atomic import replacing
 from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.files import atomic_write
 from mars2d.study.cells import cell, word_cell
 from mars2d.study.statistics import Interval, proportion
 from mars2d.study.tournament.match import Played
@@ -291,6 +291,6 @@ def _cell(value: Any) -> str:
 def _write(path: Path, text: str) -> Path:
     if not path.parent.is_dir():
         raise InputError(f"{path}: there is no folder {path.parent}")
-    with replacing(path) as file:
+    with atomic_write(path) as file:
         file.write(text.encode("utf-8", errors="replace"))
     return path
