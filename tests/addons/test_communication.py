@@ -22,8 +22,8 @@ from mars2d.output.raster.picture import paint_frame
 from mars2d.record.message import (
     DELIVERED,
     LOST,
+    MAX_BYTES,
     MESSAGE,
-    MOST_BYTES,
     ON_ITS_WAY,
     OUT_OF_REACH,
     OVER_BANDWIDTH,
@@ -275,7 +275,7 @@ for _ in range(40):
         ({1: "a"}, ["a key of content = 1", "text as keys"]),
         (LOOP, ["content[1]['again']", "it holds itself"]),
         (DEEP, ["more than 32 lists and dicts"]),
-        ("x" * MOST_BYTES, [f"{MOST_BYTES + 2} bytes, of at most {MOST_BYTES}"]),
+        ("x" * MAX_BYTES, [f"{MAX_BYTES + 2} bytes, of at most {MAX_BYTES}"]),
         ("\ud800", ["half a character"]),
         ([10**5000], ["too many digits"]),
     ],
@@ -289,7 +289,7 @@ def test_what_cannot_be_recorded_cannot_be_sent(content, words):
 
 
 def test_the_largest_content_is_sent():
-    assert len(as_text("x" * (MOST_BYTES - 2))) == MOST_BYTES
+    assert len(as_text("x" * (MAX_BYTES - 2))) == MAX_BYTES
 
 
 def test_each_receiver_has_a_copy_of_its_own():
