@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.materials import GRAVITY
 from mars2d.output.layers.forces import mean_forces
-from mars2d.physics.floor import GRAVITY
 from mars2d.record.contact import CONTACT
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.scenario import Scenario

@@ -138,12 +138,12 @@ def test_marks_of_hands_branches_and_collisions():
 
 def test_collisions_are_looked_for_now_and_then(monkeypatch):
     timeline = timeline_of(addons=[Map([[(1.0, -1.0), (1.0, 1.0)]])])
-    marks = Marks(timeline)
+    marks, now = Marks(timeline), time.monotonic()
+    monkeypatch.setattr("mars2d.window.controls.time.monotonic", lambda: now)
     marks.rows()
     run_to(timeline, 40)
     assert marks.rows()["collision"] == []
-    later = time.monotonic() + 1.0
-    monkeypatch.setattr("mars2d.window.controls.time.monotonic", lambda: later)
+    monkeypatch.setattr("mars2d.window.controls.time.monotonic", lambda: now + 1.0)
     assert len(marks.rows()["collision"]) == 1
     assert len(marks.rows()["collision"]) == 1
 
