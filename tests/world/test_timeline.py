@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import LawError, Robot, Scenario, World
+from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.cli import outputs
 from mars2d.core.errors import InputError
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
 from mars2d.world.loop import simulate
 from mars2d.world.past import PARKED
+from mars2d.world.simulation import Simulation
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 
@@ -655,15 +656,15 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=0.1)
 def test_idle_is_late_by_no_more_than_a_control_step(written, monkeypatch):
     """The clock goes on by 4 ms with each control step, and by nothing else."""
     steps = 0
-    follow = World.follow
+    follow = Simulation.follow
 
-    def counted(world, *arguments):
+    def counted(simulation, *arguments):
         nonlocal steps
         steps += 1
-        return follow(world, *arguments)
+        return follow(simulation, *arguments)
 
-    monkeypatch.setattr(World, "follow", counted)
-    monkeypatch.setattr("mars2d.world.timeline.perf_counter", lambda: 0.004 * steps)
+    monkeypatch.setattr(Simulation, "follow", counted)
+    monkeypatch.setattr("mars2d.world.past.perf_counter", lambda: 0.004 * steps)
     path = written("""
 from mars2d import Robot, Scenario
 def law(robot):
