@@ -444,7 +444,7 @@ def test_the_path_of_a_beacon_is_drawn_open_where_it_ends():
     corners = [(1, 0), (2, 0), (2, 1)]
     for closed, drawn in ((True, [*corners, corners[0]]), (False, corners)):
         world = World(Scenario(addons=[addons.Beacon(path=corners, speed=1, closed=closed)]))
-        scene = drawn.addons(world.frame)
+        scene = layer.addons(world.frame)
         (line,) = [shape for shape in scene.shapes if isinstance(shape, Line)]
         assert line.points.tolist() == [list(corner) for corner in drawn]
 
