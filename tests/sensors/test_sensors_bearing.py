@@ -17,6 +17,7 @@ from mars2d.bodies.props import Box
 from mars2d.core.plane import wrap
 from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.geometry.bearings import hold_missing, sighted
+from mars2d.output.layers.addons import addons as drawn_by_addons
 from mars2d.sensors import RangeBearing
 
 
@@ -444,7 +445,7 @@ def test_the_path_of_a_beacon_is_drawn_open_where_it_ends():
     corners = [(1, 0), (2, 0), (2, 1)]
     for closed, drawn in ((True, [*corners, corners[0]]), (False, corners)):
         world = World(Scenario(addons=[addons.Beacon(path=corners, speed=1, closed=closed)]))
-        scene = layer.addons(world.frame)
+        scene = drawn_by_addons(world.frame)
         (line,) = [shape for shape in scene.shapes if isinstance(shape, Line)]
         assert line.points.tolist() == [list(corner) for corner in drawn]
 
