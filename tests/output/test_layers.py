@@ -12,12 +12,13 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import mars2d
-from mars2d import Animation, Robot, Scenario
+from mars2d import Animation, Robot, Scenario, World
 from mars2d.addons import Addon, Communication, Map
 from mars2d.bodies.joints import Rope, Spring
 from mars2d.bodies.props import Box, Puck
 from mars2d.core.scene import Circle, Scene
 from mars2d.output.figures.figure import plot_paths
+from mars2d.output.layers.neighbours import neighbours
 from mars2d.output.layers.table import LAYERS, Layer, Layers
 from mars2d.output.pages.drawing import draw
 from mars2d.output.raster.camera import Camera
@@ -270,3 +271,14 @@ def test_distances_along_beams_look_like_the_shapes_that_the_sensors_draw(
         monkeypatch.setattr("mars2d.output.pages.replay.sensors.Carried.is_fan", False)
     off = (np.abs(seen[0] - seen[1]).max(axis=2) > 30).sum()
     assert off < 0.02 * (np.abs(seen[1] - without).max(axis=2) > 5).sum()
+
+
+def test_links_of_two_runs_of_one_scenario_do_not_mix():
+    # Both are at the same control step, and their robots stand in different places.
+    scenario = Scenario(
+        robots=[Robot(pose=(0, 0, 0)), Robot(pose=(2, 0, 0))], neighbours=Within(1.0)
+    )
+    apart, near = World(scenario), World(scenario)
+    near.operator.place(1, (0.5, 0, 0))
+    counts = [len(neighbours(world.frame).shapes) for world in (apart, near, apart)]
+    assert counts == [0, 1, 0]
