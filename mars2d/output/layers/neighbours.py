@@ -32,10 +32,8 @@ class Links:
 
     def __call__(self, frame: Frame) -> Scene:
         """Return the links of a frame."""
-        pairs, scene = self._pairs_of(frame), Scene()
-        for ends in frame.pose[:2].T[pairs]:  # (2, 2) each
-            scene.shapes.append(Line(ends, LINK))
-        return scene
+        ends = frame.pose[:2].T[self._pairs_of(frame)]  # (k, 2, 2)
+        return Scene([Line(pair, LINK) for pair in ends])
 
     def _pairs_of(self, frame: Frame) -> NDArray[np.int_]:
         """Return the pairs (k, 2) that are linked."""

@@ -98,7 +98,14 @@ class Painter:
         shaded: their colours are those of scenes, which the theme turns; else the theme's own.
         """
         self._shade = self.theme.shade if shaded else str
+        texts: list[tuple[pygame.Surface, tuple[int, int]]] = []
         for shape in shapes:
+            if isinstance(shape, Text):
+                texts += self._text(shape, camera)
+                continue
+            if texts:
+                surface.fblits(texts)
+                texts.clear()
             if isinstance(shape, Circle):
                 self._circle(surface, shape, camera)
             elif isinstance(shape, Line):
@@ -107,10 +114,9 @@ class Painter:
                 self._polygon(surface, shape, camera)
             elif isinstance(shape, Arrow):
                 self._arrow(surface, shape, camera)
-            elif isinstance(shape, Image):
-                self._image(surface, shape, camera)
             else:
-                self._text(surface, shape, camera)
+                self._image(surface, shape, camera)
+        surface.fblits(texts)
 
     # -- circles ------------------------------------------------------------------------------
 
@@ -205,10 +211,10 @@ class Painter:
     # -- lines --------------------------------------------------------------------------------
 
     def _line(self, surface: pygame.Surface, shape: Line, camera: Camera) -> None:
-        marker, line = split_wake_style(shape.style)
-        if line == "-" and len(shape.points) == 2:
+        if shape.style == "-" and len(shape.points) == 2:
             self._segment(surface, shape, camera)
             return
+        marker, line = split_wake_style(shape.style)
         points = camera.to_pixels(shape.points)
         ink = self._shade(shape.stroke)
         color = rgba(ink)
@@ -229,12 +235,15 @@ class Painter:
         x, y = camera.x + camera.scale * ax, camera.y - camera.scale * ay
         dx, dy = camera.scale * (bx - ax), camera.scale * (ay - by)
         # A short line stays a line: a small robot's heading must not become a blob.
-        width = min(shape.width * self.ui, max(1.0, (abs(dx) + abs(dy)) / 3.5))
+        width = shape.width * self.ui
+        if width > 1.0:
+            width = min(width, max(1.0, (abs(dx) + abs(dy)) / 3.5))
         width = round(8 * width) / 8
         color = rgba(self._shade(shape.stroke))
-        if width <= 1.0 and max(map(abs, (x, y, dx, dy))) < FAR:
-            ink = (*color[:3], round(width * color[3]))  # thinner is fainter
-            brushes.hairline(surface, ink, x, y, x + dx, y + dy)
+        if width <= 1.0 and -FAR < x < FAR and -FAR < y < FAR and abs(dx) + abs(dy) < FAR:
+            if width < 1.0:
+                color = (*color[:3], round(width * color[3]))  # thinner is fainter
+            brushes.hairline(surface, color, x, y, x + dx, y + dy)
             return
         if max(abs(dx), abs(dy)) > LARGEST_SPRITE / 2:
             brushes.stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
@@ -308,20 +317,23 @@ class Painter:
 
     # -- text ---------------------------------------------------------------------------------
 
-    def _text(self, surface: pygame.Surface, shape: Text, camera: Camera) -> None:
+    def _text(self, shape: Text, camera: Camera) -> list[tuple[pygame.Surface, tuple[int, int]]]:
+        """Return the images of a text's lines, and where they go."""
         x = camera.x + camera.scale * shape.position[0]
         y = camera.y - camera.scale * shape.position[1]
         gap = 4 * self.ui
         reach = max(1, round(1.5 * self.ui)) if shape.halo else 0
         images = [self._label(text, shape, reach) for text in shape.text.split("\n")]
-        height = sum(image.get_height() - 2 * reach for image in images)
+        height = sum([image.get_height() - 2 * reach for image in images])
         top = {"above": y - gap - height, "below": y + gap}.get(shape.anchor, y - height / 2)
+        found = []
         for image in images:
             width = image.get_width() - 2 * reach
             # MARS's and matplotlib's sense: "left" puts the text's left end at the point
             left = {"left": x + gap, "right": x - gap - width}.get(shape.anchor, x - width / 2)
-            surface.blit(image, (round(left) - reach, round(top) - reach))
+            found.append((image, (round(left) - reach, round(top) - reach)))
             top += image.get_height() - 2 * reach
+        return found
 
     def _label(self, text: str, shape: Text, reach: int) -> pygame.Surface:
         """Return a line of a text, with a halo of `reach` pixels."""

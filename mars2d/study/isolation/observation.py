@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.communication import Communication
 from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.core.streams import stream
@@ -112,7 +111,7 @@ def _briefing(
         obstacles=tuple(each.outline for each in scenario.surfaces) if whole else (),
         streams=tuple(dict(stream(seed, name).bit_generator.state) for name in names),
         sensors=tuple(tuple(sensor.key for sensor in robot.sensors) for robot in mine),
-        talks=any(isinstance(addon, Communication) for addon in scenario.addons),
+        talks=any(addon.carries_messages for addon in scenario.addons),
         limits=limits,
         folder=os.getcwd(),  # noqa: PTH109 - as text
         chance=int(chance.integers(2**32)),
