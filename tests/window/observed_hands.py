@@ -9,7 +9,7 @@ from mars2d import Robot, Scenario
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.player import LONGEST_GAP
+from mars2d.window.player import MAX_GAP
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.window.telling import Teller
@@ -35,7 +35,7 @@ class Observed(Window):
         pass_time = self.player.pass_time
 
         def count(wall):
-            self.passed += min(wall, LONGEST_GAP)
+            self.passed += min(wall, MAX_GAP)
             pass_time(wall)
 
         self.player.pass_time = count
