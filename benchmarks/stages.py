@@ -12,6 +12,7 @@ import argparse
 import json
 import time
 from collections.abc import Callable, Mapping
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -22,12 +23,12 @@ from mars2d.world.world import World
 
 STAGES = {
     "sense": "_observe",
-    "law": "_ask_laws",
+    "law": "_laws.commands",
     "limits": "_saturate",
     "record": "_write_row",
     "motion": "_drive",
 }
-"""The stages by the methods of a world that do them."""
+"""The stages, and the methods of a simulation that do them."""
 
 
 class Watch:
@@ -70,7 +71,9 @@ def watched(scene: Scene, max_overlap: float, watches: Mapping[str, Watch]) -> W
     """Return a world whose stages are timed."""
     world = warmed_up(scene, max_overlap)
     for stage, method in STAGES.items():
-        setattr(world, method, watches[stage].around(getattr(world, method)))
+        *owner, name = f"simulation.{method}".split(".")
+        does = attrgetter(".".join(owner))(world)
+        setattr(does, name, watches[stage].around(getattr(does, name)))
     return world
 
 
