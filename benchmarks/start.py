@@ -12,7 +12,7 @@ import json
 import statistics
 from pathlib import Path
 
-from mars2d.reports.bench.start import COMMANDS, seconds, with_bytecode
+from mars2d.reports.bench.suite import COMMANDS, seconds, with_bytecode
 
 ROUNDS = 9
 

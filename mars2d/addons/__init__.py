@@ -2,13 +2,12 @@
 
 from mars2d.addons.base import HOOKS, Addon
 from mars2d.addons.beacon import Beacon
-from mars2d.addons.communication import Communication
+from mars2d.addons.communication import Burst, Communication
 from mars2d.addons.density import Density
 from mars2d.addons.estimate import Estimate
 from mars2d.addons.field_of_view import FieldOfView
 from mars2d.addons.floor import Floor
 from mars2d.addons.game import Game
-from mars2d.addons.gilbert_elliott import Burst
 from mars2d.addons.map import Map
 from mars2d.addons.potential_field import PotentialField
 from mars2d.addons.ring import Ring

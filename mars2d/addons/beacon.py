@@ -17,7 +17,6 @@ from mars2d.core.scene import Scene, color, faded
 
 __all__ = ["Beacon"]
 
-AT = "a point (x, y) in metres, or None"
 PATH = "at least two points, as [(x, y), ...] in metres, or None"
 
 

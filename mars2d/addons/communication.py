@@ -2,13 +2,74 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+
 from mars2d.addons.base import Addon
-from mars2d.addons.gilbert_elliott import Burst
 from mars2d.core.checks import instance
-from mars2d.core.description import entry, flag, number
+from mars2d.core.description import Description, entry, flag, number
 from mars2d.core.errors import InputError
 
-__all__ = ["Communication"]
+__all__ = ["Burst", "Communication"]
+
+
+def _probability(default: Any, doc: str, *, above: float | None = None) -> Any:
+    return number(
+        default=default, low=0.0 if above is None else None, above=above, high=1.0, doc=doc
+    )
+
+
+class Burst(Description):
+    """The channel of Gilbert and Elliott: each link is good for a while, then bad for a while.
+
+    At each control step a good link turns bad with the probability `to_bad`, a bad one good with
+    `to_good`, whether or not anything is sent over it. In each of its states it loses a message
+    with a probability of its own. Sources: Gilbert (1960), whose good state loses nothing; Elliott
+    (1963), whose good state may.
+
+    >>> burst = Burst(to_bad=0.1, to_good=0.3)
+    >>> burst.mean_loss, round(burst.mean_length, 3)
+    (0.25, 3.333)
+    """
+
+    to_bad: float = _probability(0.05, "probability a control step that a good link turns bad",
+                                 above=0.0)  # fmt: skip
+    to_good: float = _probability(0.25, "probability a control step that a bad link turns good",
+                                  above=0.0)  # fmt: skip
+    loss_good: float = _probability(0.0, "probability that a good link loses a message")
+    loss_bad: float = _probability(1.0, "probability that a bad link loses a message")
+
+    @property
+    def share_bad(self) -> float:
+        """The share of the time in which a link is bad: to_bad / (to_bad + to_good)."""
+        return self.to_bad / (self.to_bad + self.to_good)
+
+    @property
+    def mean_loss(self) -> float:
+        """The share of messages that is lost in the long run."""
+        return (1 - self.share_bad) * self.loss_good + self.share_bad * self.loss_bad
+
+    @property
+    def mean_length(self) -> float:
+        """The mean number of control steps that a link stays bad: 1 / to_good."""
+        return 1 / self.to_good
+
+    def turns(self, bad: bool | None, steps: int, rng: np.random.Generator) -> bool:
+        """Return whether a link is bad, `steps` control steps after it was known to be `bad`.
+
+        bad: None when nothing is known; then the link is bad with the probability `share_bad`. One
+        random number is drawn, whatever the number of steps: with q = 1 - to_bad - to_good, the
+        knowledge fades as q**steps.
+        """
+        share = self.share_bad
+        if bad is not None:
+            share += (float(bad) - share) * (1 - self.to_bad - self.to_good) ** steps
+        return bool(rng.random() < share)
+
+    def loses(self, bad: bool, rng: np.random.Generator) -> bool:
+        """Return whether a link loses a message; one random number is drawn."""
+        return bool(rng.random() < (self.loss_bad if bad else self.loss_good))
 
 
 _is_burst = instance(Burst, "Burst(to_bad=0.05, to_good=0.25)")

@@ -1,4 +1,4 @@
-"""Constraints: what joints are made of, in terms that the physics knows.
+"""Constraints: the parts of joints, in terms that the physics knows.
 
 A joint says which constraints it puts on its bodies, and the physics translates each of them for
 its solver. So a new joint that is made of these needs no change in the physics.

@@ -68,7 +68,7 @@ class Drives:
         self._noisy = [team for team in self._teams if team.noise is not None]
 
     def limit(self, command: Float, last: Float) -> Float:
-        """Limit commands (2, n), in place, to what the drives can do after the last ones (2, n).
+        """Limit commands (2, n), in place, to those that drives can follow after the last (2, n).
 
         Raises LawError if a drive of the user's fails.
         """

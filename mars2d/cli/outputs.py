@@ -80,7 +80,7 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
 def run_and_save(
     arguments: argparse.Namespace, run: Callable[[], tuple[Record, Film | None]]
 ) -> tuple[Record, list[Mars2dError]]:
-    """Run, and save all requested outputs however the run ends; return what could not be saved.
+    """Run, and save all requested outputs however the run ends; return the failures to save.
 
     run: returns the record, and a function that makes the film unless it is made from the record.
     Ctrl-C ends the run and, once its data are saved, the other outputs. If an error ended the run,

@@ -1,4 +1,4 @@
-"""Runs in a window or without one, and what is printed about them."""
+"""Runs in a window or without one, and the lines printed about them."""
 
 from __future__ import annotations
 

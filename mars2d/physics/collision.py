@@ -206,7 +206,7 @@ class Collisions:
             yield from zip(*(row.tolist() for row in rows), strict=True)
 
     def inwards(self, velocity: Float) -> Float:
-        """Return how fast bodies move into what they touch, at most, (k,) m/s; velocity: (k, 3)."""
+        """Return the highest speeds of bodies into others, (k,) m/s; velocity: (k, 3)."""
         fastest = np.full(len(self._who), -inf)
         touching = self._discs.touching_pairs()
         pairs = [

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mars2d.physics.collision import Bounds, Collisions
 from mars2d.physics.drive_joints import DriveJoints, Driven
-from mars2d.physics.floor_joints import FloorJoints
+from mars2d.physics.floor import FloorJoints
 from mars2d.physics.kernel import CONTACTS, EFFORT, PLACED, Kernel, reason_without
 from mars2d.physics.motion import Motion, Start
 from mars2d.physics.rope_limits import RopeLimits

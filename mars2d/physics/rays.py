@@ -1,4 +1,4 @@
-"""Rays in pymunk's space: many at once by the engine's own function, and what each hits."""
+"""Rays in pymunk's space, many at once by the engine's own function, and their hits."""
 
 from __future__ import annotations
 

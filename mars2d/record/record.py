@@ -266,7 +266,7 @@ class Record:
         return record_html(self)
 
     def _repr_svg_(self) -> str:
-        """Return a picture of the end, for what shows notebooks without scripts."""
+        """Return a picture of the end, for viewers of notebooks without scripts."""
         from mars2d.output.pages.notebook import record_svg
 
         return record_svg(self)

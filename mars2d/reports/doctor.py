@@ -21,7 +21,7 @@ LIBRARIES = (
 
 
 class Extra(NamedTuple):
-    """An extra of the installation: its purpose, what works without it, and what it adds."""
+    """An extra of the installation: its purpose, the features without it and those it adds."""
 
     extra: str
     name: str
@@ -79,7 +79,7 @@ def _display() -> Finding:
 
 
 def _extra(extra: Extra) -> Finding:
-    """Return what an extra's packages offer, or the command that installs them."""
+    """Return the features of an extra's packages, or the command that installs them."""
     found = []
     for package in extra.packages:
         try:

@@ -57,7 +57,7 @@ class Run(Protocol):
 
 @dataclass(frozen=True)
 class Experiment:
-    """A scenario, the law of its team, and what its file says about it.
+    """A scenario, the law of its team, and the other contents of its file.
 
     filename: the file's name, or empty. checks: the function of the record that compares a run with
     theory, or None. summary: the first line of the file's docstring, or empty. path: of the file,

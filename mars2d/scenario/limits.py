@@ -1,4 +1,4 @@
-"""Limits of what contacts and joints can hold: masses, moments, sizes, speeds, stiffness.
+"""The limits of contacts and joints: masses, moments, sizes, speeds, stiffness.
 
 Beyond them bodies would pass through walls, or a run would need so many substeps that it never
 ends.

@@ -7,8 +7,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from mars2d.addons.base import Addon
-from mars2d.addons.communication import Communication
-from mars2d.addons.gilbert_elliott import Burst
+from mars2d.addons.communication import Burst, Communication
 from mars2d.addons.map import Map
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.drives.unicycle import Unicycle

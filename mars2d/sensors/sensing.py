@@ -211,7 +211,7 @@ class Sensing:
             device.hide()
 
     def step(self, iteration: int) -> None:
-        """Call each `on_step`, then read all sensors that are due and show what has arrived."""
+        """Call each `on_step`, then read all sensors that are due and show readings that arrive."""
         for device in self._following:
             device.follow()
         for part in self._parts:

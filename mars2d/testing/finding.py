@@ -1,4 +1,4 @@
-"""Findings: what a check has found about a part, collected as sentences."""
+"""The findings of a check about a part, collected as sentences."""
 
 from __future__ import annotations
 

@@ -311,7 +311,7 @@ def _described(shape: tuple[int, ...], kind: str) -> str:
 
 
 def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> tuple[str, str] | None:
-    """Return (invalid value of a quantity, what is expected), or None if all are valid."""
+    """Return (invalid value of a quantity, expected value), or None if all are valid."""
     of = f"of {quantity.name}" + (f" [{quantity.unit}]" if quantity.unit else "")
     flags = values.dtype == bool
     if quantity.kind == "flag":

@@ -265,7 +265,7 @@ OVER = "whether the experiment is over"
 
 
 def changes(before: dict[str, str], world: World, besides: str = "") -> str:
-    """Return the names of what has changed in a world since `prints`, as text; empty if nothing."""
+    """Return the names of the parts of a world that changed since `prints`, as text."""
     now = prints(world, besides)
     changed = [name for name, contents in before.items() if now.get(name) != contents]
     return OVER if OVER in changed else ", ".join(changed)  # the end changes more than itself

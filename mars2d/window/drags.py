@@ -18,7 +18,7 @@ from mars2d.output.layers.forces import FORCE, bounding_circle, in_newtons
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
-from mars2d.scenario.placement import obstruction
+from mars2d.scenario.changes import obstruction
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.forcemeter import holding_force
 from mars2d.world.world import World
@@ -75,7 +75,7 @@ class Drag(Protocol):
         """Return the pose at which the body is shown, None for its own."""
 
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
-        """Draw what the drag does."""
+        """Draw the effect of the drag."""
 
 
 class Pull:
@@ -163,7 +163,7 @@ class Placement:
         return self._fault
 
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
-        """Draw the former place, the new one, and what is wrong with it."""
+        """Draw the former place, and the new one with its fault."""
         fault = self.fault(frame)
         color = BAD if fault else GOOD
         there = with_pose(frame, self.body, self.now)

@@ -1,4 +1,4 @@
-"""The mouse on the bodies of the picture: what it is over, and what it grabs."""
+"""The mouse on the bodies of the picture: the one under it, and the one that it grabs."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ __all__ = ["Handle", "Mouse", "Pixel"]
 
 Pixel = tuple[int, int]
 Handle = tuple[Callable[[Pixel], bool], Callable[[Pixel], None]]
-"""Whether a press at a pixel grabs the handle, and what a drag to a pixel does."""
+"""Whether a press at a pixel grabs the handle, and the effect of a drag to a pixel."""
 
 BUTTONS = (pygame.BUTTON_LEFT, pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT)
 

@@ -277,7 +277,7 @@ class Window:
         draw_footer(surface, layout, painter, banner, summary(frame), self._hints())
 
     def _hints(self) -> Sequence[tuple[str, str]]:
-        """Return the keys that are useful now, and what they do."""
+        """Return the keys that are useful now, and their effects."""
         go_on, (drive, slowly, *rest) = ("Space", "go on"), HAND_HINTS
         if self._drives:
             return (go_on, drive, *rest) if self.player.paused else (drive, slowly, *rest)

@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.communication import Communication
-from mars2d.addons.gilbert_elliott import Burst
+from mars2d.addons.communication import Burst, Communication
 from mars2d.core.delay import steps_until
 from mars2d.core.errors import LawError, nearest, shown
 from mars2d.record.message import (

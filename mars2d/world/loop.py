@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
@@ -11,7 +12,6 @@ from mars2d.core.interrupt import noted_interrupts
 from mars2d.record.columns import Column, DiskError, Storage
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
-from mars2d.world.pace import RealTime
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:
@@ -26,6 +26,24 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, record: Record) -> None:
         super().__init__("interrupted")
         self.record = record
+
+
+class _RealTime:
+    """Waits until the wall clock has gone on by the simulated time / factor."""
+
+    def __init__(self, factor: float) -> None:
+        """Take the simulated seconds per second, > 0."""
+        self._factor = factor
+        self._start: float | None = None
+
+    def __call__(self, world: World) -> None:
+        """Wait until it is time for the control step of `world`."""
+        now = time.monotonic()
+        if self._start is None:
+            self._start = now - world.time / self._factor
+        delay = self._start + world.time / self._factor - now
+        if delay > 0:
+            time.sleep(delay)
 
 
 def simulate(
@@ -45,7 +63,7 @@ def simulate(
     """
     every: list[Watcher] = [*watchers]
     if speed != "max":
-        every.append(RealTime(float(speed)))
+        every.append(_RealTime(float(speed)))
     world: World | None = None
     try:
         with noted_interrupts() as check, log or nullcontext():

@@ -17,8 +17,7 @@ from mars2d.core.plane import Point
 from mars2d.physics.engine import Engine
 from mars2d.physics.kinematics import Kinematics
 from mars2d.record.interventions import Change, Intervention, Place, Pull, Steer
-from mars2d.scenario.changes import check_same, with_poses
-from mars2d.scenario.placement import obstruction
+from mars2d.scenario.changes import check_same, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.interfaces import Operated
 
@@ -43,7 +42,7 @@ TINY = 1e-12
 
 
 class Operator:
-    """Does to a world what is done from outside, besides the commands of its laws.
+    """Changes a world from outside, besides the commands of its laws.
 
     log: all of it but the commands, in order, as data; see `mars2d.record.interventions`.
     """

@@ -1,4 +1,4 @@
-"""The past of a run: worlds that wait in it, and how a world becomes what it was at a row."""
+"""The past of a run: worlds that wait in it, and the way of a world back to an earlier row."""
 
 from __future__ import annotations
 
@@ -190,7 +190,7 @@ class Past:
                 return
 
     def _follow(self, track: Track, world: World, row: int, deadline: float) -> bool:
-        """Let a world do what was done before, up to a row; return whether it got there in time."""
+        """Repeat a run in a world up to a row; return whether it got there in time."""
         commands = track.world.history.command
         now = perf_counter()
         with _quiet():
@@ -225,7 +225,7 @@ def _row(intervention: Intervention) -> int:
 
 
 def _redo(track: Track, world: World) -> None:
-    """Do to a world what was done at its present row, unless that was done already."""
+    """Repeat the interventions of a world's present row, unless they were repeated already."""
     row, log = world.iteration, world.operator.log
     if log and log[-1].row == row:
         return

@@ -224,7 +224,7 @@ class Simulation(State):
             self._control_step(None)
 
     def _control_step(self, command: Any, *, ask: bool = False) -> Float:
-        """Do what MARS's Algorithm 1 does in one pass of its loop; return what laws ask for."""
+        """Do one pass of the loop of MARS's Algorithm 1; return the commands that laws ask for."""
         self._observe()
         if self.watch is not None:
             self.watch(self._world)
@@ -265,7 +265,7 @@ class Simulation(State):
         return team_command(command, len(self.robots), refuse)
 
     def _saturate(self, command: Float) -> Float:
-        """Limit the commands (2, n) to what each robot's drive can do after the last ones."""
+        """Limit the commands (2, n) to those that each drive can follow after the last ones."""
         return self._drives.limit(command, self.command)
 
     def _write_row(self) -> None:

@@ -172,7 +172,7 @@ class WorldView:
 
     @property
     def surroundings(self) -> Around:
-        """Answers sensors and add-ons: rays, distances, what hides what, beacons."""
+        """Answers sensors and add-ons: rays, distances, lines of sight, beacons."""
         return self._simulation.surroundings
 
     @property
@@ -326,7 +326,7 @@ class TeamPositionsView:
 
     @property
     def addons(self) -> Addons:
-        """The add-ons by name: the law may ask what the experiment has put there."""
+        """The add-ons by name: the law may ask those that the experiment has put there."""
         return self._world.addons
 
     @property

@@ -198,7 +198,7 @@ class RobotView(_Body):
 
     @property
     def drive(self) -> Drive:
-        """Its drive, with the bounds of what it can do."""
+        """Its drive, with its limits."""
         return self._world.scenario.robots[self._index].drive
 
     @property

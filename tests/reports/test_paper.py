@@ -22,12 +22,11 @@ from PIL import Image
 import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli.verbs import paper as verb
-from mars2d.reports.paper.figure import Figure, Run
+from mars2d.reports.paper.figure import Figure, Picture, Result, Run
 from mars2d.reports.paper.figures import FIGURES
 from mars2d.reports.paper.folder import prepare
 from mars2d.reports.paper.make import _setting, make, make_all
 from mars2d.reports.paper.page import MARK, page, typeset
-from mars2d.reports.paper.result import Picture, Result
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction

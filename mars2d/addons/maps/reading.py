@@ -72,7 +72,7 @@ def read(
 
 
 def advice(path: Path) -> str:
-    """Return what to do with a drawing that can't be read, or nothing."""
+    """Return advice on a drawing that can't be read, or nothing."""
     return "; save the drawing as DXF" if path.suffix.lower() == ".dwg" else ""
 
 

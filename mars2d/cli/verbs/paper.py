@@ -9,12 +9,11 @@ from pathlib import Path
 from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.progress import Progress
 from mars2d.core.streams import check_seed
-from mars2d.reports.paper.figure import Figure
+from mars2d.reports.paper.figure import Figure, Result
 from mars2d.reports.paper.figures import FIGURES
 from mars2d.reports.paper.folder import prepare, remove, write_page
 from mars2d.reports.paper.make import make_all
 from mars2d.reports.paper.page import verdict
-from mars2d.reports.paper.result import Result
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

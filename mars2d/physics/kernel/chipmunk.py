@@ -59,7 +59,7 @@ FUNCTIONS = {
     "free_shape": "cpShapeFree",
     "free_joint": "cpConstraintFree",
 }
-"""The engine's functions, by what `Engine` in ``team.h`` calls them."""
+"""The engine's functions, by their names in `Engine` of ``team.h``."""
 
 FIELDS = {
     "arbiter_count": ("struct cpArbiter", "count", "int"),
@@ -68,7 +68,7 @@ FIELDS = {
     "contact_normal": ("struct cpContact", "jnAcc", "double"),
     "contact_tangent": ("struct cpContact", "jtAcc", "double"),
 }
-"""Fields of its structs and their types, by what `Team` in ``team.h`` calls them."""
+"""Fields of its structs and their types, by their names in `Team` of ``team.h``."""
 
 
 def functions(ours: Any) -> Any:
@@ -87,7 +87,7 @@ def offsets() -> dict[str, int]:
 
 
 def changes(ours: Any, engine: Any = ffi, library: Any = lib) -> Iterator[str]:
-    """Yield how the engine differs from what the kernel uses of it.
+    """Yield the differences between the engine and the one that the kernel expects.
 
     ours, engine: the ffi of the kernel and of the engine; library: the latter's functions.
     """

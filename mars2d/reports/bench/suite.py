@@ -2,26 +2,48 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
+from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from mars2d.record.record import Record
-from mars2d.reports.bench import start
 from mars2d.reports.bench.report import Figures, Row
 from mars2d.reports.bench.scenes import SCENES, Scene
 from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
 from mars2d.world.world import World
 
-__all__ = ["FULL", "NAMES", "QUICK", "STEPS", "Effort", "Job", "jobs", "warmed_up"]
+__all__ = [
+    "COMMANDS",
+    "FULL",
+    "NAMES",
+    "QUICK",
+    "STEPS",
+    "Effort",
+    "Job",
+    "jobs",
+    "seconds",
+    "warmed_up",
+    "with_bytecode",
+]
 
 START = "start"
 """The name of the part that times starts."""
 
 NAMES = (*SCENES, START)
 """The parts of the suite."""
+
+COMMANDS: dict[str, Sequence[str]] = {
+    "import mars2d": ("-c", "import mars2d"),
+    "mars2d run random_walk --headless": ("-m", "mars2d", "run", "random_walk", "--headless"),
+}
+"""The starts that are timed, as arguments of Python."""
 
 YARDSTICK = "S2"
 """The scene of the bare loop that all rows are compared with."""
@@ -59,7 +81,7 @@ def jobs(names: Iterable[str]) -> dict[str, Job]:
     found: dict[str, Job] = {}
     for name in names:
         if name == START:
-            found |= {command: partial(_start, command) for command in start.COMMANDS}
+            found |= {command: partial(_start, command) for command in COMMANDS}
         else:
             scene = SCENES[name]()
             for setting in SETTINGS:
@@ -94,11 +116,35 @@ def warmed_up(scene: Scene, max_overlap: float) -> World:
 
 def _start(name: str, effort: Effort) -> Row:
     """Time a command in new processes."""
-    arguments = start.COMMANDS[name]
-    with start.with_bytecode() as environment:
-        start.seconds(arguments, environment)  # compiles the modules, and fills the disk's cache
-        rounds = _rounds(lambda: start.seconds(arguments, environment), effort)
+    arguments = COMMANDS[name]
+    with with_bytecode() as environment:
+        seconds(arguments, environment)  # compiles the modules, and fills the disk's cache
+        rounds = _rounds(lambda: seconds(arguments, environment), effort)
     return Row(name, "from shell to shell", rounds)
+
+
+@contextmanager
+def with_bytecode() -> Iterator[dict[str, str]]:
+    """Yield an environment in which modules are compiled once, as `pip install` compiles them.
+
+    The compiled modules are kept in a temporary folder, not in the folders of packages.
+    """
+    with TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+        yield environment | {"PYTHONPYCACHEPREFIX": folder}
+
+
+def seconds(arguments: Sequence[str], environment: dict[str, str]) -> float:
+    """Return the time that Python takes with these arguments, from its start to its end [s].
+
+    Raises CalledProcessError if it fails.
+    """
+    start = time.perf_counter()
+    subprocess.run(
+        [sys.executable, *arguments],
+        check=True, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+    )  # fmt: skip
+    return time.perf_counter() - start
 
 
 def _rounds(timed: Callable[[], float], effort: Effort) -> tuple[tuple[float, float], ...]:

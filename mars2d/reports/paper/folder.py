@@ -8,9 +8,8 @@ from pathlib import Path
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
-from mars2d.reports.paper.figure import Figure
+from mars2d.reports.paper.figure import Figure, Result
 from mars2d.reports.paper.page import MARK, NUMBERS, page
-from mars2d.reports.paper.result import Result
 
 __all__ = ["PAGE", "prepare", "remove", "write_page"]
 

@@ -16,8 +16,7 @@ from mars2d.core.errors import Mars2dError, described
 from mars2d.core.interrupt import interrupts_blocked
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_drawing
 from mars2d.record.record import Record
-from mars2d.reports.paper.figure import Figure, Run
-from mars2d.reports.paper.result import Picture, Result
+from mars2d.reports.paper.figure import Figure, Picture, Result, Run
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
 from mars2d.study.work import worker_count

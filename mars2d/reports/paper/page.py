@@ -10,8 +10,7 @@ from importlib.resources import files
 from string import Template
 
 from mars2d.core.errors import counted
-from mars2d.reports.paper.figure import Figure
-from mars2d.reports.paper.result import Picture, Result
+from mars2d.reports.paper.figure import Figure, Picture, Result
 from mars2d.scenario.prediction import Prediction, number
 
 __all__ = ["MARK", "NUMBERS", "page", "typeset", "verdict"]

@@ -142,7 +142,7 @@ class News(NamedTuple):
 
 
 class Observer:
-    """Makes the frames for the law of one role, from what it may see of a world.
+    """Makes the frames for the law of one role, from the visible part of a world.
 
     velocities: whether frames include them; they take time to compute.
     """

@@ -363,7 +363,7 @@ def _chart(own: Map | None, outlines: tuple[Outline, ...], walls: tuple[Outline,
 
 @lru_cache(maxsize=4096)
 def flaw(outline: Outline, name: str = "it") -> str | None:
-    """Return what is wrong with an obstacle's outline, in words; None if it is valid."""
+    """Return the fault of an obstacle's outline, in words; None if it is valid."""
     try:
         checks.outline(name, outline)
     except InputError as error:

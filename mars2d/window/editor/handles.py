@@ -1,4 +1,4 @@
-"""The handles of the selection (corners, dots between them, a ring), and what drags of it do."""
+"""The handles of the selection (corners, dots between them, a ring), and their drags."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ class Handling(Tool):
             self.desk.drag(self.gesture, point, shift=shift)
 
     def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """End the drag, and keep what it has made."""
+        """End the drag, and keep its changes."""
         corner = None if self.gesture is None else self.gesture.corner
         self.gesture, self.pressed, self.moved = None, None, False
         self.desk.settle()

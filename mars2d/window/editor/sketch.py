@@ -1,4 +1,4 @@
-"""How a draft is drawn: its frame, what is selected in it, and what is wrong with it."""
+"""The drawing of a draft: its frame, its selected items, and its faulty ones."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def draw_selected(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
 
 
 def draw_culprits(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
-    """Draw in red the items that something is wrong with."""
+    """Draw faulty items in red."""
     for item in items:
         if draft.holds(item):
             _outline(draft, item, scene, RED, 3.0, faded(RED, 0.3))

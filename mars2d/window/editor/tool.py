@@ -1,4 +1,4 @@
-"""The base of the editor's tools, which say what the mouse does."""
+"""The base of the editor's tools, which decide the effect of the mouse."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Tool:
         """Release the button."""
 
     def put(self, x: float, y: float, heading: float | None) -> None:
-        """Do what a click does at a typed point; heading: radians, None if none was typed."""
+        """Act like a click at a typed point; heading: radians, None if none was typed."""
 
     def confirm(self) -> bool:
         """Handle Enter and the right button; return whether there was anything to do."""

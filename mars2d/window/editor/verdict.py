@@ -1,4 +1,4 @@
-"""Whether a draft is a valid scenario; if not, what is wrong, and with which items."""
+"""The verdict on a draft: whether it is a valid scenario; if not, the fault and its items."""
 
 from __future__ import annotations
 
