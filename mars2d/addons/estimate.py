@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
+from mars2d.core.delay import ROUNDING
 from mars2d.core.description import entry, number, text
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
@@ -21,9 +22,6 @@ Float = NDArray[np.float64]
 
 CORNERS = 72
 """The corners of an ellipse that is drawn."""
-
-ROUNDING = 1e-9
-"""The rounding error of a time, in shares of `every`."""
 
 MIN_VARIANCE = 1e-12
 """The smallest variance of an ellipse, m^2: at the start it would be a point."""

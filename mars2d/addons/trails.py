@@ -9,6 +9,7 @@ import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core.checks import names
+from mars2d.core.delay import ROUNDING
 from mars2d.core.description import entry, number
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, color_of, rgb
@@ -26,9 +27,6 @@ MAX_POINTS = 400
 
 STRENGTH = 0.85
 """The opacity of the colour right behind a robot; the trail ends in white."""
-
-ROUNDING = 1e-9
-"""The rounding error of a time, in sampling times."""
 
 
 def _names(name: str, value: object) -> tuple[str, ...] | None:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.bodies.attached_joint import AttachedJoint
 from mars2d.bodies.constraints import (
     Constraint,
     FixedDistance,
@@ -21,6 +20,7 @@ from mars2d.bodies.constraints import (
     SpringDamper,
     TurningSpring,
 )
+from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.plane import TINY
 from mars2d.physics.settings import BENT, SWING, TAUT

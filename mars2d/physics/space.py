@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from pymunk import batch
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.bodies.attached_joint import AttachedJoint
 from mars2d.bodies.constraints import (
     Constraint,
     FixedDistance,
@@ -27,6 +26,7 @@ from mars2d.bodies.constraints import (
     TurningRange,
     TurningSpring,
 )
+from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.physics.rays import BODY, SIGHT, Rays, end_bars

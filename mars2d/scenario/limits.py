@@ -11,7 +11,6 @@ from math import hypot, isfinite
 
 import numpy as np
 
-from mars2d.bodies.attached_joint import AttachedJoint
 from mars2d.bodies.constraints import (
     Constraint,
     FixedDistance,
@@ -21,7 +20,7 @@ from mars2d.bodies.constraints import (
     TurningSpring,
 )
 from mars2d.bodies.drives.base import Drive
-from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.joints.base import AttachedJoint, Joint
 from mars2d.bodies.props.base import MAX_SPEED
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.description import wrong

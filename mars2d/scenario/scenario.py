@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.bodies.attached_joint import AttachedJoint
-from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.joints.base import AttachedJoint, Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks

@@ -16,7 +16,7 @@ import numpy as np
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.streams import check_seed
-from mars2d.study.cells import key_of, value_in
+from mars2d.study.table import key_of, value_in
 
 __all__ = ["MAX_RUNS", "Plan", "parse_all", "parse_values", "seeds_of", "settings_of"]
 

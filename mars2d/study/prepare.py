@@ -19,7 +19,6 @@ from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
 from mars2d.scenario.experiment import Experiment, examples
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description
-from mars2d.study.cells import cells_of
 from mars2d.study.job import (
     CODE_DIGITS,
     Job,
@@ -31,7 +30,7 @@ from mars2d.study.job import (
 )
 from mars2d.study.measures import Measure, contests_of
 from mars2d.study.plan import Plan
-from mars2d.study.table import FIRST, LAST, SEED
+from mars2d.study.table import FIRST, LAST, SEED, cells_of
 
 __all__ = ["Study", "prepared"]
 

@@ -13,11 +13,10 @@ from typing import cast
 from mars2d.core.errors import InputError, Mars2dError, nearest
 from mars2d.core.interrupt import noted_interrupts
 from mars2d.core.progress import Progress
-from mars2d.study.cells import cell, cells_of
 from mars2d.study.job import Job, code_of, opened, run_job
 from mars2d.study.prepare import Study
 from mars2d.study.results import Results, another
-from mars2d.study.table import Result, Table, save_table
+from mars2d.study.table import Result, Table, cell, cells_of, save_table
 from mars2d.study.work import Failure, each_done, worker_count
 
 __all__ = ["CountingBar", "StudyInterrupted", "duration", "run_study"]

@@ -24,9 +24,8 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
 from mars2d.world.channel import Channel
 from mars2d.world.laws import Laws, team_command
-from mars2d.world.live_addons import Addons, Hooks
 from mars2d.world.operator import Operator
-from mars2d.world.state import State, frozen
+from mars2d.world.state import Addons, Hooks, State, frozen
 from mars2d.world.surroundings import Around
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView
 

@@ -1,14 +1,17 @@
-"""The state of a running world: the clock, the bodies, the random streams, and the rows so far."""
+"""The state of a running world: clock, bodies, add-ons, random streams, and the rows so far."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.addons.base import HOOKS, Addon, hooks_of
+from mars2d.core.errors import UnknownNameError, nearest
 from mars2d.core.streams import stream
 from mars2d.core.usercode import called
 from mars2d.physics.engine import Engine
@@ -19,9 +22,8 @@ from mars2d.record.columns import Storage
 from mars2d.record.contact import CONTACT
 from mars2d.record.recorder import History, Recorder
 from mars2d.scenario.scenario import Scenario
-from mars2d.world.live_addons import Addons
 
-__all__ = ["State", "frozen"]
+__all__ = ["Addons", "Hooks", "State", "frozen"]
 
 ENGINES: dict[str, type[Engine | Kinematics]] = {
     "contact": Engine,
@@ -38,6 +40,49 @@ def frozen(array: NDArray[Any]) -> NDArray[Any]:
     view = array.view()
     view.flags.writeable = False
     return view
+
+
+class Addons(SimpleNamespace):
+    """The add-ons of a world by name: ``world.addons.map``."""
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise UnknownNameError(f"this world has no add-on {name!r}{nearest(name, vars(self))}")
+
+    @classmethod
+    def of(
+        cls,
+        described: Sequence[Addon],
+        there: Mapping[str, Addon],
+        stream: Callable[[str], np.random.Generator],
+    ) -> Addons:
+        """Return live copies of a scenario's add-ons.
+
+        there: live add-ons by name that go on. stream: returns a random stream by its name.
+        """
+        return cls(
+            **{
+                addon.key: there.get(addon.key) or addon.live(rng=stream(f"add-on {addon.key}"))
+                for addon in described
+            }
+        )
+
+
+class Hooks:
+    """Calls the hooks that live add-ons define, in the order of the add-ons."""
+
+    def __init__(self, addons: Addons) -> None:
+        self._hooks = {
+            hook: [
+                (key, getattr(a, hook)) for key, a in vars(addons).items() if hook in hooks_of(a)
+            ]
+            for hook in HOOKS
+        }
+
+    def call(self, hook: str, *args: Any) -> None:
+        """Call a hook of all add-ons. Raises LawError, which names the add-on that raised."""
+        for key, method in self._hooks[hook]:
+            with called(f"add-on {key!r}", method):
+                method(*args)
 
 
 class State:

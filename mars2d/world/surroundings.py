@@ -16,8 +16,7 @@ from mars2d.core.usercode import called
 from mars2d.geometry.ray_casting import Fans
 from mars2d.output.layers.bodies import OBSTACLE, prop_colors
 from mars2d.sensors.base import NOTHING
-from mars2d.world.live_addons import Addons
-from mars2d.world.state import State
+from mars2d.world.state import Addons, State
 
 __all__ = ["Around"]
 

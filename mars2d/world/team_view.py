@@ -15,8 +15,8 @@ from mars2d.record.frame import Frame
 from mars2d.record.record import Record
 from mars2d.record.recorder import History
 from mars2d.scenario.scenario import Scenario
-from mars2d.world.live_addons import Addons
 from mars2d.world.simulation import Simulation
+from mars2d.world.state import Addons
 from mars2d.world.surroundings import Around
 from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknown, unseen
 

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mars2d import InputError
-from mars2d.study.cells import cell, value_in
 from mars2d.study.plan import Plan, parse_values, seeds_of, settings_of
+from mars2d.study.table import cell, value_in
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.bodies.attached_joint import AttachedJoint
+from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.props.base import Prop
 from mars2d.core.plane import Point
 from mars2d.core.scene import INK, Scene, faded

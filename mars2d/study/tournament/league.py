@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.core.files import atomic_write
-from mars2d.study.cells import cell, word_cell
 from mars2d.study.statistics import Interval, proportion
+from mars2d.study.table import cell, word_cell
 from mars2d.study.tournament.match import Played
 from mars2d.study.tournament.schedule import Schedule
 
