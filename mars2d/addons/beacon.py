@@ -20,10 +20,6 @@ __all__ = ["Beacon"]
 PATH = "at least two points, as [(x, y), ...] in metres, or None"
 
 
-def _at(name: str, value: object) -> Point | None:
-    return None if value is None else checks.point(name, value)
-
-
 def _path(name: str, value: object) -> Outline | None:
     """Check a path: unlike an obstacle it may cross itself, and end where it starts."""
     if value is None:
@@ -50,7 +46,11 @@ class Beacon(Addon):
     """
 
     at: Point | None = entry(
-        default=None, check=_at, unit="m", kw_only=False, doc="where it stands"
+        default=None,
+        check=checks.optional(checks.point),
+        unit="m",
+        kw_only=False,
+        doc="where it stands",
     )
     path: Outline | None = entry(
         default=None, check=_path, unit="m", doc="the corners of the path that it moves on"

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mars2d.addons.base import Addon
-from mars2d.core.checks import instance
+from mars2d.core.checks import instance, optional
 from mars2d.core.description import Description, entry, flag, number
 from mars2d.core.errors import InputError
 
@@ -72,11 +72,7 @@ class Burst(Description):
         return bool(rng.random() < (self.loss_bad if bad else self.loss_good))
 
 
-_is_burst = instance(Burst, "Burst(to_bad=0.05, to_good=0.25)")
-
-
-def _burst(name: str, value: object) -> object:
-    return None if value is None else _is_burst(name, value)
+_burst = optional(instance(Burst, "Burst(to_bad=0.05, to_good=0.25)"))
 
 
 class Communication(Addon):

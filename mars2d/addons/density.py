@@ -32,10 +32,6 @@ OPACITY = 0.5
 """The opacity of the densest place in pictures."""
 
 
-def _function(name: str, value: object) -> object:
-    return None if value is None else checks.function(name, value, "x [m]", "y [m]")
-
-
 class Density(Addon, Weight):
     """The weight of each place: a function phi(x, y) >= 0, or an image, dark where it is dense.
 
@@ -50,7 +46,10 @@ class Density(Addon, Weight):
     """
 
     function: Callable[[Float, Float], Any] | None = entry(
-        default=None, check=_function, kw_only=False, doc="phi(x, y) >= 0 of arrays [m]"
+        default=None,
+        check=checks.optional(checks.function, "x [m]", "y [m]"),
+        kw_only=False,
+        doc="phi(x, y) >= 0 of arrays [m]",
     )
     image: str | None = entry(default=None, check=image_file, doc="a PNG file, dark where dense")
     bounds: Bounds | None = entry(

@@ -22,10 +22,6 @@ from mars2d.core.scene import color as checked_color
 __all__ = ["Floor"]
 
 
-def _optional(name: str, value: object) -> str | None:
-    return None if value is None else _opaque(name, value)
-
-
 def _opaque(name: str, value: object) -> str:
     """Check a colour that lets nothing through."""
     result = checked_color(name, value)
@@ -74,7 +70,9 @@ class Floor(Addon):
         doc="where the image lies: (xmin, xmax, ymin, ymax)",
     )
     color: str | None = entry(
-        default=None, check=_optional, doc="the colour of the rest; None: what lies beneath"
+        default=None,
+        check=checks.optional(_opaque),
+        doc="the colour of the rest; None: what lies beneath",
     )
 
     def _validate(self) -> None:

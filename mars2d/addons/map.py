@@ -8,17 +8,13 @@ from itertools import pairwise
 from pathlib import Path
 
 from mars2d.addons.base import Addon
-from mars2d.core.checks import outlines, polylines
+from mars2d.core.checks import optional, outlines, polylines
 from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.files import file_beside
 from mars2d.core.plane import Outline
 
 __all__ = ["Map"]
-
-
-def _outlines(name: str, value: object) -> Sequence[Outline] | None:
-    return None if value is None else outlines(name, value)
 
 
 class Map(Addon):
@@ -39,7 +35,7 @@ class Map(Addon):
     """
 
     outlines: Sequence[Outline] = entry(
-        default=None, check=_outlines, unit="m", kw_only=False,
+        default=None, check=optional(outlines), unit="m", kw_only=False,
         doc="the obstacles: two vertices make a wall, more a closed polygon",
     )  # fmt: skip
     walls: Sequence[Outline] = entry(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import keyword
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 from typing import Any
 
@@ -23,6 +23,7 @@ __all__ = [
     "law",
     "listing",
     "names",
+    "optional",
     "outline",
     "outlines",
     "point",
@@ -147,6 +148,15 @@ def _is_point(value: object) -> bool:
     except (TypeError, StopIteration):
         return False
     return isinstance(first, (int, float, np.number))
+
+
+def optional(check: Callable[..., Any], *arguments: Any) -> Check:
+    """Return a check that keeps None, and calls `check(name, value, *arguments)` otherwise."""
+
+    def checked(name: str, value: object) -> Any:
+        return None if value is None else check(name, value, *arguments)
+
+    return checked
 
 
 def instance(kind: type, example: str) -> Check:

@@ -27,13 +27,7 @@ MAX_ACCELERATION = 1e5
 """The highest acceleration of a robot by its drive, m/s^2; more needs ever more substeps."""
 
 
-def _controller(name: str, value: object) -> object:
-    return None if value is None else checks.law(name, value, "the robot")
-
-
-def _optional_shape(name: str, value: object) -> object:
-    example = "Polygon([(-0.2, -0.1), (0.2, 0), (-0.2, 0.1)])"
-    return None if value is None else known_shape(name, value, example)
+_shape = checks.optional(known_shape, "Polygon([(-0.2, -0.1), (0.2, 0), (-0.2, 0.1)])")
 
 
 class Robot(Description):
@@ -56,7 +50,7 @@ class Robot(Description):
         default=DIAMETER, low=1e-3, high=1e3, unit="m", doc="diameter of the chassis, a disc"
     )
     shape: Shape | None = entry(
-        default=None, check=_optional_shape,
+        default=None, check=_shape,
         doc="its chassis if that is no disc, about the geometric centre, x ahead",
     )  # fmt: skip
     mass: float = number(default=1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
@@ -82,7 +76,9 @@ class Robot(Description):
         doc="what it perceives with",
     )
     controller: Callable[[Any], Any] | None = entry(
-        default=None, check=_controller, doc="its own law, a function or generator of the robot"
+        default=None,
+        check=checks.optional(checks.law, "the robot"),
+        doc="its own law, a function or generator of the robot",
     )
     sees: str = choice(
         default="full", of=("full", "partial", "positions", "sensors"),

@@ -63,10 +63,6 @@ def _robots(name: str, value: object) -> object:
     return robots
 
 
-def _workspace(name: str, value: object) -> Outline | None:
-    return None if value is None else checks.outline(name, value, least=3)
-
-
 class Scenario(Description):
     """Everything about an experiment except its laws: frozen, validated, in SI units.
 
@@ -91,7 +87,8 @@ class Scenario(Description):
     )  # fmt: skip
     workspace: Outline | None = entry(
         default=((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)),
-        check=_workspace, unit="m", doc="the polygon in which the robots move; None: no limits",
+        check=checks.optional(checks.outline, 3), unit="m",
+        doc="the polygon in which the robots move; None: no limits",
     )  # fmt: skip
     on_exit: str = choice(
         default="stop", of=("stop", "wall", "ignore"),

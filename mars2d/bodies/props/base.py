@@ -29,14 +29,6 @@ def _velocity(name: str, value: Any) -> tuple[float, float, float]:
     return vx, vy, omega
 
 
-def _friction(name: str, value: Any) -> float | None:
-    return None if value is None else surface_friction(name, value)
-
-
-def _restitution(name: str, value: Any) -> float | None:
-    return None if value is None else surface_restitution(name, value)
-
-
 class Prop(Description):
     """The base of all props: bodies without a drive.
 
@@ -67,11 +59,11 @@ class Prop(Description):
         default=0.1, above=0, high=1e3, unit="m", doc="how high it is, for the mass by material"
     )
     friction: float | None = entry(
-        default=None, check=_friction,
+        default=None, check=checks.optional(surface_friction),
         doc="of its sides, a number or a material's name; None: the material's, or 0.5",
     )  # fmt: skip
     restitution: float | None = entry(
-        default=None, check=_restitution,
+        default=None, check=checks.optional(surface_restitution),
         doc="of its sides, a number or a material's name; None: the material's, or 0",
     )  # fmt: skip
     ground_friction: float = number(
