@@ -1,4 +1,4 @@
-"""Arguments that several verbs share: `add_...` adds them, `..._of` returns what they ask for."""
+"""Arguments that several verbs share: `add_...` adds them, `..._of` returns their values."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ InputError."""
 
 
 def wrong(name: str, value: object, expected: str) -> InputError:
-    """Return the error for a field `name` that was given `value` instead of what was expected."""
+    """Return the error for a field `name` that was given `value`, which is not as expected."""
     return InputError(f"{name} = {shown(value)}: expected {expected}")
 
 

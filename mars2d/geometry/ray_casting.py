@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.plane import Outline, Point, edges_of
 
-__all__ = ["Fans"]
+__all__ = ["CORNER", "Fans"]
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]

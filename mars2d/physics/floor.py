@@ -196,7 +196,7 @@ class FloorJoints:
         return velocity, np.where(slipping, 0.0, braking)
 
     def aim(self, state: Float, slipping: Mask, who: Index, h: float) -> None:
-        """Set the velocities of props, and what the floor may use, for a substep of h seconds.
+        """Set the velocities of props, and the floor's limits, for a substep of h seconds.
 
         A gliding prop gets its velocity at the end, so that the solver has the right one for an
         impact. With that it would not go far enough, so it is put ahead by the difference.

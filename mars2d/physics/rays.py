@@ -15,8 +15,9 @@ from pymunk import batch
 from pymunk._chipmunk_cffi import ffi, lib
 
 from mars2d.core.plane import Point
+from mars2d.geometry.ray_casting import CORNER
 
-__all__ = ["BODY", "SIGHT", "Rays", "end_bars"]
+__all__ = ["BODY", "POSE", "SIGHT", "Rays", "end_bars"]
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
@@ -25,7 +26,7 @@ Addresses = NDArray[np.uintp]
 _HIT = np.dtype([("shape", np.uintp), ("point", float, 2), ("normal", float, 2), ("alpha", float)])
 """The engine's answer to one ray."""
 
-_POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
+POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 
 _ALL = 0xFFFFFFFF
 
@@ -40,9 +41,6 @@ BAR = 1e-9
 
 GRAZING = 1e-7
 """A ray at a smaller angle to an edge is checked again, rad: rounding decides where it hits."""
-
-CORNER = 1e-13
-"""A ray that is aimed at a corner passes it at this distance by rounding, per metre and one."""
 
 AT_THE_END = 1e-9
 """A surface as near to the end of a ray does not hide the end, metres."""
@@ -167,7 +165,7 @@ class Rays:
         """
         buffer = self._pose_buffer
         buffer.clear()
-        batch.get_space_bodies(self._public, _POSE, buffer)
+        batch.get_space_bodies(self._public, POSE, buffer)
         pose = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, 3)
         at_x, at_y, angle = pose[self._corner_body].T
         turn_c, turn_s = np.cos(angle), np.sin(angle)

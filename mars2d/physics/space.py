@@ -29,7 +29,7 @@ from mars2d.bodies.constraints import (
 from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.plane import Outline, Point, edges_of
-from mars2d.physics.rays import BODY, SIGHT, Rays, end_bars
+from mars2d.physics.rays import BODY, POSE, SIGHT, Rays, end_bars
 from mars2d.physics.settings import JOINT_BIAS, TAUT
 from mars2d.record.contact import Solved
 from mars2d.scenario.scenario import Scenario
@@ -46,7 +46,6 @@ _STATE = (
     | batch.BodyFields.VELOCITY
     | batch.BodyFields.ANGULAR_VELOCITY
 )
-_POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 _VELOCITY = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
 _ARBITER = (
     batch.ArbiterFields.BODY_A_ID
@@ -271,7 +270,7 @@ class Space:
         everything = np.zeros((len(self.velocity), 3))
         everything[: len(pose)] = pose
         self._pose_buffer.set_float_buf(everything)
-        batch.set_space_bodies(self._space, _POSE, self._pose_buffer)
+        batch.set_space_bodies(self._space, POSE, self._pose_buffer)
         for body in self._bodies:
             self._space.reindex_shapes_for_body(body)
 

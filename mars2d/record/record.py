@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
-__all__ = ["COLUMNS", "Record", "load"]
+__all__ = ["COLUMNS", "Record", "frozen", "load"]
 
 Float = NDArray[np.float64]
 
@@ -82,8 +82,8 @@ class Record:
 
     def __post_init__(self) -> None:
         for name in (*COLUMNS, "contacts", "messages"):
-            object.__setattr__(self, name, _unwritable(getattr(self, name)))
-        sensors = {name: _unwritable(values) for name, values in self.sensors.items()}
+            object.__setattr__(self, name, frozen(getattr(self, name)))
+        sensors = {name: frozen(values) for name, values in self.sensors.items()}
         object.__setattr__(self, "sensors", sensors)
 
     def __len__(self) -> int:
@@ -308,8 +308,8 @@ def load(path: str | Path, largest: float = LOAD_LIMIT) -> Record:
     return formats.load(path, largest)
 
 
-def _unwritable(array: NDArray[Any]) -> NDArray[Any]:
-    """Return a view that can't be written, so that the digest stays true."""
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
+    """Return a view of an array that can't be written."""
     view = array.view()
     view.flags.writeable = False
     return view

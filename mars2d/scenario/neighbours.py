@@ -392,7 +392,7 @@ WRITTEN = {
 
 
 def neighbourhood(name: str, value: object) -> Neighbourhood:
-    """Check a rule of who is whose neighbour; of what is nearly one, say how it is written."""
+    """Check a rule of neighbours; for a value that is nearly one, say how it is written."""
     if isinstance(value, Neighbourhood):
         return value
     if isinstance(value, type) and issubclass(value, Neighbourhood):

@@ -80,7 +80,7 @@ class Surroundings(Protocol):
 
     @property
     def addons(self) -> Any:
-        """The add-ons, as attributes by their names: what the experiment itself adds to measure."""
+        """The add-ons, as attributes by their names: an experiment may add things to measure."""
 
     @property
     def beacons(self) -> Mapping[str, Point]:

@@ -15,9 +15,10 @@ from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
 from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
 
-__all__ = ["Bumper"]
+__all__ = ["LIT", "Bumper"]
 
 LIT = "#d55e00"
+"""The colour of a set flag."""
 
 
 class Bumper(Sensor):

@@ -96,7 +96,7 @@ def _compared(versions: dict[str, Any]) -> dict[str, str | None]:
 
 @contextmanager
 def _without_log() -> Iterator[None]:
-    """Keep Dask's log off the terminal: what matters is raised."""
+    """Keep Dask's log off the terminal: errors that matter are raised."""
     loggers = [logging.getLogger(name) for name in LOGGERS]
     before = [logger.level for logger in loggers]
     for logger in loggers:

@@ -17,6 +17,7 @@ from mars2d.core.scene import Scene
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.testing.common import (
+    KEEP,
     check_fields,
     check_finite,
     check_methods,
@@ -48,8 +49,6 @@ METHODS = {
     "theory": ("scene", "frame"),
 }
 """The methods that an add-on can define, with their arguments."""
-
-KEEP = "Keep such things in attributes of self, set in on_start"
 
 
 def check_addon(

@@ -31,6 +31,7 @@ from mars2d.testing.trial import (
 from mars2d.world.world import World
 
 __all__ = [
+    "KEEP",
     "check_fields",
     "check_finite",
     "check_methods",
@@ -45,6 +46,9 @@ __all__ = [
 Part = TypeVar("Part", bound=Description)
 
 ControlLaw = Callable[[Any], Any]
+
+KEEP = "Keep such things in attributes of self, set in on_start"
+"""Advice on things that a part with an `on_start` keeps elsewhere."""
 
 SHARES = "worlds and robots that run in one process would disturb each other"
 

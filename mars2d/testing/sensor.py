@@ -19,6 +19,7 @@ from mars2d.core.scene import Scene
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Quantity, Sensor
 from mars2d.testing.common import (
+    KEEP,
     check_fields,
     check_finite,
     check_methods,
@@ -43,8 +44,6 @@ METHODS = {
     "draw": ("scene", "pose", "reading", "color"),
 }
 """The methods that a sensor can define, with their arguments."""
-
-KEEP = "Keep such things in attributes of self, set in on_start"
 
 
 def check_sensor(sensor: Sensor, *, scenario: Scenario | None = None) -> None:

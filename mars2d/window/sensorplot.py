@@ -18,6 +18,7 @@ from mars2d.output.raster.strokes import hairlines
 from mars2d.output.raster.theme import mixed
 from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
+from mars2d.sensors.bumper import LIT
 from mars2d.window.forcemeter import span_of
 
 __all__ = ["SensorPlot", "plot_of"]
@@ -33,9 +34,6 @@ MAX_LINES = 6
 
 NAME, VALUE = 46.0, 84.0
 """The room for the name and the value beside a line, points."""
-
-LIT = "#d55e00"
-"""The colour of a set flag, the same as in drawings of sensors."""
 
 
 class SensorPlot(NamedTuple):

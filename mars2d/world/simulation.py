@@ -19,13 +19,13 @@ from mars2d.core.plane import outside_polygon
 from mars2d.core.scene import Scene
 from mars2d.physics.motion import Start
 from mars2d.record.columns import DiskError, Storage
-from mars2d.record.record import Record
+from mars2d.record.record import Record, frozen
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
 from mars2d.world.channel import Channel
 from mars2d.world.laws import Laws, team_command
 from mars2d.world.operator import Operator
-from mars2d.world.state import Addons, Hooks, State, frozen
+from mars2d.world.state import Addons, Hooks, State
 from mars2d.world.surroundings import Around
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView
 

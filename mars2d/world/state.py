@@ -20,10 +20,11 @@ from mars2d.physics.motion import Start
 from mars2d.physics.settings import versions
 from mars2d.record.columns import Storage
 from mars2d.record.contact import CONTACT
+from mars2d.record.record import frozen
 from mars2d.record.recorder import History, Recorder
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Addons", "Hooks", "State", "frozen"]
+__all__ = ["Addons", "Hooks", "State"]
 
 ENGINES: dict[str, type[Engine | Kinematics]] = {
     "contact": Engine,
@@ -33,13 +34,6 @@ ENGINES: dict[str, type[Engine | Kinematics]] = {
 """The class that moves the bodies, by Scenario.physics."""
 
 Float = NDArray[np.float64]
-
-
-def frozen(array: NDArray[Any]) -> NDArray[Any]:
-    """Return a view that can't be written."""
-    view = array.view()
-    view.flags.writeable = False
-    return view
 
 
 class Addons(SimpleNamespace):

@@ -27,7 +27,7 @@ class Outcome:
 
 
 class Dialogs:
-    """Asks what is to become of a draft, and does it.
+    """Asks whether to save, run or apply a draft, and does it.
 
     before: the scenario that was opened. live: whether a paused run is edited. complete: finishes
     the outline that is being drawn. prompt: the open question. done: whether the editor is left.
