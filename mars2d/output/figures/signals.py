@@ -25,10 +25,10 @@ from mars2d.output.figures.panels import (
     panels,
     say,
     set_span,
+    spans,
     width_of,
 )
 from mars2d.output.figures.style import Style, style_of
-from mars2d.output.figures.thinning import spans
 from mars2d.record.interventions import Change, Place
 
 if TYPE_CHECKING:
