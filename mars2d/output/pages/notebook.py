@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 
 __all__ = ["record_html", "record_svg", "scenario_svg", "world_svg"]
 
-HEIGHT = 480
+REPLAY_HEIGHT = 480
 """Of a replay, pixels."""
 
-LARGEST = 4_000_000
+MAX_CHARACTERS = 4_000_000
 """The characters of a replay from which a notebook shows only the picture of its end."""
 
 
@@ -106,13 +106,13 @@ def record_html(record: Record) -> str:
         replay = page(record)
     except Exception as error:  # of parts of the user's that are drawn
         return f"{image}<p>There is no replay: {text_of(described(error))}</p>"
-    if len(replay) > LARGEST:
+    if len(replay) > MAX_CHARACTERS:
         return (
             f"{image}<p>The replay is too large for a notebook, {len(replay) / 1e6:.1f} MB: "
             '<code>record.save_html("replay.html")</code> writes it to a file.</p>'
         )
     return (
-        f'<div style="position:relative;height:{HEIGHT}px;overflow:hidden">{image}'
+        f'<div style="position:relative;height:{REPLAY_HEIGHT}px;overflow:hidden">{image}'
         f'<iframe title="{title}" sandbox="allow-scripts" srcdoc="{text_of(replay)}" '
         'style="position:absolute;left:0;top:0;width:100%;height:100%;border:0"></iframe></div>'
     )

@@ -36,13 +36,13 @@ ScaledScene = tuple[Scene, float]
 TOLERANCE = 0.3
 """The pixels by which a line with fewer corners may lie beside the line it is drawn for."""
 
-FAR = 1e6  # pixels: what lies farther out is drawn there
+MAX_PIXEL = 1e6  # pixels: what lies farther out is drawn there
 
 TEXT_GAP = 4.0  # between a label and what it names, points
 LINE_HEIGHT = 1.25  # of text, in its size
-RISE = 0.36  # from the middle of a line of text down to its base line, in its size
-HALO = 2.5  # the width of the rim round letters, points
-EDGE = 0.8  # the width of the edge round an arrow, in widths of its shaft
+TEXT_RISE = 0.36  # from the middle of a line of text down to its base line, in its size
+HALO_WIDTH = 2.5  # the width of the rim round letters, points
+ARROW_EDGE = 0.8  # the width of the edge round an arrow, in widths of its shaft
 
 MARK_SPACING = 9.0  # points along a path from one mark to the next
 DASHES = {"--": (9.0, 6.0), "-.": (9.0, 5.0, 2.0, 5.0), ":": (2.0, 4.5)}
@@ -113,7 +113,7 @@ class _Pen:
     def _pixels(self, points: Float) -> Float:
         """Return the pixels (k, 2) of points (k, 2), metres; y points down."""
         pixels = (points - self._corner) * (self.ppm, -self.ppm)
-        return np.asarray(np.clip(pixels, -FAR, FAR))
+        return np.asarray(np.clip(pixels, -MAX_PIXEL, MAX_PIXEL))
 
     def _place(self, point: tuple[float, float]) -> tuple[float, float] | None:
         """Return the pixel of a point, or None if it is nowhere."""
@@ -123,7 +123,7 @@ class _Pen:
     def _circle(self, shape: Circle, scale: float) -> Iterator[str]:
         place = self._place(shape.center)
         radius = self.ppm * shape.radius + shape.pixels * scale
-        if place and 0 < radius <= FAR and (shape.fill or shape.stroke):
+        if place and 0 < radius <= MAX_PIXEL and (shape.fill or shape.stroke):
             ink = _ink(shape.fill, shape.stroke, shape.width * scale)
             x, y = map(_number, place)
             yield f'<circle cx="{x}" cy="{y}" r="{_number(radius)}"{ink}/>'
@@ -157,7 +157,7 @@ class _Pen:
         tail, tip = self._place(shape.tail), self._place(shape.tip)
         if tail and tip and tail != tip:
             width = shape.width * scale
-            ink = _ink(shape.fill, shape.stroke, EDGE * width)
+            ink = _ink(shape.fill, shape.stroke, ARROW_EDGE * width)
             path = _path(arrow_outline(tail, tip, width))
             yield f'<path d="{path}Z"{ink} stroke-linejoin="round" paint-order="stroke"/>'
 
@@ -169,10 +169,10 @@ class _Pen:
         dx, dy = SHIFTS.get(shape.anchor, (0, 0))
         lines = shape.text.split("\n")
         # The base line of the first one.
-        middle = place[1] + RISE * size - dy * TEXT_GAP * scale
+        middle = place[1] + TEXT_RISE * size - dy * TEXT_GAP * scale
         middle -= (1 + dy) / 2 * (len(lines) - 1) * LINE_HEIGHT * size + dy * size / 2
         anchor = {0: "middle", -1: "end"}.get(dx)
-        ink = _ink(shape.color, shape.halo, HALO * scale)
+        ink = _ink(shape.color, shape.halo, HALO_WIDTH * scale)
         if shape.halo:
             ink += ' stroke-linejoin="round" paint-order="stroke"'
         if anchor:

@@ -19,14 +19,14 @@ __all__ = ["Banner", "Status", "draw_footer", "draw_header", "footer_height"]
 
 Kind = Literal["running", "waiting", "past", "hand", "error"]
 
-LINE, CODE_LINE = 23.0, 20.0
+LINE_HEIGHT, CODE_LINE_HEIGHT = 23.0, 20.0
 """The heights of a banner's lines, points."""
-BANNER_LINES = 8
-CODE_LINES = 5
-LARGEST_BANNER = 0.5
+MAX_BANNER_LINES = 8
+MAX_CODE_LINES = 5
+MAX_BANNER_SHARE = 0.5
 """Of the surface's height: longer text is cut, and code about the line it is about left out."""
 SEPARATOR = " · "
-SHORTEST_TITLE = 110.0
+MIN_TITLE_WIDTH = 110.0
 """Points; where a title gets less, something else in the header goes first."""
 
 
@@ -79,7 +79,7 @@ def draw_header(
     longest = "0" * len(str(frame.scenario.last_iteration))
     step = _Figure("step", str(frame.iteration), longest)
     title_width = fonts.width(frame.scenario.title, 20 * ui, bold=True)
-    needed = time.width(painter, ui) + min(SHORTEST_TITLE * ui, title_width) + 2 * gap + pad
+    needed = time.width(painter, ui) + min(MIN_TITLE_WIDTH * ui, title_width) + 2 * gap + pad
     if right - step.width(painter, ui) >= needed:
         right = step.draw(surface, painter, right, bar, ui) - gap
     right = time.draw(surface, painter, right, bar, ui)
@@ -209,16 +209,16 @@ def footer_height(
         return FOOTER
     ui = interface_scale(size, text, scale)
     lines, hint_below = _banner_lines(banner, size, painter, ui)
-    height = FOOTER + LINE * (len(lines) - 1) + (LINE if hint_below else 0.0)
+    height = FOOTER + LINE_HEIGHT * (len(lines) - 1) + (LINE_HEIGHT if hint_below else 0.0)
     if banner.excerpt is not None:
-        room = LARGEST_BANNER * size[1] / ui - height
-        wanted = min(CODE_LINES, len(banner.excerpt.lines))
-        height += _code_height(min(wanted, int((room - 20) / CODE_LINE)))
+        room = MAX_BANNER_SHARE * size[1] / ui - height
+        wanted = min(MAX_CODE_LINES, len(banner.excerpt.lines))
+        height += _code_height(min(wanted, int((room - 20) / CODE_LINE_HEIGHT)))
     return height
 
 
 def _code_height(lines: int) -> float:
-    return CODE_LINE * lines + 20 if lines > 0 else 0.0
+    return CODE_LINE_HEIGHT * lines + 20 if lines > 0 else 0.0
 
 
 def _banner_lines(
@@ -229,8 +229,10 @@ def _banner_lines(
     below = hint > 0.4 * size[0]
     room = size[0] - 40 * ui - (0 if below else hint)
     code = 0.0 if banner.excerpt is None else _code_height(1)
-    fits = int((LARGEST_BANNER * size[1] / ui - (FOOTER - LINE) - code) / LINE) - below
-    most = min(max(fits, 1), BANNER_LINES)
+    fits = (
+        int((MAX_BANNER_SHARE * size[1] / ui - (FOOTER - LINE_HEIGHT) - code) / LINE_HEIGHT) - below
+    )
+    most = min(max(fits, 1), MAX_BANNER_LINES)
     return painter.fonts.wrap(banner.text, 18 * ui, room, most, bold=True), below
 
 
@@ -241,9 +243,13 @@ def _draw_banner(
     surface.fill(theme.failed if banner.error else theme.over, bar)
     lines, hint_below = _banner_lines(banner, surface.get_size(), painter, ui)
     rows = len(lines) + hint_below
-    step = LINE * ui
-    room = bar.height - (FOOTER + LINE * (rows - 1)) * ui
-    code = 0 if banner.excerpt is None else max(0, int((room - 20 * ui) / (CODE_LINE * ui) + 0.01))
+    step = LINE_HEIGHT * ui
+    room = bar.height - (FOOTER + LINE_HEIGHT * (rows - 1)) * ui
+    code = (
+        0
+        if banner.excerpt is None
+        else max(0, int((room - 20 * ui) / (CODE_LINE_HEIGHT * ui) + 0.01))
+    )
     text = pygame.Rect(bar.left, bar.top, bar.width, bar.height - round(_code_height(code) * ui))
     y = text.centery - step * (rows - 1) / 2
     for line in lines:
@@ -271,8 +277,8 @@ def _draw_code(
     digits = fonts.width("0" * len(str(excerpt.first + len(excerpt.lines))), size, mono=True)
     left = place.left + pad + fonts.width("▸ ", size, mono=True) + digits
     for k, line in enumerate(excerpt.lines):
-        row = pygame.Rect(place.left, 0, place.width, round(CODE_LINE * ui))
-        row.top = round(place.top + 4 * ui + k * CODE_LINE * ui)
+        row = pygame.Rect(place.left, 0, place.width, round(CODE_LINE_HEIGHT * ui))
+        row.top = round(place.top + 4 * ui + k * CODE_LINE_HEIGHT * ui)
         number, here = excerpt.first + k, excerpt.first + k == excerpt.line
         if here:
             painter.panel(surface, row.inflate(-round(6 * ui), 0), "#ffffff30", 4 * ui)

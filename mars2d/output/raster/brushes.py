@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mars2d.output.raster.strokes import clip_lines, hairlines
 
 __all__ = [
-    "LARGE",
+    "LARGE_AREA",
     "Draw",
     "Rgba",
     "box_round",
@@ -44,7 +44,7 @@ Float = NDArray[np.float64]
 Rgba = tuple[int, int, int, int]
 Draw = Callable[[pygame.Surface, float, float, float, Rgba], None]
 """Draws on a surface `factor` times too large, whose corner lies at (left, top)."""
-LARGE = 40_000
+LARGE_AREA = 40_000
 """Shapes of a larger area, pixels, are drawn at their size where that may be."""
 
 
@@ -61,14 +61,14 @@ def box_round(x: float, y: float, reach: float) -> pygame.Rect:
     return pygame.Rect(left, top, ceil(x + reach + 1) - left, ceil(y + reach + 1) - top)
 
 
-FAR = 1e8
+MAX_PIXEL = 1e8
 
 
 def extent_of(points: Float, margin: float) -> pygame.Rect:
     """Return the rectangle of whole pixels that holds points (k, 2) and a margin."""
     low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
-    left, top = (floor(max(x - margin, -FAR)) for x in low)
-    right, bottom = (ceil(min(x + margin, FAR)) for x in high)
+    left, top = (floor(max(x - margin, -MAX_PIXEL)) for x in low)
+    right, bottom = (ceil(min(x + margin, MAX_PIXEL)) for x in high)
     return pygame.Rect(left, top, right - left, bottom - top)
 
 
@@ -187,7 +187,7 @@ def stroke(surface: pygame.Surface, color: Rgba, pieces: list[Float], width: flo
     pieces = [part for piece in pieces for part in clip_lines(piece, box) if len(part)]
     if pieces:
         extent = extent_of(np.vstack(pieces), width / 2 + 1)
-        large = extent.width * extent.height > LARGE
+        large = extent.width * extent.height > LARGE_AREA
         draw = drawn_finely(pieces, width) if large else stroked(pieces, width)
         cover(surface, color, extent, draw, factor=1 if large else 0)
 

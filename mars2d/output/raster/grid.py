@@ -18,7 +18,7 @@ __all__ = ["draw_grid", "label", "labels", "spacing", "ticks"]
 Bounds = tuple[float, float, float, float]
 Float = NDArray[np.float64]
 
-LEAST_SPACING = 42
+MIN_SPACING = 42
 """Points between grid lines, at least."""
 
 
@@ -55,7 +55,7 @@ def draw_grid(
     if shown is None:
         return
     left, top, right, bottom = shown
-    step = spacing(camera.scale, LEAST_SPACING * ui)
+    step = spacing(camera.scale, MIN_SPACING * ui)
     xmin, xmax, ymin, ymax = _metres(camera, *shown)
     for x in ticks(xmin, xmax, step).tolist():
         px = round(camera.x + camera.scale * x)
@@ -75,7 +75,7 @@ def labels(
     They stand along the left and lower side of `bounds`, or of what is visible of it in `clip`.
     """
     size, gap = 12 * ui, round(7 * ui)
-    step = spacing(camera.scale, LEAST_SPACING * ui)
+    step = spacing(camera.scale, MIN_SPACING * ui)
     shown = _visible(clip, camera, bounds)
     if shown is None:
         return []

@@ -16,9 +16,9 @@ TEXT_SIZES = (1.0, 1.3, 1.7, 2.2)
 HEADER, FOOTER, STRIP = 52.0, 44.0, 44.0
 """The heights of header, footer and the strip with the time bar, points. A banner of one line is as
 high as the footer, in whose place it is."""
-NARROWEST = 400.0
+MIN_WIDTH = 400.0
 """The least width of a surface, points: larger text would leave too little for the picture."""
-BARS = 0.45
+MAX_BARS_SHARE = 0.45
 """All bars together are at most such a share of the height, for the same reason."""
 
 
@@ -84,7 +84,7 @@ def interface_scale(size: tuple[int, int], text: float = 1.0, scale: float = 1.0
     """
     width, height = size[0] / scale, size[1] / scale
     own = max(0.9, float(min(width / 1280, height / 720) ** 0.8))
-    most = min(width / NARROWEST, BARS * height / (HEADER + STRIP + FOOTER))
+    most = min(width / MIN_WIDTH, MAX_BARS_SHARE * height / (HEADER + STRIP + FOOTER))
     return scale * max(own, min(own * text, most))
 
 

@@ -17,13 +17,13 @@ from mars2d.scenario.scenario import Scenario
 
 __all__ = ["draw_legends"]
 
-LONGEST = 72.0
+MAX_ARROW = 72.0
 """Of an arrow, points; it stands for 1, 2, 5, 10 ... newtons or metres a second."""
 
-SMALLEST = 300.0
+MIN_HEIGHT = 300.0
 """The height of a picture with a legend, points, at least."""
 
-GAP, PAD, ROW, SIZE = 8.0, 10.0, 24.0, 13.0
+GAP, PAD, ROW_HEIGHT, TEXT_SIZE = 8.0, 10.0, 24.0, 13.0
 """Round a plate, and within it; the heights of a row and of letters, points."""
 
 
@@ -55,7 +55,7 @@ def draw_legends(
     velocities: bool,
 ) -> None:
     """Draw the legends that are wanted side by side, where the picture has room for them."""
-    if plot.height < SMALLEST * painter.ui or plot.width < 2 * SMALLEST * painter.ui:
+    if plot.height < MIN_HEIGHT * painter.ui or plot.width < 2 * MIN_HEIGHT * painter.ui:
         return
     corner = plot.bottomleft
     if forces:
@@ -75,9 +75,9 @@ def _draw(
 ) -> pygame.Rect:
     """Draw a legend on a plate to the upper right of a corner; return the plate."""
     ui, theme, fonts = painter.ui, painter.theme, painter.fonts
-    number = round_force(LONGEST * ui / legend.unit)
+    number = round_force(MAX_ARROW * ui / legend.unit)
     length = number * legend.unit
-    size, pad, row, gap = SIZE * ui, PAD * ui, ROW * ui, GAP * ui
+    size, pad, row, gap = TEXT_SIZE * ui, PAD * ui, ROW_HEIGHT * ui, GAP * ui
     words = (legend.in_words(number), legend.meaning)
     column = max(length, legend.room * ui)
     width = pad + column + gap + max(fonts.width(word, size) for word in words) + pad

@@ -47,22 +47,22 @@ Layer = tuple[Rgba, Draw, int]
 """One colour of a sprite; the number tells how many times larger to draw it, 0 leaves it open."""
 
 PHASES = 4
-BROAD = 20.0
+BROAD_RADIUS = 20.0
 """The radius in pixels from which a ring is drawn of hair lines."""
-LARGEST_SPRITE = 160.0
-FAR = 10_000.0
+MAX_SPRITE_SIDE = 160.0
+MAX_UNCUT = 10_000.0
 """The pixels up to which a hair line need not be cut before it is drawn."""
-EDGE = 0.4
+ARROW_EDGE = 0.4
 """The width of the edge round an arrow, in widths of its shaft."""
-SMALL = 10_000
+SMALL_AREA = 10_000
 """The area in pixels up to which fill and edge of a polygon are drawn at once."""
-FAINT = 96
+FAINT_OPACITY = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
-WIDE = 2_500
+LARGE_AREA = 2_500
 """The area, pixels, from which a fill counts as large."""
-UNSEEN = 0.3
+EDGE_TOLERANCE = 0.3
 """The pixels by which such an edge may be drawn beside where it is."""
-KEPT_LABELS = 2000
+MAX_LABELS = 2000
 """The number of texts with halos that are kept."""
 
 
@@ -171,7 +171,7 @@ class Painter:
             return
         radius = round(8 * radius) / 8
         fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
-        if reach > LARGEST_SPRITE:
+        if reach > MAX_SPRITE_SIDE:
             self._large_circle(surface, brushes.ring(x, y, radius), fill, stroke, width)
             return
         px, fx = _phase(x)
@@ -218,7 +218,7 @@ class Painter:
     ) -> bool:
         """Draw fill and edge at once, which is quicker, if they are small and opaque."""
         box = brushes.extent_of(points, width / 2 + 1)
-        if fill[3] < 255 or stroke[3] < 255 or box.width * box.height > SMALL:
+        if fill[3] < 255 or stroke[3] < 255 or box.width * box.height > SMALL_AREA:
             return False
         brushes.cover(surface, stroke, box, brushes.outlined(points, fill, width), factor=4)
         return True
@@ -228,7 +228,7 @@ class Painter:
         if len(visible) < 3:
             return
         box = brushes.extent_of(visible, 1.0)
-        if color[3] < FAINT and box.width * box.height > WIDE:
+        if color[3] < FAINT_OPACITY and box.width * box.height > LARGE_AREA:
             self._area(surface, visible, color, box.clip(surface.get_clip()))
         else:
             brushes.cover(surface, color, box, brushes.filled(visible))
@@ -244,7 +244,7 @@ class Painter:
         if len(self._memory) < size:
             self._memory = memoryview(bytearray(size))
         area = pygame.image.frombuffer(self._memory[:size], box.size, "BGRA")
-        brushes.draw_on(area, color, box, brushes.filled(simplified(points, UNSEEN)))
+        brushes.draw_on(area, color, box, brushes.filled(simplified(points, EDGE_TOLERANCE)))
         surface.blit(area, box.topleft)
 
     # -- lines --------------------------------------------------------------------------------
@@ -279,12 +279,17 @@ class Painter:
             width = min(width, max(1.0, (abs(dx) + abs(dy)) / 3.5))
         width = round(8 * width) / 8
         color = rgba(self._shade(shape.stroke))
-        if width <= 1.0 and -FAR < x < FAR and -FAR < y < FAR and abs(dx) + abs(dy) < FAR:
+        if (
+            width <= 1.0
+            and -MAX_UNCUT < x < MAX_UNCUT
+            and -MAX_UNCUT < y < MAX_UNCUT
+            and abs(dx) + abs(dy) < MAX_UNCUT
+        ):
             if width < 1.0:
                 color = (*color[:3], round(width * color[3]))  # thinner is fainter
             brushes.hairline(surface, color, x, y, x + dx, y + dy)
             return
-        if max(abs(dx), abs(dy)) > LARGEST_SPRITE / 2:
+        if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE / 2:
             brushes.stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
             return
         px, fx = _phase(x)
@@ -304,13 +309,13 @@ class Painter:
         x, y = camera.x + camera.scale * ax, camera.y - camera.scale * ay
         dx, dy = camera.scale * (bx - ax), camera.scale * (ay - by)
         width = shape.width * self.ui
-        edge = EDGE * width if shape.stroke else 0.0
+        edge = ARROW_EDGE * width if shape.stroke else 0.0
         left, top = min(x, x + dx), min(y, y + dy)
         around = pygame.Rect(left - 20, top - 20, abs(dx) + 40, abs(dy) + 40)
         if not around.colliderect(surface.get_clip()):
             return
         fill, ink = (rgba(self._shade(color)) for color in (shape.fill, shape.stroke or shape.fill))
-        if max(abs(dx), abs(dy)) > LARGEST_SPRITE:
+        if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE:
             points = arrow_outline((x, y), (x + dx, y + dy), width)
             draw = brushes.edged(points, fill, edge)
             brushes.cover(surface, ink, brushes.extent_of(points, edge + 1), draw)
@@ -383,7 +388,7 @@ class Painter:
         key = text, size, color, halo
         label = self._labels.get(key)
         if label is None:
-            if len(self._labels) >= KEPT_LABELS:
+            if len(self._labels) >= MAX_LABELS:
                 self._labels.clear()
             letters = self.fonts.render(text, size, color)
             box = letters.get_rect().inflate(2 * reach, 2 * reach)
@@ -499,10 +504,10 @@ def _disc_layers(
     fill: Rgba | None, stroke: Rgba | None, radius: float, width: float, x: float, y: float
 ) -> list[Layer]:
     layers: list[Layer] = []
-    broad = radius > BROAD and stroke is not None
+    broad = radius > BROAD_RADIUS and stroke is not None
     if fill:
         # The ring will cover the edge.
-        factor = 0 if not broad else 1 if fill[3] < FAINT else 2
+        factor = 0 if not broad else 1 if fill[3] < FAINT_OPACITY else 2
         layers.append((fill, brushes.disc(x, y, radius), factor))
     if stroke:
         draw = brushes.disc(x, y, radius + width / 2, width)

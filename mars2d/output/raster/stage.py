@@ -22,7 +22,7 @@ from mars2d.scenario.scenario import Scenario
 
 __all__ = ["MEMORY", "Canvas", "Stage", "grid_bounds"]
 
-WHOLE = 1e-6
+SHIFT_TOLERANCE = 1e-6
 """Shifts that are off a whole number of pixels by less are whole."""
 
 
@@ -84,7 +84,7 @@ class Canvas:
         """Return whether it is what that camera sees, without rounding."""
         dx, dy = self.shift(camera)
         off = camera.x - self.camera.x - dx, camera.y - self.camera.y - dy
-        return camera.scale == self.camera.scale and max(map(abs, off)) < WHOLE
+        return camera.scale == self.camera.scale and max(map(abs, off)) < SHIFT_TOLERANCE
 
 
 def grid_bounds(scenario: Scenario, camera: Camera, size: tuple[int, int]) -> Bounds:
@@ -103,9 +103,9 @@ PATIENCE = 0.012
 AHEAD = 0.004
 """Where it takes longer, the seconds of each picture in which the next canvas is drawn."""
 
-ROUND = 0.25
+WIDE_MARGIN = 0.25
 """The margin that is drawn on all sides while the camera moves, in shares of the picture..."""
-NEAR = 0.1
+NEAR_MARGIN = 0.1
 """... and the rest of it at which it is drawn anew."""
 
 
@@ -219,11 +219,11 @@ class Stage:
         self, canvas: Canvas, frame: Frame, camera: Camera, layers: Layers, plot: pygame.Rect
     ) -> Canvas:
         """Return the canvas to use while the camera moves; draw a larger one bit by bit."""
-        near = plot.inflate(2 * NEAR * plot.width, 2 * NEAR * plot.height)
+        near = plot.inflate(2 * NEAR_MARGIN * plot.width, 2 * NEAR_MARGIN * plot.height)
         if camera.scale != canvas.camera.scale or canvas.shows(camera, near):
             return canvas
         if self._next is None or not self._next.shows(camera, near):
-            wide = plot.inflate(2 * ROUND * plot.width, 2 * ROUND * plot.height)
+            wide = plot.inflate(2 * WIDE_MARGIN * plot.width, 2 * WIDE_MARGIN * plot.height)
             own = camera.panned(-wide.left, -wide.top)
             self._next = Canvas(
                 self.painter, frame, own, layers, wide.size, pygame.Rect(0, 0, *wide.size),

@@ -27,7 +27,7 @@ __all__ = ["Trails", "Wakes"]
 
 Float = NDArray[np.float64]
 
-STRIDE = 2.0
+MIN_GROWTH = 2.0
 """The points by which a path has to grow before it is prolonged: no dots on top of dots."""
 
 
@@ -85,7 +85,7 @@ class Trails:
         self.drawn = len(path)
         steps = np.diff(np.concatenate([self.tip[None], new]), axis=0)
         along = self.tip_along + np.cumsum(np.hypot(steps[..., 0], steps[..., 1]), axis=0)
-        kept = self._crossings(along, STRIDE * self.painter.ui)
+        kept = self._crossings(along, MIN_GROWTH * self.painter.ui)
         marked = self._crossings(along, MARK_SPACING * self.painter.ui) if self.marker else None
         grown = np.nonzero(kept.any(axis=0))[0]
         if self.line == "-" and len(new) == 1:
@@ -164,7 +164,7 @@ def _on_paper(color: str, theme: Theme) -> str:
     return mixed(theme.shade(color), theme.paper, rgba(color)[3] / 255)
 
 
-EVERY = 256
+FIRST_STRIDE = 256
 """The rows between two pictures that are kept, at first."""
 
 Kept = tuple[pygame.Surface, tuple[Trails, ...]]
@@ -195,7 +195,7 @@ class Wakes:
         )
         self._start: Kept = still, tuple(trails.copy() for trails in self.trails)
         self._most = memory // (still.get_pitch() * still.get_height())
-        self._every = EVERY
+        self._every = FIRST_STRIDE
         self._kept: dict[int, Kept] = {}
 
     def show(self, paths: tuple[Float, Float], until: float = float("inf")) -> bool:

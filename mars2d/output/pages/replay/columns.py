@@ -14,10 +14,10 @@ __all__ = ["MISSING", "Columns", "Int", "fitted", "rounded"]
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
-LARGEST = 2**28
+MAX_NUMBER = 2**28
 """The largest whole number: second differences then fit into 32 bits."""
 
-MISSING = -LARGEST
+MISSING = -MAX_NUMBER
 """Stands for a number that is missing or infinite."""
 
 
@@ -79,7 +79,7 @@ def rounded(values: NDArray[Any], step: float) -> Int:
     """Return numbers in whole steps; those that are not finite as `MISSING`."""
     finite = np.isfinite(values)
     steps = np.rint(np.where(finite, values, 0.0) / step)
-    kept = np.clip(steps, 1 - LARGEST, LARGEST)
+    kept = np.clip(steps, 1 - MAX_NUMBER, MAX_NUMBER)
     return np.where(finite, kept, MISSING).astype(np.int64)
 
 

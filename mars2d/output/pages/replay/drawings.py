@@ -21,7 +21,7 @@ Float = NDArray[np.float64]
 Style = tuple[Any, ...]
 """The kind of a shape, and all of it that is no length: colours, widths, words."""
 
-MOST_PIXELS = 512
+MAX_PIXELS = 512
 """The most rows and columns of an image; larger ones are thinned."""
 
 
@@ -74,7 +74,7 @@ def _split(shape: Shape) -> tuple[Style, Float]:
 
 def _thinned(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Return pixels with opacity, (rows, columns, 4), few enough."""
-    stride = -(-max(pixels.shape[:2]) // MOST_PIXELS)
+    stride = -(-max(pixels.shape[:2]) // MAX_PIXELS)
     pixels = pixels[::stride, ::stride]
     if pixels.shape[2] == 3:
         opaque = np.full((*pixels.shape[:2], 1), 255, dtype=np.uint8)

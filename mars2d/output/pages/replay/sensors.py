@@ -26,13 +26,13 @@ __all__ = [
     "pack_fans",
 ]
 
-SELDOM = 8
+FEW_SCENES = 8
 """Sensors that draw no more scenes than this are never thinned."""
 
-BEAMS = 360
+MAX_BEAMS = 360
 """The most beams of a sensor that are drawn."""
 
-DRAWN = 5000
+MAX_DRAWN = 5000
 """The most readings that sensors are asked to draw."""
 
 LEVELS = 254
@@ -134,7 +134,7 @@ def _definer(kind: type, name: str) -> type | None:
 
 
 def _skip(beams: int) -> int:
-    return -(-beams // BEAMS)
+    return -(-beams // MAX_BEAMS)
 
 
 def drawings(
@@ -146,10 +146,13 @@ def drawings(
     """
     changes = [each.changes() for each in sensors]
     stride = 1
-    while sum(len(np.unique(rows // stride)) for rows in changes if len(rows) > SELDOM) > DRAWN:
+    while (
+        sum(len(np.unique(rows // stride)) for rows in changes if len(rows) > FEW_SCENES)
+        > MAX_DRAWN
+    ):
         stride *= 2
     found = [
-        _drawing(each, rows if len(rows) <= SELDOM else _last(rows, stride), pose, colors)
+        _drawing(each, rows if len(rows) <= FEW_SCENES else _last(rows, stride), pose, colors)
         for each, rows in zip(sensors, changes, strict=True)
     ]
     return found, stride
