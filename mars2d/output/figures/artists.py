@@ -158,7 +158,8 @@ def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None
         solid_capstyle="butt" if len(shape.points) == 2 else "round", solid_joinstyle="round",
         zorder=level,
     )  # fmt: skip
-    line.set_linestyle(style or "none")  # Matlab and matplotlib name line styles alike
+    dash: Any = style or "none"  # Matlab and matplotlib name line styles alike
+    line.set_linestyle(dash)
     if mark:
         name, filled, size = MARKS[mark]
         line.set_marker(name)

@@ -40,6 +40,7 @@ __all__ = [
     "check_axes",
     "dress",
     "label",
+    "line_style",
     "new_figure",
     "paint_row",
     "plain_name",
@@ -291,6 +292,11 @@ def style_ticks(ax: Axes, look: Style) -> None:
         ax.tick_params(which="both", labelfontfamily=list(look.family))
 
 
+def line_style(dash: str) -> Any:
+    """Return Matlab's name of a line style, typed for matplotlib, which uses the same names."""
+    return dash
+
+
 def _set_ticks(ax: Axes, spacing: float) -> None:
     """Set ticks at the same distance on both axes: 1, 2 or 5 times a power of ten metres.
 
@@ -465,7 +471,7 @@ def _add_legend(ax: Axes, scenario: Scenario, look: Style) -> None:
         return
     handles: list[Artist] = [
         Line2D(
-            [], [], linestyle=look.dash(i) if look.greys else "",
+            [], [], linestyle=line_style(look.dash(i) if look.greys else ""),
             linewidth=1.5 * look.stroke, marker="o", markersize=6 * look.small / SCREEN.small,
             color=color, markeredgewidth=0,
         )

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, counted
 from mars2d.output.figures.figure import (
     check_axes,
+    line_style,
     new_figure,
     show_in_notebooks,
     style_ticks,
@@ -151,7 +152,7 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
                 [],
                 [],
                 color=entry.color,
-                linestyle=entry.dash,
+                linestyle=line_style(entry.dash),
                 linewidth=entry.width,
                 marker=entry.marker,
                 markersize=0.7 * look.small,

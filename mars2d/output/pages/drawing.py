@@ -25,15 +25,15 @@ __all__ = ["draw", "say"]
 Float = NDArray[np.float64]
 
 WIDTH, HEIGHT = 560.0, 440.0
-"""The room for the layers, pixels; they are as large as fits."""
+"""The room for the layers, which are drawn as large as fits, pixels."""
 LEFT, RIGHT, ABOVE = 36.0, 10.0, 10.0
 """The room at its sides, pixels."""
 
 MAX_CHARACTERS = 1_000_000
-"""The characters of a drawing from which the paths are left out."""
+"""The most characters of a drawing with paths; beyond, they are left out."""
 
 FEW_BODIES = 8
-"""Among more bodies, there are no names, and paths are thinner."""
+"""The most bodies with names; among more, paths are thinner."""
 
 MIN_SPACING = 42.0  # pixels from one line of the grid to the next, at least
 TEXT_SIZE, LINE_HEIGHT = 12.0, 16.0  # of the caption's words and lines, pixels
@@ -47,10 +47,9 @@ GRID, AXIS = SCREEN.grid, "#d0d6dd"
 def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
     """Return a frame as an SVG picture with a caption below it.
 
-    layers: the switches; by default as the animation says, and names where there are few
-    bodies. A layer that can't be drawn, since a sensor or an add-on of the user's raises, is left
-    out, and a line below the caption says so. So are paths that would take more than a million
-    characters.
+    layers: the switches; by default those of the animation, with names for few bodies. A layer
+    that can't be drawn because a sensor or an add-on raises is left out, and a line below the
+    caption says so. So are paths that would take more than a million characters.
     """
     view = View.around(
         frame.scenario,
@@ -89,7 +88,7 @@ def _with_end(path: Float, pose: Float) -> Float:
 def _parts(
     frame: Frame, view: View, layers: Layers, notes: list[str]
 ) -> list[tuple[str, ScaledScene]]:
-    """Return the layers by name, the lowest first; add those that fail to `notes`."""
+    """Return the layers and their names, the lowest first; add errors to `notes`."""
     scales = _scales(frame.scenario, _ppm(view))
     found = []
     for layer in layers.seen(frame.scenario.animation):
@@ -152,7 +151,7 @@ def _framed(layers: Sequence[ScaledScene], view: View, caption: str, notes: Sequ
 
 
 def _written(lines: Sequence[tuple[str, str]], corner: tuple[float, float], ppm: float) -> Scene:
-    """Return lines, each with its colour, below a point."""
+    """Return lines of text, each with its colour, below a point."""
     scene = Scene()
     for k, (line, color) in enumerate(lines):
         place = (corner[0], corner[1] - (1 + k) * LINE_HEIGHT / ppm)
@@ -166,7 +165,7 @@ def _ppm(view: View) -> float:
 
 
 def _around(view: View, whole: View) -> Scene:
-    """Return the ground beneath the words: layers do not reach under them."""
+    """Return the ground below the text, which covers layers that reach beyond the view."""
     scene = Scene()
     for xmin, xmax, ymin, ymax in (
         (whole.xmin, view.xmin, whole.ymin, whole.ymax),

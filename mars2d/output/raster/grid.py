@@ -70,9 +70,9 @@ def draw_grid(
 def labels(
     clip: pygame.Rect, camera: Camera, bounds: Bounds, fonts: Fonts, ui: float, theme: Theme
 ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-    """Return the metres, as images and where they go.
+    """Return the labels in metres, as images and their places.
 
-    They stand along the left and lower side of `bounds`, or of what is visible of it in `clip`.
+    They lie along the left and lower side of the part of `bounds` that is visible in `clip`.
     """
     size, gap = 12 * ui, round(7 * ui)
     step = spacing(camera.scale, MIN_SPACING * ui)
@@ -102,7 +102,7 @@ def labels(
 def _on_plate(
     image: pygame.Surface, place: pygame.Rect, theme: Theme | None
 ) -> tuple[pygame.Surface, tuple[int, int]]:
-    """Put a label on a plate of the theme's page, where it lies inside the picture."""
+    """Put a label on a plate in the theme's page colour; without a theme, leave it as it is."""
     if theme is None:
         return image, place.topleft
     larger = place.inflate(8, 2)

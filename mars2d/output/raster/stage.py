@@ -23,14 +23,15 @@ from mars2d.scenario.scenario import Scenario
 __all__ = ["MEMORY", "Canvas", "Stage", "grid_bounds"]
 
 SHIFT_TOLERANCE = 1e-6
-"""Shifts that are off a whole number of pixels by less are whole."""
+"""The distance from a whole number of pixels up to which a shift counts as whole."""
 
 
 class Canvas:
-    """A part of the world as a camera sees it, which another camera of that scale may look at.
+    """The layers that seldom change, drawn once: those that stand still, and the paths.
 
-    camera: of the whole surface. area: its part that is drawn, pixels. memory: bytes that may be
-    used to go back quickly. seconds: what drawing took.
+    Other cameras of the same scale can show it shifted. camera: of the whole surface. area: its
+    part that is drawn, pixels. memory: bytes that may be used to go back in time quickly. seconds:
+    the time that drawing took.
     """
 
     def __init__(
@@ -62,7 +63,7 @@ class Canvas:
         self.seconds = perf_counter() - start
 
     def with_paths(self, frame: Frame, until: float = float("inf")) -> pygame.Surface | None:
-        """Return the picture with the paths until a frame; None if they are not drawn in time."""
+        """Return the picture with the paths up to a frame; None if they are not drawn in time."""
         start = perf_counter()
         if fresh := self.wakes is None:
             self.wakes = Wakes(self._painter, self._scenario, self.camera, self.still, self._memory)
@@ -72,30 +73,30 @@ class Canvas:
         return self.wakes.surface if done else None
 
     def shift(self, camera: Camera) -> tuple[int, int]:
-        """Return where the surface's corner lies for another camera, to whole pixels."""
+        """Return the place of the surface's corner for another camera, in whole pixels."""
         return round(camera.x - self.camera.x), round(camera.y - self.camera.y)
 
     def shows(self, camera: Camera, plot: pygame.Rect) -> bool:
-        """Return whether all is drawn that a camera sees on a part of a surface."""
+        """Return whether the canvas covers all that a camera shows on a part of a surface."""
         dx, dy = self.shift(camera)
         return camera.scale == self.camera.scale and self.area.contains(plot.move(-dx, -dy))
 
     def is_exact(self, camera: Camera) -> bool:
-        """Return whether it is what that camera sees, without rounding."""
+        """Return whether the canvas is exact for a camera, without rounding of the shift."""
         dx, dy = self.shift(camera)
         off = camera.x - self.camera.x - dx, camera.y - self.camera.y - dy
         return camera.scale == self.camera.scale and max(map(abs, off)) < SHIFT_TOLERANCE
 
 
 def grid_bounds(scenario: Scenario, camera: Camera, size: tuple[int, int]) -> Bounds:
-    """Return where there is a grid, (xmin, xmax, ymin, ymax) in metres."""
+    """Return the bounds of the grid, (xmin, xmax, ymin, ymax) in metres."""
     if scenario.workspace is None or scenario.on_exit == "ignore":
         return camera.view(size)
     return scenario.bounds
 
 
 MEMORY = 100_000_000
-"""The bytes that a window uses to go back in time quickly: some twenty pictures."""
+"""The bytes that a window uses to go back in time quickly: about twenty pictures."""
 
 PATIENCE = 0.012
 """The seconds that the kept layers may take to draw before a moving camera jerks."""
@@ -104,17 +105,17 @@ AHEAD = 0.004
 """Where it takes longer, the seconds of each picture in which the next canvas is drawn."""
 
 WIDE_MARGIN = 0.25
-"""The margin that is drawn on all sides while the camera moves, in shares of the picture..."""
+"""The margin that is drawn on all sides while the camera moves, as a share of the picture."""
 NEAR_MARGIN = 0.1
-"""... and the rest of it at which it is drawn anew."""
+"""The rest of that margin at which a new canvas is drawn, as a share of the picture."""
 
 
 class Stage:
     """Draws frames of one experiment after another; used by the window, pictures and films alike.
 
-    The layers that stand still are drawn once a camera. On a copy of that the paths grow, and on a
-    copy of that are the readings, until the sensors read again. All other layers are drawn anew
-    each time.
+    The layers that stand still are drawn once for each camera. The paths grow on a copy of that
+    picture, and the readings are drawn on a copy of the paths, until the sensors read again. All
+    other layers are drawn for each frame.
 
     memory: bytes that may be used to go back in time without drawing all paths from their start.
     """
@@ -124,7 +125,7 @@ class Stage:
         self.painter = painter
         self.memory = memory
         self._canvas: Canvas | None = None
-        self._next: Canvas | None = None  # what will be seen soon
+        self._next: Canvas | None = None  # the canvas that will be needed soon
         self._key: tuple[Hashable, ...] = ()
         self._scenario: Scenario | None = None
         self._sensed: pygame.Surface | None = None
@@ -147,9 +148,9 @@ class Stage:
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
-        beneath, marks: shapes to draw beneath the bodies, and over them. hurried: while the camera
-        moves. If the layers that stand still took long to draw, the last picture is enlarged or
-        moved until there is time to draw it anew.
+        beneath, marks: shapes to draw below and above the bodies. hurried: whether the camera is
+        moving. If the layers that stand still took long to draw, the last picture is then enlarged
+        or shifted until there is time to draw a new one.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -178,7 +179,7 @@ class Stage:
         beneath: Sequence[Shape],
         marks: Sequence[Shape],
     ) -> None:
-        """Draw the layers above what is kept, with `beneath` and `marks` round the bodies."""
+        """Draw the layers above the kept ones, with `beneath` and `marks` around the bodies."""
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
         for layer in LAYERS[_place("sensors") + 1 :]:
             if layer.name == FIRST_BODIES:
@@ -199,7 +200,7 @@ class Stage:
         plot: pygame.Rect,
         hurried: bool,
     ) -> Canvas:
-        """Return the canvas for a camera, drawn anew if needed and not in a hurry."""
+        """Return the canvas for a camera, a new one if needed and not hurried."""
         size = surface.get_size()
         stands = frozenset(layer.name for layer in standing())
         key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme
@@ -272,7 +273,7 @@ class Stage:
         last = canvas.wakes.surface if layers.trails and canvas.wakes is not None else canvas.still
         factor = camera.scale / canvas.camera.scale
         corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
-        # Whole pixels of the last picture, as many as are seen now.
+        # The whole pixels of the last picture that are visible now.
         seen = pygame.Rect(0, 0, ceil(plot.width / factor) + 2, ceil(plot.height / factor) + 2)
         seen.left = floor((plot.left - corner[0]) / factor)
         seen.top = floor((plot.top - corner[1]) / factor)
@@ -291,7 +292,7 @@ class Stage:
         size: tuple[int, int],
         plot: pygame.Rect,
     ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return the numbers of the grid, and where they go."""
+        """Return the numbers of the grid, and their places."""
         key = camera, *self._key
         if self._numbers_of != key:
             self._numbers_of, self._numbers = key, []
@@ -307,8 +308,8 @@ class Stage:
     ) -> tuple[pygame.Surface, Sequence[Shape]]:
         """Return a picture with the readings on it, and the shapes that are still to be drawn.
 
-        Readings that are seen more than once are drawn on a copy and kept. If the last ones were
-        seen once, as in a film of each control step, so will the next be: no copy is made.
+        Readings that are shown more than once are drawn on a copy and kept. If the last ones were
+        shown once, as in a film of each control step, the next will be too: no copy is made.
         """
         stays = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
         sensed = frame.pose if frame.sensed is None else frame.sensed
@@ -338,5 +339,5 @@ def _sensors(frame: Frame) -> Sequence[Shape]:
 
 
 def _place(name: str) -> int:
-    """Return where a layer stands in the table."""
+    """Return the index of a layer in the table."""
     return next(k for k, layer in enumerate(LAYERS) if layer.name == name)

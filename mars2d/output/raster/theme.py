@@ -1,4 +1,8 @@
-"""The colours of the window's own parts, light and dark: calm, so that the robots stand out."""
+"""Themes, light and dark: the colours of the window's parts, and of scenes on dark paper.
+
+Colours of scenes are converted by lightness, chroma and hue. Source: the colour space OKLab,
+B. Ottosson (2020), in which equal steps of lightness look equal.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +17,7 @@ __all__ = ["DARK", "LIGHT", "PRINTED", "Theme", "Tone", "contrast", "mixed", "th
 
 
 class Tone(NamedTuple):
-    """A colour that means something: as ink, and as the pale plate that the ink is read on."""
+    """A colour with a meaning: as ink, and as the pale plate below that ink."""
 
     ink: str
     pale: str
@@ -21,12 +25,12 @@ class Tone(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """The colours of everything that is no shape of a scene, and what scenes' colours become.
+    """The colours of the window's parts, and the conversion of scenes' colours.
 
-    page: round the workspace. paper: the workspace itself, on which scenes are drawn. bar: header,
-    footer and time bar. plate: what lies over the picture. ink, text, muted: words, by their
-    weight. running, waiting, past, hand, error: what the clock does. over, failed: the grounds of
-    banners, whose words are `on_banner`.
+    page: around the workspace. paper: the workspace, on which scenes are drawn. bar: header, footer
+    and time bar. plate: panels over the picture. ink, text, muted: text, by importance. running,
+    waiting, past, hand, error: the states of the clock. over, failed: the grounds of banners, with
+    text in `on_banner`.
     """
 
     dark: bool
@@ -60,8 +64,8 @@ class Theme:
     def shade(self, color: str) -> str:
         """Return a scene's colour in this theme, ``#rrggbb`` or ``#rrggbbaa`` as it is given.
 
-        Scenes are made for white paper. On dark paper, neutral colours have their lightness turned
-        over, so that black is white and white the paper; vivid ones are as light as can be read.
+        Scenes are made for white paper. On dark paper, the lightness of neutral colours is
+        inverted: black becomes white, and white the paper. Vivid colours are lightened to be readable.
         """
         return _shaded(color, self.paper) if self.dark else color
 
@@ -106,15 +110,15 @@ LAB = np.array([
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 NEUTRAL, VIVID = 0.07, 0.12
-"""The chroma up to which a colour is neutral, and from which it is vivid; between, some of both."""
+"""The chroma up to which a colour is neutral, and from which it is vivid; between, both mix."""
 WHITE = 0.96
 """The lightness that black gets."""
 GREY = 0.75
-"""Below 1, so that grey is nearer to white: on dark paper it would else be hard to see."""
+"""An exponent below 1 lightens greys, which would be hard to see on dark paper."""
 LEVEL, SLOPE = 0.8, 0.45
-"""Vivid colours that are darker than the level come near it, and keep their order."""
+"""Vivid colours darker than the level are lightened towards it, in the same order."""
 BITS = 6
-"""The bits a channel of the table by which images are turned."""
+"""The bits per channel in the table that converts images."""
 
 
 def luminance(color: str) -> float:
@@ -123,13 +127,13 @@ def luminance(color: str) -> float:
 
 
 def on_dark(color: str, paper: str) -> str:
-    """Return what ``#rrggbb`` becomes on dark paper: white becomes the paper itself."""
+    """Return ``#rrggbb`` converted for dark paper: white becomes the paper itself."""
     turned = np.rint(255 * _turned(_numbers(color)[None], paper))[0]
     return "#" + "".join(f"{int(value):02x}" for value in turned)
 
 
 def on_dark_pixels(pixels: NDArray[np.uint8], paper: str) -> NDArray[np.uint8]:
-    """Return what pixels (..., 3 or 4) become; a fourth number, the opacity, is kept."""
+    """Return pixels (..., 3 or 4) converted for dark paper; their opacity is kept."""
     red, green, blue = (pixels[..., k].astype(np.intp) >> (8 - BITS) for k in range(3))
     turned = _table(paper)[(red << 2 * BITS) | (green << BITS) | blue]
     return np.concatenate([turned, pixels[..., 3:]], axis=-1)
@@ -137,7 +141,7 @@ def on_dark_pixels(pixels: NDArray[np.uint8], paper: str) -> NDArray[np.uint8]:
 
 @lru_cache(maxsize=2)
 def _table(paper: str) -> NDArray[np.uint8]:
-    """Return what each colour becomes whose channels have `BITS` bits, (colours, 3)."""
+    """Return the conversions of all colours with `BITS` bits per channel, (colours, 3)."""
     levels = np.linspace(0.0, 1.0, 1 << BITS)
     grid = np.meshgrid(levels, levels, levels, indexing="ij")
     colors = np.stack(grid, axis=-1).reshape(-1, 3)
@@ -145,7 +149,7 @@ def _table(paper: str) -> NDArray[np.uint8]:
 
 
 def _turned(colors: Float, paper: str) -> Float:
-    """Return what colours (k, 3) become, from 0 to 1."""
+    """Return colours (k, 3), from 0 to 1, converted for dark paper."""
     lab, ground = _lab(colors), _lab(_numbers(paper))
     light, chroma = lab[:, :1], np.hypot(lab[:, 1:2], lab[:, 2:])
     vivid = np.clip((chroma - NEUTRAL) / (VIVID - NEUTRAL), 0.0, 1.0)
@@ -208,7 +212,7 @@ LIGHT = Theme(
 )
 
 PRINTED = replace(LIGHT, muted="#7b8794")
-"""Pictures and films: their small print may step back, since they can be enlarged."""
+"""For pictures and films: small text may be paler, since they can be enlarged."""
 
 DARK = Theme(
     dark=True,

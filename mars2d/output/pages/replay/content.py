@@ -39,10 +39,10 @@ MAX_ROWS = 20_000
 """The most rows of a replay."""
 
 ROOM = 1_380_000
-"""Bytes for all columns: as text they are a third more."""
+"""The most bytes of all columns; as text they take a third more."""
 
 POSES, PANEL, CONTACTS = 480_000, 200_000, 60_000
-"""The most bytes of these; beyond, they are thinned. Sensors have the rest of all."""
+"""The most bytes of each; beyond, they are thinned. Sensors get the rest."""
 
 LAYER_ROOM = {"addons": 240_000, "forces": 120_000}
 OTHER_ROOM = 60_000
@@ -59,7 +59,7 @@ FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-18
 """Steps of positions and of moving shapes, in shares of the view; of headings, radians."""
 
 LEAP = 0.12
-"""A shape moves evenly between rows, or leaps: by more than this share of the view."""
+"""The share of the view beyond which a shape leaps between rows, rather than moving evenly."""
 
 
 def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
@@ -72,7 +72,7 @@ def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
 
 
 class _Content:
-    """Puts a replay together, piece by piece, and notes what is left out."""
+    """Assembles a replay, and notes the parts that are left out."""
 
     def __init__(self, record: Record) -> None:
         self.record, self.scenario = record, record.scenario
@@ -128,7 +128,7 @@ class _Content:
     # -- bodies -------------------------------------------------------------------------------
 
     def _add_poses(self) -> None:
-        """Add the poses of all bodies, at as many rows as there is room for, and keep these."""
+        """Add the poses of all bodies at as many rows as fit, and remember these rows."""
         record = self.record
         step = self.size * FINE
         low = np.array([self.view.xmin, self.view.ymin])
@@ -359,7 +359,7 @@ class _Content:
 
 
 def _table(animation: Animation) -> list[dict[str, Any]]:
-    """Return the layers as the page needs to know them, the lowest first."""
+    """Return the layers for the page, the lowest first."""
     stand = standing()
     return [
         {
@@ -380,7 +380,7 @@ def _drawn(layer: Layer, frame: Frame) -> Flat:
 
 
 def _in_words(part: object) -> str:
-    """Return the kind of a part, for people."""
+    """Return the kind of a part, in words."""
     return snake_case(type(part).__name__).replace("_", " ")
 
 
@@ -392,10 +392,10 @@ def _rows(count: int, every: int) -> Int:
 # -- the numbers in the panel ---------------------------------------------------------------------
 
 FORCES = 2000
-"""Forces are rounded to the strongest drive's over this."""
+"""Forces are rounded to the strongest drive's force divided by this."""
 
 MAX_NUMBERS = 8
-"""Readings of more numbers are not said in words."""
+"""The most numbers of a reading that is shown as text."""
 
 
 def commands_of(robot: Robot) -> list[list[str]]:
@@ -427,7 +427,7 @@ def pack_contacts(record: Record, kept: Int, every: int) -> tuple[Columns, int]:
 
 
 def pack_readings(sensors: list[Carried], every: int) -> tuple[Columns, list[dict[str, Any]]]:
-    """Return the readings of few numbers as columns, and how they are to be said in words."""
+    """Return the readings of few numbers as columns, and the names and units for their text."""
     columns = Columns()
     found: list[dict[str, Any]] = []
     for each in sensors:
@@ -448,7 +448,7 @@ def pack_readings(sensors: list[Carried], every: int) -> tuple[Columns, list[dic
 
 
 def _quantities(sensor: Sensor, count: int) -> list[Quantity]:
-    """Return what each number of a reading is."""
+    """Return the quantity of each number of a reading."""
     stated = list(sensor.quantities) or [Quantity("value")]
     if count % len(stated) == 0 and len(stated) > 1:
         return stated * (count // len(stated))

@@ -27,23 +27,23 @@ __all__ = [
 ]
 
 FEW_SCENES = 8
-"""Sensors that draw no more scenes than this are never thinned."""
+"""The most scenes of a sensor that is never thinned."""
 
 MAX_BEAMS = 360
 """The most beams of a sensor that are drawn."""
 
 MAX_DRAWN = 5000
-"""The most readings that sensors are asked to draw."""
+"""The most readings that are drawn."""
 
 LEVELS = 254
-"""Distances are rounded to the range over this; one more level says that nothing is there."""
+"""The levels to which distances are rounded; one more level means that nothing is there."""
 
 ELSEWHERE = np.array([0.7, -0.4, 1.1])
 """A pose that tells drawings in a robot's frame from drawings in that of the world."""
 
 
 class Carried:
-    """A sensor on a robot, and what it read at the rows of a replay, (R, ...)."""
+    """A sensor on a robot, and its readings at the rows of a replay, (R, ...)."""
 
     def __init__(self, name: str, robot: int, sensor: Sensor, readings: NDArray[Any]) -> None:
         """Keep them together."""
@@ -58,7 +58,7 @@ class Carried:
 
     @property
     def is_fan(self) -> bool:
-        """Whether its readings are distances along beams, and drawn as those are."""
+        """Whether its readings are distances along beams, and drawn as such."""
         fan, kind = self.sensor.fan, type(self.sensor)
         if fan is None or _definer(kind, "draw") is not _definer(kind, "fan"):
             return False  # a class of the user's may draw something else
@@ -74,7 +74,7 @@ class Carried:
 
 
 def carried(record: Record, kept: Int) -> Iterator[Carried]:
-    """Yield the sensors of a record that are known; a loaded one lacks those of the user's own."""
+    """Yield the sensors of a record; a loaded record lacks those of the user's own."""
     for name, robots in record.sensor_robots.items():
         for k, robot in enumerate(robots):
             sensor = record.scenario.robots[robot].sensor(name)
