@@ -65,7 +65,8 @@ class Theme:
         """Return a scene's colour in this theme, ``#rrggbb`` or ``#rrggbbaa`` as it is given.
 
         Scenes are made for white paper. On dark paper, the lightness of neutral colours is
-        inverted: black becomes white, and white the paper. Vivid colours are lightened to be readable.
+        inverted: black becomes white, and white the paper. Vivid colours are lightened to be
+        readable.
         """
         return _shaded(color, self.paper) if self.dark else color
 
