@@ -21,7 +21,17 @@ from mars2d.output.raster.theme import DARK, LIGHT, Theme
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
-__all__ = ["page", "page_script", "page_style", "player", "replay_data", "save_html"]
+__all__ = [
+    "colors",
+    "filled",
+    "page",
+    "page_script",
+    "page_style",
+    "player",
+    "policy",
+    "replay_data",
+    "save_html",
+]
 
 SCRIPTS = ("data", "shades", "camera", "painter", "drawings", "picture", "clock", "panel", "replay")
 """The parts of the script, each of which may use those before it."""
