@@ -27,9 +27,8 @@ import pygame
 
 from mars2d import Robot, Scenario
 from mars2d.addons import Map
-from mars2d.output.films.cut import Cut
 from mars2d.output.films.film import save_film
-from mars2d.output.films.footage import Footage, shots
+from mars2d.output.films.footage import Cut, Footage, shots
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster.picture import Artist
 from mars2d.record.frame import Frame

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
 from mars2d.output.films import film
-from mars2d.output.films.cut import Cut
+from mars2d.output.films.footage import Cut
 from mars2d.record.frame import Frame
 from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario

@@ -161,7 +161,7 @@ def test_one_alone_has_no_distances_and_the_figure_says_so():
 
 
 def test_of_a_run_that_is_too_long_some_rows_are_left_out_and_it_is_said(monkeypatch):
-    monkeypatch.setattr(distances, "MOST_DISCS", 20)
+    monkeypatch.setattr(distances, "MAX_DISC_GAPS", 20)
     robots = [Robot(pose=(-1, 0, 0)), Robot(pose=(1, 0, np.pi))]
     record = run(ahead, robots=robots, stop_time=5)
     assert clearances(record).rows.tolist() == [*range(0, 51, 3)][:17] + [50] * (50 % 3 > 0)

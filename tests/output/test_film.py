@@ -13,7 +13,6 @@ from PIL import Image
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.core.errors import InputError, MissingExtraError
-from mars2d.output.films.cut import Cut
 from mars2d.output.films.film import (
     cut_of,
     film_record,
@@ -22,7 +21,7 @@ from mars2d.output.films.film import (
     save_pictures,
     size_of,
 )
-from mars2d.output.films.footage import Footage, shots
+from mars2d.output.films.footage import Cut, Footage, shots
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
 from tests.window.circling import Circling

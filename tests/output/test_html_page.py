@@ -13,8 +13,7 @@ from mars2d import Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
 from mars2d.bodies.props import Box
 from mars2d.output.pages.replay import page
-from mars2d.output.raster import shades
-from mars2d.output.raster.theme import DARK, contrast
+from mars2d.output.raster.theme import DARK, contrast, on_dark
 from mars2d.record.interventions import Steer
 from mars2d.sensors import Proximity, RangeFinder
 from tests.browser import Tab, differing
@@ -353,7 +352,7 @@ def test_colours_on_dark_paper_are_those_of_the_window(tab):
         colors,
     )
     for color, got in zip(colors, turned, strict=True):
-        wanted = shades.on_dark(color, DARK.paper)
+        wanted = on_dark(color, DARK.paper)
         assert (
             max(abs(int(got[k : k + 2], 16) - int(wanted[k : k + 2], 16)) for k in (1, 3, 5)) <= 1
         )

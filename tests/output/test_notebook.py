@@ -139,7 +139,7 @@ def test_the_replay_plays_in_its_frame_and_covers_the_picture(browser, tmp_path)
 
 def test_a_replay_too_large_for_a_notebook_is_a_picture_and_a_word_about_it(monkeypatch):
     record = mars2d.run(room(), control=drive)
-    monkeypatch.setattr(notebook, "LARGEST", 1000)
+    monkeypatch.setattr(notebook, "MAX_CHARACTERS", 1000)
     found = record._repr_html_()
     assert "<iframe" not in found
     assert "too large for a notebook" in found

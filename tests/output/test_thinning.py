@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mars2d.output.figures.thinning import spans, thinned
+from mars2d.output.figures.panels import spans, thinned
 
 
 def test_short_columns_are_kept_whole():

@@ -8,7 +8,7 @@ import pytest
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.core.errors import InputError, LawError
-from mars2d.output.layers.sensors import sensors
+from mars2d.output.layers.addons import sensors
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.window import keys
 from mars2d.window.picking import sensed_by

@@ -6,9 +6,8 @@ import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
-from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.painter import Painter, Sprites
 from mars2d.output.raster.picture import Artist
-from mars2d.output.raster.sprites import Sprites
 from mars2d.scenario.animation import Animation
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.window.source import Playback

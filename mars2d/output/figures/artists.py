@@ -1,4 +1,4 @@
-"""Scenes as the artists of matplotlib: lines and patches on axes."""
+"""Scenes as matplotlib artists: lines and patches on axes."""
 
 from __future__ import annotations
 
@@ -30,16 +30,12 @@ __all__ = ["SHAPES", "paint", "points_per_metre"]
 Float = NDArray[np.float64]
 
 SHAPES = 2.0
-"""The level of shapes in matplotlib's order of drawing, unless another one is asked for."""
+"""The default zorder of shapes."""
 
-TEXT_GAP = 4.0  # points between a label and what it names
+TEXT_GAP = 4.0  # points between a label and the point it names
 MARK_SPACING = 9.0  # points along a path from one mark to the next
 
-
-# Matlab's line styles, which are matplotlib's as well.
-LINES: dict[str, Any] = {"": "none", "-": "-", "--": "--", ":": ":", "-.": "-."}
-
-# Matlab's marks: its name, whether it is filled, its diameter in points.
+# Matlab's marks: matplotlib's name of each, whether it is filled, its diameter in points.
 MARKS: dict[str, tuple[Any, bool, float]] = {
     ".": ("o", True, 4.4),
     "o": ("o", False, 6.4),
@@ -53,9 +49,9 @@ MARKS: dict[str, tuple[Any, bool, float]] = {
 def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) -> None:
     """Paint the shapes of a scene on matplotlib axes, in metres, the first one lowest.
 
-    scale: what line widths, marks and text heights [points] are multiplied by. level: matplotlib's
-    zorder of all the shapes. A circle's `pixels` are points of the page; where it has a radius as
-    well they are turned into metres as the axes are now, so set the limits before.
+    scale: a factor for line widths, marks and text heights [points]. level: the zorder of all
+    shapes. A circle's `pixels` are points of the page. If it also has a radius, they are converted
+    to metres with the present limits of the axes, so set the limits first.
     """
     ppm = points_per_metre(ax)
     for shape in scene.shapes:
@@ -77,7 +73,7 @@ def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) 
 
 
 def _corners(shape: Shape) -> Float:
-    """Return points (k, 2) within whose bounds a shape lies, metres."""
+    """Return points (k, 2) whose bounding box holds a shape, metres."""
     if isinstance(shape, Circle):
         return np.add(shape.center, [[-shape.radius] * 2, [shape.radius] * 2])
     if isinstance(shape, Image):
@@ -88,7 +84,7 @@ def _corners(shape: Shape) -> Float:
 
 
 def _add(artist: Line2D | Patch, ax: Axes) -> None:
-    """Add a shape to axes, within which it stays: it is none of the layout's concern."""
+    """Add a shape to axes, ignored by the layout since it stays within them."""
     artist.set_in_layout(False)
     ax.add_artist(artist)
 
@@ -99,7 +95,7 @@ def _circle(shape: Circle, ax: Axes, scale: float, level: float, ppm: float) -> 
 
     fill, stroke = shape.fill or "none", shape.stroke or "none"
     width = shape.width * scale if shape.stroke else 0.0
-    if shape.radius == 0:  # a mark, of the same size however one zooms
+    if shape.radius == 0:  # a mark, which keeps its size when zoomed
         x, y = shape.center
         size = 2 * shape.pixels * scale
         mark = Line2D(
@@ -162,7 +158,8 @@ def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None
         solid_capstyle="butt" if len(shape.points) == 2 else "round", solid_joinstyle="round",
         zorder=level,
     )  # fmt: skip
-    line.set_linestyle(LINES[style])
+    dash: Any = style or "none"  # Matlab and matplotlib name line styles alike
+    line.set_linestyle(dash)
     if mark:
         name, filled, size = MARKS[mark]
         line.set_marker(name)
@@ -174,7 +171,7 @@ def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None
 
 
 def _spaced(points: Float, spacing: float) -> list[int]:
-    """Return which points (k, 2) to mark, so that marks lie `spacing` metres apart or more."""
+    """Return the indices of the points (k, 2) to mark, about `spacing` metres apart."""
     if len(points) == 0:
         return []
     steps = np.hypot(*np.diff(points, axis=0).T)
@@ -209,7 +206,7 @@ def _text(shape: Text, ax: Axes, scale: float, level: float) -> None:
 
 
 def points_per_metre(ax: Axes) -> float:
-    """Return how many points of the page a metre takes, as the axes are laid out now."""
+    """Return the points of the page per metre, with the present layout and limits."""
     figure: Any = ax.get_figure()
     box = ax.get_position(original=True)
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()

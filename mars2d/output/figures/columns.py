@@ -1,4 +1,4 @@
-"""The columns of a record by the names that people use: x, speed, command.v, range_finder.90."""
+"""Columns of a record by name: x, speed, command.v, range_finder.90."""
 
 from __future__ import annotations
 
@@ -25,23 +25,23 @@ Float = NDArray[np.float64]
 
 SPEED = "speed"
 
-OF_DRIVE = "unit of the drive"
-"""The unit of commands to drives that do not say, or not the same."""
+DRIVE_UNIT = "unit of the drive"
+"""The unit of commands if drives state none, or different ones."""
 
-COLORS = "red, green, blue"
-"""The unit of colours, which are drawn as themselves."""
+COLOR_UNIT = "red, green, blue"
+"""The unit of colours, which are drawn in their own colours."""
 
-IMAGE_FROM = 6
-"""A reading of at least so many numbers of a kind is drawn as an image."""
+MIN_IMAGE_NUMBERS = 6
+"""The fewest numbers of one kind in a reading that is drawn as an image."""
 
 
 @dataclass(frozen=True, eq=False)
 class Signal:
     """A column over time.
 
-    values: (T, k), of the bodies (k,) by their numbers; of readings of many numbers (T, k, beams),
-    of colours (T, k, pixels, 3). held: whether a value holds until the next row, "post", held since
-    the row before, "pre", or is one at an instant, "". bearings: (beams,) degrees, if known.
+    values: (T, k), one column for each of the `bodies`; (T, k, beams) for readings of many numbers,
+    (T, k, pixels, 3) for colours. held: "post" if a value holds until the next row, "pre" if it has
+    held since the row before, "" if it belongs to an instant. bearings: (beams,) degrees, if known.
     """
 
     name: str
@@ -51,18 +51,18 @@ class Signal:
     held: str = ""
     bearings: Float | None = None
     nearest: bool = False
-    """Whether of an image's numbers the smallest matters most: distances."""
+    """Whether an image that is thinned keeps the smallest numbers, as for distances."""
     wraps: bool = False
-    """Whether pi is followed by -pi."""
+    """Whether the values are angles, which jump from pi to -pi."""
 
 
 def signals(
     record: Record, names: Sequence[str], robots: Sequence[str | int] | None
 ) -> list[Signal]:
-    """Return what is to be drawn for some names; a command has two parts, so it is two.
+    """Return the signals of some column names; a command gives two, one for each part.
 
-    robots: names or indices of those that are wanted; None: all. Raises InputError for a column or
-    a robot that is not there, and for readings of which a part must be chosen.
+    robots: names or indices; None: all. Raises InputError for an unknown column or robot, and for
+    readings with too many axes to draw, of which a part must be chosen.
     """
     which = chosen_robots(record, robots)
     return [signal for name in names for signal in _named(record, name, which)]
@@ -127,7 +127,7 @@ def _motion(
 def _of_poses(
     record: Record, name: str, what: str, pose: Float, which: Sequence[int], first: int
 ) -> Signal:
-    """Return a coordinate or the speed of some columns of poses; `first` is body `first`."""
+    """Return a coordinate or the speed of some poses; column k belongs to body `first + k`."""
     columns = list(which)
     numbers = tuple(first + k for k in columns)
     if what in POSE_UNITS:
@@ -144,7 +144,7 @@ def _of_poses(
 
 
 def _put_elsewhere(record: Record) -> Iterator[tuple[int, int]]:
-    """Yield rows and bodies that were put there, not moved there."""
+    """Yield (row, body) for each body that was placed by hand, rather than driven."""
     for each in record.interventions:
         if isinstance(each, Place):
             yield each.row, each.body
@@ -157,7 +157,7 @@ def _command(
 ) -> list[Signal]:
     found = {record.scenario.robots[i].drive.quantities for i in robots}
     agreed = found.pop() if len(found) == 1 else ()
-    kinds = agreed or (Quantity("0", OF_DRIVE), Quantity("1", OF_DRIVE))
+    kinds = agreed or (Quantity("0", DRIVE_UNIT), Quantity("1", DRIVE_UNIT))
     wanted = [0, 1]
     if parts:
         known = {"0": 0, "1": 1} | {kind.name: k for k, kind in enumerate(kinds)}
@@ -212,7 +212,7 @@ def _readings(
     )  # fmt: skip
     found = _by_quantity(whole, sensor, name, parts)
     for signal in found:
-        if signal.values.ndim > 3 and signal.unit != COLORS:
+        if signal.values.ndim > 3 and signal.unit != COLOR_UNIT:
             shape = signal.values.shape[2:]
             raise InputError(
                 f"columns: {signal.name!r} has readings of shape {shape}: choose a part of them, "
@@ -222,7 +222,7 @@ def _readings(
 
 
 def _bearings(sensor: Sensor | None, shape: tuple[int, ...]) -> Float | None:
-    """Return the bearings of a reading's beams, degrees, if it has evenly spaced ones."""
+    """Return the bearings of a reading's beams, degrees, if they are evenly spaced."""
     angles = np.asarray(getattr(sensor, "angles", ()))
     if angles.ndim != 1 or len(angles) < 2 or angles.shape != shape[:1]:
         return None
@@ -231,16 +231,16 @@ def _bearings(sensor: Sensor | None, shape: tuple[int, ...]) -> Float | None:
 
 
 def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[str]) -> list[Signal]:
-    """Return a signal for each quantity that a sensor measures, of the parts that are wanted.
+    """Return a signal for each chosen quantity that a sensor measures.
 
-    parts: an index of each axis of the reading in turn, and the name of a quantity at the end.
+    parts: an index for each axis of the reading in turn, and a quantity's name at the end.
     """
     quantities = sensor.quantities if sensor is not None else ()
     shape = whole.values.shape[2:]
     several = len(quantities) > 1 and shape[-1:] == (len(quantities),)
     if not parts and shape[-1:] == (3,) and len(shape) < 3 and _is_color(quantities):
         pixels = whole.values.reshape(*whole.values.shape[:2], -1, 3)
-        return [replace(whole, unit=COLORS, values=pixels)]
+        return [replace(whole, unit=COLOR_UNIT, values=pixels)]
     names = [quantity.name for quantity in quantities] if several else []
     signal, wanted = whole, list(range(len(names)))
     for part in parts:
@@ -273,13 +273,13 @@ def _is_color(quantities: Sequence[Quantity]) -> bool:
 
 
 def _of_kind(signal: Signal, quantity: Quantity) -> Signal:
-    """Return a signal with the unit of what is measured, and how it is drawn."""
+    """Return a signal with the unit of a quantity, and drawn as its kind requires."""
     kind = quantity.kind
     return replace(signal, unit=quantity.unit, nearest=kind == "distance", wraps=kind == "angle")
 
 
 def _indexed(signal: Signal, index: int) -> Signal:
-    """Return one beam of a reading, or one of whatever else it has several of."""
+    """Return one entry of a reading's first axis, for example one beam."""
     bearing = "" if signal.bearings is None else f" ({signal.bearings[index]:.4g}°)"
     return replace(
         signal, name=f"{signal.name}.{index}{bearing}", values=signal.values[:, :, index],

@@ -1,4 +1,4 @@
-"""The same experiment under each physics: how far the runs drift apart, as numbers and a figure."""
+"""Runs of one experiment with each physics: their drift apart, as numbers and as a figure."""
 
 from __future__ import annotations
 
@@ -43,24 +43,24 @@ MEANINGS = {
 }
 
 COLORS = {"contact": INK, "stop": "#b45309", "ideal": "#6d28d9"}
-"""Of titles and curves; dark, so that they are not taken for those of robots."""
+"""The colours of titles and curves: dark, unlike those of robots."""
 
-NOTHING = 1e-6
-"""A drift below which two runs agree, metres."""
+NO_DRIFT = 1e-6
+"""The drift below which two runs agree, metres."""
 
-FLAT = 30.0
-"""How many times larger one drift must be for the other to lie flat on a linear axis."""
+LOG_RATIO = 30.0
+"""The ratio of the two largest drifts from which the axis is logarithmic."""
 
 FOOT_ROOM = 0.01
-"""The share of the smaller one of the largest drifts at which a logarithmic axis begins."""
+"""The start of a logarithmic axis, as a share of the smaller of the two largest drifts."""
 
 
 @dataclass(frozen=True, eq=False)
 class Drift:
-    """How far the bodies of two runs are from each other, at the times that both runs have.
+    """The distance of each body between two runs, at the times that both runs have.
 
-    time: (T,) seconds. distance: (T, k) metres between the two places of each body: of the robots,
-    then of the props.
+    time: (T,) seconds. distance: (T, k) metres between the two places of each body, robots first,
+    then props.
     """
 
     time: Float
@@ -75,27 +75,27 @@ class Drift:
 
     @cached_property
     def max(self) -> Float:
-        """The drift of the body that is furthest off, (T,) metres."""
+        """The largest drift of any body, (T,) metres."""
         furthest: Float = self.distance.max(axis=1)
         return furthest
 
     @cached_property
     def mean(self) -> Float:
-        """The mean over the bodies, (T,) metres."""
+        """The mean drift of the bodies, (T,) metres."""
         mean: Float = self.distance.mean(axis=1)
         return mean
 
 
 def _places(record: Record) -> Float:
-    """Return where the bodies of a run are, (T, 2, k) metres."""
+    """Return the positions of a run's bodies, (T, 2, k) metres."""
     return np.concatenate([record.pose[:, :2], record.prop_pose[:, :2]], axis=2)
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Three runs of an experiment with the same seed, which differ in `Scenario.physics` alone.
+    """Three runs of an experiment with the same seed, which differ only in `Scenario.physics`.
 
-    Raises InputError for runs without rows, of other bodies or of another sampling time.
+    Raises InputError for runs without rows, or with different bodies or sampling times.
     """
 
     contact: Record
@@ -118,12 +118,12 @@ class Comparison:
 
     @cached_property
     def drifts(self) -> dict[str, Drift]:
-        """How far the runs with "stop" and "ideal" are from that with "contact"."""
+        """The drift of the runs with "stop" and "ideal" from the run with "contact"."""
         return {mode: Drift.between(self.contact, self.records[mode]) for mode in MODES[1:]}
 
     @property
     def end(self) -> float:
-        """When the longest of the runs ended, seconds."""
+        """The end of the longest run, seconds."""
         return max(float(record.time[-1]) for record in self.records.values())
 
     @cached_property
@@ -145,11 +145,11 @@ class Comparison:
 WIDTH = 11.0
 LEFT, RIGHT, GAP = 0.75, 0.25, 0.3
 HEAD, TITLES, LABELS, DRIFT, FOOT = 0.55, 0.95, 0.95, 1.9, 0.6
-"""Inches: the heading, the titles of the panels, what is between them and the drift, the drift."""
+"""The heights of the heading, the titles, the gap for labels, the drift and the foot, inches."""
 
 
 def plot_comparison(comparison: Comparison) -> Figure:
-    """Draw the paths of the three runs beside each other to one scale, and the drift below them.
+    """Draw the paths of the three runs side by side at one scale, and the drift below them.
 
     Returns a matplotlib figure that pyplot does not know of.
     """
@@ -189,7 +189,7 @@ def _head(figure: Figure, comparison: Comparison) -> None:
 
 
 def _title(figure: Figure, x: float, y: float, mode: str, record: Record) -> None:
-    """Write above a panel which physics it was, how many collisions there were, how it ended."""
+    """Write the physics, the number of collisions and the end of a run above its panel."""
     tall = figure.get_size_inches()[1]
     done = f"{counted(record.collisions, 'collision')}, {counted(len(record) - 1, 'step')}"
     ended = textwrap.fill(record.over_message, 44, max_lines=2, placeholder=" …")
@@ -206,10 +206,10 @@ def _title(figure: Figure, x: float, y: float, mode: str, record: Record) -> Non
 
 
 def plot_drift(comparison: Comparison, ax: Axes) -> list[Float]:
-    """Draw on axes how far "stop" and "ideal" are from "contact" over time.
+    """Draw the drift of "stop" and "ideal" from "contact" over time.
 
-    The scale is linear, unless one of the two would lie flat on the axis. Returns the curves,
-    (T, 2) seconds and metres each: for each of the two the largest drift, then the mean.
+    The scale is linear, unless one of the two would lie flat on the axis. Returns the curves, each
+    (T, 2) in seconds and metres: the largest and the mean drift of "stop", then of "ideal".
     """
     peaks = {mode: float(drift.max.max()) for mode, drift in comparison.drifts.items()}
     _dress_drift(ax, comparison.end, list(peaks.values()))
@@ -238,7 +238,7 @@ def plot_drift(comparison: Comparison, ax: Axes) -> list[Float]:
     )  # fmt: skip
     for line in legend.get_lines():
         line.set_marker("")
-    if max(peaks.values()) < NOTHING:
+    if max(peaks.values()) < NO_DRIFT:
         ax.text(
             0.5, 0.5, "no drift: the three runs agree", transform=ax.transAxes,
             ha="center", va="center", fontsize=11, color=MUTED,
@@ -250,10 +250,10 @@ def _dress_drift(ax: Axes, end: float, peaks: list[float]) -> None:
     """Set the limits, the scale and the grid of the drift."""
     low, high = min(peaks), max(peaks)
     ax.set_xlim(0, end if end > 0 else 1)
-    if high < NOTHING:
+    if high < NO_DRIFT:
         ax.set_ylim(0, 1)
         ax.set_yticks([0])
-    elif low > NOTHING and high > FLAT * low:
+    elif low > NO_DRIFT and high > LOG_RATIO * low:
         ax.set_yscale("log")
         ax.yaxis.set_major_formatter("{x:g}")
         ax.set_ylim(low * FOOT_ROOM, high * 2)
@@ -269,6 +269,6 @@ def _dress_drift(ax: Axes, end: float, peaks: list[float]) -> None:
 
 
 def _body(comparison: Comparison) -> str:
-    """Return what the drift is of."""
+    """Return the kinds of bodies that drift, in words."""
     robots = len(comparison.contact.scenario.robots)
     return "robot" if comparison.drifts["stop"].distance.shape[1] == robots else "robot or prop"

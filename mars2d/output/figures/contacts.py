@@ -1,4 +1,4 @@
-"""Figures of contacts: who touched whom from when to when, and how hard."""
+"""Figures of contacts: the pairs that touched, when, and with which force."""
 
 from __future__ import annotations
 
@@ -37,28 +37,28 @@ __all__ = ["normal_force", "pair_name", "plot_contacts"]
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-CELLS = 500
-"""In how many parts the time is cut, of each of which a pair's bar shows the largest force."""
+TIME_CELLS = 500
+"""The number of intervals of time; a pair's bar shows the largest force in each."""
 
-HEIGHT = 0.62
-"""Of a bar, in shares of its line."""
+BAR_HEIGHT = 0.62
+"""The height of a bar, as a share of its line."""
 
 
 def plot_contacts(
     record: Record, axes: Sequence[Axes] | None = None, *, style: str = "screen"
 ) -> list[Axes]:
-    """Draw when which pairs touched, and the normal force of all contacts over time.
+    """Draw the times at which pairs touched, and the normal force of all contacts over time.
 
-    In the upper panel each pair has a line with a bar for each time that it stayed in touch, in the
-    order in which they first met; its colour is the mean normal force over a control step: the
-    normal impulse over the sampling time. Of more than 16 pairs, on a projector 8, those
-    with the largest impulse over the run are drawn, and how many more there are is said. The lower
-    panel is the sum of the normal forces of all pairs. Where no forces act, as with physics "stop",
-    there is the upper one alone.
+    In the upper panel each pair has a line, in the order of first contact, with a bar for each time
+    that it stayed in touch. A bar's colour is the mean normal force over a control step: the normal
+    impulse divided by the sampling time. Of more than 16 pairs (8 on a projector), those with the
+    largest impulse over the run are drawn, and a note gives the number of the others. The lower
+    panel shows the sum of the normal forces of all pairs; it is left out where no forces act, for
+    example with physics "stop".
 
     axes: one for the upper panel, or two; by default those of a new figure. style: as in
-    `Record.plot`. Returns the axes; a record without contacts says so in the first. Raises
-    InputError for a record without rows.
+    `Record.plot`. Returns the axes. If there were no contacts, the first says so. Raises InputError
+    for a record without rows.
     """
     look = style_of(style)
     check_rows(record)
@@ -86,9 +86,9 @@ def plot_contacts(
 
 
 def normal_force(record: Record) -> Float:
-    """Return the sum of all contacts' normal forces, (T,) N: the mean over the step before a row.
+    """Return the sum of all normal forces, (T,) N, averaged over the step before each row.
 
-    It is the normal impulse of the control step that led to the row over the sampling time.
+    This is the normal impulse of the control step that led to the row, over the sampling time.
     """
     rows = record.contact_rows
     inside = rows < len(record)
@@ -97,26 +97,26 @@ def normal_force(record: Record) -> Float:
 
 
 def pair_name(scenario: Scenario, a: int, b: int) -> str:
-    """Return what a pair of bodies is called."""
+    """Return the names of a pair of bodies, joined by a dash."""
     return " \N{EN DASH} ".join(plain_name(scenario.body_name(body)) for body in (a, b))
 
 
 def _panel_count(axes: Sequence[Axes] | None, *, force: bool) -> int:
-    """Return how many panels there are: as many as axes are given, else what is to be seen."""
+    """Return the number of panels: that of the axes given, else 2 if there are forces."""
     if axes is not None and np.size(np.asarray(axes, dtype=object)) == 1:
         return 1
     return 2 if force or axes is not None else 1
 
 
 def _pairs(contacts: NDArray[np.void]) -> tuple[Index, Index]:
-    """Return the pairs that touched (p, 2), and which one each contact is of, (c,)."""
+    """Return the pairs that touched, (p, 2), and the index of each contact's pair, (c,)."""
     both = np.column_stack([contacts["a"], contacts["b"]]).astype(np.intp)
     pairs, group = np.unique(both, axis=0, return_inverse=True)
     return pairs, group.ravel()
 
 
 def _chosen(contacts: NDArray[np.void], pairs: Index, group: Index, most: int) -> Index:
-    """Return the pairs that matter most, in the order in which they first touched."""
+    """Return the `most` pairs of the largest impulse, in the order of first contact."""
     count = len(pairs)
     impulse = np.bincount(group, contacts["normal_impulse"], count)
     touched = np.bincount(group, contacts["duration"], count)
@@ -127,7 +127,7 @@ def _chosen(contacts: NDArray[np.void], pairs: Index, group: Index, most: int) -
 
 
 def _lines(group: Index, chosen: Index, count: int) -> Index:
-    """Return on which line each contact is drawn, from the top, (c,); -1 on none."""
+    """Return the line of each contact, from the top, (c,); -1 if it is not drawn."""
     line = np.full(count, -1, dtype=np.intp)
     line[chosen] = np.arange(len(chosen))
     return np.asarray(line[group])
@@ -141,18 +141,18 @@ def _timeline(ax: Axes, record: Record, pairs: Index, lines: Index, look: Style)
     drawn = lines >= 0
     contacts, lines = record.contacts[drawn], lines[drawn]
     step, end = record.scenario.sampling_time, float(record.time[-1])
-    width = max(end - float(record.time[0]), step) / CELLS
+    width = max(end - float(record.time[0]), step) / TIME_CELLS
     cell = np.floor(contacts["time"] / width).astype(np.intp)
-    # A cell is what a pair did in a while: where it parted within, it has one bar all the same.
+    # A pair has one bar for each interval, even if it parted in between.
     keys, group = np.unique(np.column_stack([lines, cell]), axis=0, return_inverse=True)
     group = group.ravel()
     begin, until, force = (np.full(len(keys), v) for v in (np.inf, -np.inf, 0.0))
     np.minimum.at(begin, group, contacts["time"])
     np.maximum.at(until, group, contacts["time"] + contacts["duration"])
     np.maximum.at(force, group, contacts["normal_impulse"] / step)
-    until = np.maximum(until, begin + 1.5 * width)  # so that the shortest touch is seen
+    until = np.maximum(until, begin + 1.5 * width)  # so that the shortest touch is visible
     middle = len(pairs) - 0.5 - keys[:, 0]
-    low, high = middle - HEIGHT / 2, middle + HEIGHT / 2
+    low, high = middle - BAR_HEIGHT / 2, middle + BAR_HEIGHT / 2
     corners = [(begin, low), (until, low), (until, high), (begin, high)]
     bars: Any = np.moveaxis(np.array(corners), 2, 0)
     shades = mpl.colormaps["Greys" if look.greys else "YlOrRd"]
@@ -175,7 +175,7 @@ def _timeline(ax: Axes, record: Record, pairs: Index, lines: Index, look: Style)
 
 
 def _say_more(ax: Axes, count: int, look: Style) -> None:
-    """Say above the bars how many pairs are not drawn."""
+    """Write the number of pairs that are not drawn above the bars."""
     ax.text(
         1.0, 1.0, f"and {counted(count, 'more pair')}", transform=ax.transAxes, ha="right",
         va="bottom", fontsize=look.small, color=look.muted,

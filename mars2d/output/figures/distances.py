@@ -1,4 +1,4 @@
-"""Figures of how near bodies came to each other and to obstacles: their clearances."""
+"""Clearances, the distances of bodies to each other and to obstacles, and their figure."""
 
 from __future__ import annotations
 
@@ -39,24 +39,24 @@ __all__ = ["Clearances", "clearances", "plot_distances"]
 
 Float = NDArray[np.float64]
 
-FEW_PAIRS = 6
-"""Up to this many pairs have a curve each; of more there is a band."""
+MAX_CURVES = 6
+"""The most pairs with a curve each; for more, a band is drawn."""
 
-LEAST_SPAN = 0.05
-"""The axis goes up to this at least, metres: bodies that rest against each other overlap a hair."""
+MIN_SPAN = 0.05
+"""The least end of the axis, metres: bodies that rest against each other overlap slightly."""
 
-MOST_DISCS, MOST_PIECES = 2e7, 1e6
-"""How many distances are worked out at most, of discs and of other shapes; else rows are left out.
-Each takes about 20 ns and 2 us."""
+MAX_DISC_GAPS, MAX_PIECE_GAPS = 2e7, 1e6
+"""The most distances to compute, between discs and between other shapes; beyond, rows are skipped.
+One takes about 20 ns and 2 us."""
 
 
 @dataclass(frozen=True, eq=False)
 class Clearances:
-    """The gaps between surfaces over time, metres; a gap is 0 in touch, less than 0 in overlap.
+    """The gaps between surfaces over time, metres: 0 in contact, negative in overlap.
 
-    rows: (T',) of the record at which they were worked out. pairs: (p, 2) bodies, one of them a
-    robot at least. pair: (T', p) between those. obstacle: (T', n) of each robot to what stands
-    nearest of the obstacles and walls, or None where there are none.
+    rows: (T',), the rows of the record at which they were computed. pairs: (p, 2), bodies, at least
+    one of them a robot. pair: (T', p), the gaps of the pairs. obstacle: (T', n), the gap of each
+    robot to the nearest obstacle or wall, or None if there are none.
     """
 
     rows: NDArray[np.intp]
@@ -66,12 +66,12 @@ class Clearances:
 
 
 def clearances(record: Record) -> Clearances:
-    """Return the clearances of a record: of robots to robots and props, and to obstacles.
+    """Return the clearances of a record: of robots to robots, props and obstacles.
 
-    A clearance is the shortest distance between two outlines. Of two discs that overlap it is minus
-    how deep they do; of other shapes at least 0 less the radii of discs. Bodies that a hinge joins
-    are left out: they don't collide. Where a run is so long that the figure would take minutes,
-    every k-th row alone is looked at.
+    A clearance is the shortest distance between two outlines. For two discs that overlap, it is
+    minus the depth of the overlap; for other shapes it is never less than minus the radii of their
+    rounded pieces. Bodies joined by a hinge are left out, since they don't collide. If a run is so
+    long that computing all rows would take minutes, only every k-th row is used.
     """
     scenario = record.scenario
     n, shapes = len(scenario.robots), [body.shape.pieces for body in scenario.bodies]
@@ -83,7 +83,7 @@ def clearances(record: Record) -> Clearances:
     obstacles = bool(_surfaces(record))
     discs = sum(len(shapes[a]) == len(shapes[b]) == 1 and _round(shapes, a, b) for a, b in pairs)
     others = len(pairs) - discs + (n if obstacles else 0)
-    stride = max(1.0, len(record) * discs / MOST_DISCS, len(record) * others / MOST_PIECES)
+    stride = max(1.0, len(record) * discs / MAX_DISC_GAPS, len(record) * others / MAX_PIECE_GAPS)
     rows = np.arange(0, len(record), int(np.ceil(stride)))
     if rows[-1] != len(record) - 1:
         rows = np.append(rows, len(record) - 1)
@@ -103,7 +103,7 @@ def _round(shapes: list[tuple[Piece, ...]], *bodies: int) -> bool:
 
 
 class _Placed:
-    """Bodies where they were: the convex pieces of each, over time."""
+    """The convex pieces of each body at its poses over time."""
 
     def __init__(self, shapes: list[tuple[Piece, ...]], poses: Float) -> None:
         """Take the pieces of the bodies, and their poses (T, 3, bodies)."""
@@ -111,14 +111,14 @@ class _Placed:
         self._outlines: dict[tuple[int, int], Any] = {}
 
     def _points(self, body: int, piece: Piece) -> Float:
-        """Return where the vertices of a piece were, (T, v, 2) metres."""
+        """Return the positions of a piece's vertices, (T, v, 2) metres."""
         x, y, theta = self._poses[:, :, body, None].swapaxes(0, 1)
         c, s = np.cos(theta), np.sin(theta)
         ahead, left = np.array(piece.vertices).T
         return np.stack([x + c * ahead - s * left, y + s * ahead + c * left], axis=2)
 
     def outlines(self, body: int, k: int) -> Any:
-        """Return a piece of a body as geometries of shapely, (T,), without its radius."""
+        """Return a piece of a body as shapely geometries, (T,), without its radius."""
         import shapely
 
         if (body, k) not in self._outlines:
@@ -156,13 +156,13 @@ class _Placed:
 
 
 def _surfaces(record: Record) -> list[Scenario]:
-    """Return the scenarios of a run, changes included, that have something to run into."""
+    """Return the scenarios of a run, changes included, that have obstacles or a wall."""
     scenarios = [record.scenario, *(change.scenario for change in record.changes)]
     return [scenario for scenario in scenarios if scenario.surfaces]
 
 
 def _to_obstacles(record: Record, placed: _Placed, rows: NDArray[np.intp]) -> Float:
-    """Return the clearance of each robot to what stands nearest, (T', n) metres; nan for none."""
+    """Return the clearance of each robot to its nearest obstacle, (T', n) metres; nan if none."""
     import shapely
 
     n = len(record.scenario.robots)
@@ -192,12 +192,12 @@ def _to_obstacles(record: Record, placed: _Placed, rows: NDArray[np.intp]) -> Fl
 
 
 def plot_distances(record: Record, ax: Axes | None = None, *, style: str = "screen") -> Axes:
-    """Draw the clearances over time: how far surfaces are from each other, 0 where they touch.
+    """Draw clearances over time: the distances between surfaces, 0 in contact.
 
-    Of up to six pairs, each has a curve: robots and robots, robots and props. Of more there are,
-    over the robots, the least, the mean and the most of each one's clearance to whatever body is
-    nearest to it. The clearance of the robot that is nearest to an obstacle or wall is a curve of
-    its own. See `clearances` for what is measured.
+    Up to six pairs (of robots, or a robot and a prop) have a curve each. For more, the figure shows
+    the minimum, mean and maximum over the robots of the clearance to their nearest body. One more
+    curve shows the clearance of the robot nearest to an obstacle or wall. For the definition see
+    `clearances`.
 
     ax: matplotlib axes to draw on; by default those of a new figure. style: as in `Record.plot`.
     Returns the axes. Raises InputError for a record without rows.
@@ -211,7 +211,7 @@ def plot_distances(record: Record, ax: Axes | None = None, *, style: str = "scre
         dress_panel(ax, record, ax, look)
         caption(ax, "clearance", "m", look)
         time = record.time[found.rows]
-        few = len(found.pairs) <= FEW_PAIRS
+        few = len(found.pairs) <= MAX_CURVES
         if few:
             entries, drawn = _pair_curves(record, found, look)
         else:
@@ -239,7 +239,7 @@ def plot_distances(record: Record, ax: Axes | None = None, *, style: str = "scre
 
 
 def _least(gaps: Float) -> Float:
-    """Return the least of each row, nan where there is none."""
+    """Return the minimum of each row, nan for a row without numbers."""
     least = np.where(np.isnan(gaps), np.inf, gaps).min(axis=1)
     return np.where(np.isfinite(least), least, np.nan)
 
@@ -249,7 +249,7 @@ def _pair_curves(record: Record, found: Clearances, look: Style) -> tuple[list[E
     entries = []
     for k, (a, b) in enumerate(found.pairs.tolist()):
         color, dash = look.curve(k)
-        if not look.greys and k % 2:  # so that one sees that two are the same
+        if not look.greys and k % 2:  # so that curves that coincide can both be seen
             dash = "--"
         name = pair_name(record.scenario, a, b)
         entries.append(Entry(name, color, dash, width_of(1, look)))
@@ -257,7 +257,7 @@ def _pair_curves(record: Record, found: Clearances, look: Style) -> tuple[list[E
 
 
 def nearest_body(found: Clearances, robots: int) -> Float:
-    """Return the clearance of each robot to the body that is nearest to it, (T', n) metres."""
+    """Return the clearance of each robot to its nearest body, (T', n) metres."""
     nearest = np.full((len(found.rows), robots), np.inf)
     for k, (a, b) in enumerate(found.pairs.tolist()):
         for body in (a, b):
@@ -269,7 +269,7 @@ def nearest_body(found: Clearances, robots: int) -> Float:
 def _band(
     ax: Axes, record: Record, found: Clearances, look: Style
 ) -> tuple[list[Entry], list[Float]]:
-    """Draw a band from the least to the most; return the curves of the least and the mean."""
+    """Draw a band from minimum to maximum; return the legend, and the minimum, mean and maximum."""
     nearest = nearest_body(found, len(record.scenario.robots))
     low, mean, high = nearest.min(axis=1), nearest.mean(axis=1), nearest.max(axis=1)
     color = look.curve(0)[0]
@@ -288,4 +288,4 @@ def _set_limits(ax: Axes, drawn: list[Float], found: Clearances, *, few: bool) -
     every = [values[np.isfinite(values)] for values in (*drawn, *(() if few else (found.pair,)))]
     low = min(values.min(initial=0.0) for values in every)
     high = max(values.max(initial=0.0) for values in drawn)
-    set_span(ax, low, max(high, LEAST_SPAN))
+    set_span(ax, low, max(high, MIN_SPAN))

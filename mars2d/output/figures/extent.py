@@ -1,4 +1,4 @@
-"""The part of a record and of the plane that a figure shows: its rows and its view."""
+"""The rows of a record and the part of the plane that a figure shows."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ class View:
     ymax: float
 
     FARTHEST = 1e100
-    """How far away bodies may be, metres: numbers as large as can be have no squares."""
+    """The greatest coordinate that is drawn, metres: squares of larger numbers overflow."""
 
     RATIO = 8.0
-    """The longest side to the shortest: a corridor is given some room."""
+    """The largest ratio of the sides; a longer corridor gets margins."""
 
     @classmethod
     def of(cls, record: Record, row: int) -> Self:
@@ -77,7 +77,7 @@ class View:
         return self.ymax - self.ymin
 
     def union(self, limits: tuple[float, float, float, float]) -> Self:
-        """Return the view that also holds (xmin, xmax, ymin, ymax), metres."""
+        """Return the view extended to hold (xmin, xmax, ymin, ymax), metres."""
         xmin, xmax, ymin, ymax = limits
         return replace(
             self,
@@ -92,19 +92,19 @@ class View:
 
 
 PANEL_LIMIT = 64
-"""The most panels of a figure."""
+"""The most panels in a figure."""
 
 
 def check_rows(record: Record, what: str = "draw") -> None:
-    """Raise InputError for a record without rows; what: the verb that it is for."""
+    """Raise InputError for a record without rows; what: the verb of the message."""
     if len(record) == 0:
         raise InputError(f"the record has no rows: nothing ran, so there is nothing to {what}")
 
 
 def rows_at(record: Record, times: ArrayLike) -> list[int]:
-    """Return the last rows of a record that are not after the times [s].
+    """Return the last row of a record at or before each of the times [s].
 
-    Raises InputError for a time outside of the record, and for none or too many of them.
+    Raises InputError for a time outside the record, and for no times or too many.
     """
     check_rows(record)
     expected = "expected times in seconds, as [0, 2.5, 10]"

@@ -1,4 +1,4 @@
-"""Figures of records with matplotlib: the end of a run, or snapshots, for reports and papers."""
+"""Figures of records with matplotlib, for reports and papers: the end of a run, or snapshots."""
 
 from __future__ import annotations
 
@@ -59,14 +59,14 @@ SUFFIXES = (".png", ".pdf", ".svg")
 """The formats of `save_figure`."""
 
 LEGEND_LIMIT = 8
-"""With more robots than this there is no legend: base colours recur."""
+"""The most robots with a legend; beyond, base colours recur."""
 
 NAME_LIMIT = 24
 
 INK, MUTED, GRID = SCREEN.ink, SCREEN.muted, SCREEN.grid
 
 WORKSPACE = 1.0
-"""Its level in matplotlib's order of drawing: the grid lies above it, at 1.5, the shapes at 2."""
+"""The zorder of the workspace; the grid has 1.5, shapes have 2."""
 
 TICK_SPACING = 28.0  # points between ticks, at least
 
@@ -77,8 +77,8 @@ def plot_paths(
     """Draw all layers at the end of a record: paths, initial poses hollow, final ones filled.
 
     ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
-    and which a notebook shows. style: the name of one of `figures.style`. layers: the
-    switches; by default as the animation says, and sensors among few robots. Returns the axes.
+    and which a notebook shows. style: a name in `figures.style.STYLES`. layers: the switches; by
+    default those of the animation, with sensors if there are few robots. Returns the axes.
     Raises InputError if the record has no rows.
 
     >>> import mars2d
@@ -96,7 +96,7 @@ def plot_paths(
             ax = new_figure(width, height).add_subplot()
         else:
             check_axes(ax)
-            if ax.has_data():  # a second record over a first one
+            if ax.has_data():  # a second record on top of a first one
                 view = view.union((*ax.get_xlim(), *ax.get_ylim()))
         dress(ax, record.scenario, view, look, layers)
         label(ax, look=look)
@@ -110,7 +110,7 @@ def plot_paths(
 
 
 def _page(look: Style, scenario: Scenario, view: View) -> tuple[float, float]:
-    """Return the size of a figure of one drawing, inches."""
+    """Return the size of a figure with one drawing, inches."""
     if look.page is not None:
         return look.page
     beside = 0.8 * look.label / SCREEN.label + _legend_width(scenario, look)
@@ -129,11 +129,11 @@ def plot_snapshots(
     style: str = "screen",
     layers: Layers | None = None,
 ) -> Figure:
-    """Draw the paths until each of some times, one panel a time.
+    """Draw the paths up to each of some times, one panel each.
 
-    times: seconds, within the record; the panel shows the last row that is not after it. figure:
+    times: seconds, within the record; a panel shows the last row at or before its time. figure:
     a matplotlib figure to draw on, by default a new one. style, layers: as in `plot_paths`. Returns
-    the figure. Raises InputError for a time outside of the record, and if the record has no rows.
+    the figure. Raises InputError for a time outside the record, and if the record has no rows.
     """
     look = style_of(style)
     rows = rows_at(record, times)
@@ -174,7 +174,7 @@ def _snapshots(
 def _page_of_panels(
     look: Style, scenario: Scenario, view: View, cols: int, lines: int
 ) -> tuple[float, float]:
-    """Return the size of a figure of several drawings in columns and lines, inches."""
+    """Return the size of a figure with drawings in columns and lines, inches."""
     if look.page is not None:
         return look.page
     beside = 0.6 + _legend_width(scenario, look)
@@ -191,9 +191,9 @@ def save_figure(
 ) -> Path:
     """Save a figure of a record as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
-    times: seconds; when given, snapshots at these times, else the paths of the whole run. style: as
-    in `plot_paths`. The same record gives the same bytes. Raises InputError for another suffix, a
-    path that can't be written, a record without rows, or a time outside of it.
+    times: seconds, for snapshots at these times; None: the paths of the whole run. style: as in
+    `plot_paths`. The same record gives the same bytes. Raises InputError for another suffix, a path
+    that can't be written, a record without rows, or a time outside it.
     """
     look = style_of(style)
 
@@ -210,8 +210,8 @@ def save_drawing(
 ) -> Path:
     """Save the figure that `draw` returns as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
-    trim: cut off what is blank around the drawing. dpi: pixels an inch of a .png. Fonts are
-    embedded in a .pdf. Raises InputError as `save_figure`.
+    trim: cut off blank margins. dpi: pixels per inch of a .png. Fonts are embedded in a .pdf.
+    Raises InputError as `save_figure`.
     """
     import matplotlib as mpl
 
@@ -222,10 +222,13 @@ def save_drawing(
         raise InputError(f"{path}: a figure is saved as {known}, this ends in {path.suffix!r}")
     if not path.parent.is_dir():
         raise InputError(f"{path}: can't be written: there is no folder {path.parent}")
-    # Without the date, and with ids that do not depend on chance.
+    # Without the date, and with ids that are not random.
     dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "pdf.fonttype": 42}):
-        figure, made = draw(), BytesIO()  # on a full disk its own errors would hide the disk's
+        figure, made = (
+            draw(),
+            BytesIO(),
+        )  # in memory: on a full disk, errors of matplotlib would hide the cause
         figure.savefig(
             made, format=suffix[1:], dpi=dpi, bbox_inches="tight" if trim else None,
             pad_inches=0.1, metadata=dates.get(suffix),
@@ -236,7 +239,7 @@ def save_drawing(
 
 
 def new_figure(width: float, height: float, *, layout: Layout = "constrained") -> Figure:
-    """Return a figure [inches] that pyplot does not know of."""
+    """Return a new figure [inches], unknown to pyplot."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -283,21 +286,21 @@ def dress(
 
 
 def style_ticks(ax: Axes, look: Style) -> None:
-    """Set how the labels of ticks look, those that are made later as well."""
+    """Style the labels of ticks, including those made later."""
     ax.tick_params(which="both", length=0, labelsize=look.small, labelcolor=look.muted)
     if look.family:
         ax.tick_params(which="both", labelfontfamily=list(look.family))
 
 
 def line_style(dash: str) -> Any:
-    """Return Matlab's name of a line style as matplotlib takes it, which is the same."""
+    """Return Matlab's name of a line style, typed for matplotlib, which uses the same names."""
     return dash
 
 
 def _set_ticks(ax: Axes, spacing: float) -> None:
-    """Set the ticks of both axes at the same distance: 1, 2 or 5 times a power of ten metres.
+    """Set ticks at the same distance on both axes: 1, 2 or 5 times a power of ten metres.
 
-    spacing: between ticks at least, points.
+    spacing: the least distance between ticks, points.
     """
     from matplotlib.ticker import MultipleLocator
 
@@ -318,7 +321,7 @@ def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SC
 def paint_row(
     ax: Axes, record: Record, row: int, look: Style = SCREEN, layers: Layers | None = None
 ) -> None:
-    """Paint the layers as they are at a row; layers: the switches, as in `plot_paths`."""
+    """Paint the layers at a row; layers: the switches, as in `plot_paths`."""
     now = record.frame(row)
     animation = record.scenario.animation
     layers = layers or _layers_of(record.scenario)
@@ -349,7 +352,7 @@ def paint_row(
 
 
 def _layers_of(scenario: Scenario) -> Layers:
-    """Return the layers of a figure by default; in a crowd, sensors would hide the paths."""
+    """Return the default layers of a figure, for many robots without sensors, which hide paths."""
     few = len(scenario.robots) <= LEGEND_LIMIT
     return Layers.of(scenario.animation, sensors=few)
 
@@ -382,7 +385,7 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
 
 
 def _paint_legend(ax: Axes, now: Frame, scale: float, words: float) -> None:
-    """Paint an arrow of a round force into a corner, with its number."""
+    """Paint the scale of forces in a corner: an arrow of a round force, with its number."""
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
     length = force_scale(now.scenario).newton
     force = round_force(0.14 * (xmax - xmin) / length)
@@ -396,7 +399,7 @@ def _paint_legend(ax: Axes, now: Frame, scale: float, words: float) -> None:
 
 
 def _told_apart(trails: Scene, scenario: Scenario, look: Style) -> Scene:
-    """Return the paths with the style's dashes, and paler in a crowd."""
+    """Return the paths with the style's dashes, and paler for many robots."""
     trails = _dashed(trails, scenario, look)
     if len(scenario.robots) > LEGEND_LIMIT:
         trails = Scene([_paler(shape) for shape in trails.shapes])
@@ -404,7 +407,7 @@ def _told_apart(trails: Scene, scenario: Scenario, look: Style) -> Scene:
 
 
 def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:
-    """Return the paths, the robots' with the line styles by which they are told apart."""
+    """Return the paths, with a line style for each robot if the style has no colours."""
     if not look.greys or scenario.animation.wake_style != "-":
         return trails
     first = len(trails.shapes) - len(scenario.robots)  # the props' come before
@@ -418,7 +421,7 @@ def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:
 
 
 def _paler(shape: Shape) -> Shape:
-    """Return a line more faint, so that in a crowd the robots stand out from their paths."""
+    """Return a fainter line, so that robots stand out from their paths."""
     return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
 
 
@@ -431,7 +434,7 @@ def _set_title(ax: Axes, title: str, look: Style) -> None:
 
 
 def _wrapped(title: str, room: float, look: Style) -> str:
-    """Return a title in lines that fit into some room, inches."""
+    """Return a title wrapped to a width, inches."""
     letters = max(20, int(room * 120 / look.title))
     return textwrap.fill(title, letters, max_lines=3, placeholder=" …")
 
@@ -441,26 +444,26 @@ def _time(seconds: float) -> str:
 
 
 def _names(scenario: Scenario) -> list[str]:
-    """Return the robots' names as they stand in a legend, or none if there are too many."""
+    """Return the robots' names for a legend, or none if there are too many."""
     if len(scenario.robots) > LEGEND_LIMIT:
         return []
     return [plain_name(str(robot.name)) for robot in scenario.robots]
 
 
 def plain_name(name: str) -> str:
-    """Return a name as it stands in a legend: in one line that is not too long."""
+    """Return a name for a legend: on one line, and shortened if long."""
     name = " ".join(name.split())
     return name if len(name) <= NAME_LIMIT else name[: NAME_LIMIT - 1] + "…"
 
 
 def _legend_width(scenario: Scenario, look: Style) -> float:
-    """Return about how wide the legend will be, inches."""
+    """Return the approximate width of the legend, inches."""
     names = _names(scenario)
     return (0.3 + 0.075 * max(map(len, names))) * look.small / SCREEN.small if names else 0.0
 
 
 def _add_legend(ax: Axes, scenario: Scenario, look: Style) -> None:
-    """Name the robots beside the drawing, if they are few."""
+    """Add a legend of the robots beside the drawing, if they are few."""
     from matplotlib.lines import Line2D
 
     names = _names(scenario)
@@ -486,9 +489,9 @@ def _add_legend(ax: Axes, scenario: Scenario, look: Style) -> None:
 
 
 def _columns(count: int, ratio: float, page: tuple[float, float] | None) -> int:
-    """Return in how many columns to lay out panels whose width to height is `ratio`.
+    """Return the number of columns for panels whose ratio of width to height is `ratio`.
 
-    page: the size of the figure, if that is given: then the panels are as large as can be.
+    page: the size of the figure, inches, if it is fixed: the panels are then as large as possible.
     """
 
     def fault(cols: int) -> float:
@@ -501,7 +504,7 @@ def _columns(count: int, ratio: float, page: tuple[float, float] | None) -> int:
 
 
 def show_in_notebooks(ax: Axes) -> None:
-    """Let a notebook show the axes, or their figure: it asks for the method _repr_png_."""
+    """Let notebooks show the axes or their figure, by the method `_repr_png_`."""
     figure: Any = ax.get_figure()
     ax.__dict__["_repr_png_"] = figure.__dict__["_repr_png_"] = partial(_png, figure)
 

@@ -1,4 +1,4 @@
-"""A picture of a map that was read from a file: its pieces in the colours of their layers."""
+"""A picture of a map read from a file: its pieces in the colours of their layers."""
 
 from __future__ import annotations
 
@@ -18,13 +18,12 @@ if TYPE_CHECKING:
 
 __all__ = ["plot_map", "save_map"]
 
-LONGER, SHORTER = 8.0, 1.6
-"""The sides of the drawing, inches: the longer one, and how short the other may get."""
+LONG_SIDE, MIN_SIDE = 8.0, 1.6
+"""The longer side of the drawing, and the least length of the other, inches."""
 
-NAMED = len(PALETTE)
-"""So many layers have a colour of their own and a name in the legend, the others are grey."""
+REST_COLOR = "#aab2bb"
+"""The colour of layers beyond those of PALETTE, which are not named in the legend."""
 
-REST = "#aab2bb"
 NAME_LIMIT = 30
 
 
@@ -39,16 +38,16 @@ def save_map(drawing: Drawing, path: str | Path) -> Path:
 def plot_map(drawing: Drawing) -> Figure:
     """Draw a map, areas filled and walls as lines, in a new figure with axes in metres."""
     width, height = (max(side, max(drawing.size) / 20) for side in drawing.size)
-    scale = LONGER / max(width, height)
+    scale = LONG_SIDE / max(width, height)
     legend = 0.5 + 0.075 * min(max(map(len, drawing.layers)), NAME_LIMIT + 6)
-    size = max(scale * width, SHORTER) + 0.9 + legend, max(scale * height, SHORTER) + 0.9
+    size = max(scale * width, MIN_SIDE) + 0.9 + legend, max(scale * height, MIN_SIDE) + 0.9
     figure = new_figure(*size)
     ax = figure.add_subplot()
     _dress(ax, drawing)
     names = list(drawing.layers)
     colors = {names[0]: INK} if len(names) == 1 else dict(zip(names, PALETTE, strict=False))
-    for name in reversed(names):  # those with most pieces on top
-        _paint(ax, drawing, name, colors.get(name, REST))
+    for name in reversed(names):  # the layers with most pieces on top
+        _paint(ax, drawing, name, colors.get(name, REST_COLOR))
     if len(names) > 1:
         _add_legend(ax, drawing, colors)
     return figure
@@ -103,13 +102,13 @@ def _paint(ax: Axes, drawing: Drawing, layer: str, color: str) -> None:
 
 
 def _add_legend(ax: Axes, drawing: Drawing, colors: dict[str, str]) -> None:
-    """Name the layers beside the drawing, with how many pieces they have."""
+    """Add a legend of the layers beside the drawing, with their numbers of pieces."""
     from matplotlib.lines import Line2D
 
     rows = [(color, f"{_short(name)}  {drawing.layers[name]}") for name, color in colors.items()]
     rest = [count for name, count in drawing.layers.items() if name not in colors]
     if rest:
-        rows.append((REST, f"{len(rest)} more  {sum(rest)}"))
+        rows.append((REST_COLOR, f"{len(rest)} more  {sum(rest)}"))
     handles = [Line2D([], [], color=color, linewidth=4) for color, _ in rows]
     legend = ax.legend(
         handles, ["layer"] * len(rows), loc="upper left", bbox_to_anchor=(1.0, 1.0),
@@ -121,5 +120,5 @@ def _add_legend(ax: Axes, drawing: Drawing, colors: dict[str, str]) -> None:
 
 
 def _short(name: str) -> str:
-    """Return a layer's name, of a long one its end: bound drawings put theirs in front."""
+    """Return a layer's name; a long one keeps its end, since bound drawings add a prefix."""
     return name if len(name) <= NAME_LIMIT else f"…{name[1 - NAME_LIMIT :]}"

@@ -1,4 +1,4 @@
-"""Panels over time, one below the other: their figure, axes, titles, legends and curves."""
+"""Panels over time, one below the other: figure, axes, titles, legends and curves."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ from mars2d.output.figures.figure import (
     style_ticks,
 )
 from mars2d.output.figures.style import Style
-from mars2d.output.figures.thinning import thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,26 +38,29 @@ __all__ = [
     "say",
     "set_span",
     "short_number",
+    "spans",
+    "thinned",
     "width_of",
 ]
 
 Float = NDArray[np.float64]
+Index = NDArray[np.intp]
 
-VERTICES = 20_000
-"""About so many points a panel has at most, over all its curves."""
+MAX_VERTICES = 20_000
+"""The most points in a panel, over all its curves, approximately."""
 
-MOST_BLOCKS, LEAST_BLOCKS = 1000, 250
-"""In how many parts a long curve is cut, of each of which the extremes are drawn."""
+MAX_BLOCKS, MIN_BLOCKS = 1000, 250
+"""The limits of the blocks into which a long curve is cut; each block keeps its extremes."""
 
-CAPTION = 12
-"""How many letters a line beside an axis of values has."""
+CAPTION_LETTERS = 12
+"""The letters in a line of a caption, at most."""
 
-LETTER = 0.56
-"""The width of a letter, about, in heights of text."""
+LETTER_WIDTH = 0.56
+"""The approximate width of a letter, in text heights."""
 
 
 class Entry(NamedTuple):
-    """What a legend says of a curve: its name, colour, line style and width [points], marker."""
+    """A curve's entry in a legend: its name, colour, line style, width [points] and marker."""
 
     name: str
     color: str
@@ -73,8 +75,8 @@ def panels(
 ) -> list[Axes]:
     """Return axes for panels below each other: those given, or those of a new figure.
 
-    names: what the panels show, for the error where another number of axes is given. heights: of
-    the panels, relative to each other.
+    names: the panels' contents, for the error if the number of axes differs. heights: the relative
+    heights of the panels.
     """
     if axes is not None:
         given = list(np.ravel(np.asarray(axes, dtype=object)))
@@ -95,9 +97,9 @@ def panels(
 def dress_panel(
     ax: Axes, record: Record, last: Axes, look: Style, rows: slice = slice(None)
 ) -> None:
-    """Set the limits of time, grid, ticks and spines; name the time below the last panel.
+    """Set the limits of time, grid, ticks and spines; label the time below the last panel.
 
-    rows: those that are drawn.
+    rows: the rows that are drawn.
     """
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
@@ -117,15 +119,15 @@ def dress_panel(
 
 
 def short_number(value: float, _: int = 0) -> str:
-    """Return a number as it stands at a tick: short, without what rounding has left."""
+    """Return a number for a tick: short, without rounding errors."""
     return f"{round(value, 12) + 0.0:g}".replace("-", "\N{MINUS SIGN}")
 
 
 def caption(ax: Axes, name: str, unit: str, look: Style) -> None:
-    """Say what a panel shows, beside its axis of values, and upright: nobody tilts the head."""
+    """Write a panel's name and unit beside its axis of values, horizontally."""
     text = f"{name} [{unit}]" if unit else name
-    if len(text) > CAPTION:
-        text = "\n".join(textwrap.wrap(name, CAPTION) + ([f"[{unit}]"] if unit else []))
+    if len(text) > CAPTION_LETTERS:
+        text = "\n".join(textwrap.wrap(name, CAPTION_LETTERS) + ([f"[{unit}]"] if unit else []))
     ax.set_ylabel(
         text, color=look.ink, fontsize=look.label, rotation=0, ha="right", va="center",
         linespacing=1.0 if look.family else 1.2, parse_math=False,
@@ -133,7 +135,7 @@ def caption(ax: Axes, name: str, unit: str, look: Style) -> None:
 
 
 def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> None:
-    """Write a title above the first panel, and below it a legend in as many lines as it needs."""
+    """Write a title above the first panel, and a legend between them."""
     from matplotlib.lines import Line2D
 
     room = _points(ax)[0]
@@ -141,7 +143,7 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
     if entries:
         widest = max(len(entry.name) for entry in entries)
         handle = 3.2 if look.greys else 2.0
-        each = look.small * (handle + 0.5 + 1.2 + LETTER * widest)
+        each = look.small * (handle + 0.5 + 1.2 + LETTER_WIDTH * widest)
         cols = max(1, min(len(entries), int(room / each)))
         lines = ceil(len(entries) / cols)
         cols = ceil(len(entries) / lines)
@@ -169,7 +171,7 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
             text.set_text(entry.name)  # only now: a legend leaves out labels that begin with "_"
         above = lines * look.small * 1.5
     if look.title:
-        letters = max(20, int(room / (LETTER * look.title)))
+        letters = max(20, int(room / (LETTER_WIDTH * look.title)))
         ax.set_title(
             textwrap.fill(title, letters, max_lines=2, placeholder=" …"), loc="left",
             fontsize=look.title, color=look.ink, pad=6 * look.stroke**0.5 + above, parse_math=False,
@@ -180,13 +182,13 @@ def curve(
     ax: Axes, time: Float, values: Float, entry: Entry, *, held: str = "", many: int = 1,
     wraps: bool = False, level: float = 3.0,
 ) -> None:  # fmt: skip
-    """Draw values (T,) over time; what is not finite is a gap, what stands alone in gaps a dot.
+    """Draw values (T,) over time, with gaps for nan and inf; a value between two gaps is a dot.
 
     held: "post" if a value holds until the next one, "pre" if it has held since the one before.
-    many: how many curves the panel has. Of a long curve the extremes are kept. wraps: of an angle,
-    so that from pi to -pi there is no line.
+    many: the number of curves in the panel. A long curve is thinned to its extremes. wraps: whether
+    the values are angles, so that no line joins pi and -pi.
     """
-    blocks = int(np.clip(VERTICES / 5 / many, LEAST_BLOCKS, MOST_BLOCKS))
+    blocks = int(np.clip(MAX_VERTICES / 5 / many, MIN_BLOCKS, MAX_BLOCKS))
     kept = thinned(values, blocks)
     time, values = time[kept], values[kept]
     if wraps:
@@ -208,9 +210,9 @@ def curve(
 
 
 def set_span(ax: Axes, low: float, high: float) -> None:
-    """Set the limits of a panel's values round those from `low` to `high`, with a margin.
+    """Set the limits of a panel's values to `low` and `high` with a margin.
 
-    What is the same but for rounding is not blown up.
+    Differences as small as rounding errors are not enlarged.
     """
     if not low <= high:  # there are none
         low, high = 0.0, 1.0
@@ -223,7 +225,7 @@ def set_span(ax: Axes, low: float, high: float) -> None:
 
 
 def color_bar(ax: Axes, image: ScalarMappable, text: str, look: Style) -> None:
-    """Add a scale of colours beside axes, within their own place."""
+    """Add a colour bar at the right side of axes, without changing their size."""
     bar = ax.figure.colorbar(image, cax=ax.inset_axes((1.012, 0.0, 0.014, 1.0)))
     bar.outline.set_visible(False)
     style_ticks(bar.ax, look)
@@ -232,7 +234,7 @@ def color_bar(ax: Axes, image: ScalarMappable, text: str, look: Style) -> None:
 
 
 def say(ax: Axes, text: str, look: Style) -> None:
-    """Write in axes why there is nothing in them."""
+    """Write the reason why axes are empty in their middle."""
     ax.text(
         0.5, 0.5, text, transform=ax.transAxes, ha="center", va="center", wrap=True,
         fontsize=look.label, color=look.muted, parse_math=False,
@@ -240,7 +242,7 @@ def say(ax: Axes, text: str, look: Style) -> None:
 
 
 def finish(axes: Sequence[Axes], *, own: bool) -> list[Axes]:
-    """Return the axes, after notebooks were told how to show a figure of ours."""
+    """Let notebooks show the axes if the figure is our own; return the axes."""
     if own:
         for ax in axes:
             show_in_notebooks(ax)
@@ -248,11 +250,63 @@ def finish(axes: Sequence[Axes], *, own: bool) -> list[Axes]:
 
 
 def width_of(many: int, look: Style, few: int = 8) -> float:
-    """Return the width of a curve among many, points."""
+    """Return the width of one of `many` curves, points."""
     return 1.5 * look.stroke if many <= few else 0.7 * look.stroke**0.5
 
 
 def _points(ax: Axes) -> tuple[float, float]:
-    """Return the width and the height of axes, points; before the layout, about."""
+    """Return the width and the height of axes, points; approximate before the layout."""
     box, points = ax.get_window_extent(), 72 / ax.figure.dpi
     return box.width * points, box.height * points
+
+
+# -- thinning of long columns ----------------------------------------------------------------------
+
+
+def thinned(values: Float, blocks: int) -> Index:
+    """Return the indices of the values (T,) to draw so that the curve looks like the whole.
+
+    The values are cut into `blocks` blocks. Each keeps its first and last value, its smallest and
+    largest, so that no peak is lost, and its first that is not finite, so that gaps stay.
+
+    >>> thinned(np.array([0.0, 1, 0, 0, 9, 0, 0, 0, -5, 0]), 1).tolist()
+    [0, 4, 8, 9]
+    """
+    count = len(values)
+    size = -(-count // blocks)
+    if count <= 5 * blocks:
+        return np.arange(count)
+    whole = count // size * size
+    parts = [_kept(values[:whole].reshape(-1, size), 0)]
+    if whole < count:
+        parts.append(_kept(values[None, whole:], whole))
+    return np.unique(np.concatenate(parts))
+
+
+def _kept(blocks: Float, start: int) -> Index:
+    """Return the indices to keep of blocks (k, size), counted from `start`."""
+    finite = np.isfinite(blocks)
+    kept = [
+        np.zeros(len(blocks), dtype=np.intp),
+        np.where(finite, blocks, np.inf).argmin(axis=1),
+        np.where(finite, blocks, -np.inf).argmax(axis=1),
+        finite.argmin(axis=1),
+        np.full(len(blocks), blocks.shape[1] - 1),
+    ]
+    first = start + np.arange(len(blocks)) * blocks.shape[1]
+    return np.asarray(np.concatenate([first + each for each in kept]))
+
+
+def spans(begin: Float, end: Float, least: float) -> tuple[Float, Float]:
+    """Return intervals of at least the length `least`, with gaps shorter than that closed.
+
+    begin, end: (k,), sorted by `begin`.
+
+    >>> [each.tolist() for each in spans(np.array([0.0, 1.05, 5]), np.array([1, 2, 5]), 0.1)]
+    [[0.0, 5.0], [2.0, 5.1]]
+    """
+    end = np.maximum.accumulate(np.maximum(end, begin + least))
+    apart = np.ones(len(begin), dtype=bool)
+    apart[1:] = begin[1:] - end[:-1] > least
+    last = np.append(apart[1:], np.ones(min(1, len(begin)), dtype=bool))
+    return begin[apart], end[last]

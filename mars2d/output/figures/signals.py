@@ -1,4 +1,4 @@
-"""Figures of any column of a record over time."""
+"""Figures of columns of a record over time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.description import real
 from mars2d.core.errors import InputError
-from mars2d.output.figures.columns import IMAGE_FROM, Signal, chosen_robots, signals
+from mars2d.output.figures.columns import MIN_IMAGE_NUMBERS, Signal, chosen_robots, signals
 from mars2d.output.figures.extent import PANEL_LIMIT, check_rows
 from mars2d.output.figures.figure import LEGEND_LIMIT, plain_name
 from mars2d.output.figures.panels import (
@@ -25,10 +25,10 @@ from mars2d.output.figures.panels import (
     panels,
     say,
     set_span,
+    spans,
     width_of,
 )
 from mars2d.output.figures.style import Style, style_of
-from mars2d.output.figures.thinning import spans
 from mars2d.record.interventions import Change, Place
 
 if TYPE_CHECKING:
@@ -42,11 +42,11 @@ Float = NDArray[np.float64]
 
 DEFAULT = ("x", "y", "theta", "command")
 
-MOST_MARKS = 100
-"""Of moments at which somebody interfered, so many are marked at most."""
+MAX_MARKS = 100
+"""The most interventions that are marked."""
 
-COLUMNS = 1500
-"""An image has at most so many columns of pixels."""
+MAX_IMAGE_COLUMNS = 1500
+"""The most columns of pixels in an image."""
 
 
 def plot_signals(
@@ -59,7 +59,7 @@ def plot_signals(
     end: float | None = None,
     style: str = "screen",
 ) -> list[Axes]:
-    """Draw columns of a record over time, one panel a column, and return the axes.
+    """Draw columns of a record over time, one panel each, and return the axes.
 
     columns: "x", "y" [m], "theta" [rad], as recorded, not wrapped; "speed" [m/s], the mean since
     the row before, from the poses; "command", both parts, or one of them, as "command.0" or, where
@@ -70,13 +70,13 @@ def plot_signals(
     end: seconds, the part of the run that is drawn; by default all of it. style: as in
     `Record.plot`.
 
-    A scan, as of a laser, is an image of a robot's readings over time and bearing; where it is
-    longer than the page has pixels, the nearest distance counts. Flags are bars where they are
-    True. What is nan or inf is a gap. Where somebody put a robot elsewhere or changed the scenario
-    there is a dotted line. Of long columns the extremes are drawn, so that no peak is lost.
+    A scan, for example of a laser, is an image of a robot's readings over time and bearing; if it
+    has more rows than the page has pixels, each pixel shows the nearest distance. Flags are bars
+    where they are True. nan and inf are gaps. A dotted line marks each row at which a robot was
+    placed by hand or the scenario was changed. Long columns are thinned to their extremes, so that
+    no peak is lost.
 
-    Raises InputError for a record without rows, and for columns, robots and times that are not
-    there.
+    Raises InputError for a record without rows, and for unknown columns, robots and times.
     """
     look = style_of(style)
     check_rows(record)
@@ -122,7 +122,7 @@ def _rows(record: Record, start: float | None, end: float | None) -> slice:
 
 
 def _by_robot(signal: Signal) -> Iterator[Signal]:
-    """Yield a signal for each panel: images of several robots have one each."""
+    """Yield a signal for each panel: an image has one for each robot."""
     if signal.values.ndim == 2 or not _is_image(signal):
         yield signal
         return
@@ -131,7 +131,7 @@ def _by_robot(signal: Signal) -> Iterator[Signal]:
 
 
 def _is_image(signal: Signal) -> bool:
-    several = signal.values.ndim == 3 and signal.values.shape[2] >= IMAGE_FROM
+    several = signal.values.ndim == 3 and signal.values.shape[2] >= MIN_IMAGE_NUMBERS
     return signal.values.ndim == 4 or (several and signal.values.dtype != np.bool_)
 
 
@@ -159,7 +159,7 @@ def _draw(ax: Axes, record: Record, rows: slice, signal: Signal, look: Style) ->
 
 
 def _entry(record: Record, body: int, look: Style, many: int) -> Entry:
-    """Return how the curve of a robot or a prop looks, and what a legend says of it."""
+    """Return the style of the curve of a robot or a prop, and its name in a legend."""
     width = width_of(many, look, LEGEND_LIMIT)
     scenario = record.scenario
     robots = len(scenario.robots)
@@ -173,7 +173,7 @@ def _entry(record: Record, body: int, look: Style, many: int) -> Entry:
 def _entries(
     record: Record, robots: tuple[int, ...], shown: list[Signal], look: Style
 ) -> list[Entry]:
-    """Return the legend: the robots, and the props where columns of theirs are drawn, if few."""
+    """Return the legend of the bodies with curves, robots first, or none for too many."""
     curves = [s for s in shown if s.values.dtype != np.bool_ and not _is_image(s)]
     drawn = {body for signal in curves for body in signal.bodies}
     order = [robot for robot in robots if robot in drawn]
@@ -182,11 +182,11 @@ def _entries(
 
 
 def _mark(axes: Sequence[Axes], record: Record, rows: slice, look: Style) -> list[Entry]:
-    """Draw a line where somebody interfered, and return what the legend says of it."""
+    """Draw a line at each intervention by hand, and return its entry in the legend."""
     kinds = (Place, Change)
     moments = {each.row for each in record.interventions if isinstance(each, kinds)}
     drawn = moments.intersection(range(len(record))[rows])
-    times = [float(record.time[row]) for row in sorted(drawn)][:MOST_MARKS]
+    times = [float(record.time[row]) for row in sorted(drawn)][:MAX_MARKS]
     if not times:
         return []
     entry = Entry("by hand", look.muted, ":", look.stroke)
@@ -202,13 +202,13 @@ def _mark(axes: Sequence[Axes], record: Record, rows: slice, look: Style) -> lis
 def _flags(
     ax: Axes, record: Record, times: Float, signal: Signal, values: Float, look: Style
 ) -> None:
-    """Draw bars where flags (T, rows) are True, a row each, the first on top."""
+    """Draw bars where flags (T, rows) are True, one row each, the first on top."""
     from matplotlib.collections import PolyCollection
 
     count = values.shape[1]
     each = count // max(1, len(signal.bodies))
     step = record.scenario.sampling_time
-    least = 2 * (times[-1] - times[0]) / COLUMNS
+    least = 2 * (times[-1] - times[0]) / MAX_IMAGE_COLUMNS
     names = []
     for k in range(count):
         body = signal.bodies[k // each]
@@ -238,7 +238,7 @@ def _image(ax: Axes, record: Record, times: Float, signal: Signal, look: Style) 
     from matplotlib.ticker import MultipleLocator
 
     values = signal.values[:, 0]
-    size = -(-len(values) // COLUMNS)
+    size = -(-len(values) // MAX_IMAGE_COLUMNS)
     starts = np.arange(0, len(values), size)
     if signal.nearest and size > 1:
         values = np.fmin.reduceat(values, starts, axis=0)

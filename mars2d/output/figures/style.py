@@ -1,4 +1,4 @@
-"""How figures look: on a screen, in print, on a projector. As data, applied to each artist."""
+"""Styles of figures for the screen, print and projectors, as data applied to each artist."""
 
 from __future__ import annotations
 
@@ -21,25 +21,24 @@ MILLIMETRE = 1 / 25.4
 """Inches."""
 
 DASHES = ("-", "--", ":", "-.")
-"""Line styles that tell robots apart without colours, matplotlib's and Matlab's names of them."""
+"""Line styles that tell robots apart without colours, named as in matplotlib and Matlab."""
 
 GREYS = ("#000000", "#808080")
-"""With the line styles, they make as many curves as a legend names robots."""
+"""Greys of curves: with the line styles, as many combinations as a legend has robots."""
 
 
 @dataclass(frozen=True)
 class Style:
-    """How a figure looks.
+    """The look of a figure.
 
-    title, label, small: sizes of text, points; of small text are ticks and legends. A title of 0
-    is none, where a caption stands below. stroke: what the widths of lines are multiplied by. ink,
-    muted, grid, line: colours of text, of ticks, of the grid, of axes. single, full: widths of
-    figures of one drawing and of others, inches; None: as wide as what is drawn needs. page: the
-    size of every figure, inches, in place of these. panel: the height of a panel over time, inches.
-    dpi: of a .png. family: fonts, the first that has a letter; empty: those of the user's
-    matplotlib. greys: whether robots are told apart by greys and dashes. contrast: what the colours
-    of curves have against white at least, from 1 to 21. rows: so many bars, one below the other,
-    are still told apart.
+    title, label, small: sizes of text, points; ticks and legends are small. A title of 0 is left
+    out, for figures with a caption below. stroke: a factor for the widths of lines. ink, muted,
+    grid, line: the colours of text, ticks, grid and axes. single, full: the widths of figures with
+    one drawing and of others, inches; None: as wide as the drawing needs. page: the size of every
+    figure, inches, which replaces both. panel: the height of a panel over time, inches. dpi: of a
+    .png. family: fonts, in the order in which letters are looked up; empty: those of the user's
+    matplotlib. greys: whether greys and dashes tell robots apart. contrast: the least contrast of
+    curves to white, from 1 to 21. rows: the most bars, one below the other, that can be told apart.
     """
 
     name: str
@@ -63,7 +62,7 @@ class Style:
 
     @property
     def trim(self) -> bool:
-        """Whether blank margins are cut off in a file: where the size was not chosen."""
+        """Whether blank margins are cut off in a file: only if the size is not fixed."""
         return self.single is None and self.page is None
 
     def colors(self, scenario: Scenario) -> tuple[str, ...]:
@@ -73,7 +72,7 @@ class Style:
         return tuple(_dark_enough(color, self.contrast) for color in scenario.colors)
 
     def curve(self, index: int) -> tuple[str, str]:
-        """Return colour and line style of a curve that has no colour of its own."""
+        """Return the colour and line style of a curve that belongs to no single robot."""
         dash = DASHES[index % len(DASHES)]
         if self.greys:
             return GREYS[index // len(DASHES) % len(GREYS)], dash
@@ -84,7 +83,7 @@ class Style:
         return DASHES[index % len(DASHES)] if self.greys else "-"
 
     def robot_curve(self, scenario: Scenario, index: int) -> tuple[str, str]:
-        """Return colour and line style of a robot's curve; robots of one colour have dashes."""
+        """Return the colour and line style of a robot's curve; dashes tell equal colours apart."""
         if self.greys:
             return self.curve(index)
         colors = self.colors(scenario)
@@ -108,7 +107,7 @@ class Style:
 
     @contextmanager
     def fonts(self) -> Iterator[None]:
-        """Let text that is made within have the fonts of this style."""
+        """Use the fonts of this style for text that is made in the block."""
         import matplotlib as mpl
 
         with mpl.rc_context({"font.family": list(self.family)} if self.family else {}):
@@ -116,7 +115,7 @@ class Style:
 
 
 CURVES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#7a5c2e")
-"""Colours of curves that belong to no single robot."""
+"""The colours of curves that belong to no single robot."""
 
 SCREEN = Style(
     name="screen", title=12, label=10, small=9, stroke=1.0,
@@ -130,14 +129,14 @@ PRINT = Style(
     single=85 * MILLIMETRE, full=170 * MILLIMETRE, family=("STIXGeneral", "DejaVu Sans"),
     greys=True,
 )  # fmt: skip
-"""For a column of a paper, 85 mm, or both, 170 mm: black on white, text of 8 and 9 points."""
+"""For one column of a paper, 85 mm, or two, 170 mm: black on white, text of 8 and 9 points."""
 
 PROJECTOR = Style(
     name="projector", title=26, label=22, small=20, stroke=2.2,
     ink="#000000", muted="#262626", grid="#c8ccd0", line="#595959", panel=2.0, dpi=144,
     page=(40 / 3, 7.5), contrast=3.0, rows=8,
 )  # fmt: skip
-"""For the back row: a slide of 16:9, 1920 x 1080 pixels."""
+"""For a slide of 16:9, 1920 x 1080 pixels, that can be read from afar."""
 
 STYLES = {style.name: style for style in (SCREEN, PRINT, PROJECTOR)}
 
@@ -153,9 +152,9 @@ def style_of(name: object) -> Style:
 
 
 def _dark_enough(color: str, contrast: float) -> str:
-    """Return a colour, darkened until it has that contrast to white.
+    """Return a colour, darkened until it has a contrast to white.
 
-    Source of the contrast: Web Content Accessibility Guidelines 2.2, relative luminance.
+    Source: Web Content Accessibility Guidelines 2.2, relative luminance.
     """
     red, green, blue = rgb(color)
     share = 1.0

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
-from mars2d.output.films.cut import Cut
+from mars2d.output.films.footage import Cut, shots
 from mars2d.output.films.gif import write_gif
 from mars2d.output.films.mp4 import require_av, write_mp4
 from mars2d.output.raster import require_pygame
@@ -69,7 +69,6 @@ def film_record(
     MissingExtraError for .mp4 without PyAV, and without pygame.
     """
     check_film(path, size, fps)
-    from mars2d.output.films.footage import shots
 
     cut = cut_of(record, speed, fps, start, end)
     frames = shots(cut, record.scenario.sampling_time, len(record) - 1, record.frame)

@@ -8,7 +8,7 @@ from mars2d.core.usercode import called
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["addons", "floor", "theory"]
+__all__ = ["addons", "floor", "sensors", "theory"]
 
 
 def floor(scenario: Scenario) -> Scene:
@@ -37,4 +37,20 @@ def theory(frame: Frame) -> Scene:
     for addon in frame.scenario.addons:
         with called(f"add-on {addon.key!r}", addon.theory):
             addon.theory(scene, frame)
+    return scene
+
+
+def sensors(frame: Frame) -> Scene:
+    """Return the latest readings, each as its sensor draws it."""
+    scene = Scene()
+    colors = frame.scenario.colors
+    sensed = frame.pose if frame.sensed is None else frame.sensed
+    carried = [{sensor.key: sensor for sensor in r.sensors} for r in frame.scenario.robots]
+    for key, readings in frame.readings.items():
+        for i, reading in readings:
+            sensor = carried[i].get(key)  # a loaded record lacks sensors of the user's own
+            if sensor is not None:
+                with called(f"sensor {key!r}", sensor.draw):
+                    pose = sensed if sensor.stays else frame.pose
+                    sensor.draw(scene, pose[:, i], reading, colors[i])
     return scene

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.props.base import Prop
 from mars2d.core.plane import Point
-from mars2d.core.scene import INK, Scene, faded
+from mars2d.core.scene import INK, Scene, Text, faded
 from mars2d.core.usercode import called
 from mars2d.geometry.shapes import Disc, Rim, Shape
 from mars2d.record.frame import Frame
@@ -23,11 +23,13 @@ from mars2d.scenario.scenario import Scenario
 __all__ = [
     "INK",
     "OBSTACLE",
+    "draw_name",
     "draw_prop",
     "draw_robot",
     "draw_tie",
     "initial_poses",
     "joints",
+    "names",
     "place_prop",
     "place_robot",
     "prop_color",
@@ -254,3 +256,35 @@ def _ahead(shape: Shape) -> tuple[Point, Point]:
     found = [part.bounds for part in within if not part.is_empty]
     first = min(found, default=(0.0, 0.0, shape.thickness / 2, 0.0))
     return (first[0], 0.0), (first[2], 0.0)
+
+
+NAME_SIZE, CROWD_SIZE = 13.0, 11.0
+"""The height of names, and of names in a crowd, points."""
+NAME_HALO = "#ffffff"
+
+MANY_BODIES = 20
+"""Among more bodies, names are smaller, and a robot named robot12 by default is just 12."""
+
+
+def names(frame: Frame) -> Scene:
+    """Return a label above each body."""
+    scene = Scene()
+    for i, pose in enumerate(np.hstack([frame.pose, frame.prop_pose]).T):
+        draw_name(scene, frame.scenario, i, pose)
+    return scene
+
+
+def draw_name(scene: Scene, scenario: Scenario, body: int, pose: Float) -> None:
+    """Write the name of a body above it, at a pose (3,)."""
+    bodies, (x, y, theta) = scenario.bodies, pose.tolist()
+    crowd, name = len(bodies) > MANY_BODIES, str(bodies[body].name)
+    (ahead, left), radius = bodies[body].shape.bound
+    place = (
+        x + ahead * cos(theta) - left * sin(theta),
+        y + ahead * sin(theta) + left * cos(theta) + radius,
+    )
+    if crowd and name == f"robot{body}":
+        name = str(body)
+    scene.shapes.append(
+        Text(place, name, INK, CROWD_SIZE if crowd else NAME_SIZE, "above", NAME_HALO)
+    )

@@ -12,10 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene
-from mars2d.output.layers.addons import addons, floor, theory
+from mars2d.output.layers.addons import addons, floor, sensors, theory
 from mars2d.output.layers.bodies import (
+    draw_name,
     initial_poses,
     joints,
+    names,
     place_prop,
     place_robot,
     props,
@@ -24,9 +26,7 @@ from mars2d.output.layers.bodies import (
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.ground import edge, obstacles, workspace
 from mars2d.output.layers.messages import messages
-from mars2d.output.layers.names import draw_name, names
 from mars2d.output.layers.neighbours import neighbours
-from mars2d.output.layers.sensors import sensors
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
 from mars2d.record.frame import Frame

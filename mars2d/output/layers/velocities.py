@@ -24,7 +24,7 @@ ARROW_WIDTH, ARC_WIDTH = 3.2, 2.0  # points
 SLOWEST = 0.01
 """Slower bodies, in shares of the fastest drive's bound, have no arrow."""
 
-LEAST_TURN, MOST_TURN = 0.15, 5.0
+MIN_TURN, MAX_TURN = 0.15, 5.0
 """The slowest turn that has an arc, radians a second, and the longest arc, radians."""
 
 MAX_ARCS = 16
@@ -76,7 +76,7 @@ def velocities(frame: Frame) -> Scene:
     poses = np.hstack([frame.pose, frame.prop_pose])
     turning = np.argsort(-np.abs(velocity[2]), kind="stable")[:MAX_ARCS]
     for i in sorted(turning.tolist()):
-        if abs(velocity[2, i]) >= LEAST_TURN:
+        if abs(velocity[2, i]) >= MIN_TURN:
             center, radius = bounding_circle(frame.scenario.bodies[i].shape, poses[:, i])
             _arc(scene, center, 1.3 * radius, float(poses[2, i]), float(velocity[2, i]))
     speed = np.hypot(velocity[0], velocity[1])
@@ -92,7 +92,7 @@ def velocities(frame: Frame) -> Scene:
 
 def _arc(scene: Scene, center: Float, radius: float, heading: float, turn: float) -> None:
     """Draw an arc with the head of an arrow; turn: radians."""
-    turn = float(np.clip(turn, -MOST_TURN, MOST_TURN))
+    turn = float(np.clip(turn, -MAX_TURN, MAX_TURN))
     head = min(HEAD, abs(turn)) * np.sign(turn)
     angles = heading + np.linspace(0.0, turn - 0.5 * head, max(3, int(abs(turn) / 0.2) + 2))
     rim = center + radius * np.column_stack([np.cos(angles), np.sin(angles)])

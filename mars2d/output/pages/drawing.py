@@ -25,20 +25,20 @@ __all__ = ["draw", "say"]
 Float = NDArray[np.float64]
 
 WIDTH, HEIGHT = 560.0, 440.0
-"""The room for the layers, pixels; they are as large as fits."""
+"""The room for the layers, which are drawn as large as fits, pixels."""
 LEFT, RIGHT, ABOVE = 36.0, 10.0, 10.0
 """The room at its sides, pixels."""
 
-LARGEST = 1_000_000
-"""The characters of a drawing from which the paths are left out."""
+MAX_CHARACTERS = 1_000_000
+"""The most characters of a drawing with paths; beyond, they are left out."""
 
 FEW_BODIES = 8
-"""Among more bodies, there are no names, and paths are thinner."""
+"""The most bodies with names; among more, paths are thinner."""
 
-TICKS = 42.0  # pixels from one line of the grid to the next, at least
-SIZE, LINE = 12.0, 16.0  # of the caption's words and lines, pixels
-LETTER = 0.52 * SIZE  # the width of a letter, about
-NUMBER = 11.0  # the size of the numbers at the sides, pixels
+MIN_SPACING = 42.0  # pixels from one line of the grid to the next, at least
+TEXT_SIZE, LINE_HEIGHT = 12.0, 16.0  # of the caption's words and lines, pixels
+LETTER_WIDTH = 0.52 * TEXT_SIZE  # the width of a letter, about
+NUMBER_SIZE = 11.0  # the size of the numbers at the sides, pixels
 
 INK, MUTED, WARNING = LIGHT.ink, LIGHT.muted, LIGHT.failed
 GRID, AXIS = SCREEN.grid, "#d0d6dd"
@@ -47,10 +47,9 @@ GRID, AXIS = SCREEN.grid, "#d0d6dd"
 def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
     """Return a frame as an SVG picture with a caption below it.
 
-    layers: the switches; by default as the animation says, and names where there are few
-    bodies. A layer that can't be drawn, since a sensor or an add-on of the user's raises, is left
-    out, and a line below the caption says so. So are paths that would take more than a million
-    characters.
+    layers: the switches; by default those of the animation, with names for few bodies. A layer
+    that can't be drawn because a sensor or an add-on raises is left out, and a line below the
+    caption says so. So are paths that would take more than a million characters.
     """
     view = View.around(
         frame.scenario,
@@ -63,7 +62,7 @@ def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
         layers = Layers.of(frame.scenario.animation, names=few)
     parts = _parts(frame, view, layers, notes)
     picture = _framed([part for _, part in parts], view, caption, notes)
-    if len(picture) > LARGEST:
+    if len(picture) > MAX_CHARACTERS:
         notes.append("The paths are left out: they would take too much room in a notebook.")
         kept = [part for name, part in parts if name != "trails"]
         picture = _framed(kept, view, caption, notes)
@@ -72,10 +71,13 @@ def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
 
 def say(words: str) -> str:
     """Return words as a picture."""
-    lines = [(line, WARNING) for line in textwrap.wrap(words, int(WIDTH / LETTER))]
-    view = View(0.0, WIDTH, -LINE * len(lines), 0.0)
+    lines = [(line, WARNING) for line in textwrap.wrap(words, int(WIDTH / LETTER_WIDTH))]
+    view = View(0.0, WIDTH, -LINE_HEIGHT * len(lines), 0.0)
     return svg(
-        [(_written(lines, (0.0, LINE / 2), 1.0), 1.0)], view, (view.width, view.height), words
+        [(_written(lines, (0.0, LINE_HEIGHT / 2), 1.0), 1.0)],
+        view,
+        (view.width, view.height),
+        words,
     )
 
 
@@ -86,7 +88,7 @@ def _with_end(path: Float, pose: Float) -> Float:
 def _parts(
     frame: Frame, view: View, layers: Layers, notes: list[str]
 ) -> list[tuple[str, ScaledScene]]:
-    """Return the layers by name, the lowest first; add those that fail to `notes`."""
+    """Return the layers and their names, the lowest first; add errors to `notes`."""
     scales = _scales(frame.scenario, _ppm(view))
     found = []
     for layer in layers.seen(frame.scenario.animation):
@@ -128,12 +130,12 @@ def _scales(scenario: Scenario, ppm: float) -> dict[str, float]:
 def _framed(layers: Sequence[ScaledScene], view: View, caption: str, notes: Sequence[str]) -> str:
     """Return layers with numbers at their sides, and words below."""
     ppm = _ppm(view)
-    room = max(20, int((ppm * view.width + LEFT) / LETTER))
+    room = max(20, int((ppm * view.width + LEFT) / LETTER_WIDTH))
     words = [(line, INK) for line in textwrap.wrap(caption, room, max_lines=3, placeholder=" …")]
     for note in notes:
         lines = textwrap.wrap(note, room, max_lines=3, placeholder=" …")
         words += [(line, WARNING) for line in lines]
-    below = 2 * LINE + LINE * len(words)
+    below = 2 * LINE_HEIGHT + LINE_HEIGHT * len(words)
     whole = View(
         view.xmin - LEFT / ppm, view.xmax + RIGHT / ppm,
         view.ymin - below / ppm, view.ymax + ABOVE / ppm,
@@ -141,7 +143,7 @@ def _framed(layers: Sequence[ScaledScene], view: View, caption: str, notes: Sequ
     margin = [
         _around(view, whole),
         _numbers(view),
-        _written(words, (whole.xmin, view.ymin - LINE / ppm), ppm),
+        _written(words, (whole.xmin, view.ymin - LINE_HEIGHT / ppm), ppm),
     ]
     size = (ppm * whole.width, ppm * whole.height)
     title = " ".join([caption, *notes])
@@ -149,11 +151,11 @@ def _framed(layers: Sequence[ScaledScene], view: View, caption: str, notes: Sequ
 
 
 def _written(lines: Sequence[tuple[str, str]], corner: tuple[float, float], ppm: float) -> Scene:
-    """Return lines, each with its colour, below a point."""
+    """Return lines of text, each with its colour, below a point."""
     scene = Scene()
     for k, (line, color) in enumerate(lines):
-        place = (corner[0], corner[1] - (1 + k) * LINE / ppm)
-        scene.text(place, line, color=color, size=SIZE, anchor="left")
+        place = (corner[0], corner[1] - (1 + k) * LINE_HEIGHT / ppm)
+        scene.text(place, line, color=color, size=TEXT_SIZE, anchor="left")
     return scene
 
 
@@ -163,7 +165,7 @@ def _ppm(view: View) -> float:
 
 
 def _around(view: View, whole: View) -> Scene:
-    """Return the ground beneath the words: layers do not reach under them."""
+    """Return the ground below the text, which covers layers that reach beyond the view."""
     scene = Scene()
     for xmin, xmax, ymin, ymax in (
         (whole.xmin, view.xmin, whole.ymin, whole.ymax),
@@ -176,7 +178,7 @@ def _around(view: View, whole: View) -> Scene:
 
 def _step(view: View) -> float:
     """Return the distance of grid lines, metres."""
-    return grid_step(TICKS / _ppm(view))
+    return grid_step(MIN_SPACING / _ppm(view))
 
 
 def _ticks(low: float, high: float, step: float) -> list[float]:
@@ -213,7 +215,7 @@ def _numbers(view: View) -> Scene:
 
     def add(place: tuple[float, float], value: float, anchor: Anchor, unit: str) -> None:
         text = f"{value + 0.0:.{decimals}f}".replace("-", "\N{MINUS SIGN}")
-        scene.shapes.append(Text(place, text + unit, MUTED, NUMBER, anchor))
+        scene.shapes.append(Text(place, text + unit, MUTED, NUMBER_SIZE, anchor))
 
     across = _ticks(view.xmin, view.xmax, step)
     for x in across:

@@ -1,8 +1,8 @@
 """Pictures of scenarios, worlds and records for notebooks.
 
-Pictures are SVG without scripts or styles, which every notebook shows, and its viewers on the web
-as well. A record is a replay in a frame of its own; beneath it lies the picture of its end, for
-viewers that take frames out.
+Pictures are SVG without scripts or styles, which all notebooks and their viewers on the web show. A
+record is shown as a replay in a frame; the picture of its end lies below, for viewers that remove
+frames.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ if TYPE_CHECKING:
 
 __all__ = ["record_html", "record_svg", "scenario_svg", "world_svg"]
 
-HEIGHT = 480
-"""Of a replay, pixels."""
+REPLAY_HEIGHT = 480
+"""The height of a replay, pixels."""
 
-LARGEST = 4_000_000
-"""The characters of a replay from which a notebook shows only the picture of its end."""
+MAX_CHARACTERS = 4_000_000
+"""The most characters of a replay in a notebook; beyond, it shows the picture of the end."""
 
 
 class Shown(Protocol):
@@ -67,7 +67,9 @@ def world_svg(world: Shown) -> str:
     def picture() -> tuple[Frame, str]:
         frame, last = world.frame, world.scenario.stop_time
         if len(frame.path) and not world.over:
-            frame = replace(frame, sensed=frame.path[-1])  # where its readings were taken
+            frame = replace(
+                frame, sensed=frame.path[-1]
+            )  # the poses at which its readings were taken
         when = f"t = {world.time:.10g} s of {last:g} s"
         return frame, f"{world.scenario.title}: {when}" + (
             f"; {world.over_message}" if world.over else ""
@@ -88,9 +90,9 @@ def record_svg(record: Record) -> str:
 
 
 def record_html(record: Record) -> str:
-    """Return a replay in a frame, over the picture of its end; it never raises.
+    """Return a replay in a frame, above the picture of its end; it never raises.
 
-    Where there is no replay, or one too large for a notebook, words below the picture say so.
+    If there is no replay, or one too large for a notebook, a text below the picture says so.
     """
     picture = base64.b64encode(record_svg(record).encode()).decode()
     title = text_of(f"Replay of {record.scenario.title}")
@@ -106,23 +108,23 @@ def record_html(record: Record) -> str:
         replay = page(record)
     except Exception as error:  # of parts of the user's that are drawn
         return f"{image}<p>There is no replay: {text_of(described(error))}</p>"
-    if len(replay) > LARGEST:
+    if len(replay) > MAX_CHARACTERS:
         return (
             f"{image}<p>The replay is too large for a notebook, {len(replay) / 1e6:.1f} MB: "
             '<code>record.save_html("replay.html")</code> writes it to a file.</p>'
         )
     return (
-        f'<div style="position:relative;height:{HEIGHT}px;overflow:hidden">{image}'
+        f'<div style="position:relative;height:{REPLAY_HEIGHT}px;overflow:hidden">{image}'
         f'<iframe title="{title}" sandbox="allow-scripts" srcdoc="{text_of(replay)}" '
         'style="position:absolute;left:0;top:0;width:100%;height:100%;border:0"></iframe></div>'
     )
 
 
 def _picture(made: Callable[[], tuple[Frame, str]], title: str) -> str:
-    """Return the picture of a frame with its caption, or in its place what went wrong."""
+    """Return the picture of a frame with its caption, or a picture of the error message."""
     try:
         return draw(*made())
-    except Exception as error:  # parts of the user's own have their say in all of it
+    except Exception as error:  # any of it may call code of the user's
         return say(f"{title}: can't be drawn. {described(error)}")
 
 

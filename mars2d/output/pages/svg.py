@@ -1,4 +1,4 @@
-"""Scenes as SVG: text that browsers, notebooks and documents show, made without any library."""
+"""Scenes as SVG, for browsers, notebooks and documents, written without a library."""
 
 from __future__ import annotations
 
@@ -34,22 +34,22 @@ ScaledScene = tuple[Scene, float]
 """A scene, and the factor for its line widths, marks and text heights."""
 
 TOLERANCE = 0.3
-"""The pixels by which a line with fewer corners may lie beside the line it is drawn for."""
+"""The error allowed when a line is simplified, pixels."""
 
-FAR = 1e6  # pixels: what lies farther out is drawn there
+MAX_PIXEL = 1e6  # pixels: points farther out are moved to here
 
 TEXT_GAP = 4.0  # between a label and what it names, points
 LINE_HEIGHT = 1.25  # of text, in its size
-RISE = 0.36  # from the middle of a line of text down to its base line, in its size
-HALO = 2.5  # the width of the rim round letters, points
-EDGE = 0.8  # the width of the edge round an arrow, in widths of its shaft
+TEXT_RISE = 0.36  # from the middle of a line of text down to its base line, in its size
+HALO_WIDTH = 2.5  # the width of the rim round letters, points
+ARROW_EDGE = 0.8  # the width of the edge round an arrow, in widths of its shaft
 
 MARK_SPACING = 9.0  # points along a path from one mark to the next
 DASHES = {"--": (9.0, 6.0), "-.": (9.0, 5.0, 2.0, 5.0), ":": (2.0, 4.5)}
 
 SHIFTS = {"left": (1, 0), "right": (-1, 0), "above": (0, 1), "below": (0, -1)}
 
-# What XML can't hold, such as the bell or half of a pair of surrogates.
+# Characters that XML can't hold, such as the bell or half of a pair of surrogates.
 UNREADABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -82,7 +82,7 @@ def svg(layers: Iterable[ScaledScene], view: View, size: tuple[float, float], ti
 
 
 def text_of(words: str) -> str:
-    """Return words as XML and HTML hold them, in an element or between double quotes."""
+    """Return text escaped for XML and HTML, in an element or between double quotes."""
     return escape(UNREADABLE.sub("\N{REPLACEMENT CHARACTER}", words))
 
 
@@ -113,7 +113,7 @@ class _Pen:
     def _pixels(self, points: Float) -> Float:
         """Return the pixels (k, 2) of points (k, 2), metres; y points down."""
         pixels = (points - self._corner) * (self.ppm, -self.ppm)
-        return np.asarray(np.clip(pixels, -FAR, FAR))
+        return np.asarray(np.clip(pixels, -MAX_PIXEL, MAX_PIXEL))
 
     def _place(self, point: tuple[float, float]) -> tuple[float, float] | None:
         """Return the pixel of a point, or None if it is nowhere."""
@@ -123,7 +123,7 @@ class _Pen:
     def _circle(self, shape: Circle, scale: float) -> Iterator[str]:
         place = self._place(shape.center)
         radius = self.ppm * shape.radius + shape.pixels * scale
-        if place and 0 < radius <= FAR and (shape.fill or shape.stroke):
+        if place and 0 < radius <= MAX_PIXEL and (shape.fill or shape.stroke):
             ink = _ink(shape.fill, shape.stroke, shape.width * scale)
             x, y = map(_number, place)
             yield f'<circle cx="{x}" cy="{y}" r="{_number(radius)}"{ink}/>'
@@ -157,7 +157,7 @@ class _Pen:
         tail, tip = self._place(shape.tail), self._place(shape.tip)
         if tail and tip and tail != tip:
             width = shape.width * scale
-            ink = _ink(shape.fill, shape.stroke, EDGE * width)
+            ink = _ink(shape.fill, shape.stroke, ARROW_EDGE * width)
             path = _path(arrow_outline(tail, tip, width))
             yield f'<path d="{path}Z"{ink} stroke-linejoin="round" paint-order="stroke"/>'
 
@@ -169,10 +169,10 @@ class _Pen:
         dx, dy = SHIFTS.get(shape.anchor, (0, 0))
         lines = shape.text.split("\n")
         # The base line of the first one.
-        middle = place[1] + RISE * size - dy * TEXT_GAP * scale
+        middle = place[1] + TEXT_RISE * size - dy * TEXT_GAP * scale
         middle -= (1 + dy) / 2 * (len(lines) - 1) * LINE_HEIGHT * size + dy * size / 2
         anchor = {0: "middle", -1: "end"}.get(dx)
-        ink = _ink(shape.color, shape.halo, HALO * scale)
+        ink = _ink(shape.color, shape.halo, HALO_WIDTH * scale)
         if shape.halo:
             ink += ' stroke-linejoin="round" paint-order="stroke"'
         if anchor:
@@ -188,7 +188,7 @@ class _Pen:
         xmin, xmax, ymin, ymax = shape.bounds
         corners = self._pixels(np.array([(xmin, ymax), (xmax, ymin)]))
         (left, top), (right, bottom) = corners.tolist()
-        # Whether its pixels are large enough to be seen as such.
+        # Whether single pixels can be seen.
         sharp = right - left > 1.5 * shape.pixels.shape[1]
         data = _png(shape.pixels, 2 * (right - left), 2 * (bottom - top))
         return (
@@ -234,7 +234,7 @@ def _path(points: Float) -> str:
 
 
 def _pieces(points: Float) -> Iterator[Float]:
-    """Yield the stretches of a polyline (k, 2) that are numbers throughout."""
+    """Yield the stretches of a polyline (k, 2) without nan or inf."""
     known = np.isfinite(points[:, 0]) & np.isfinite(points[:, 1])
     bounds = np.flatnonzero(np.diff(np.concatenate([[False], known, [False]])))
     for start, end in pairwise(bounds.tolist()):
@@ -254,7 +254,7 @@ def _simple(points: Float) -> Float:
 
 
 def _spaced(points: Float, spacing: float) -> Float:
-    """Return those points (k, 2) that lie `spacing` along the path after the one before."""
+    """Return points (k, 2) of a path at distances of about `spacing` along it."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     return points[np.unique(np.floor(along / spacing), return_index=True)[1]]
 
@@ -282,7 +282,7 @@ def _marks(points: Float, mark: str, color: str, width: float, scale: float) -> 
 
 
 def _png(pixels: NDArray[np.uint8], width: float, height: float) -> str:
-    """Return an image as PNG in base64, averaged to no more pixels than are wanted."""
+    """Return an image as PNG in base64, averaged to at most a size in pixels."""
     from PIL import Image as Picture
 
     rows, columns, _ = pixels.shape

@@ -1,4 +1,4 @@
-"""The window and the pictures, drawn with pygame."""
+"""Pictures drawn with pygame, for files, films and the window."""
 
 import os
 
@@ -9,7 +9,7 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 
 def has_pygame() -> bool:
-    """Return whether pygame is there: in a browser, for one, it may be missing."""
+    """Return whether pygame is installed; in a browser, for example, it may be missing."""
     try:
         import pygame  # noqa: F401
     except ImportError:
@@ -18,7 +18,7 @@ def has_pygame() -> bool:
 
 
 def require_pygame(what: str) -> None:
-    """Raise MissingExtraError where pygame is missing; what: the thing that needs it: "a film"."""
+    """Raise MissingExtraError where pygame is missing; what: the user of it, such as "a film"."""
     if not has_pygame():
         raise MissingExtraError(
             f"{what} needs pygame, which is not installed: pip install pygame-ce"

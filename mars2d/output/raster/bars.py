@@ -19,23 +19,23 @@ __all__ = ["Banner", "Status", "draw_footer", "draw_header", "footer_height"]
 
 Kind = Literal["running", "waiting", "past", "hand", "error"]
 
-LINE, CODE_LINE = 23.0, 20.0
+LINE_HEIGHT, CODE_LINE_HEIGHT = 23.0, 20.0
 """The heights of a banner's lines, points."""
-BANNER_LINES = 8
-CODE_LINES = 5
-LARGEST_BANNER = 0.5
-"""Of the surface's height: longer text is cut, and code about the line it is about left out."""
+MAX_BANNER_LINES = 8
+MAX_CODE_LINES = 5
+MAX_BANNER_SHARE = 0.5
+"""The largest share of the surface's height: longer text is cut, lines of code are left out."""
 SEPARATOR = " · "
-SHORTEST_TITLE = 110.0
-"""Points; where a title gets less, something else in the header goes first."""
+MIN_TITLE_WIDTH = 110.0
+"""The least width of a title, points; the step is left out first to make room."""
 
 
 @dataclass(frozen=True, slots=True)
 class Status:
     """The chip in the header: the state of the clock, in words and by its colour.
 
-    kind: running; waiting, as when paused; past, an instant before the newest is shown; hand, a
-    robot is driven by hand; error.
+    kind: "running"; "waiting", for example paused; "past", an instant before the newest is shown;
+    "hand", a robot is driven by hand; "error".
     """
 
     text: str
@@ -44,9 +44,9 @@ class Status:
 
 @dataclass(frozen=True, slots=True)
 class Banner:
-    """What has to be said across the foot of the picture; excerpt: the lines of code it is about.
+    """A message across the foot of the picture; excerpt: the lines of code it concerns.
 
-    hint: the keys that go on from here.
+    hint: the keys to continue with.
     """
 
     text: str
@@ -63,7 +63,7 @@ def draw_header(
 ) -> None:
     """Draw the title on the left, the time, step and status on the right.
 
-    Where there is no room for all, the step goes first, then the title.
+    If there is no room for all, the step is left out first, then the title.
     """
     ui, bar, fonts, theme = layout.ui, layout.header, painter.fonts, painter.theme
     surface.fill(theme.bar, bar)
@@ -79,7 +79,7 @@ def draw_header(
     longest = "0" * len(str(frame.scenario.last_iteration))
     step = _Figure("step", str(frame.iteration), longest)
     title_width = fonts.width(frame.scenario.title, 20 * ui, bold=True)
-    needed = time.width(painter, ui) + min(SHORTEST_TITLE * ui, title_width) + 2 * gap + pad
+    needed = time.width(painter, ui) + min(MIN_TITLE_WIDTH * ui, title_width) + 2 * gap + pad
     if right - step.width(painter, ui) >= needed:
         right = step.draw(surface, painter, right, bar, ui) - gap
     right = time.draw(surface, painter, right, bar, ui)
@@ -91,14 +91,14 @@ def draw_header(
 
 
 def decimals(scenario: Scenario) -> int:
-    """Return how many decimals tell two sampling times apart: 1 to 3."""
+    """Return the number of decimals that tell two sampling times apart: 1 to 3."""
     step = scenario.sampling_time
     return next((k for k in (1, 2) if abs(round(step, k) - step) < 1e-9), 3)
 
 
 @dataclass(frozen=True, slots=True)
 class _Figure:
-    """A name and its value; longest: keeps the place of the name from trembling."""
+    """A name and its value; longest: the widest value, which keeps the name in one place."""
 
     name: str
     value: str
@@ -150,10 +150,10 @@ def draw_footer(
     left: str,
     hints: Sequence[tuple[str, str]] = (),
 ) -> None:
-    """Draw the banner across the footer, or where there is none a quiet line of text.
+    """Draw the banner across the footer, or a plain line of text if there is none.
 
-    left: of its parts, with dots between, as many as there is room for. hints: pairs of a key and
-    what it does, for the right end; where there is no room for all, the last ones stay.
+    left: text of parts with dots between; parts at its end are left out if there is no room. hints:
+    (key, action) pairs at the right end; the first ones are left out if there is no room.
     """
     ui, bar, fonts, theme = layout.ui, layout.footer, painter.fonts, painter.theme
     if bar.height <= 0:
@@ -204,33 +204,35 @@ def footer_height(
     text: float = 1.0,
     scale: float = 1.0,
 ) -> float:
-    """Return how high the footer must be, points: more than one line for a long message."""
+    """Return the height of the footer, points: more than one line for a long message."""
     if banner is None:
         return FOOTER
     ui = interface_scale(size, text, scale)
     lines, hint_below = _banner_lines(banner, size, painter, ui)
-    height = FOOTER + LINE * (len(lines) - 1) + (LINE if hint_below else 0.0)
+    height = FOOTER + LINE_HEIGHT * (len(lines) - 1) + (LINE_HEIGHT if hint_below else 0.0)
     if banner.excerpt is not None:
-        room = LARGEST_BANNER * size[1] / ui - height
-        wanted = min(CODE_LINES, len(banner.excerpt.lines))
-        height += _code_height(min(wanted, int((room - 20) / CODE_LINE)))
+        room = MAX_BANNER_SHARE * size[1] / ui - height
+        wanted = min(MAX_CODE_LINES, len(banner.excerpt.lines))
+        height += _code_height(min(wanted, int((room - 20) / CODE_LINE_HEIGHT)))
     return height
 
 
 def _code_height(lines: int) -> float:
-    return CODE_LINE * lines + 20 if lines > 0 else 0.0
+    return CODE_LINE_HEIGHT * lines + 20 if lines > 0 else 0.0
 
 
 def _banner_lines(
     banner: Banner, size: tuple[int, int], painter: Painter, ui: float
 ) -> tuple[list[str], bool]:
-    """Return a banner's text in lines, and whether its hint stands below them."""
+    """Return the lines of a banner's text, and whether its hint is below them."""
     hint = painter.fonts.width(banner.hint, 15 * ui) + 40 * ui if banner.hint else 0.0
     below = hint > 0.4 * size[0]
     room = size[0] - 40 * ui - (0 if below else hint)
     code = 0.0 if banner.excerpt is None else _code_height(1)
-    fits = int((LARGEST_BANNER * size[1] / ui - (FOOTER - LINE) - code) / LINE) - below
-    most = min(max(fits, 1), BANNER_LINES)
+    fits = (
+        int((MAX_BANNER_SHARE * size[1] / ui - (FOOTER - LINE_HEIGHT) - code) / LINE_HEIGHT) - below
+    )
+    most = min(max(fits, 1), MAX_BANNER_LINES)
     return painter.fonts.wrap(banner.text, 18 * ui, room, most, bold=True), below
 
 
@@ -241,9 +243,13 @@ def _draw_banner(
     surface.fill(theme.failed if banner.error else theme.over, bar)
     lines, hint_below = _banner_lines(banner, surface.get_size(), painter, ui)
     rows = len(lines) + hint_below
-    step = LINE * ui
-    room = bar.height - (FOOTER + LINE * (rows - 1)) * ui
-    code = 0 if banner.excerpt is None else max(0, int((room - 20 * ui) / (CODE_LINE * ui) + 0.01))
+    step = LINE_HEIGHT * ui
+    room = bar.height - (FOOTER + LINE_HEIGHT * (rows - 1)) * ui
+    code = (
+        0
+        if banner.excerpt is None
+        else max(0, int((room - 20 * ui) / (CODE_LINE_HEIGHT * ui) + 0.01))
+    )
     text = pygame.Rect(bar.left, bar.top, bar.width, bar.height - round(_code_height(code) * ui))
     y = text.centery - step * (rows - 1) / 2
     for line in lines:
@@ -264,15 +270,15 @@ def _draw_banner(
 def _draw_code(
     surface: pygame.Surface, place: pygame.Rect, painter: Painter, excerpt: Excerpt, ui: float
 ) -> None:
-    """Draw lines of code with their numbers, the one it is about marked."""
+    """Draw lines of code with their numbers, and mark the line concerned."""
     fonts, theme = painter.fonts, painter.theme
     painter.panel(surface, place, theme.banner_plate, 6 * ui)
     size, pad = 14 * ui, round(10 * ui)
     digits = fonts.width("0" * len(str(excerpt.first + len(excerpt.lines))), size, mono=True)
     left = place.left + pad + fonts.width("▸ ", size, mono=True) + digits
     for k, line in enumerate(excerpt.lines):
-        row = pygame.Rect(place.left, 0, place.width, round(CODE_LINE * ui))
-        row.top = round(place.top + 4 * ui + k * CODE_LINE * ui)
+        row = pygame.Rect(place.left, 0, place.width, round(CODE_LINE_HEIGHT * ui))
+        row.top = round(place.top + 4 * ui + k * CODE_LINE_HEIGHT * ui)
         number, here = excerpt.first + k, excerpt.first + k == excerpt.line
         if here:
             painter.panel(surface, row.inflate(-round(6 * ui), 0), "#ffffff30", 4 * ui)

@@ -1,7 +1,7 @@
-"""Brushes: how to draw shapes, in pixels, some times larger than they are wanted.
+"""Brushes: functions that draw shapes, in pixels, several times enlarged.
 
-What is drawn larger on a surface of its own and then averaged by `smoothscale` has exact coverage,
-whatever its shape, width and opacity.
+A shape that is drawn enlarged on a surface of its own and averaged by `smoothscale` has exact
+coverage, for any shape, width and opacity.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mars2d.output.raster.strokes import clip_lines, hairlines
 
 __all__ = [
-    "LARGE",
+    "LARGE_AREA",
     "Draw",
     "Rgba",
     "box_round",
@@ -43,9 +43,9 @@ __all__ = [
 Float = NDArray[np.float64]
 Rgba = tuple[int, int, int, int]
 Draw = Callable[[pygame.Surface, float, float, float, Rgba], None]
-"""Draws on a surface `factor` times too large, whose corner lies at (left, top)."""
-LARGE = 40_000
-"""Shapes of a larger area, pixels, are drawn at their size where that may be."""
+"""Draws on a surface that is enlarged by `factor`, with its corner at (left, top)."""
+LARGE_AREA = 40_000
+"""The area from which lines are drawn without enlargement, pixels."""
 
 
 @cache
@@ -61,14 +61,14 @@ def box_round(x: float, y: float, reach: float) -> pygame.Rect:
     return pygame.Rect(left, top, ceil(x + reach + 1) - left, ceil(y + reach + 1) - top)
 
 
-FAR = 1e8
+MAX_PIXEL = 1e8
 
 
 def extent_of(points: Float, margin: float) -> pygame.Rect:
     """Return the rectangle of whole pixels that holds points (k, 2) and a margin."""
     low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
-    left, top = (floor(max(x - margin, -FAR)) for x in low)
-    right, bottom = (ceil(min(x + margin, FAR)) for x in high)
+    left, top = (floor(max(x - margin, -MAX_PIXEL)) for x in low)
+    right, bottom = (ceil(min(x + margin, MAX_PIXEL)) for x in high)
     return pygame.Rect(left, top, right - left, bottom - top)
 
 
@@ -103,25 +103,25 @@ def draw_on(
 
 
 def scaled(points: Float, left: float, top: float, factor: float) -> list[tuple[float, float]]:
-    """Return the points as they lie on the large surface; pygame's pixel centres are whole."""
+    """Return points on the enlarged surface; pygame's pixel centres are whole numbers."""
     large: list[tuple[float, float]] = ((points - (left, top)) * factor - 0.5).tolist()
     return large
 
 
 def in_sight(surface: pygame.Surface) -> tuple[float, float, float, float]:
-    """Return the box of pixels beyond which nothing drawn reaches into the surface."""
+    """Return the box of pixels outside which shapes need not be drawn."""
     clip = surface.get_clip()
     return clip.left - 50.0, clip.top - 50.0, clip.right + 50.0, clip.bottom + 50.0
 
 
 def ring(x: float, y: float, radius: float) -> Float:
-    """Return the corners of the polygon that a circle nearly is, closed, (k, 2)."""
+    """Return the corners of a closed polygon close to a circle, (k, 2)."""
     angles = np.linspace(0, 2 * np.pi, int(min(max(radius, 60), 1500)))
     return np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
 
 
 def disc(x: float, y: float, radius: float, width: float = 0.0) -> Draw:
-    """Return how to draw a disc, or with a width a ring within the radius."""
+    """Return a brush for a disc, or with a width for a ring within the radius."""
 
     def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
         # Unlike lines and polygons, circles are centred on the corners between pixels.
@@ -134,7 +134,7 @@ def disc(x: float, y: float, radius: float, width: float = 0.0) -> Draw:
 
 
 def filled(points: Float) -> Draw:
-    """Return how to fill a polygon (k, 2)."""
+    """Return a brush for a filled polygon (k, 2)."""
 
     def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
         outline = scaled(points, left, top, factor)
@@ -145,7 +145,7 @@ def filled(points: Float) -> Draw:
 
 
 def edged(points: Float, fill: Rgba, edge: float) -> Draw:
-    """Return how to fill a polygon (k, 2) after its edge, twice as wide as is seen, in the ink."""
+    """Return a brush for a polygon (k, 2), filled over an edge in the ink."""
     ring = np.vstack([points, points[:1]])
     around, inside = stroked([ring], 2 * edge), filled(points)
 
@@ -158,7 +158,7 @@ def edged(points: Float, fill: Rgba, edge: float) -> Draw:
 
 
 def outlined(points: Float, fill: Rgba, width: float) -> Draw:
-    """Return how to fill a polygon (k, 2), and draw its edge upon it in the ink."""
+    """Return a brush for a filled polygon (k, 2) with its edge on top in the ink."""
     inside, around = filled(points), stroked([np.vstack([points, points[:1]])], width)
 
     def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
@@ -169,7 +169,7 @@ def outlined(points: Float, fill: Rgba, width: float) -> Draw:
 
 
 def rounded(box: pygame.Rect, radius: float) -> Draw:
-    """Return how to fill a box with round corners."""
+    """Return a brush for a filled box with round corners."""
 
     def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
         place = pygame.Rect(
@@ -187,7 +187,7 @@ def stroke(surface: pygame.Surface, color: Rgba, pieces: list[Float], width: flo
     pieces = [part for piece in pieces for part in clip_lines(piece, box) if len(part)]
     if pieces:
         extent = extent_of(np.vstack(pieces), width / 2 + 1)
-        large = extent.width * extent.height > LARGE
+        large = extent.width * extent.height > LARGE_AREA
         draw = drawn_finely(pieces, width) if large else stroked(pieces, width)
         cover(surface, color, extent, draw, factor=1 if large else 0)
 
@@ -211,7 +211,7 @@ def hairline(
 
 
 def stroked(pieces: list[Float], width: float) -> Draw:
-    """Return how to draw polylines (k, 2) with round joints and ends."""
+    """Return a brush for polylines (k, 2) with round joints and ends."""
 
     def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
         thick = max(1, round(width * factor))
@@ -227,7 +227,7 @@ def stroked(pieces: list[Float], width: float) -> Draw:
 
 
 def drawn_finely(pieces: list[Float], width: float) -> Draw:
-    """Return how to draw polylines at their true size: for those that span much of the picture."""
+    """Return a brush for polylines without enlargement, for those that span much of the picture."""
 
     def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
         for piece in pieces:
@@ -237,7 +237,7 @@ def drawn_finely(pieces: list[Float], width: float) -> Draw:
 
 
 def mark(marker: str, x: float, y: float, ui: float, width: float) -> tuple[Draw, float]:
-    """Return how to draw one of the marks ``. o x + * s`` and how far it reaches, pixels."""
+    """Return a brush for one of the marks ``. o x + * s``, and its radius, pixels."""
     if marker == ".":
         return disc(x, y, 2.2 * ui), 2.2 * ui
     if marker == "o":

@@ -1,4 +1,4 @@
-"""Where the world lies on a surface: metres to pixels and back."""
+"""The camera: converts metres to pixels and back."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Camera:
     def to_pixels(self, points: ArrayLike) -> Float:
         """Return the pixels (k, 2) of world points (k, 2)."""
         x, y = np.asarray(points, dtype=float).reshape(-1, 2).T
-        # Coordinate by coordinate in memory, in which their extent is found five times as fast.
+        # One coordinate after the other in memory: finding the extent is five times as fast.
         return np.array((self.x + self.scale * x, self.y - self.scale * y)).T
 
     def to_world(self, pixels: ArrayLike) -> Float:
@@ -80,10 +80,10 @@ class Camera:
         return type(self)(self.scale, self.x + dx, self.y + dy)
 
     def view(self, size: tuple[int, int]) -> tuple[float, float, float, float]:
-        """Return what a surface of this size shows, (xmin, xmax, ymin, ymax) in metres."""
+        """Return the part of the plane that a surface shows, (xmin, xmax, ymin, ymax) in metres."""
         (xmin, ymax), (xmax, ymin) = self.to_world([(0, 0), size]).tolist()
         return xmin, xmax, ymin, ymax
 
 
 PIXELS = Camera(1.0, 0.0, 0.0)
-"""For scenes in pixels, y upwards: of plots, legends, handles."""
+"""The camera for scenes in pixels, y upwards: plots, legends, handles."""

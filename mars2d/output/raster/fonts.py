@@ -22,7 +22,7 @@ def _typeface(bold: bool, mono: bool) -> str | None:
 
 
 class Fonts:
-    """Renders text, and keeps the texts that are asked for again."""
+    """Renders text, and caches the rendered texts."""
 
     KEPT = 512
 
@@ -56,7 +56,7 @@ class Fonts:
         return found
 
     def width(self, text: str, size: float, bold: bool = False, mono: bool = False) -> int:
-        """Return how wide a line of text is, pixels."""
+        """Return the width of a line of text, pixels."""
         return self.font(size, bold, mono).size(text)[0]
 
     def shorten(

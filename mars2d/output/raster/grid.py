@@ -18,7 +18,7 @@ __all__ = ["draw_grid", "label", "labels", "spacing", "ticks"]
 Bounds = tuple[float, float, float, float]
 Float = NDArray[np.float64]
 
-LEAST_SPACING = 42
+MIN_SPACING = 42
 """Points between grid lines, at least."""
 
 
@@ -55,7 +55,7 @@ def draw_grid(
     if shown is None:
         return
     left, top, right, bottom = shown
-    step = spacing(camera.scale, LEAST_SPACING * ui)
+    step = spacing(camera.scale, MIN_SPACING * ui)
     xmin, xmax, ymin, ymax = _metres(camera, *shown)
     for x in ticks(xmin, xmax, step).tolist():
         px = round(camera.x + camera.scale * x)
@@ -70,12 +70,12 @@ def draw_grid(
 def labels(
     clip: pygame.Rect, camera: Camera, bounds: Bounds, fonts: Fonts, ui: float, theme: Theme
 ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-    """Return the metres, as images and where they go.
+    """Return the labels in metres, as images and their places.
 
-    They stand along the left and lower side of `bounds`, or of what is visible of it in `clip`.
+    They lie along the left and lower side of the part of `bounds` that is visible in `clip`.
     """
     size, gap = 12 * ui, round(7 * ui)
-    step = spacing(camera.scale, LEAST_SPACING * ui)
+    step = spacing(camera.scale, MIN_SPACING * ui)
     shown = _visible(clip, camera, bounds)
     if shown is None:
         return []
@@ -102,7 +102,7 @@ def labels(
 def _on_plate(
     image: pygame.Surface, place: pygame.Rect, theme: Theme | None
 ) -> tuple[pygame.Surface, tuple[int, int]]:
-    """Put a label on a plate of the theme's page, where it lies inside the picture."""
+    """Put a label on a plate in the theme's page colour; without a theme, leave it as it is."""
     if theme is None:
         return image, place.topleft
     larger = place.inflate(8, 2)

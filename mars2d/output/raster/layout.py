@@ -1,4 +1,4 @@
-"""Where everything lies in a window or picture."""
+"""The layout of a window or picture."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ __all__ = ["FOOTER", "TEXT_SIZES", "Layout", "fitted", "interface_scale", "next_
 TEXT_SIZES = (1.0, 1.3, 1.7, 2.2)
 """Factors on the size of all text and lines."""
 HEADER, FOOTER, STRIP = 52.0, 44.0, 44.0
-"""The heights of header, footer and the strip with the time bar, points. A banner of one line is as
-high as the footer, in whose place it is."""
-NARROWEST = 400.0
-"""The least width of a surface, points: larger text would leave too little for the picture."""
-BARS = 0.45
-"""All bars together are at most such a share of the height, for the same reason."""
+"""The heights of header, footer and time bar, points. A banner of one line has the
+height of the footer, which it replaces."""
+MIN_WIDTH = 400.0
+"""The least width of a surface, points, which limits the size of text."""
+MAX_BARS_SHARE = 0.45
+"""The largest share of the height for all bars, which limits the size of text."""
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Where everything lies on a surface; ui: pixels a point.
+    """The rectangles of the parts of a surface; ui: pixels per point.
 
-    timebar, slider: side by side between the picture and the footer; empty where they are left out.
+    timebar, slider: side by side between the picture and the footer; empty if left out.
     """
 
     ui: float
@@ -53,7 +53,7 @@ class Layout:
     ) -> Layout:
         """Divide a surface of `size` pixels; `footer_height` in points.
 
-        text: a factor on all text and lines. scale: pixels that the desktop uses for one.
+        text: a factor for all text and lines. scale: the desktop's scaling factor.
         """
         width, height = size
         ui = interface_scale(size, text, scale)
@@ -73,18 +73,18 @@ class Layout:
 
 
 def next_text_size(text: float) -> float:
-    """Return the next of the sizes of text, after the largest the smallest one."""
+    """Return the next larger size of text, or after the largest the smallest."""
     return next((size for size in TEXT_SIZES if size > text), TEXT_SIZES[0])
 
 
 def interface_scale(size: tuple[int, int], text: float = 1.0, scale: float = 1.0) -> float:
-    """Return the pixels a point on a surface of `size` pixels: 1 at 1280 x 720.
+    """Return the pixels per point on a surface of `size` pixels: 1 at 1280 x 720.
 
-    text, scale: as for `Layout.of`. Larger text than there is room for is made as large as can be.
+    text, scale: as for `Layout.of`. If there is no room for such large text, it is made smaller.
     """
     width, height = size[0] / scale, size[1] / scale
     own = max(0.9, float(min(width / 1280, height / 720) ** 0.8))
-    most = min(width / NARROWEST, BARS * height / (HEADER + STRIP + FOOTER))
+    most = min(width / MIN_WIDTH, MAX_BARS_SHARE * height / (HEADER + STRIP + FOOTER))
     return scale * max(own, min(own * text, most))
 
 

@@ -17,22 +17,22 @@ from mars2d.scenario.scenario import Scenario
 
 __all__ = ["draw_legends"]
 
-LONGEST = 72.0
-"""Of an arrow, points; it stands for 1, 2, 5, 10 ... newtons or metres a second."""
+MAX_ARROW = 72.0
+"""The greatest length of an arrow, points; it means 1, 2, 5, 10 ... newtons or metres a second."""
 
-SMALLEST = 300.0
-"""The height of a picture with a legend, points, at least."""
+MIN_HEIGHT = 300.0
+"""The least height of a picture with a legend, points; the least width is twice that."""
 
-GAP, PAD, ROW, SIZE = 8.0, 10.0, 24.0, 13.0
-"""Round a plate, and within it; the heights of a row and of letters, points."""
+GAP, PAD, ROW_HEIGHT, TEXT_SIZE = 8.0, 10.0, 24.0, 13.0
+"""The room around a plate and within it, the heights of a row and of text, points."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Legend:
     """An arrow of a round length in its unit, and a mark with its meaning.
 
-    unit: how long one is, pixels. width: of the arrow, points. in_words: of a number of that unit.
-    draw_mark: draws the mark at a place, given the pixels a point. room: for the mark, points.
+    unit: the length of one unit, pixels. width: of the arrow, points. in_words: formats a number of
+    units. draw_mark: draws the mark at (x, y), given pixels per point. room: of the mark, points.
     """
 
     color: str
@@ -54,8 +54,8 @@ def draw_legends(
     forces: bool,
     velocities: bool,
 ) -> None:
-    """Draw the legends that are wanted side by side, where the picture has room for them."""
-    if plot.height < SMALLEST * painter.ui or plot.width < 2 * SMALLEST * painter.ui:
+    """Draw the chosen legends side by side, if the picture has room for them."""
+    if plot.height < MIN_HEIGHT * painter.ui or plot.width < 2 * MIN_HEIGHT * painter.ui:
         return
     corner = plot.bottomleft
     if forces:
@@ -75,9 +75,9 @@ def _draw(
 ) -> pygame.Rect:
     """Draw a legend on a plate to the upper right of a corner; return the plate."""
     ui, theme, fonts = painter.ui, painter.theme, painter.fonts
-    number = round_force(LONGEST * ui / legend.unit)
+    number = round_force(MAX_ARROW * ui / legend.unit)
     length = number * legend.unit
-    size, pad, row, gap = SIZE * ui, PAD * ui, ROW * ui, GAP * ui
+    size, pad, row, gap = TEXT_SIZE * ui, PAD * ui, ROW_HEIGHT * ui, GAP * ui
     words = (legend.in_words(number), legend.meaning)
     column = max(length, legend.room * ui)
     width = pad + column + gap + max(fonts.width(word, size) for word in words) + pad

@@ -1,12 +1,13 @@
 """Paint scenes on pygame surfaces, anti-aliased; needs no display.
 
-Shapes are drawn some times larger on a surface of their own, which `smoothscale` then averages:
-exact coverage for any shape, width and opacity. Small shapes that recur (robots, marks) are kept as
+Shapes are drawn enlarged on a surface of their own, which `smoothscale` then averages: exact
+coverage for any shape, width and opacity. Small shapes that recur (robots, marks) are kept as
 sprites, at quarters of a pixel so that slow movement stays smooth.
 """
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from math import ceil, floor
 
@@ -29,7 +30,6 @@ from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Rgba, rgba
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.fonts import Fonts
-from mars2d.output.raster.sprites import Sprite, Sprites
 from mars2d.output.raster.strokes import (
     DASHES,
     MARK_SPACING,
@@ -40,37 +40,76 @@ from mars2d.output.raster.strokes import (
 )
 from mars2d.output.raster.theme import LIGHT, Theme
 
-__all__ = ["Painter", "rgba"]
+__all__ = ["Painter", "Sprite", "Sprites", "rgba"]
 
 Float = NDArray[np.float64]
 Layer = tuple[Rgba, Draw, int]
-"""One colour of a sprite; the number tells how many times larger to draw it, 0 leaves it open."""
+"""One colour of a sprite: its ink, its brush, and the factor of enlargement, 0 for the default."""
 
 PHASES = 4
-BROAD = 20.0
-"""The radius in pixels from which a ring is drawn of hair lines."""
-LARGEST_SPRITE = 160.0
-FAR = 10_000.0
-"""The pixels up to which a hair line need not be cut before it is drawn."""
-EDGE = 0.4
+BROAD_RADIUS = 20.0
+"""The radius from which a ring is drawn with hairlines, pixels."""
+MAX_SPRITE_SIDE = 160.0
+MAX_UNCUT = 10_000.0
+"""The largest coordinate of a hairline that is drawn without clipping, pixels."""
+ARROW_EDGE = 0.4
 """The width of the edge round an arrow, in widths of its shaft."""
-SMALL = 10_000
-"""The area in pixels up to which fill and edge of a polygon are drawn at once."""
-FAINT = 96
+SMALL_AREA = 10_000
+"""The largest area at which a polygon's fill and edge are drawn together, pixels."""
+FAINT_OPACITY = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
-WIDE = 2_500
-"""The area, pixels, from which a fill counts as large."""
-UNSEEN = 0.3
-"""The pixels by which such an edge may be drawn beside where it is."""
-KEPT_LABELS = 2000
-"""The number of texts with halos that are kept."""
+LARGE_AREA = 2_500
+"""The area from which a fill counts as large, pixels."""
+EDGE_TOLERANCE = 0.3
+"""The error allowed for the edge of a large faint fill, pixels."""
+MAX_LABELS = 2000
+"""The most texts with halos in the cache."""
+
+
+Sprite = tuple[pygame.Surface, int, int]
+"""A small picture, and the offset of its corner from the whole pixel at which it is drawn."""
+
+
+class Sprites:
+    """A cache of sprites with at most `pixels` pixels in total; drops those unused for longest.
+
+    It only saves time: pictures are the same without it.
+    """
+
+    def __init__(self, pixels: int) -> None:
+        """Start with none; `pixels` may be 0."""
+        self.pixels = pixels
+        self.kept = 0
+        self._sprites: OrderedDict[Hashable, Sprite] = OrderedDict()
+
+    def __len__(self) -> int:
+        """Return the number of sprites."""
+        return len(self._sprites)
+
+    def get(self, key: Hashable) -> Sprite | None:
+        """Return the sprite of a key, or None."""
+        sprite = self._sprites.get(key)
+        if sprite is not None:
+            self._sprites.move_to_end(key)
+        return sprite
+
+    def keep(self, key: Hashable, sprite: Sprite) -> None:
+        """Keep a sprite under a new key, and drop others to make room."""
+        self._sprites[key] = sprite
+        self.kept += _area(sprite)
+        while self.kept > self.pixels:
+            self.kept -= _area(self._sprites.popitem(last=False)[1])
+
+
+def _area(sprite: Sprite) -> int:
+    return sprite[0].get_width() * sprite[0].get_height()
 
 
 class Painter:
-    """Paints shapes; keeps the sprites and the texts it made from one picture to the next.
+    """Paints shapes, and keeps sprites and texts from one picture to the next.
 
-    theme: how scenes' colours are turned, and the colours round them. ui: pixels a
-    point, the unit of line widths and text sizes. kept: pixels of sprites to keep, 0 for none.
+    theme: converts the colours of scenes. ui: pixels per point, the unit of line widths and text
+    sizes. kept: the most pixels of sprites to keep, 0 for none.
     """
 
     def __init__(
@@ -95,7 +134,7 @@ class Painter:
     ) -> None:
         """Paint shapes in their order on a surface.
 
-        shaded: their colours are those of scenes, which the theme turns; else the theme's own.
+        shaded: whether the theme converts the colours, as for scenes; False for the theme's own.
         """
         self._shade = self.theme.shade if shaded else str
         texts: list[tuple[pygame.Surface, tuple[int, int]]] = []
@@ -132,7 +171,7 @@ class Painter:
             return
         radius = round(8 * radius) / 8
         fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
-        if reach > LARGEST_SPRITE:
+        if reach > MAX_SPRITE_SIDE:
             self._large_circle(surface, brushes.ring(x, y, radius), fill, stroke, width)
             return
         px, fx = _phase(x)
@@ -152,7 +191,7 @@ class Painter:
         stroke: Rgba | None,
         width: float,
     ) -> None:
-        """Draw a circle as the polygon of many corners that it nearly is."""
+        """Draw a circle as a polygon of many corners."""
         if fill:
             self._fill(surface, ring, fill)
         if stroke:
@@ -177,9 +216,9 @@ class Painter:
     def _small_polygon(
         self, surface: pygame.Surface, points: Float, fill: Rgba, stroke: Rgba, width: float
     ) -> bool:
-        """Draw fill and edge at once, which is quicker, if they are small and opaque."""
+        """Draw fill and edge together, which is quicker; return False if not small and opaque."""
         box = brushes.extent_of(points, width / 2 + 1)
-        if fill[3] < 255 or stroke[3] < 255 or box.width * box.height > SMALL:
+        if fill[3] < 255 or stroke[3] < 255 or box.width * box.height > SMALL_AREA:
             return False
         brushes.cover(surface, stroke, box, brushes.outlined(points, fill, width), factor=4)
         return True
@@ -189,15 +228,15 @@ class Painter:
         if len(visible) < 3:
             return
         box = brushes.extent_of(visible, 1.0)
-        if color[3] < FAINT and box.width * box.height > WIDE:
+        if color[3] < FAINT_OPACITY and box.width * box.height > LARGE_AREA:
             self._area(surface, visible, color, box.clip(surface.get_clip()))
         else:
             brushes.cover(surface, color, box, brushes.filled(visible))
 
     def _area(self, surface: pygame.Surface, points: Float, color: Rgba, box: pygame.Rect) -> None:
-        """Fill what lies within `box` of a large faint polygon, as laser scanners sweep them.
+        """Fill the part within `box` of a large faint polygon, such as the area of a laser scan.
 
-        Always in the same memory: fresh memory is slow to write to.
+        It reuses the same memory, since fresh memory is slow to write to.
         """
         size = 4 * box.width * box.height
         if size <= 0:
@@ -205,7 +244,7 @@ class Painter:
         if len(self._memory) < size:
             self._memory = memoryview(bytearray(size))
         area = pygame.image.frombuffer(self._memory[:size], box.size, "BGRA")
-        brushes.draw_on(area, color, box, brushes.filled(simplified(points, UNSEEN)))
+        brushes.draw_on(area, color, box, brushes.filled(simplified(points, EDGE_TOLERANCE)))
         surface.blit(area, box.topleft)
 
     # -- lines --------------------------------------------------------------------------------
@@ -219,7 +258,7 @@ class Painter:
         ink = self._shade(shape.stroke)
         color = rgba(ink)
         width = shape.width * self.ui
-        if line in DASHES:  # dashed before it is cut, or the dashes would crawl when panning
+        if line in DASHES:  # dashed before clipping: else the dashes would crawl when panning
             pattern = tuple(self.ui * length for length in DASHES[line])
             brushes.stroke(surface, color, dashes(points, pattern), width)
         elif line:
@@ -240,12 +279,17 @@ class Painter:
             width = min(width, max(1.0, (abs(dx) + abs(dy)) / 3.5))
         width = round(8 * width) / 8
         color = rgba(self._shade(shape.stroke))
-        if width <= 1.0 and -FAR < x < FAR and -FAR < y < FAR and abs(dx) + abs(dy) < FAR:
+        if (
+            width <= 1.0
+            and -MAX_UNCUT < x < MAX_UNCUT
+            and -MAX_UNCUT < y < MAX_UNCUT
+            and abs(dx) + abs(dy) < MAX_UNCUT
+        ):
             if width < 1.0:
                 color = (*color[:3], round(width * color[3]))  # thinner is fainter
             brushes.hairline(surface, color, x, y, x + dx, y + dy)
             return
-        if max(abs(dx), abs(dy)) > LARGEST_SPRITE / 2:
+        if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE / 2:
             brushes.stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
             return
         px, fx = _phase(x)
@@ -265,13 +309,13 @@ class Painter:
         x, y = camera.x + camera.scale * ax, camera.y - camera.scale * ay
         dx, dy = camera.scale * (bx - ax), camera.scale * (ay - by)
         width = shape.width * self.ui
-        edge = EDGE * width if shape.stroke else 0.0
+        edge = ARROW_EDGE * width if shape.stroke else 0.0
         left, top = min(x, x + dx), min(y, y + dy)
         around = pygame.Rect(left - 20, top - 20, abs(dx) + 40, abs(dy) + 40)
         if not around.colliderect(surface.get_clip()):
             return
         fill, ink = (rgba(self._shade(color)) for color in (shape.fill, shape.stroke or shape.fill))
-        if max(abs(dx), abs(dy)) > LARGEST_SPRITE:
+        if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE:
             points = arrow_outline((x, y), (x + dx, y + dy), width)
             draw = brushes.edged(points, fill, edge)
             brushes.cover(surface, ink, brushes.extent_of(points, edge + 1), draw)
@@ -290,7 +334,7 @@ class Painter:
     def marks(
         self, surface: pygame.Surface, points: Float, marker: str, color: str, width: float
     ) -> None:
-        """Draw the marks ``. o x + * s`` at pixels (k, 2), in a colour as it is given."""
+        """Draw the marks ``. o x + * s`` at pixels (k, 2), in a colour that is not converted."""
         width *= self.ui
         quarters = np.rint(points.T * PHASES).astype(int)
         x, y = quarters % PHASES
@@ -300,7 +344,7 @@ class Painter:
         corners = np.zeros((2, PHASES * PHASES), dtype=int)
         for k, stamp in stamps.items():
             corners[:, k] = stamp[1:]
-        # Put together without a step of Python's for each mark: there may be thousands.
+        # Without a Python loop over the marks: there may be thousands.
         images = {k: stamp[0] for k, stamp in stamps.items()}
         places = (quarters // PHASES + corners[:, phases]).tolist()
         surface.fblits(zip(map(images.__getitem__, listed), zip(*places, strict=True), strict=True))
@@ -318,7 +362,7 @@ class Painter:
     # -- text ---------------------------------------------------------------------------------
 
     def _text(self, shape: Text, camera: Camera) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return the images of a text's lines, and where they go."""
+        """Return the images of a text's lines, and their places."""
         x = camera.x + camera.scale * shape.position[0]
         y = camera.y - camera.scale * shape.position[1]
         gap = 4 * self.ui
@@ -344,7 +388,7 @@ class Painter:
         key = text, size, color, halo
         label = self._labels.get(key)
         if label is None:
-            if len(self._labels) >= KEPT_LABELS:
+            if len(self._labels) >= MAX_LABELS:
                 self._labels.clear()
             letters = self.fonts.render(text, size, color)
             box = letters.get_rect().inflate(2 * reach, 2 * reach)
@@ -359,7 +403,7 @@ class Painter:
     # -- images -------------------------------------------------------------------------------
 
     def _image(self, surface: pygame.Surface, shape: Image, camera: Camera) -> None:
-        """Draw the part of an image that is in sight: larger pixels sharp, smaller averaged."""
+        """Draw the visible part of an image: large pixels sharp, small ones averaged."""
         xmin, xmax, ymin, ymax = shape.bounds
         rows, columns, _ = shape.pixels.shape
         sight = surface.get_clip()
@@ -403,7 +447,7 @@ class Painter:
         return rgba(self._shade(color)) if color else None
 
     def _keep(self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]) -> Sprite:
-        """Draw a sprite, its layers one over the other, and keep it."""
+        """Draw a sprite from its layers, the first lowest, and keep it."""
         finer = _sprite_factor(box)
         images = [
             brushes.layer(color, box, draw, factor or finer) for color, draw, factor in layers
@@ -460,10 +504,10 @@ def _disc_layers(
     fill: Rgba | None, stroke: Rgba | None, radius: float, width: float, x: float, y: float
 ) -> list[Layer]:
     layers: list[Layer] = []
-    broad = radius > BROAD and stroke is not None
+    broad = radius > BROAD_RADIUS and stroke is not None
     if fill:
         # The ring will cover the edge.
-        factor = 0 if not broad else 1 if fill[3] < FAINT else 2
+        factor = 0 if not broad else 1 if fill[3] < FAINT_OPACITY else 2
         layers.append((fill, brushes.disc(x, y, radius), factor))
     if stroke:
         draw = brushes.disc(x, y, radius + width / 2, width)

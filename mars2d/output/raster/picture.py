@@ -1,4 +1,4 @@
-"""Pictures without a window: the same drawing code, and no display needed."""
+"""Pictures without a window or display, drawn by the same code as the window."""
 
 from __future__ import annotations
 
@@ -22,12 +22,11 @@ __all__ = ["Artist", "paint_frame", "save_png"]
 
 
 class Artist:
-    """Paints one frame after another, keeping what does not change between them.
+    """Paints one frame after another, and keeps the parts that do not change.
 
-    size: pixels. camera: where the world lies, by default so that the workspace fits. status: the
-    words of the chip beside the time, such as "10x". footer: reserve the strip for the message at
-    the end.
-    grid, trails, forces, theory: None does as the scenario's animation says.
+    size: pixels. camera: by default one that shows the whole workspace. status: the text beside the
+    time, such as "10x". footer: whether to leave room for the message at the end. grid, trails,
+    forces, theory: None takes the setting of the scenario's animation.
     """
 
     def __init__(
@@ -52,22 +51,16 @@ class Artist:
         self.painter.ui = self.layout.ui
         self._stage = Stage(self.painter)
         self._camera = camera
-        self._sensors, self._grid, self._trails = sensors, grid, trails
-        self._forces, self._theory = forces, theory
+        asked = {"grid": grid, "trails": trails, "forces": forces, "theory": theory}
+        self._switches = {name: on for name, on in asked.items() if on is not None}
+        self._switches["sensors"] = sensors
         self._status = Status(status) if status else None
 
     def paint(self, frame: Frame, surface: pygame.Surface | None = None) -> pygame.Surface:
-        """Return the whole picture of a frame; on `surface` of the same size, when given."""
+        """Return the whole picture of a frame, painted on `surface` if given."""
         if surface is None:
             surface = pygame.Surface(self.size, 0, 32)
-        asked = {
-            "grid": self._grid,
-            "trails": self._trails,
-            "forces": self._forces,
-            "theory": self._theory,
-        }
-        given = {name: on for name, on in asked.items() if on is not None}
-        layers = Layers.of(frame.scenario.animation, sensors=self._sensors, **given)
+        layers = Layers.of(frame.scenario.animation, **self._switches)
         camera = self._camera or fitted(frame.scenario, self.size, self.layout)
         self._stage.draw(surface, frame, camera, layers, self.layout.plot)
         draw_header(surface, self.layout, self.painter, frame, self._status)
@@ -77,7 +70,7 @@ class Artist:
 
 
 def summary(frame: Frame) -> str:
-    """Return the quiet line beneath a picture: the team and its timing."""
+    """Return the line below a picture: the number of robots and the sampling time."""
     scenario = frame.scenario
     count = len(scenario.robots)
     team = "1 robot" if count == 1 else f"{count} robots"
@@ -96,17 +89,11 @@ def paint_frame(
     theory: bool | None = None,
     footer: bool = True,
 ) -> pygame.Surface:
-    """Return the picture of one frame: title, time, iteration, message and all. See `Artist`."""
+    """Return the picture of one frame, with title, time, step and message; see `Artist`."""
     artist = Artist(
-        size,
-        camera=camera,
-        sensors=sensors,
-        grid=grid,
-        trails=trails,
-        forces=forces,
-        theory=theory,
-        footer=footer,
-    )
+        size, camera=camera, sensors=sensors, grid=grid, trails=trails, forces=forces,
+        theory=theory, footer=footer,
+    )  # fmt: skip
     return artist.paint(frame)
 
 

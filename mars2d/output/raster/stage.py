@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
+from itertools import takewhile
 from math import ceil, floor
 from operator import is_
 from time import perf_counter
@@ -12,17 +13,90 @@ import pygame
 from mars2d.core.scene import Shape
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.canvas import Canvas, grid_bounds
-from mars2d.output.raster.grid import labels
+from mars2d.output.raster.grid import Bounds, draw_grid, labels
 from mars2d.output.raster.legend import draw_legends
 from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.trails import Wakes
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["MEMORY", "Stage"]
+__all__ = ["MEMORY", "Canvas", "Stage", "grid_bounds"]
+
+SHIFT_TOLERANCE = 1e-6
+"""The distance from a whole number of pixels up to which a shift counts as whole."""
+
+
+class Canvas:
+    """The layers that seldom change, drawn once: those that stand still, and the paths.
+
+    Other cameras of the same scale can show it shifted. camera: of the whole surface. area: its
+    part that is drawn, pixels. memory: bytes that may be used to go back in time quickly. seconds:
+    the time that drawing took.
+    """
+
+    def __init__(
+        self,
+        painter: Painter,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        size: tuple[int, int],
+        area: pygame.Rect,
+        *,
+        memory: int = 0,
+    ) -> None:
+        """Draw the layers that stand still on a surface of `size` pixels."""
+        start = perf_counter()
+        self.camera, self.area = camera, area
+        self.still = pygame.Surface(size, 0, 32)
+        self.still.set_clip(area)
+        self.still.fill(painter.theme.page)
+        scenario = frame.scenario
+        for layer in takewhile(standing().__contains__, layers.seen(scenario.animation)):
+            if layer.shapes is None:
+                bounds = grid_bounds(scenario, camera, size)
+                draw_grid(self.still, camera, bounds, painter.ui, painter.theme)
+            else:
+                painter.paint(self.still, layer.shapes(frame).shapes, camera)
+        self.wakes: Wakes | None = None
+        self._painter, self._scenario, self._memory = painter, scenario, memory
+        self.seconds = perf_counter() - start
+
+    def with_paths(self, frame: Frame, until: float = float("inf")) -> pygame.Surface | None:
+        """Return the picture with the paths up to a frame; None if they are not drawn in time."""
+        start = perf_counter()
+        if fresh := self.wakes is None:
+            self.wakes = Wakes(self._painter, self._scenario, self.camera, self.still, self._memory)
+        done = self.wakes.show((frame.prop_path, frame.path), until)
+        if fresh:
+            self.seconds += perf_counter() - start
+        return self.wakes.surface if done else None
+
+    def shift(self, camera: Camera) -> tuple[int, int]:
+        """Return the place of the surface's corner for another camera, in whole pixels."""
+        return round(camera.x - self.camera.x), round(camera.y - self.camera.y)
+
+    def shows(self, camera: Camera, plot: pygame.Rect) -> bool:
+        """Return whether the canvas covers all that a camera shows on a part of a surface."""
+        dx, dy = self.shift(camera)
+        return camera.scale == self.camera.scale and self.area.contains(plot.move(-dx, -dy))
+
+    def is_exact(self, camera: Camera) -> bool:
+        """Return whether the canvas is exact for a camera, without rounding of the shift."""
+        dx, dy = self.shift(camera)
+        off = camera.x - self.camera.x - dx, camera.y - self.camera.y - dy
+        return camera.scale == self.camera.scale and max(map(abs, off)) < SHIFT_TOLERANCE
+
+
+def grid_bounds(scenario: Scenario, camera: Camera, size: tuple[int, int]) -> Bounds:
+    """Return the bounds of the grid, (xmin, xmax, ymin, ymax) in metres."""
+    if scenario.workspace is None or scenario.on_exit == "ignore":
+        return camera.view(size)
+    return scenario.bounds
+
 
 MEMORY = 100_000_000
-"""The bytes that a window uses to go back in time quickly: some twenty pictures."""
+"""The bytes that a window uses to go back in time quickly: about twenty pictures."""
 
 PATIENCE = 0.012
 """The seconds that the kept layers may take to draw before a moving camera jerks."""
@@ -30,18 +104,18 @@ PATIENCE = 0.012
 AHEAD = 0.004
 """Where it takes longer, the seconds of each picture in which the next canvas is drawn."""
 
-ROUND = 0.25
-"""The margin that is drawn on all sides while the camera moves, in shares of the picture..."""
-NEAR = 0.1
-"""... and the rest of it at which it is drawn anew."""
+WIDE_MARGIN = 0.25
+"""The margin that is drawn on all sides while the camera moves, as a share of the picture."""
+NEAR_MARGIN = 0.1
+"""The rest of that margin at which a new canvas is drawn, as a share of the picture."""
 
 
 class Stage:
     """Draws frames of one experiment after another; used by the window, pictures and films alike.
 
-    The layers that stand still are drawn once a camera. On a copy of that the paths grow, and on a
-    copy of that are the readings, until the sensors read again. All other layers are drawn anew
-    each time.
+    The layers that stand still are drawn once for each camera. The paths grow on a copy of that
+    picture, and the readings are drawn on a copy of the paths, until the sensors read again. All
+    other layers are drawn for each frame.
 
     memory: bytes that may be used to go back in time without drawing all paths from their start.
     """
@@ -51,7 +125,7 @@ class Stage:
         self.painter = painter
         self.memory = memory
         self._canvas: Canvas | None = None
-        self._next: Canvas | None = None  # what will be seen soon
+        self._next: Canvas | None = None  # the canvas that will be needed soon
         self._key: tuple[Hashable, ...] = ()
         self._scenario: Scenario | None = None
         self._sensed: pygame.Surface | None = None
@@ -74,9 +148,9 @@ class Stage:
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
-        beneath, marks: shapes to draw beneath the bodies, and over them. hurried: while the camera
-        moves. If the layers that stand still took long to draw, the last picture is enlarged or
-        moved until there is time to draw it anew.
+        beneath, marks: shapes to draw below and above the bodies. hurried: whether the camera is
+        moving. If the layers that stand still took long to draw, the last picture is then enlarged
+        or shifted until there is time to draw a new one.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -105,7 +179,7 @@ class Stage:
         beneath: Sequence[Shape],
         marks: Sequence[Shape],
     ) -> None:
-        """Draw the layers above what is kept, with `beneath` and `marks` round the bodies."""
+        """Draw the layers above the kept ones, with `beneath` and `marks` around the bodies."""
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
         for layer in LAYERS[_place("sensors") + 1 :]:
             if layer.name == FIRST_BODIES:
@@ -126,7 +200,7 @@ class Stage:
         plot: pygame.Rect,
         hurried: bool,
     ) -> Canvas:
-        """Return the canvas for a camera, drawn anew if needed and not in a hurry."""
+        """Return the canvas for a camera, a new one if needed and not hurried."""
         size = surface.get_size()
         stands = frozenset(layer.name for layer in standing())
         key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme
@@ -146,11 +220,11 @@ class Stage:
         self, canvas: Canvas, frame: Frame, camera: Camera, layers: Layers, plot: pygame.Rect
     ) -> Canvas:
         """Return the canvas to use while the camera moves; draw a larger one bit by bit."""
-        near = plot.inflate(2 * NEAR * plot.width, 2 * NEAR * plot.height)
+        near = plot.inflate(2 * NEAR_MARGIN * plot.width, 2 * NEAR_MARGIN * plot.height)
         if camera.scale != canvas.camera.scale or canvas.shows(camera, near):
             return canvas
         if self._next is None or not self._next.shows(camera, near):
-            wide = plot.inflate(2 * ROUND * plot.width, 2 * ROUND * plot.height)
+            wide = plot.inflate(2 * WIDE_MARGIN * plot.width, 2 * WIDE_MARGIN * plot.height)
             own = camera.panned(-wide.left, -wide.top)
             self._next = Canvas(
                 self.painter, frame, own, layers, wide.size, pygame.Rect(0, 0, *wide.size),
@@ -199,7 +273,7 @@ class Stage:
         last = canvas.wakes.surface if layers.trails and canvas.wakes is not None else canvas.still
         factor = camera.scale / canvas.camera.scale
         corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
-        # Whole pixels of the last picture, as many as are seen now.
+        # The whole pixels of the last picture that are visible now.
         seen = pygame.Rect(0, 0, ceil(plot.width / factor) + 2, ceil(plot.height / factor) + 2)
         seen.left = floor((plot.left - corner[0]) / factor)
         seen.top = floor((plot.top - corner[1]) / factor)
@@ -218,7 +292,7 @@ class Stage:
         size: tuple[int, int],
         plot: pygame.Rect,
     ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return the numbers of the grid, and where they go."""
+        """Return the numbers of the grid, and their places."""
         key = camera, *self._key
         if self._numbers_of != key:
             self._numbers_of, self._numbers = key, []
@@ -234,8 +308,8 @@ class Stage:
     ) -> tuple[pygame.Surface, Sequence[Shape]]:
         """Return a picture with the readings on it, and the shapes that are still to be drawn.
 
-        Readings that are seen more than once are drawn on a copy and kept. If the last ones were
-        seen once, as in a film of each control step, so will the next be: no copy is made.
+        Readings that are shown more than once are drawn on a copy and kept. If the last ones were
+        shown once, as in a film of each control step, the next will be too: no copy is made.
         """
         stays = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
         sensed = frame.pose if frame.sensed is None else frame.sensed
@@ -265,5 +339,5 @@ def _sensors(frame: Frame) -> Sequence[Shape]:
 
 
 def _place(name: str) -> int:
-    """Return where a layer stands in the table."""
+    """Return the index of a layer in the table."""
     return next(k for k, layer in enumerate(LAYERS) if layer.name == name)

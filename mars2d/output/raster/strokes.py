@@ -1,4 +1,4 @@
-"""Outlines in pixels: cut to the part in sight, cut into dashes, drawn smooth and quick."""
+"""Lines and outlines in pixels: clipped, dashed, simplified, and drawn anti-aliased."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ MARK_SPACING = 9.0
 
 
 def arc_length(points: Float) -> Float:
-    """Return how far along a polyline (k, 2) each of its points lies, (k,), from 0."""
+    """Return the length along a polyline (k, 2) up to each of its points, (k,)."""
     if len(points) < 2:
         return np.zeros(len(points))
     steps = np.hypot(*np.diff(points, axis=0).T)
@@ -55,7 +55,7 @@ def dashes(points: Float, pattern: tuple[float, ...], start: float = 0.0) -> lis
     period = sum(pattern)
     first = np.floor(start / period)
     periods = np.arange(first, np.floor(total / period) + 1) * period
-    if len(periods) > 20_000:  # far zoomed in on a long path: the dashes would take for ever
+    if len(periods) > 20_000:  # zoomed in on a long path: dashes would take too long
         return [points]
     pieces: list[Float] = []
     offset = 0.0
@@ -93,14 +93,14 @@ def hairlines(surface: pygame.Surface, ink: tuple[int, ...], points: Float, widt
     normals = np.column_stack([-bends[:, 1], bends[:, 0]])
     for shift in hair_shifts(width, normals):
         x, y = (points + shift).T.tolist()
-        # Tuples of numbers, which the garbage collector soon lets be: thousands of lists slow it.
+        # Tuples of numbers, which the garbage collector untracks: thousands of lists slow it down.
         pygame.draw.aalines(surface, ink, False, list(zip(x, y, strict=True)))
 
 
 def hair_shifts(width: float, normals: Float) -> list[Float]:
-    """Return how far to the side the hair lines lie that make up a line of `width` pixels.
+    """Return the sideways shifts of the hairlines that make up a line of `width` pixels.
 
-    normals: (k, 2), at right angles to the line at each point. Each shift is (k, 2) pixels.
+    normals: (k, 2), perpendicular to the line at each point. Each shift is (k, 2) pixels.
     """
     count = max(1, ceil(width))
     if count == 1:

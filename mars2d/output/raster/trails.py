@@ -1,4 +1,4 @@
-"""Growing paths: drawn once and then prolonged, with pictures of before to go back to."""
+"""Growing paths: drawn once and then extended, with earlier pictures to go back to."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ __all__ = ["Trails", "Wakes"]
 
 Float = NDArray[np.float64]
 
-STRIDE = 2.0
-"""The points by which a path has to grow before it is prolonged: no dots on top of dots."""
+MIN_GROWTH = 2.0
+"""The length by which a path must grow before it is extended, points."""
 
 
 class Trails:
@@ -51,7 +51,7 @@ class Trails:
         self.last: Float | None = None
 
     def continues(self, path: Float) -> bool:
-        """Return whether a path (k, 3, n) is or continues the one that has been drawn."""
+        """Return whether a path (k, 3, n) is, or continues, the path drawn so far."""
         if self.first is None or self.last is None:
             return True
         return (
@@ -61,7 +61,7 @@ class Trails:
         )
 
     def copy(self) -> Trails:
-        """Return one that has drawn the same, and goes on by itself."""
+        """Return an independent copy with the same state."""
         other = copy(self)
         if self.first is not None:
             other.pen, other.pen_along = self.pen.copy(), self.pen_along.copy()
@@ -85,7 +85,7 @@ class Trails:
         self.drawn = len(path)
         steps = np.diff(np.concatenate([self.tip[None], new]), axis=0)
         along = self.tip_along + np.cumsum(np.hypot(steps[..., 0], steps[..., 1]), axis=0)
-        kept = self._crossings(along, STRIDE * self.painter.ui)
+        kept = self._crossings(along, MIN_GROWTH * self.painter.ui)
         marked = self._crossings(along, MARK_SPACING * self.painter.ui) if self.marker else None
         grown = np.nonzero(kept.any(axis=0))[0]
         if self.line == "-" and len(new) == 1:
@@ -104,9 +104,9 @@ class Trails:
     def loose_ends(
         self, surface: pygame.Surface, position: Float, shift: tuple[int, int] = (0, 0)
     ) -> None:
-        """Draw from where each path was last drawn to where its robot is, (2, n) metres.
+        """Draw each path from its drawn end to its robot's position, (2, n) metres.
 
-        shift: how far the surface that keeps the paths lies off this one, pixels.
+        shift: the offset of the surface that keeps the paths from this one, pixels.
         """
         if self.first is None or not self.line:
             return
@@ -124,7 +124,7 @@ class Trails:
         return np.stack([c.x + c.scale * positions[:, 0], c.y - c.scale * positions[:, 1]], axis=-1)
 
     def _crossings(self, along: Float, stride: float) -> NDArray[np.bool_]:
-        """Return where (m, n) lengths along the paths pass a multiple of `stride`."""
+        """Return a mask (m, n) of lengths along the paths that pass a multiple of `stride`."""
         buckets = np.floor(np.concatenate([self.tip_along[None], along]) / stride)
         return np.diff(buckets, axis=0) > 0
 
@@ -160,12 +160,12 @@ class Trails:
 
 
 def _on_paper(color: str, theme: Theme) -> str:
-    """Return how a colour with opacity looks on the theme's paper."""
+    """Return a colour with opacity as it looks on the theme's paper."""
     return mixed(theme.shade(color), theme.paper, rgba(color)[3] / 255)
 
 
-EVERY = 256
-"""The rows between two pictures that are kept, at first."""
+FIRST_STRIDE = 256
+"""The rows between two kept pictures, at first."""
 
 Kept = tuple[pygame.Surface, tuple[Trails, ...]]
 
@@ -195,7 +195,7 @@ class Wakes:
         )
         self._start: Kept = still, tuple(trails.copy() for trails in self.trails)
         self._most = memory // (still.get_pitch() * still.get_height())
-        self._every = EVERY
+        self._every = FIRST_STRIDE
         self._kept: dict[int, Kept] = {}
 
     def show(self, paths: tuple[Float, Float], until: float = float("inf")) -> bool:

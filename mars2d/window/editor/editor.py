@@ -15,7 +15,7 @@ import pygame
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
-from mars2d.output.layers.names import names
+from mars2d.output.layers.bodies import names
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.layout import Layout, next_text_size
 from mars2d.output.raster.painter import Painter

@@ -12,7 +12,7 @@ import pytest
 from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Arrow, Line, Text
-from mars2d.output.layers.names import names
+from mars2d.output.layers.bodies import names
 from mars2d.output.layers.neighbours import Links
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.velocities import speed_scale, velocities

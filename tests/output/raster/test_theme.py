@@ -10,11 +10,21 @@ import pytest
 from mars2d.core.scene import _NAMED, PALETTE, THEORY, Scene
 from mars2d.output.layers.bodies import INK, MATERIAL_COLORS, OBSTACLE, prop_edge
 from mars2d.output.layers.table import Layers
-from mars2d.output.raster import shades
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
-from mars2d.output.raster.theme import DARK, LIGHT, PRINTED, Tone, contrast, mixed
+from mars2d.output.raster.theme import (
+    DARK,
+    LIGHT,
+    PRINTED,
+    Tone,
+    _lab,
+    _numbers,
+    contrast,
+    luminance,
+    mixed,
+    on_dark,
+)
 from tests.window.circling import Circling
 from tests.window.written import THEMES, pixels
 
@@ -72,7 +82,7 @@ def test_each_colour_of_a_theme_is_one(theme):
         value = getattr(theme, item.name)
         for color in value if isinstance(value, Tone) else [value]:
             if color is not theme.dark:
-                assert len(shades.on_dark(color, DARK.paper)) == 7
+                assert len(on_dark(color, DARK.paper)) == 7
 
 
 def test_on_white_paper_scenes_stay_as_they_are():
@@ -117,16 +127,14 @@ def test_the_edge_of_a_prop_is_seen(material):
 
 def test_greys_are_turned_over_in_order():
     greys = [DARK.shade(f"#{k:02x}{k:02x}{k:02x}") for k in range(0, 256, 15)]
-    bright = [shades.luminance(grey) for grey in greys]
+    bright = [luminance(grey) for grey in greys]
     assert bright == sorted(bright, reverse=True)
     assert contrast(DARK.shade(OBSTACLE), DARK.shade(INK)) > 1.7
 
 
 def distance(one, other):
     """Return how different two colours look, in OKLab."""
-    return float(
-        np.linalg.norm(np.subtract(*(shades._lab(shades._numbers(c)) for c in (one, other))))
-    )
+    return float(np.linalg.norm(np.subtract(*(_lab(_numbers(c)) for c in (one, other)))))
 
 
 def test_the_colours_of_robots_are_told_apart_as_well():

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import html
 import json
 import zlib
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -14,13 +16,22 @@ from typing import TYPE_CHECKING
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay.content import content_of
-from mars2d.output.pages.replay.template import colors, filled, policy
-from mars2d.output.raster.theme import DARK
+from mars2d.output.raster.theme import DARK, LIGHT, Theme
 
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
-__all__ = ["page", "page_script", "page_style", "player", "replay_data", "save_html"]
+__all__ = [
+    "colors",
+    "filled",
+    "page",
+    "page_script",
+    "page_style",
+    "player",
+    "policy",
+    "replay_data",
+    "save_html",
+]
 
 SCRIPTS = ("data", "shades", "camera", "painter", "drawings", "picture", "clock", "panel", "replay")
 """The parts of the script, each of which may use those before it."""
@@ -91,3 +102,47 @@ def page_style() -> str:
 @cache
 def _read(name: str) -> str:
     return files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def filled(template: str, words: Mapping[str, str]) -> str:
+    """Return a template with each {{name}} replaced by its words, which are taken as they are."""
+    parts = template.split("{{")
+    found = [parts[0]]
+    for part in parts[1:]:
+        name, _, rest = part.partition("}}")
+        found.append(words[name] + rest)
+    return "".join(found)
+
+
+def policy(scripts: Iterable[str], styles: Iterable[str]) -> str:
+    """Return a content security policy: these scripts and styles run, nothing else is loaded."""
+    may_run, may_style = (
+        " ".join(f"'{_hash(text)}'" for text in texts) for texts in (scripts, styles)
+    )
+    return (
+        f"default-src 'none'; script-src {may_run}; style-src {may_style}; "
+        "img-src data:; base-uri 'none'; form-action 'none'"
+    )
+
+
+def colors() -> str:
+    """Return the colours of the light and the dark theme as variables of CSS."""
+    return f":root {{ {_variables(LIGHT)} }}\n:root.dark {{ {_variables(DARK)} }}\n"
+
+
+def _variables(theme: Theme) -> str:
+    names = ("page", "paper", "bar", "plate", "edge", "grid", "ink", "text", "muted", "key")
+    values = {name: getattr(theme, name) for name in names}
+    values |= {
+        "axis": theme.grid_axis, "key-edge": theme.key_edge, "track": theme.track,
+        "accent": theme.running.ink, "accent-pale": theme.running.pale,
+        "warn": theme.waiting.ink, "warn-pale": theme.waiting.pale,
+        "over": theme.over, "on-over": theme.on_banner, "effort": theme.effort,
+        "failed": theme.failed,
+    }  # fmt: skip
+    return " ".join(f"--{name}: {value};" for name, value in values.items())
+
+
+def _hash(text: str) -> str:
+    """Return the name of a script or style in a content security policy."""
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()

@@ -1,4 +1,4 @@
-"""Numbers over time as few bytes: rounded, as changes of changes, deflated."""
+"""Numbers over time packed into few bytes: rounded, differenced and deflated."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ __all__ = ["MISSING", "Columns", "Int", "fitted", "rounded"]
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
-LARGEST = 2**28
+MAX_NUMBER = 2**28
 """The largest whole number: second differences then fit into 32 bits."""
 
-MISSING = -LARGEST
+MISSING = -MAX_NUMBER
 """Stands for a number that is missing or infinite."""
 
 
 class Columns:
-    """Columns packed one after the other; `index` says where each lies and how it is read.
+    """Columns packed one after the other; `index` has the place and the format of each.
 
-    size: their bytes. beside: the bytes of the plain data that belongs to them, about.
+    size: their bytes. beside: the approximate bytes of the plain data that belongs to them.
     """
 
     def __init__(self) -> None:
@@ -43,7 +43,7 @@ class Columns:
         series = np.asarray(values, dtype=np.int64).reshape(shape[0], width).T
         for _ in range(order):
             series = np.diff(series, axis=1, prepend=0)
-        # Small numbers of either sign as small numbers without: 0, -1, 1, -2 ...
+        # Numbers of either sign become small numbers without sign: 0, -1, 1, -2 ...
         signless = ((series << 1) ^ (series >> 63)).astype("<u4")
         planes = signless.ravel().view(np.uint8).reshape(-1, 4).T
         used = max((k + 1 for k in range(4) if planes[k].any()), default=0)
@@ -79,17 +79,17 @@ def rounded(values: NDArray[Any], step: float) -> Int:
     """Return numbers in whole steps; those that are not finite as `MISSING`."""
     finite = np.isfinite(values)
     steps = np.rint(np.where(finite, values, 0.0) / step)
-    kept = np.clip(steps, 1 - LARGEST, LARGEST)
+    kept = np.clip(steps, 1 - MAX_NUMBER, MAX_NUMBER)
     return np.where(finite, kept, MISSING).astype(np.int64)
 
 
 def fitted(
     room: int, pack: Callable[[int], tuple[Columns, int]], every: int = 1
 ) -> tuple[Columns, int]:
-    """Return columns that take at most `room` bytes, and how they were thinned to do so.
+    """Return columns that take at most `room` bytes, and the stride of rows at which they fit.
 
     pack: returns the columns of one row in `every`, and the number of their rows. every: the first
-    try; it is doubled until they fit, or until there is one row.
+    stride to try; it is doubled until they fit, or until one row is left.
     """
     while True:
         columns, rows = pack(every)

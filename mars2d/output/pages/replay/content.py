@@ -9,10 +9,11 @@ import numpy as np
 
 from mars2d.core.description import snake_case
 from mars2d.core.errors import ordinal
+from mars2d.core.quantity import UNKNOWN, Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.bodies import prop_colors
-from mars2d.output.layers.forces import SLIPPING
+from mars2d.output.layers.forces import FAINTEST, MAX_CONTACTS, SLIPPING, force_scale, mean_forces
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
 from mars2d.output.layers.trails import (
     PROP_TRAIL_WIDTH,
@@ -23,9 +24,11 @@ from mars2d.output.layers.trails import (
 from mars2d.output.pages.replay import sensors
 from mars2d.output.pages.replay.columns import Columns, Int, fitted, rounded
 from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack
-from mars2d.output.pages.replay.panel import commands_of, pack_contacts, pack_readings
+from mars2d.output.pages.replay.sensors import Carried
 from mars2d.record.frame import Frame
 from mars2d.scenario.animation import Animation
+from mars2d.scenario.robot import Robot
+from mars2d.sensors.base import Sensor
 
 if TYPE_CHECKING:
     from mars2d.record.record import Record
@@ -36,10 +39,10 @@ MAX_ROWS = 20_000
 """The most rows of a replay."""
 
 ROOM = 1_380_000
-"""Bytes for all columns: as text they are a third more."""
+"""The most bytes of all columns; as text they take a third more."""
 
 POSES, PANEL, CONTACTS = 480_000, 200_000, 60_000
-"""The most bytes of these; beyond, they are thinned. Sensors have the rest of all."""
+"""The most bytes of each; beyond, they are thinned. Sensors get the rest."""
 
 LAYER_ROOM = {"addons": 240_000, "forces": 120_000}
 OTHER_ROOM = 60_000
@@ -56,7 +59,7 @@ FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-18
 """Steps of positions and of moving shapes, in shares of the view; of headings, radians."""
 
 LEAP = 0.12
-"""A shape moves evenly between rows, or leaps: by more than this share of the view."""
+"""The share of the view beyond which a shape leaps between rows, rather than moving evenly."""
 
 
 def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
@@ -69,7 +72,7 @@ def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
 
 
 class _Content:
-    """Puts a replay together, piece by piece, and notes what is left out."""
+    """Assembles a replay, and notes the parts that are left out."""
 
     def __init__(self, record: Record) -> None:
         self.record, self.scenario = record, record.scenario
@@ -125,7 +128,7 @@ class _Content:
     # -- bodies -------------------------------------------------------------------------------
 
     def _add_poses(self) -> None:
-        """Add the poses of all bodies, at as many rows as there is room for, and keep these."""
+        """Add the poses of all bodies at as many rows as fit, and remember these rows."""
         record = self.record
         step = self.size * FINE
         low = np.array([self.view.xmin, self.view.ymin])
@@ -356,7 +359,7 @@ class _Content:
 
 
 def _table(animation: Animation) -> list[dict[str, Any]]:
-    """Return the layers as the page needs to know them, the lowest first."""
+    """Return the layers for the page, the lowest first."""
     stand = standing()
     return [
         {
@@ -377,10 +380,83 @@ def _drawn(layer: Layer, frame: Frame) -> Flat:
 
 
 def _in_words(part: object) -> str:
-    """Return the kind of a part, for people."""
+    """Return the kind of a part, in words."""
     return snake_case(type(part).__name__).replace("_", " ")
 
 
 def _rows(count: int, every: int) -> Int:
     """Return one row in `every`, and the last one."""
     return np.unique(np.append(np.arange(0, count, every), count - 1))
+
+
+# -- the numbers in the panel ---------------------------------------------------------------------
+
+FORCES = 2000
+"""Forces are rounded to the strongest drive's force divided by this."""
+
+MAX_NUMBERS = 8
+"""The most numbers of a reading that is shown as text."""
+
+
+def commands_of(robot: Robot) -> list[list[str]]:
+    """Return the names, units and kinds of the two numbers of a robot's command."""
+    quantities = robot.drive.quantities or UNKNOWN
+    return [[quantity.symbol, quantity.unit, quantity.kind] for quantity in quantities]
+
+
+def pack_contacts(record: Record, kept: Int, every: int) -> tuple[Columns, int]:
+    """Return the contacts of one row in `every` as columns, the strongest of each row."""
+    columns = Columns()
+    strongest = force_scale(record.scenario).strongest
+    rows = record.contact_rows
+    place = np.searchsorted(kept, rows)
+    at = np.minimum(place, len(kept) - 1)
+    chosen = np.flatnonzero((kept[at] == rows) & (at % every == 0))
+    contacts, at = record.contacts[chosen], at[chosen]
+    size = np.linalg.norm(mean_forces(contacts, record.scenario.sampling_time), axis=1)
+    order = np.lexsort((-size, at))
+    rank = np.arange(len(order)) - np.searchsorted(at[order], at[order], side="left")
+    order = order[(rank < MAX_CONTACTS) & (size[order] >= FAINTEST * strongest)]
+    contacts, at, size = contacts[order], at[order], size[order]
+    columns.add("contacts:row", at, order=1, every=every)
+    columns.add("contacts:a", contacts["a"].astype(int), order=1)
+    columns.add("contacts:b", contacts["b"].astype(int), order=1)
+    newton = strongest / FORCES
+    columns.add("contacts:force", rounded(size, newton), order=1, step=newton)
+    return columns, len(at)
+
+
+def pack_readings(sensors: list[Carried], every: int) -> tuple[Columns, list[dict[str, Any]]]:
+    """Return the readings of few numbers as columns, and the names and units for their text."""
+    columns = Columns()
+    found: list[dict[str, Any]] = []
+    for each in sensors:
+        values = each.readings[::every].reshape(len(each.readings[::every]), -1).astype(float)
+        if not 0 < values.shape[1] <= MAX_NUMBERS:
+            continue
+        finite = values[np.isfinite(values)]
+        step = max(float(np.abs(finite).max(initial=0.0)), 1e-6) / 2**15
+        name = f"reading{len(found)}"
+        columns.add(name, rounded(values, step), order=1, step=step, every=every)
+        found.append({
+            "name": each.name,
+            "robot": each.robot,
+            "column": name,
+            "parts": [_part(q) for q in _quantities(each.sensor, values.shape[1])],
+        })  # fmt: skip
+    return columns, found
+
+
+def _quantities(sensor: Sensor, count: int) -> list[Quantity]:
+    """Return the quantity of each number of a reading."""
+    stated = list(sensor.quantities) or [Quantity("value")]
+    if count % len(stated) == 0 and len(stated) > 1:
+        return stated * (count // len(stated))
+    first = stated[0]
+    if count == 1:
+        return [first]
+    return [Quantity(f"{first.name} {k}", first.unit, first.kind) for k in range(count)]
+
+
+def _part(quantity: Quantity) -> list[str]:
+    return [quantity.name, quantity.unit, quantity.kind]

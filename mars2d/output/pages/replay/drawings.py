@@ -1,4 +1,4 @@
-"""Scenes over time as columns: styles, which recur, and numbers, which change."""
+"""Scenes over time as columns: a table of styles, and the numbers that change."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ __all__ = ["Drawing", "Flat", "Float", "flat", "follows", "pack"]
 Float = NDArray[np.float64]
 
 Style = tuple[Any, ...]
-"""The kind of a shape, and all of it that is no length: colours, widths, words."""
+"""The kind of a shape and its properties that are no lengths: colours, widths, texts."""
 
-MOST_PIXELS = 512
+MAX_PIXELS = 512
 """The most rows and columns of an image; larger ones are thinned."""
 
 
 class Flat(NamedTuple):
-    """A scene: the styles of its shapes, how many numbers each has, and all numbers, metres.
+    """A scene: the styles of its shapes, the count of numbers of each, and all numbers, metres.
 
-    images: those that styles refer to, by a hash of their pixels.
+    images: those in the styles, by a hash of their pixels.
     """
 
     styles: tuple[Style, ...]
@@ -73,8 +73,8 @@ def _split(shape: Shape) -> tuple[Style, Float]:
 
 
 def _thinned(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Return pixels with opacity, (rows, columns, 4), few enough."""
-    stride = -(-max(pixels.shape[:2]) // MOST_PIXELS)
+    """Return pixels with opacity, (rows, columns, 4), thinned to at most `MAX_PIXELS` a side."""
+    stride = -(-max(pixels.shape[:2]) // MAX_PIXELS)
     pixels = pixels[::stride, ::stride]
     if pixels.shape[2] == 3:
         opaque = np.full((*pixels.shape[:2], 1), 255, dtype=np.uint8)
@@ -83,7 +83,7 @@ def _thinned(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def moved(scene: Flat, pose: Float) -> Float:
-    """Return the numbers of a scene that is put at a pose (3,)."""
+    """Return the numbers of a scene that is moved to a pose (3,)."""
     c, s = np.cos(pose[2]), np.sin(pose[2])
     result, start = scene.numbers.copy(), 0
     for style, count in zip(scene.styles, scene.counts, strict=True):
@@ -97,7 +97,7 @@ def moved(scene: Flat, pose: Float) -> Float:
 
 
 def follows(here: Flat, there: Flat, pose: Float) -> bool:
-    """Return whether a scene that was drawn at a pose is that of the origin, moved there."""
+    """Return whether the scene drawn at a pose is the scene at the origin, moved there."""
     if here.styles != there.styles or here.counts != there.counts:
         return False
     return np.allclose(moved(here, pose), there.numbers, atol=1e-9, equal_nan=True)
@@ -107,9 +107,9 @@ def follows(here: Flat, there: Flat, pose: Float) -> bool:
 class Drawing:
     """Scenes over time: `scenes[k]` is seen from row `rows[k]` on.
 
-    body: the index of the body in whose frame they are; None: in that of the world. stays: they
-    are where the body was at the last row, not where it is between two. upright: they move with
-    the body, but do not turn.
+    body: the index of the body in whose frame they are; None: in the world. stays: whether they use
+    the body's pose at the last row, without interpolation. upright: whether they move with the body
+    but do not turn.
     """
 
     rows: Sequence[int]

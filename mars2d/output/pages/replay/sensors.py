@@ -26,24 +26,24 @@ __all__ = [
     "pack_fans",
 ]
 
-SELDOM = 8
-"""Sensors that draw no more scenes than this are never thinned."""
+FEW_SCENES = 8
+"""The most scenes of a sensor that is never thinned."""
 
-BEAMS = 360
+MAX_BEAMS = 360
 """The most beams of a sensor that are drawn."""
 
-DRAWN = 5000
-"""The most readings that sensors are asked to draw."""
+MAX_DRAWN = 5000
+"""The most readings that are drawn."""
 
 LEVELS = 254
-"""Distances are rounded to the range over this; one more level says that nothing is there."""
+"""The levels to which distances are rounded; one more level means that nothing is there."""
 
 ELSEWHERE = np.array([0.7, -0.4, 1.1])
 """A pose that tells drawings in a robot's frame from drawings in that of the world."""
 
 
 class Carried:
-    """A sensor on a robot, and what it read at the rows of a replay, (R, ...)."""
+    """A sensor on a robot, and its readings at the rows of a replay, (R, ...)."""
 
     def __init__(self, name: str, robot: int, sensor: Sensor, readings: NDArray[Any]) -> None:
         """Keep them together."""
@@ -58,7 +58,7 @@ class Carried:
 
     @property
     def is_fan(self) -> bool:
-        """Whether its readings are distances along beams, and drawn as those are."""
+        """Whether its readings are distances along beams, and drawn as such."""
         fan, kind = self.sensor.fan, type(self.sensor)
         if fan is None or _definer(kind, "draw") is not _definer(kind, "fan"):
             return False  # a class of the user's may draw something else
@@ -74,7 +74,7 @@ class Carried:
 
 
 def carried(record: Record, kept: Int) -> Iterator[Carried]:
-    """Yield the sensors of a record that are known; a loaded one lacks those of the user's own."""
+    """Yield the sensors of a record; a loaded record lacks those of the user's own."""
     for name, robots in record.sensor_robots.items():
         for k, robot in enumerate(robots):
             sensor = record.scenario.robots[robot].sensor(name)
@@ -134,7 +134,7 @@ def _definer(kind: type, name: str) -> type | None:
 
 
 def _skip(beams: int) -> int:
-    return -(-beams // BEAMS)
+    return -(-beams // MAX_BEAMS)
 
 
 def drawings(
@@ -146,10 +146,13 @@ def drawings(
     """
     changes = [each.changes() for each in sensors]
     stride = 1
-    while sum(len(np.unique(rows // stride)) for rows in changes if len(rows) > SELDOM) > DRAWN:
+    while (
+        sum(len(np.unique(rows // stride)) for rows in changes if len(rows) > FEW_SCENES)
+        > MAX_DRAWN
+    ):
         stride *= 2
     found = [
-        _drawing(each, rows if len(rows) <= SELDOM else _last(rows, stride), pose, colors)
+        _drawing(each, rows if len(rows) <= FEW_SCENES else _last(rows, stride), pose, colors)
         for each, rows in zip(sensors, changes, strict=True)
     ]
     return found, stride

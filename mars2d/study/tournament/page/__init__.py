@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 
-from mars2d.output.pages.replay import page_script, page_style, player
-from mars2d.output.pages.replay.template import colors, filled, policy
+from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
 from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Played
 from mars2d.study.tournament.page.tables import (
