@@ -22,13 +22,12 @@ MAX_LINKS = 600
 class Links:
     """Return a line between neighbours, none where all robots are neighbours of each other.
 
-    The last answer of a neighbourhood is kept for the same positions, so a picture that is drawn
-    again does not ask the rule again.
+    The last answer is kept, so the rule of the neighbourhood is asked once a control step.
     """
 
     def __init__(self) -> None:
         """Start with nothing asked."""
-        self._last: tuple[object, object, NDArray[np.int_]] | None = None
+        self._asked: tuple[Frame, NDArray[np.int_]] | None = None
 
     def __call__(self, frame: Frame) -> Scene:
         """Return the links of a frame."""
@@ -37,14 +36,25 @@ class Links:
 
     def _pairs_of(self, frame: Frame) -> NDArray[np.int_]:
         """Return the pairs (k, 2) that are linked."""
-        rule = frame.scenario.neighbours
-        sensed = frame.pose if frame.sensed is None else frame.sensed
-        last = self._last  # replaced as a whole: frames may be drawn in several threads
-        if last is not None and last[0] is frame.scenario and (rule.fixed or last[1] is sensed):
-            return last[2]
-        found = _linked(rule, sensed[:2])
-        self._last = frame.scenario, sensed, found
+        asked = self._asked  # replaced as a whole: frames may be drawn in several threads
+        if asked is not None and _same_neighbours(asked[0], frame):
+            return asked[1]
+        found = _linked(frame.scenario.neighbours, _sensed(frame)[:2])
+        self._asked = frame, found
         return found
+
+
+def _sensed(frame: Frame) -> NDArray[np.float64]:
+    """Return the poses (3, n) at the last control step."""
+    return frame.pose if frame.sensed is None else frame.sensed
+
+
+def _same_neighbours(one: Frame, other: Frame) -> bool:
+    """Return whether two frames show the same control step of a run, or a graph that is fixed."""
+    if one.scenario is not other.scenario:
+        return False
+    same_step = _sensed(one) is _sensed(other) and len(one.path) == len(other.path)
+    return one.scenario.neighbours.fixed or same_step
 
 
 def _linked(rule: Neighbourhood, position: NDArray[np.float64]) -> NDArray[np.int_]:
