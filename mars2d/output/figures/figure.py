@@ -335,8 +335,12 @@ def paint_row(
         if layer.shapes is None:
             continue
         scene = layer.shapes(now)
-        if layer.name == "trails":
+        if layer.name == "workspace":
+            scene = Scene([replace(shape, stroke=None) for shape in scene.shapes])  # see "edge"
+        elif layer.name == "trails":
             scene = _told_apart(scene, record.scenario, look)
+        elif layer.name == "sensors":
+            scene = Scene([_paler(shape) for shape in scene.shapes])
         scale = scales.get(layer.name, scales["bodies"])
         texts = scale if layer.name in ("floor", "addons", "theory") else words
         before = len(ax.patches)
@@ -374,7 +378,7 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
         "obstacles": 0.6,
         "starts": min(1.3 * robots, 0.75),
         "trails": 0.55 if few else 0.4,
-        "sensors": 0.6,
+        "sensors": 0.4,
         "addons": 0.75,
         "theory": 0.75,
         "props": min(robots, 0.6),
