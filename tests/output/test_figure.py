@@ -28,6 +28,7 @@ from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_figure
 from mars2d.output.layers.bodies import NEUTRAL
 from mars2d.output.layers.forces import FORCE
 from mars2d.output.pages.replay import page
+from mars2d.sensors import Proximity
 from tests.processes import PATIENCE
 
 BLUE, RED = "#0072b2", "#d55e00"
@@ -197,6 +198,40 @@ def test_the_grid_is_drawn_if_it_is_wished(record):
     on, off = styled(record), styled(record, grid=False)
     assert all(line.get_visible() for line in on.get_xgridlines())
     assert not any(line.get_visible() for line in off.get_xgridlines())
+
+
+def test_the_edge_of_the_workspace_is_drawn_once() -> None:
+    square = [(-1, -1), (-1, 1), (1, 1), (1, -1)]
+    record = mars2d.run(
+        Scenario(robots=[Robot()], workspace=square, stop_time=1),
+        control=lambda world: [[0], [0]],
+        show=False,
+    )
+    corners = {(float(x), float(y)) for x, y in square}
+    outlines = [
+        patch
+        for patch in plot_paths(record).patches
+        if isinstance(patch, Polygon) and set(map(tuple, patch.get_xy())) == corners
+    ]
+    assert (
+        sum(patch.get_linewidth() > 0 and patch.get_edgecolor()[3] > 0 for patch in outlines) == 1
+    )
+
+
+def test_what_sensors_read_is_faint_and_left_out_in_a_crowd() -> None:
+    def areas(count: int) -> list[float]:
+        near = [Robot(pose=(0.4 * k, 0, 0), sensors=[Proximity(range=0.9)]) for k in range(count)]
+        still = [[0] * count, [0] * count]
+        record = mars2d.run(
+            Scenario(robots=near, stop_time=1),
+            control=lambda world: still,
+            show=False,
+        )
+        circles = [patch for patch in plot_paths(record).patches if isinstance(patch, Circle)]
+        return [patch.get_facecolor()[3] for patch in circles if patch.radius == 0.9]
+
+    assert areas(2) == pytest.approx([0.1, 0.1], abs=0.01)  # 0.22 in the window
+    assert areas(9) == []
 
 
 def test_the_grid_lies_on_the_workspace_and_below_the_obstacles(record):

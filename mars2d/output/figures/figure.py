@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.errors import InputError, shown
 from mars2d.core.files import atomic_write
 from mars2d.core.plane import grid_step
-from mars2d.core.scene import Line, Scene, Shape, Text, faded
+from mars2d.core.scene import Circle, Line, Polygon, Scene, Shape, Text, faded
 from mars2d.output.figures.artists import SHAPES, paint, points_per_metre
 from mars2d.output.figures.extent import View, rows_at
 from mars2d.output.figures.style import SCREEN, Style, style_of
@@ -62,6 +62,9 @@ LEGEND_LIMIT = 8
 """The most robots with a legend; beyond, base colours recur."""
 
 NAME_LIMIT = 24
+
+FAINT_AREA = 0.1
+"""The highest opacity of an area that a sensor covers."""
 
 INK, MUTED, GRID = SCREEN.ink, SCREEN.muted, SCREEN.grid
 
@@ -335,12 +338,12 @@ def paint_row(
         if layer.shapes is None:
             continue
         scene = layer.shapes(now)
-        if layer.name == "workspace":
-            scene = Scene([replace(shape, stroke=None) for shape in scene.shapes])  # see "edge"
+        if layer.name == "workspace":  # its edge is a layer of its own
+            scene = Scene([replace(shape, stroke=None) for shape in scene.shapes])
         elif layer.name == "trails":
             scene = _told_apart(scene, record.scenario, look)
         elif layer.name == "sensors":
-            scene = Scene([_paler(shape) for shape in scene.shapes])
+            scene = Scene([_faint(shape) for shape in scene.shapes])
         scale = scales.get(layer.name, scales["bodies"])
         texts = scale if layer.name in ("floor", "addons", "theory") else words
         before = len(ax.patches)
@@ -427,6 +430,14 @@ def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:
 def _paler(shape: Shape) -> Shape:
     """Return a fainter line, so that robots stand out from their paths."""
     return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
+
+
+def _faint(shape: Shape) -> Shape:
+    """Return a sensor's shape with faint lines and areas, so that paths stand out."""
+    if isinstance(shape, (Circle, Polygon)) and shape.fill and len(shape.fill) > len("#rrggbb"):
+        opacity = int(shape.fill[7:], 16) / 255
+        return replace(shape, fill=faded(shape.fill, min(opacity, FAINT_AREA)))
+    return _paler(shape)
 
 
 def _set_title(ax: Axes, title: str, look: Style) -> None:
