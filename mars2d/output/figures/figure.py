@@ -339,7 +339,7 @@ def paint_row(
             continue
         scene = layer.shapes(now)
         if layer.name == "workspace":  # its edge is a layer of its own
-            scene = Scene([replace(shape, stroke=None) for shape in scene.shapes])
+            scene = Scene([_without_edge(shape) for shape in scene.shapes])
         elif layer.name == "trails":
             scene = _told_apart(scene, record.scenario, look)
         elif layer.name == "sensors":
@@ -430,6 +430,11 @@ def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:
 def _paler(shape: Shape) -> Shape:
     """Return a fainter line, so that robots stand out from their paths."""
     return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
+
+
+def _without_edge(shape: Shape) -> Shape:
+    """Return a polygon's area alone."""
+    return replace(shape, stroke=None) if isinstance(shape, Polygon) else shape
 
 
 def _faint(shape: Shape) -> Shape:
