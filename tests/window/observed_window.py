@@ -5,11 +5,11 @@ else fields of Circling. `dark`, `text` and `silent`, without notes, are how it 
 how many come one after the other.
 """
 
-import dataclasses
 import json
 import sys
 
 from mars2d.core.errors import LawError
+from mars2d.output.layers.table import LAYERS
 from mars2d.record.record import load
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import open_experiment
@@ -77,7 +77,7 @@ def state_of(window):
         "following": window.viewpoint.following is not None,
         "scale": round(window.camera.scale, 3),
         "origin": [round(window.camera.x, 1), round(window.camera.y, 1)],
-        "layers": dataclasses.asdict(window.layers),
+        "layers": {layer.name: layer.name in window.layers.on for layer in LAYERS},
         "text": window.text,
         "dark": window._painter.theme.dark,
         "help": window.help.page,

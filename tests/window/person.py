@@ -109,6 +109,7 @@ class Driver:
             for line in self.process.stdout:
                 if line.startswith("{"):
                     self.lines.put(json.loads(line))
+        self.lines.put(None)  # the window has ended
 
     # -- what it tells ----------------------------------------------------------------------------
 
@@ -117,11 +118,13 @@ class Driver:
         end = time.monotonic() + PATIENCE
         while not (self.state and holds(self.state)):
             left = end - time.monotonic()
-            try:
-                self.state = self.lines.get(timeout=max(left, 0.001))
-            except queue.Empty:
+            told = None
+            with contextlib.suppress(queue.Empty):
+                told = self.lines.get(timeout=max(left, 0.001))
+            if told is None:
                 errors = "" if self.process.poll() is None else self.process.stderr.read()
-                pytest.fail(f"not within {PATIENCE} s; the last state: {self.state} {errors}")
+                pytest.fail(f"no more is told; the last state: {self.state} {errors}")
+            self.state = told
         return self.state
 
     def settle(self):
