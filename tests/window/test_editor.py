@@ -189,7 +189,7 @@ def test_waypoints_without_a_robot_are_refused_in_words(open_editor):
     hands = open_editor()
     hands.tool("y", "waypoint")
     hands.click(1, 1)
-    hands.until(lambda s: "first put one (R)" in s["notice"])
+    hands.until(lambda s: "place one first (R)" in s["notice"])
 
 
 @needs_screen
