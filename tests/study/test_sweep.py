@@ -286,8 +286,17 @@ def test_a_file_made_by_other_code_is_refused(here):
 
 def test_a_file_that_changes_meanwhile_ends_the_study_with_the_rows_until_then(here):
     change = 'Path("drift.py").write_text(Path("drift.py").read_text() + "#")'
-    law = f"gain == 0.3 and robot.time == 0.5 and {change}\n    return 0.1, 0.0"
-    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
+    law = f"gain == 0.3 and robot.time == 0.5 and written() and {change}\n    return 0.1, 0.0"
+    written = (
+        "def written():  # the row of 0.2 may still be on its way when 0.3 begins\n"
+        "    import time\n"
+        "    for _ in range(6000):\n"
+        "        if ',0.2,' in Path('r.csv').read_text():\n"
+        "            return True\n"
+        "        time.sleep(0.01)\n"
+    )
+    drift = DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law)
+    (here / "drift.py").write_text(f"{drift}\n\n{written}")
     with pytest.raises(InputError, match=r"drift.py has changed while the study was running"):
         sweep({"gain": [0.1, 0.2, 0.3, 0.4]}, 1, out="r.csv")
     assert [result.options["gain"] for result in load_table("r.csv").results] == [0.1, 0.2]
