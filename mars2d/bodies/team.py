@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.drives.base import Drive
+from mars2d.core.arrays import within
 from mars2d.core.description import wrong
 from mars2d.core.errors import LawError, shown
 from mars2d.core.usercode import called
@@ -16,10 +17,14 @@ from mars2d.core.usercode import called
 __all__ = ["Drives"]
 
 Float = NDArray[np.float64]
+Index = NDArray[np.intp]
 Stream = Callable[[str], np.random.Generator]
 
 MAX_TWIST = 1e6
 """The largest velocity that a drive may ask for, m/s and rad/s."""
+
+LARGEST = sys.float_info.max
+"""The largest finite number."""
 
 MAX_DEAD_TIME = 1e6
 """The longest dead time, in sampling times: all commands under way are kept."""
@@ -31,14 +36,20 @@ BLOCK = 256
 class _Team:
     """Robots with equal drives."""
 
-    def __init__(self, drive: Drive, columns: Any, noise: Iterator[Float] | None) -> None:
-        """Take the drive, the robots' columns of the commands, and their random numbers."""
-        self.drive, self.columns, self.noise = drive, columns, noise
+    def __init__(self, drive: Drive, columns: Index | None, noise: Iterator[Float] | None) -> None:
+        """Take the drive, the robots' columns, None for all, and their random numbers."""
+        self.drive, self.noise = drive, noise
+        self._everybody = columns is None
+        self.columns = slice(None) if columns is None else columns
         self.normal: Float | None = None  # those of this control step
         name = f"drive {type(drive).__name__}"
         self.saturating = called(name, drive.saturate)
         self.accelerating = called(name, drive.accelerate)
         self.moving = called(name, drive.twist)
+
+    def part(self, command: Float) -> Float:
+        """Return the team's columns of all robots' commands: the array itself for everybody."""
+        return command if self._everybody else command[:, self.columns]
 
 
 class Drives:
@@ -63,7 +74,7 @@ class Drives:
             columns = np.array([column[name] for name in names])
             noise = _normal([stream(f"drive {name}") for name in names]) if drive.noise else None
             everybody = len(names) == len(drives)
-            self._teams.append(_Team(drive, slice(None) if everybody else columns, noise))
+            self._teams.append(_Team(drive, None if everybody else columns, noise))
         self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
         self._noisy = [team for team in self._teams if team.noise is not None]
 
@@ -76,11 +87,13 @@ class Drives:
         if self._rated:
             for team in self._rated:
                 with team.accelerating:
-                    command[:, team.columns] = team.drive.accelerate(
-                        command[:, team.columns], last[:, team.columns], self._sampling_time
+                    reached = team.drive.accelerate(
+                        team.part(command), team.part(last), self._sampling_time
                     )
+                    if reached is not command:
+                        command[:, team.columns] = reached
             _saturate(self._rated, command)  # rounding may have brought one beyond a limit again
-        if not np.isfinite(command).all():
+        if not within(LARGEST, command):
             raise LawError(f"a drive saturates a command to {shown(command.tolist())}")
         return command
 
@@ -97,20 +110,28 @@ class Drives:
         """
         twist = np.empty((3, command.shape[1]))
         for team in self._teams:
-            with team.moving:
-                mine = command[:, team.columns]
+            mine = team.part(command)
+            try:
                 if team.normal is not None:
                     mine = team.drive.disturb(mine, team.normal)
                 twist[:, team.columns] = team.drive.twist(mine)
-        if not (np.abs(twist) <= MAX_TWIST).all():  # neither for NaN
+            except BaseException as error:
+                team.moving.blame(error)
+                raise
+        if not within(MAX_TWIST, twist):
             raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {MAX_TWIST:g}")
         return twist
 
 
 def _saturate(teams: list[_Team], command: Float) -> None:
     for team in teams:
-        with team.saturating:
-            command[:, team.columns] = team.drive.saturate(command[:, team.columns])
+        try:
+            limited = team.drive.saturate(team.part(command))
+            if limited is not command:  # else it is there already
+                command[:, team.columns] = limited
+        except BaseException as error:
+            team.saturating.blame(error)
+            raise
 
 
 def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mars2d.core.description import wrong
 from mars2d.core.errors import likely
 from mars2d.core.plane import wrap
+from mars2d.core.streams import Random
 
 __all__ = ["ANGLE", "COLOR", "DISTANCE", "FLAG", "NUMBER", "UNKNOWN", "Quantity"]
 
@@ -54,7 +55,7 @@ class Quantity:
         """The value if there is nothing to measure: inf, nan or False."""
         return {"distance": inf, "flag": False}.get(self.kind, nan)
 
-    def outlier(self, true: Values, noise: float, top: float, rng: np.random.Generator) -> Values:
+    def outlier(self, true: Values, noise: float, top: float, rng: Random) -> Values:
         """Return random outliers in place of the true values; top: the largest distance."""
         if self.kind == "flag":
             return ~true.astype(bool)

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mars2d.core.description import wrong
 
-__all__ = ["check_seed", "stream"]
+__all__ = ["Random", "Streams", "check_seed", "stream"]
+
+Float = NDArray[np.float64]
+Shape = tuple[int, ...]
 
 
 def check_seed(seed: object) -> int:
@@ -28,3 +33,30 @@ def stream(seed: int, name: str) -> np.random.Generator:
     """
     key = np.frombuffer(hashlib.sha256(name.encode()).digest()[:16], dtype=np.uint32)
     return np.random.Generator(np.random.PCG64([seed, *key.tolist()]))
+
+
+class Streams:
+    """The random streams of many devices: each draws its part of an array from its own stream.
+
+    So a device gets the same numbers as if it drew alone. shape: its first axis has one entry for
+    each device.
+    """
+
+    def __init__(self, rngs: Sequence[np.random.Generator]) -> None:
+        self._rngs = rngs
+
+    def random(self, shape: Shape) -> Float:
+        """Return numbers from 0 to 1."""
+        return np.array([rng.random(shape[1:]) for rng in self._rngs])
+
+    def uniform(self, low: float, high: float, shape: Shape) -> Float:
+        """Return numbers from `low` to `high`."""
+        return np.array([rng.uniform(low, high, shape[1:]) for rng in self._rngs])
+
+    def standard_normal(self, shape: Shape) -> Float:
+        """Return numbers of the standard normal distribution."""
+        return np.array([rng.standard_normal(shape[1:]) for rng in self._rngs])
+
+
+Random = np.random.Generator | Streams
+"""What errors are drawn from: the stream of a device, or those of many."""

@@ -27,6 +27,9 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
 
     An InputError that one of MARS2D's own parts raises as a run starts is passed on unchanged: the
     user's code is not at fault.
+
+    What is called at each control step catches exceptions and calls `blame`, which costs nothing
+    until there is one; a ``with`` is two calls.
     """
 
     def __init__(self, name: str, function: Callable[..., Any]) -> None:
@@ -42,9 +45,15 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
         error: BaseException | None,
         tb: TracebackType | None,
     ) -> None:
-        if error is None or not isinstance(error, (Exception, SystemExit)):
-            return  # no error, or Ctrl-C
-        where = users_line(traceback.extract_tb(tb)) or definition(self._function)
+        if error is not None:
+            self.blame(error)
+
+    def blame(self, error: BaseException) -> None:
+        """Raise the LawError for an exception that was caught, unless it is to be passed on."""
+        if not isinstance(error, (Exception, SystemExit)):
+            return  # Ctrl-C
+        stack = traceback.extract_tb(error.__traceback__)
+        where = users_line(stack) or definition(self._function)
         if isinstance(error, LawError):
             error.where = error.where or where
             return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import atan2, cos, inf, isfinite, nan, pi, sin
 from typing import Protocol
 
@@ -34,48 +35,70 @@ class Sight(Protocol):
 
 
 def sighted(
-    pose: Float,
+    poses: Float,
     points: Float,
     reach: float,
     field_of_view: float,
+    bodies: NDArray[np.int64] | None = None,
+    robots: Sequence[int] = (),
     sight: Sight | None = None,
-    bodies: Sequence[int] | NDArray[np.int64] = (),
-    ignore: int = -1,
 ) -> Float:
-    """Return rows (k, 2) of range [m] and bearing [rad] of points (k, 2) as seen from a pose (3,).
+    """Return rows of range [m] and bearing [rad] of points (k, 2) as seen from poses (3, m).
 
-    reach: the largest range, metres. field_of_view: the angle seen about the heading, radians.
-    sight: tells which points are hidden; without it, none is. bodies: (k,), the body to which each
-    point belongs. ignore: the robot that is never in the way. A point that is not seen has the row
-    (inf, nan).
+    The result is (m, k, 2). A point that is not seen has the row (inf, nan). reach: the largest
+    range, metres. field_of_view: the angle seen about the heading, radians. bodies: (k,), the body
+    to which each point belongs. robots: (m,), the one that looks from each pose; it does not see
+    its own points. sight: tells which points are hidden; without it, none is.
     """
-    rows = np.empty((len(points), 2))
-    rows[:, 0], rows[:, 1] = inf, nan
-    x, y, theta = pose.tolist()
-    across, upwards = points[:, 0] - x, points[:, 1] - y
+    rows = np.empty((poses.shape[1], len(points), 2))
+    rows[..., 0], rows[..., 1] = inf, nan
+    x, y, theta = poses
+    across, upwards = points[:, 0] - x[:, None], points[:, 1] - y[:, None]
     # In a crowd, most points are outside the square about the circle that is seen.
     larger = np.maximum(np.abs(across), np.abs(upwards))
-    near = np.flatnonzero(larger <= reach * (1 + ROUNDING))
-    apart = np.hypot(across[near], upwards[near])
-    near, apart = near[apart <= reach], apart[apart <= reach]
-    angles = list(map(atan2, upwards[near].tolist(), across[near].tolist()))
-    bearings = wrap(np.array(angles) - theta)
+    around = larger <= reach * (1 + ROUNDING)
+    if bodies is not None:
+        around &= bodies != np.array(robots)[:, None]
+    who, what = np.nonzero(around)
+    dx, dy = across[who, what], upwards[who, what]
+    apart = np.hypot(dx, dy)
+    bearings = wrap(np.array(list(map(atan2, dy.tolist(), dx.tolist()))) - theta[who])
+    seen = apart <= reach
     if field_of_view < 2 * pi:
-        ahead = np.abs(bearings) <= field_of_view / 2
-        near, apart, bearings = near[ahead], apart[ahead], bearings[ahead]
-    if sight is not None and len(near):
-        seen = ~sight.hidden((x, y), points[near], np.asarray(bodies)[near], ignore)
-        near, apart, bearings = near[seen], apart[seen], bearings[seen]
-    rows[near, 0], rows[near, 1] = apart, bearings
+        seen &= np.abs(bearings) <= field_of_view / 2
+    who, what, apart, bearings = who[seen], what[seen], apart[seen], bearings[seen]
+    if sight is not None and bodies is not None:
+        seen = _not_hidden(poses, points, bodies, robots, sight, who, what)
+        who, what, apart, bearings = who[seen], what[seen], apart[seen], bearings[seen]
+    rows[who, what, 0], rows[who, what, 1] = apart, bearings
     return rows
 
 
+def _not_hidden(
+    poses: Float,
+    points: Float,
+    bodies: NDArray[np.int64],
+    robots: Sequence[int],
+    sight: Sight,
+    who: NDArray[np.intp],
+    what: NDArray[np.intp],
+) -> NDArray[np.bool_]:
+    """Return whether nothing is between poses who (j,), which ascend, and points what (j,)."""
+    seen = np.empty(len(who), dtype=bool)
+    parts = pairwise(np.searchsorted(who, np.arange(len(robots) + 1)).tolist())
+    for robot, (x, y, _), (first, last) in zip(robots, poses.T.tolist(), parts, strict=True):
+        if first < last:
+            there = what[first:last]
+            seen[first:last] = ~sight.hidden((x, y), points[there], bodies[there], robot)
+    return seen
+
+
 def hold_missing(rows: Float, true: Float) -> Float:
-    """Return measured rows (k, 2) of range and bearing, with both missing if either is.
+    """Return measured rows (..., 2) of range and bearing, with both missing if either is.
 
     true: the perfect rows. A point that was not seen stays missing, despite noise and outliers.
     """
-    seen = np.isfinite(rows + true).all(axis=1, keepdims=True)
+    seen = np.isfinite(rows + true).all(axis=-1, keepdims=True)
     return np.where(seen, rows, [inf, nan])
 
 

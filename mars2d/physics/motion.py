@@ -1,18 +1,30 @@
-"""Motion: the state of moving bodies, velocities of their points, arcs in closed form."""
+"""Motion: moves the bodies of one world, and keeps their states and contacts."""
 
 from __future__ import annotations
 
+import weakref
+from array import array
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Arcs", "Motion", "Start", "point_velocity"]
+from mars2d.physics.space import Space
+from mars2d.physics.translation import mover_of
+from mars2d.record.contact import CONTACT
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Motion", "Start"]
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-Index = NDArray[np.integer[Any]]
+
+NOTHING = np.empty(0, dtype=CONTACT)
+NOTHING.flags.writeable = False
+
+WIDE = np.dtype([(name, ("f8", CONTACT[name].shape)) for name in CONTACT.names or ()])
+"""The fields of CONTACT, all of them as floating-point numbers."""
 
 
 class Start(NamedTuple):
@@ -36,9 +48,26 @@ class Start(NamedTuple):
 
 
 class Motion:
-    """The base of engines. `_state` (N, 6) holds x, y, theta, x', y', theta' of all bodies."""
+    """The base of engines: robots first, then props. space: the bodies as sensors see them."""
 
-    _state: Float
+    def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
+        """Build robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls.
+
+        start: how all bodies move at first; by default, as the scenario says.
+        """
+        self.n, self.count = len(scenario.robots), len(scenario.bodies)
+        if start is None:
+            self._twist = np.zeros((3, self.n))
+            self._mover = mover_of(scenario, None, ())
+        else:
+            self._twist = start.twist
+            self._mover = mover_of(scenario, start.state, start.slipping.tolist())
+            self._mover.command(array("d", self._twist.tobytes()))
+        weakref.finalize(self, self._mover.free)
+        self._numbers = array("d", bytes(48 * self.count))
+        self._state = np.frombuffer(self._numbers).reshape(-1, 6)
+        self._mover.write_states(self._numbers)
+        self.space = Space(scenario, self._state)
 
     @property
     def pose(self) -> Float:
@@ -47,63 +76,29 @@ class Motion:
 
     @property
     def velocity(self) -> Float:
-        """The velocities (3, N): x', y' [m/s], theta' [rad/s], as a new array."""
-        return self._state[:, 3:].T.copy()
-
-
-def point_velocity(state: Float, velocity: Float, body: Index, point: Float) -> Float:
-    """Return the velocities (k, 2) of points (k, 2) of bodies (k,); negative ones stand still.
-
-    state: (N, 6) of all bodies, or any array that begins with poses. velocity: (N, 3).
-    """
-    result = np.zeros((len(body), 2))
-    moves = body >= 0
-    who = body[moves]
-    vx, vy, spin = velocity[who].T
-    x, y = (point[moves] - state[who, :2]).T
-    result[moves] = np.column_stack([vx - spin * y, vy + spin * x])
-    return result
-
-
-class Arcs:
-    """How k robots move under constant twists: along arcs, or straight on as they turn.
-
-    spin: (k,) rad/s, how quickly they turn.
-    """
-
-    def __init__(self, twist: Float, in_robot_frame: Mask) -> None:
-        """Take the twists (3, k), and which of them are in the robot's frame, (k,)."""
-        self._twist, self._in_robot_frame = twist, in_robot_frame
-        self._forward, self._left, self.spin = twist
-        self._turning = np.where(in_robot_frame, self.spin, 0.0)
-        self._straight = None if in_robot_frame.all() else ~in_robot_frame
-
-    def take(self, which: Index) -> Arcs:
-        """Return those of some of the robots."""
-        return Arcs(self._twist[:, which], self._in_robot_frame[which])
+        """The velocities (3, N) at this instant: x', y' [m/s], theta' [rad/s], as a new array."""
+        velocity = array("d", bytes(24 * self.count))
+        self._mover.write_velocities(velocity)
+        return np.frombuffer(velocity).reshape(3, -1)
 
     @property
-    def bend(self) -> Float:
-        """How fast their velocities turn, (k,) m/s^2."""
-        return np.asarray(np.abs(np.hypot(self._forward, self._left) * self._turning))
+    def motion(self) -> Start:
+        """How all bodies move now: a motion that starts with it goes on from here."""
+        state = self._state.copy()
+        state[:, 3:] = self.velocity.T
+        return Start(state, np.array(self._mover.slipping(), dtype=bool), self._twist)
 
-    def chord(self, theta: Float, h: float) -> Float:
-        """Return (..., k, 3): the velocities that lead from headings (..., k) to the arcs' ends.
+    def take_effort(self) -> Float:
+        """Return the largest share of its bounds that each drive used since the last call, (n,)."""
+        effort = array("d", bytes(8 * self.n))
+        self._mover.take_effort(effort)
+        return np.frombuffer(effort)
 
-        h: seconds until then. Source: the arc of radius v / omega seen as its chord, of length
-        v h sinc(omega h / 2) in the direction theta + omega h / 2.
-        """
-        half = self._turning * (h / 2)
-        turned = theta + half
-        if self._straight is not None:
-            turned[..., self._straight] = 0.0
-        c, s = np.cos(turned), np.sin(turned)
-        if np.count_nonzero(half):
-            zero = half == 0.0
-            shrink = (np.sin(half) + zero) / (half + zero)
-            c, s = shrink * c, shrink * s
-        velocity = np.empty((*theta.shape, 3))
-        velocity[..., 0] = self._forward * c - self._left * s
-        velocity[..., 1] = self._forward * s + self._left * c
-        velocity[..., 2] = self.spin
-        return velocity
+    def take_contacts(self) -> NDArray[np.void]:
+        """Return the contacts since the last call by time, one row (dtype CONTACT) per pair."""
+        count = self._mover.count_contacts()
+        if not count:
+            return NOTHING
+        numbers = array("d", bytes(120 * count))
+        self._mover.write_contacts(numbers)
+        return np.frombuffer(numbers, dtype=WIDE).astype(CONTACT)

@@ -9,7 +9,7 @@ import platform
 
 import numpy as np
 
-from mars2d.physics.kernel import reason_without
+from mars2d.physics.islands import reason_without
 
 # -- the engine's solver ------------------------------------------------------------------------
 
@@ -17,8 +17,15 @@ SLOP = 1e-4
 """The overlap that the solver leaves in steady contact, metres."""
 
 ITERATIONS = 15
-ITERATIONS_UNEQUAL = 20  # with masses more than three times apart
-ITERATIONS_JOINTS = 60  # with joints: several may hold the same bodies
+ITERATIONS_UNEQUAL = 21  # with masses more than three times apart
+ITERATIONS_JOINTS = 61  # with joints: several may hold the same bodies
+"""Odd numbers: where friction is large, the solver may swing between a push and none.
+
+With an even number it can end with none each time, and bodies go through each other.
+"""
+
+TOIL = 3
+"""How many times as many iterations an island has while bodies are too deep in each other. Odd."""
 
 JOINT_BIAS = 0.7**1000
 """What is left of a joint's error after a second: 30 % of it go in 1 ms."""
@@ -40,6 +47,18 @@ than that, they begin anew.
 
 PRESSED = 0.25
 """How deep bodies that press against each other overlap at least, in parts of the slop."""
+
+PUSH_DEPTH = 0.15
+"""How deep one robot's push may drive bodies into each other, in parts of the overlap allowed."""
+
+PUSH_ROOM = 0.85
+"""How deep the pushes of many may, together with the overlap that there is, in the same parts."""
+
+STRAINED = 1.05
+"""How deep it is, in parts of how deep bodies may enter, where more pushes add up than thought."""
+
+STRAIN_GROWTH, STRAIN_FADE = 2.0, 0.98
+"""The factor by which that number changes in a substep that finds them so deep, and in another."""
 
 STRETCH = 1 / 15
 """How much longer a rope may be when it jerks, in parts of how deep bodies may enter.
@@ -68,20 +87,6 @@ is allowed than by default, a larger part of it is: speed is wanted then.
 DEFAULT_OVERLAP = 1e-3
 """The overlap that is allowed by default, metres."""
 
-# -- the kernel's groups ------------------------------------------------------------------------
-
-GROUP = 64
-"""About how many robots of a large team are stepped together: each group as finely as it needs."""
-
-MAX_GROUP_RATIO = 2.0
-"""The largest ratio of masses in a team that is stepped in groups.
-
-Groups can't wait for one of which a robot is thrown further than was thought possible.
-"""
-
-GROUP_SLACK = 1.5
-"""`SLACK` in groups, with equal masses: two robots that squeeze a third give it no more."""
-
 
 def versions() -> dict[str, str]:
     """Return the versions of the software that a run's numbers depend on."""
@@ -91,7 +96,7 @@ def versions() -> dict[str, str]:
 
     return {
         "mars2d": __version__,
-        "kernel": "no" if reason_without() else "yes",
+        "compiled": "no" if reason_without() else "yes",
         "pymunk": version("pymunk"),
         "numpy": np.__version__,
         "python": platform.python_version(),

@@ -343,7 +343,7 @@ class Scenario(Description):
         walled = len(self.surfaces) > len(self.obstacles)
         return "wall" if walled and body == -len(self.surfaces) else f"obstacle {-1 - body}"
 
-    @property
+    @cached_property
     def last_iteration(self) -> int:
         """The iteration at the stop time: the number of sampling times of the run."""
         return floor(self.stop_time / self.sampling_time * (1 + 1e-12) + 1e-9)

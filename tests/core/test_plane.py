@@ -107,9 +107,3 @@ def test_two_vertices_are_a_line_to_shapely_and_more_an_area():
     line, area = plane.lines_and_areas([((0, 0), (3, 4)), ((0, 0), (2, 0), (0, 2))])
     assert (line.geom_type, line.length) == ("LineString", 5)
     assert (area.geom_type, area.area) == ("Polygon", 2)
-
-
-def test_lengths_and_products_of_vectors_are_those_of_numpy():
-    a, b = np.array([3 + 4j, 1 - 2j]), np.array([2 - 1j, 5 + 3j])
-    assert plane.length(a) == pytest.approx(np.abs(a))
-    assert plane.dot(a, b) == pytest.approx((a * b.conj()).real)

@@ -302,6 +302,16 @@ def test_what_is_worked_out_does_not_change_with_the_callers_array():
     assert found.areas == pytest.approx([8, 8])
 
 
+def test_what_is_made_of_the_same_points_and_region_shares_its_cells():
+    points = np.array([[1.0, 3.0], [1.0, 1.5]])
+    plain, weighted = Tessellation(points, SQUARE), Tessellation(points, [*SQUARE], bump)
+    assert weighted.edges is plain.edges
+    assert weighted.cells[1] is plain.cells[1]
+    assert weighted.areas.tolist() == plain.masses.tolist() != weighted.masses.tolist()
+    assert Tessellation(points + 1e-9, SQUARE).cells[1] is not plain.cells[1]
+    assert Tessellation(points, HOOK).cells[1] is not plain.cells[1]
+
+
 def test_where_the_region_lies_makes_no_difference():
     points = np.random.default_rng(1).uniform(0.2, 3.8, (2, 9))
     far = [(x + 9e5, y - 9e5) for x, y in HOOK]

@@ -1,14 +1,15 @@
 """Crowds of everything at once: nothing tunnels, overlaps by more than a millimetre, or hangs.
 
-What is measured is measured after every step of the engine, by the engine's own narrow phase and by
-the corners' places, not by what this project computes of gaps.
+What is measured is measured after every substep, by the narrow phase of pymunk's engine and by the
+corners' places, not by what this project computes of gaps. The islands are looked at in Python;
+that those which are compiled do the same to the bit is shown in `test_same_bits.py`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import hypot, inf, pi
 
 import numpy as np
@@ -19,9 +20,12 @@ from pymunk._chipmunk_cffi import lib
 from mars2d import Holonomic, Robot, Scenario, Unicycle, World
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Prop, Puck, Solid
+from mars2d.core.plane import edges_of
 from mars2d.geometry.shapes import Compound, Disc, Polygon
-from mars2d.physics.engine import Engine
-from mars2d.physics.rays import BODY
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.island import Island
+from mars2d.physics.islands.mover import Mover
+from tests.islands import FIND_TESTS, looked_at, plainly, states_of
 
 ALLOWED = 1e-3  # metres, the default of Scenario.max_overlap
 
@@ -157,6 +161,22 @@ def depth_of(a: pymunk.Shape, b: pymunk.Shape) -> float:
     return max((-found.points[k].distance for k in range(found.count)), default=0.0)
 
 
+def shapes_of(scenario: Scenario) -> tuple[list[pymunk.Body], list[tuple[int, pymunk.Shape]]]:
+    """Return all bodies in pymunk, the ground last, and all shapes with their numbers, or -1."""
+    movers, shapes = [], []
+    for i, rigid in enumerate(scenario.bodies):
+        movers.append(pymunk.Body(1.0, 1.0))
+        for vertices, radius in rigid.shape.pieces:
+            if len(vertices) == 1:
+                shapes.append((i, pymunk.Circle(movers[i], radius, vertices[0])))
+            else:
+                shapes.append((i, pymunk.Poly(movers[i], vertices)))
+    ground = pymunk.Body(body_type=pymunk.Body.STATIC)
+    edges = [edge for surface in scenario.surfaces for edge in edges_of(surface.outline)]
+    movers.append(ground)  # shapes do not keep their bodies alive
+    return movers, shapes + [(-1, pymunk.Segment(ground, *edge, 0.0)) for edge in edges]
+
+
 @dataclass
 class Watch:
     """What a run was seen to do."""
@@ -166,9 +186,8 @@ class Watch:
     escaped: str = ""  # whose middle has crossed a wall
     who: tuple[int, int] = (0, 0)
     when: int = 0
-    path: float = 0.0  # metres that a point has gone since the control step began, at most
-    substeps: list[int] = field(default_factory=list)
-    surplus: float = -inf  # of substeps, beyond what a control step may take
+    substeps: int = 0
+    surplus: float = -inf  # of an island's substeps, beyond what it may take in a control step
 
 
 def middle_of(shape: pymunk.Shape) -> tuple[float, float]:
@@ -176,11 +195,6 @@ def middle_of(shape: pymunk.Shape) -> tuple[float, float]:
     corners = [shape.offset] if isinstance(shape, pymunk.Circle) else shape.get_vertices()
     x, y = np.mean(corners, axis=0).tolist()
     return x, y
-
-
-def states_of(bodies: list[pymunk.Body]) -> np.ndarray:
-    """Return x, y, theta of bodies, (k, 3)."""
-    return np.array([(*body.position, body.angle) for body in bodies])
 
 
 def places_of(points: list[tuple[float, float]], poses: np.ndarray) -> np.ndarray:
@@ -201,100 +215,130 @@ def cross(start: np.ndarray, end: np.ndarray, walls: np.ndarray) -> np.ndarray:
     return (side(a, b, p) * side(a, b, q) < 0) & (side(p, q, a) * side(p, q, b) < 0)
 
 
-def most_substeps(world: World, path: float) -> float:
-    """Return how many substeps a control step may take in which points go `path` metres at most.
+def most_substeps(island: Island, duration: float, path: float) -> float:
+    """Return how many substeps an island may take, in which points go `path` metres at most.
 
-    One is as long as contacts allow, or two points come nearer by a 64th of what they may enter:
+    One is as long as contacts allow, or two points come nearer by a 256th of what they may enter:
     that bound is asked for vertices beside each other, too, so an edge that turns on a corner takes
     many. Fifty are for drives that brake spins, and for substeps that grow.
     """
-    engine = world.simulation.engine
-    if not isinstance(engine, Engine):
-        return inf
-    return 50 + 2 * world.sampling_time / engine._contact_step + 64 * 2 * path / engine._entry
+    entry = island.accuracy.entry
+    return 50 + 2 * duration / island.contact_step + 256 * 2 * path / entry
+
+
+class Watcher:
+    """Looks at the bodies of each island after each of its substeps, and at all after each tick."""
+
+    def __init__(self, world: World) -> None:
+        """Make all shapes once more."""
+        self.world, self.watch = world, Watch()
+        scenario = world.scenario
+        self.movers, self.shapes = shapes_of(scenario)
+        self.owner = np.array([i for i, _ in self.shapes])
+        self.moving = int((self.owner >= 0).sum())
+        self.middles = [middle_of(shape) for _, shape in self.shapes[: self.moving]]
+        ends = [(*shape.a, *shape.b) for _, shape in self.shapes[self.moving :]]
+        self.walls = np.array(ends).reshape(-1, 4)
+        self.reach = np.array([body.shape.reach for body in scenario.bodies])
+        i, j = np.triu_indices(len(self.shapes), 1)
+        passing = {*scenario.joined}
+        pairs = self.owner[i] != self.owner[j]
+        pairs &= np.array(
+            [(a, b) not in passing for a, b in zip(self.owner[i], self.owner[j], strict=True)], bool
+        )
+        self.i, self.j = i[pairs], j[pairs]
+        self.state = np.hstack([world.pose, world.prop_pose]).T
+        self.count, self.path = 0, 0.0
+
+    def look(self, who: np.ndarray, state: np.ndarray) -> None:
+        """Look at some bodies, which are at `state` now, (k, 3)."""
+        assert np.isfinite(state).all()
+        before, self.state[who] = self.state[who], state
+        moved = np.abs(state - before)
+        self.path += float((np.hypot(*moved[:, :2].T) + self.reach[who] * moved[:, 2]).max())
+        owner = self.owner[: self.moving]
+        where = np.zeros((len(self.movers), 3))
+        where[who] = before
+        start = places_of(self.middles, where[owner])
+        where[who] = state
+        end = places_of(self.middles, where[owner])
+        for p, q in np.argwhere(cross(start, end, self.walls)).tolist():
+            way = f"{start[p].tolist()} to {end[p].tolist()}"
+            name = self.world.scenario.bodies[owner[p]].name
+            self.watch.escaped = f"{name}, {way}, wall {self.walls[q]}"
+        self.find_overlaps(who)
+
+    def find_overlaps(self, who: np.ndarray) -> None:
+        """Measure how deep some bodies are in each other, in walls, and beyond the room."""
+        for k in who.tolist():
+            x, y, angle = self.state[k].tolist()
+            self.movers[k].position, self.movers[k].angle = (x, y), angle
+        boxes = np.array([shape.cache_bb() for _, shape in self.shapes])  # left, bottom, right, top
+        here = np.isin(self.owner, who)
+        left, bottom, right, top = boxes[here].T
+        xmin, xmax, ymin, ymax = self.world.scenario.bounds
+        beyond = [xmin - left, ymin - bottom, right - xmax, top - ymax]
+        self.watch.outside = max(self.watch.outside, float(np.max(beyond)))
+        here |= self.owner < 0
+        i, j = self.i, self.j
+        meet = here[i] & here[j]
+        meet &= (boxes[i, :2] < boxes[j, 2:]).all(axis=1) & (boxes[j, :2] < boxes[i, 2:]).all(
+            axis=1
+        )
+        for p, q in zip(i[meet].tolist(), j[meet].tolist(), strict=True):
+            depth = depth_of(self.shapes[p][1], self.shapes[q][1])
+            if depth > self.watch.deepest:
+                self.watch.deepest, self.watch.when = depth, self.world.iteration
+                self.watch.who = int(self.owner[p]), int(self.owner[q])
+
+    def look_at(self, island: Island, _: float) -> None:
+        """Look at an island after a substep."""
+        self.count += 1
+        self.look(np.array([body.number for body in island.bodies]), states_of(island.bodies))
+
+    def tick(self, command: np.ndarray) -> None:
+        """Let the world go on by a control step."""
+        self.world.step(command)
+        state = np.hstack([self.world.pose, self.world.prop_pose]).T
+        self.look(np.arange(len(state)), state)
 
 
 @contextmanager
-def watched(world: World) -> Iterator[Watch]:
-    """Look at all bodies after each step of the engine."""
-    watch = Watch()
-    space: pymunk.Space = world.simulation.engine.space._space
-    movers = [body for body in space.bodies if body.body_type == pymunk.Body.DYNAMIC]
-    shapes = [(i, shape) for i, body in enumerate(movers) for shape in body.shapes]
-    moving = len(shapes)
-    still = [shape for shape in space.shapes if shape.body.body_type == pymunk.Body.STATIC]
-    shapes += [(-1, shape) for shape in still if shape.filter.categories & BODY]
-    reach = np.array([body.shape.reach for body in world.scenario.bodies])
-    middles = [middle_of(shape) for _, shape in shapes[:moving]]
-    walls = np.array([(*shape.a, *shape.b) for _, shape in shapes[moving:]]).reshape(-1, 4)
-    owner = np.array([i for i, _ in shapes])
-    passing = {*world.scenario.joined}
-    i, j = np.triu_indices(len(shapes), 1)
-    pairs = owner[i] != owner[j]
-    pairs &= np.array(
-        [(owner[p], owner[q]) not in passing for p, q in zip(i, j, strict=True)], bool
-    )
-    i, j = i[pairs], j[pairs]
-    xmin, xmax, ymin, ymax = world.scenario.bounds
-    original = pymunk.Space.step
-    count = 0
-    state = states_of(movers)
-    where = places_of(middles, state[owner[:moving]])
+def watched(world: World) -> Iterator[Watcher]:
+    """Look at all that happens to a world that was made in Python."""
+    watcher = Watcher(world)
+    run, begin_again = Island.run, Mover.begin_again
 
-    def look() -> None:
-        nonlocal state, where
-        before, state = state, states_of(movers)
-        moved = np.abs(state - before)
-        watch.path += float((np.hypot(*moved[:, :2].T) + reach * moved[:, 2]).max())
-        start, where = where, places_of(middles, state[owner[:moving]])
-        for p, q in np.argwhere(cross(start, where, walls)).tolist():
-            way = f"{start[p].tolist()} to {where[p].tolist()}"
-            watch.escaped = f"{world.scenario.bodies[owner[p]].name}, {way}, wall {walls[q]}"
-        boxes = np.array([shape.cache_bb() for _, shape in shapes])  # left, bottom, right, top
-        assert np.isfinite(boxes).all()
-        left, bottom, right, top = boxes[:moving].T
-        beyond = [xmin - left, ymin - bottom, right - xmax, top - ymax]
-        watch.outside = max(watch.outside, float(np.max(beyond)))
-        meet = (boxes[i, :2] < boxes[j, 2:]).all(axis=1) & (boxes[j, :2] < boxes[i, 2:]).all(axis=1)
-        for p, q in zip(i[meet].tolist(), j[meet].tolist(), strict=True):
-            note(depth_of(shapes[p][1], shapes[q][1]), (int(owner[p]), int(owner[q])))
+    def counted(island: Island, duration: float, time: float) -> bool:
+        watcher.count, watcher.path = 0, 0.0
+        good = run(island, duration, time)
+        watch = watcher.watch
+        watch.substeps += watcher.count
+        most = most_substeps(island, duration, watcher.path)
+        watch.surplus = max(watch.surplus, watcher.count - most)
+        return good
 
-    def note(depth: float, who: tuple[int, int]) -> None:
-        if depth > watch.deepest:
-            watch.deepest, watch.who, watch.when = depth, who, world.iteration
+    def put_back(mover: Mover, body: Body) -> None:
+        begin_again(mover, body)
+        watcher.state[body.number] = states_of([body])[0]
 
-    def step(stepped: pymunk.Space, dt: float) -> None:
-        nonlocal count
-        original(stepped, dt)
-        if stepped is space:
-            count += 1
-            look()
-
-    def tick(command: np.ndarray) -> None:
-        nonlocal count
-        count, watch.path = 0, 0.0
-        world.step(command)
-        if not count:  # by the kernel, or without the engine
-            look()
-        watch.substeps.append(count)
-        watch.surplus = max(watch.surplus, count - most_substeps(world, watch.path))
-
-    watch.tick = tick
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pymunk.Space, "step", step)
-        yield watch
+    with pytest.MonkeyPatch.context() as patch, looked_at(watcher.look_at):
+        patch.setattr(Island, "run", counted)
+        patch.setattr(Mover, "begin_again", put_back)
+        yield watcher
 
 
 def rough(seed: int, mix: str, mass_ratio: float, sampling_time: float, ticks: int, *, ties=False):
     """Let a crowd push at random; return what was seen."""
     scenario = crowd(seed, mix, mass_ratio, sampling_time, ties=ties)
-    world = World(scenario)
+    with plainly():
+        world = World(scenario)
     rng = np.random.default_rng(seed + 1)
-    with watched(world) as watch:
+    with watched(world) as watcher:
         for _ in range(ticks):
             command = rng.uniform(-2, 2, (2, 4))
-            watch.tick(command)
-    return watch
+            watcher.tick(command)
+    return watcher.watch
 
 
 RUNS = [
@@ -306,6 +350,7 @@ RUNS = [
 
 
 def check(watch: Watch) -> None:
+    assert watch.substeps > 0
     assert watch.deepest <= ALLOWED
     # A sharp vertex in a corner of the room lies further beyond one wall than it is in either.
     assert watch.outside <= 3 * ALLOWED
@@ -378,7 +423,7 @@ def run_wildly(seed: int, seconds: float = 2.0) -> None:
 
 
 def in_a_child(child, seeds: range, timeout: float):
-    code = (
+    code = FIND_TESTS + (
         f"import runpy; tests = runpy.run_path({__file__!r})\n"
         f"for seed in {seeds!r}: print(seed, flush=True); tests['run_wildly'](seed)"
     )

@@ -212,7 +212,7 @@ def loose(n: int, shape: Polygon | None = None, props: int = 0, **fields) -> Sce
 @pytest.mark.parametrize(
     "scenario",
     [loose(16, WEDGE, props=6), loose(21), loose(130), loose(21, physics="ideal")],
-    ids=["polygons and props", "discs, in the kernel", "groups of discs", "without physics"],
+    ids=["polygons and props", "discs", "many discs", "without physics"],
 )
 def test_robots_and_props_in_another_order_go_the_same_ways_in_that_order(scenario):
     rng = np.random.default_rng(1)

@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from itertools import product
 
 import numpy as np
-import pymunk
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -15,6 +14,10 @@ from hypothesis import strategies as st
 import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.island import Island
+from mars2d.physics.islands.mover import Mover
+from tests.islands import looked_at, plainly, states_of
 
 EXACT = 1e-9  # metres
 
@@ -179,72 +182,94 @@ def test_the_geometric_centre_runs_round_the_centre_of_rotation():
 
 @pytest.fixture
 def plain(monkeypatch):
-    """Worlds that step by pymunk's own method, which can be watched; the kernel does without."""
+    """Worlds whose substeps can be looked at: those that do without what is compiled."""
     monkeypatch.setenv("MARS2D_PLAIN", "1")
 
 
+class Work:
+    """What it took to move: the length of each substep, and of each way in closed form, seconds."""
+
+    def __init__(self) -> None:
+        self.substeps: list[float] = []
+        self.carried: list[float] = []
+
+
 @contextmanager
-def counted_steps() -> Iterator[list[float]]:
-    """Gather the lengths of all steps of the engine."""
-    lengths: list[float] = []
-    original = pymunk.Space.step
+def counted() -> Iterator[Work]:
+    """Gather how bodies are moved in this block."""
+    work, original = Work(), Mover.carry
 
-    def step(space: pymunk.Space, dt: float) -> None:
-        lengths.append(dt)
-        original(space, dt)
+    def carry(mover: Mover, body: Body, duration: float) -> None:
+        work.carried.append(duration)
+        original(mover, body, duration)
 
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pymunk.Space, "step", step)
-        yield lengths
+    with pytest.MonkeyPatch.context() as patch, looked_at(lambda _, h: work.substeps.append(h)):
+        patch.setattr(Mover, "carry", carry)
+        yield work
 
 
 @pytest.mark.usefixtures("plain")
 @pytest.mark.parametrize("sampling_time", [0.01, 0.1, 1.0])
-def test_a_tick_in_which_nothing_can_touch_is_one_step(sampling_time):
+def test_in_a_tick_in_which_nothing_can_touch_each_robot_is_moved_once(sampling_time):
     walls = Map([[(3, -3), (3, 3)]])
     robots = [Robot(pose=(0, 0, 0)), Robot(pose=(0, 2, np.pi)), Robot(pose=(0, -2, 1))]
     world = World(free(*robots, sampling_time=sampling_time, addons=[walls]))
-    with counted_steps() as steps:
+    with counted() as work:
         world.step([[0.4, 0.4, 0.4], [1, 0, -1]])
-    assert steps == [sampling_time]
+    assert work.substeps == []
+    assert work.carried == [sampling_time] * 3
 
 
 @pytest.mark.usefixtures("plain")
-def test_a_tick_in_which_a_delayed_command_arrives_is_two_steps():
+def test_in_a_tick_in_which_a_delayed_command_arrives_it_is_moved_twice():
     world = World(free(Robot(), sampling_time=1.0, command_delay=0.25))
-    with counted_steps() as steps:
+    with counted() as work:
         world.step([[0.4], [0]])
-    assert steps == [0.25, 0.75]
+    assert work.substeps == []
+    assert work.carried == [0.25, 0.75]
 
 
 @pytest.mark.usefixtures("plain")
 def test_substeps_add_up_to_the_sampling_time():
     world = World(free(Robot(), Robot(pose=(0.35, 0, np.pi)), sampling_time=0.5))
-    with counted_steps() as steps:
+    with counted() as work:
         world.step([[0.4, 0.4], [0, 0]])
-    assert len(steps) > 1
-    assert sum(steps) == pytest.approx(0.5, abs=1e-12)
+    assert len(work.substeps) > 1
+    assert sum(work.substeps) == pytest.approx(0.5, abs=1e-12)
+    assert work.carried == []
 
 
 @pytest.mark.usefixtures("plain")
-def test_a_robot_that_has_left_the_crowd_costs_one_step_again():
+def test_robots_that_have_left_each_other_are_moved_once_again():
     world = World(free(Robot(), Robot(pose=(0.31, 0, np.pi))))
     drive(world, [[0.3, 0.3], [0, 0]], 2)
     drive(world, [[-0.3, -0.3], [0, 0]], 2)
-    with counted_steps() as steps:
+    with counted() as work:
         world.step([[-0.3, -0.3], [0, 0]])
-    assert len(steps) == 1
+    assert work.substeps == []
+    assert work.carried == [0.1, 0.1]
+
+
+@pytest.mark.usefixtures("plain")
+def test_what_touches_far_off_costs_a_robot_no_substep():
+    team = [Robot(), Robot(pose=(0.31, 0, np.pi)), Robot(pose=(9, 0, 0))]
+    world = World(free(*team))
+    drive(world, [[0.3, 0.3, 0.0], [0, 0, 0]], 1)
+    with counted() as work:
+        world.step([[0.3, 0.3, 0.0], [0, 0, 0]])
+    assert len(work.substeps) > 1
+    assert work.carried == [0.1]
 
 
 @pytest.mark.usefixtures("plain")
 def test_more_overlap_allowed_means_fewer_substeps():
-    def work(max_overlap: float) -> int:
+    def needed(max_overlap: float) -> int:
         robots = [Robot(), Robot(pose=(0.5, 0, np.pi))]
-        with counted_steps() as steps:
+        with counted() as work:
             drive(World(free(*robots, max_overlap=max_overlap)), [[0.4, 0.4], [0, 0]], 5)
-        return len(steps)
+        return len(work.substeps)
 
-    fine, usual, coarse = work(1e-5), work(1e-3), work(1e-2)
+    fine, usual, coarse = needed(1e-5), needed(1e-3), needed(1e-2)
     assert fine > 3 * usual
     assert usual > 1.5 * coarse
 
@@ -526,7 +551,11 @@ def deepest(
     ticks: int = 20, count: int = 10, box: float = BOX, max_overlap: float = 1e-3,
     offset: float = 0.0,
 ) -> float:  # fmt: skip
-    """Let a crowd push at random; return the deepest overlap after any substep, metres."""
+    """Let a crowd push at random; return the deepest overlap after any substep, metres.
+
+    Islands are at different times in the middle of a control step: each is looked at by itself, and
+    all together at its end.
+    """
     rng = np.random.default_rng(seed)
     robots = [
         Robot(
@@ -544,31 +573,31 @@ def deepest(
         *robots, workspace=[(-h, -h), (h, -h), (h, h), (-h, h)], on_exit="wall",
         sampling_time=sampling_time, max_overlap=max_overlap,
     )  # fmt: skip
-    world = World(scenario)
+    with plainly():
+        world = World(scenario)
     offsets = np.array([r.center_offset for r in robots])
-    i, j = np.triu_indices(count, 1)
     worst = 0.0
-    original = pymunk.Space.step
 
-    def step(space: pymunk.Space, dt: float) -> None:
+    def look(state: np.ndarray, who: list[int]) -> None:
         nonlocal worst
-        original(space, dt)
-        bodies = [body for body in space.bodies if body.body_type == pymunk.Body.DYNAMIC]
-        state = np.array([(*body.position, body.angle) for body in bodies])
         assert np.isfinite(state).all()
-        center = state[:, :2] - offsets[:, None] * np.column_stack(
+        center = state[:, :2] - offsets[who, None] * np.column_stack(
             [np.cos(state[:, 2]), np.sin(state[:, 2])]
         )
+        i, j = np.triu_indices(len(who), 1)
         apart = np.hypot(*(center[i] - center[j]).T)
         into_wall = np.abs(center).max() + DIAMETER / 2 - h
-        worst = max(worst, DIAMETER - apart.min(), into_wall)
+        worst = max(worst, DIAMETER - apart.min(initial=np.inf), into_wall)
 
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pymunk.Space, "step", step)
+    def look_at(island: Island, _: float) -> None:
+        look(states_of(island.bodies), [body.number for body in island.bodies])
+
+    with looked_at(look_at):
         for _ in range(ticks):
             command = rng.uniform(-speed, speed, (2, count))
             command[1, ::2] *= 5
             world.step(command)
+            look(world.pose.T, list(range(count)))
     return worst
 
 
@@ -738,6 +767,7 @@ def test_robots_that_meet_obliquely_part_at_their_restitution(restitution, start
     assert len(world.record.contacts) == 1
 
 
+@pytest.mark.usefixtures("plain")
 def test_dense_crowds_of_unequal_masses_need_few_substeps():
     robots = [
         Robot(pose=(i * 0.32 - 0.9, j * 0.32 - 0.9, 0), mass=1 if (i + j) % 2 else 10)
@@ -747,6 +777,17 @@ def test_dense_crowds_of_unequal_masses_need_few_substeps():
     world = World(free(*robots, workspace=box, on_exit="wall"))
     rng = np.random.default_rng(0)
     for _ in range(30):
-        with counted_steps() as steps:
+        with counted() as work:
             world.step(rng.uniform(-1, 1, (2, 36)) * [[0.5], [3]])
-        assert len(steps) < 100
+        assert len(work.substeps) < 100
+
+
+@pytest.mark.parametrize("plain", ["", "1"], ids=["compiled", "in Python"])
+def test_a_motion_that_can_not_go_on_is_an_error(monkeypatch, plain):
+    """No gate lets such twists pass; if one did, robots would go through each other."""
+    monkeypatch.setenv("MARS2D_PLAIN", plain)
+    world = World(free(Robot(), Robot(pose=(0.31, 0, 0))))
+    twist = np.array([[1e200, 0.0], [0.0, 0.0], [0.0, 0.0]])
+    for _ in range(2):  # it does not go on either
+        with pytest.raises(FloatingPointError, match="not finite"):
+            world.simulation.engine.drive(twist, 0.1, 0.0)

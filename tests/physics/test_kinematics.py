@@ -10,8 +10,8 @@ import pytest
 from mars2d import Holonomic, Robot, Unicycle
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box, Puck
+from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Polygon
-from mars2d.physics.floor import GRAVITY
 from tests.worlds import drive, endless
 
 SQUARE = Polygon([(-0.15, -0.15), (0.15, -0.15), (0.15, 0.15), (-0.15, 0.15)])

@@ -480,7 +480,7 @@ def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
         for center in rng.uniform(2, 6, (10, 2))
     ]
     world = world_of(outlines, robots)
-    space = world.simulation.engine.space._space
+    space = world.simulation.engine.space._seen
     for robot in range(5):
         x, y, _ = rng.uniform(-5, 5, 3)
         angles, reach = rng.uniform(-4, 4, 400), rng.uniform(1, 9)

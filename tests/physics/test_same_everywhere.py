@@ -18,7 +18,6 @@ import pytest
 
 import mars2d
 from mars2d import World
-from mars2d.physics.kernel import reason_without
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
@@ -42,9 +41,8 @@ def digest(record) -> str:
 
 @pytest.fixture(scope="module")
 def discs() -> str:
-    """The digest of the bustle of discs, which the kernel in C moves where there is one."""
+    """The digest of the bustle of discs."""
     world = bustle(discs=True)
-    assert bool(reason_without()) == (world.simulation.engine._kernel is None)
     while not world.over:
         world.step()
     assert world.record.collisions >= 5
@@ -223,7 +221,7 @@ for discs in (False, True):
 @pytest.mark.parametrize(
     ("flags", "environment"),
     [((), {"MARS2D_PLAIN": "1"}), (("-OO",), {"OMP_NUM_THREADS": "1"})],
-    ids=["without the C kernel", "without asserts and docstrings"],
+    ids=["with the engine in Python", "without asserts and docstrings"],
 )
 def test_a_python_that_is(digest, discs, child, flags, environment):
     done = child(BOTH, *flags, **environment)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import cos, pi, sin, sqrt
 
 import numpy as np
@@ -11,9 +12,12 @@ from mars2d import Holonomic, Robot, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Puck, Solid
+from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Compound, Disc, Polygon
-from mars2d.physics.floor import GRAVITY
+from mars2d.physics.islands.contacts import Touch
+from mars2d.physics.islands.shadow import Doubles
 from mars2d.record.contact import CONTACT, episodes
+from tests.islands import plainly
 from tests.worlds import drive, endless
 
 IDLE = Robot(pose=(50, 50, 0))
@@ -394,39 +398,131 @@ def test_episodes_of_a_log_made_by_hand():
     assert len(episodes(log[:0])) == 0
 
 
-TOO_LARGE = pytest.mark.xfail(
-    strict=True,
-    reason="a touch that begins while its bodies touch others has too large an impulse",
-)
-
-
-@pytest.mark.parametrize(
-    "seed", [0, 1, 5, 6, 8, pytest.param(2, marks=TOO_LARGE), pytest.param(3, marks=TOO_LARGE)]
-)
-def test_contacts_tell_all_of_the_momentum_that_bodies_get(seed):
-    """What a free ball gains is the sum of the impulses of its contacts."""
-    rng = np.random.default_rng(seed)
-    balls = []
-    for k in range(9):
-        x, y = 0.5 * (k % 3 - 1), 0.5 * (k // 3 - 1)
-        velocity = (*(rng.uniform(-0.3, 0.3, 2) - [x, y]), rng.uniform(-5, 5))
-        balls.append(
-            Ball(pose=(x, y, 0), velocity=velocity, friction=0.7, restitution=0.5,
-                 mass=rng.uniform(1, 5))
-        )  # fmt: skip
-    world = endless([IDLE], balls, sampling_time=0.02)
-    mass = np.array([ball.inertia.mass for ball in balls])
+def gained_and_told(world: World, ticks: int) -> tuple[np.ndarray, np.ndarray]:
+    """Let props coast; return what momentum they got, and what their contacts tell, (2, p) N s."""
+    mass = np.array([prop.inertia.mass for prop in world.scenario.props])
     before = mass * world.prop_velocity[:2]
-    gained = np.zeros_like(before)
-    for _ in range(75):
-        coast(world, 0.02)
+    told = np.zeros_like(before)
+    for _ in range(ticks):
+        coast(world, world.scenario.sampling_time)
         for row in world.contacts:
             n = row["normal"]
             impulse = row["normal_impulse"] * n
             impulse = impulse + row["tangential_impulse"] * np.array([-n[1], n[0]])
-            gained[:, row["a"] - 1] -= impulse
-            gained[:, row["b"] - 1] += impulse
-    change = mass * world.prop_velocity[:2] - before
+            told[:, row["a"] - 1] -= impulse
+            if row["b"] > 0:
+                told[:, row["b"] - 1] += impulse
+    return mass * world.prop_velocity[:2] - before, told
+
+
+def meeting(seed: int, count: int, restitution: float) -> list[Ball]:
+    """Rough balls of all masses on a grid, which fly to its middle."""
+    rng = np.random.default_rng(seed)
+    balls = []
+    for k in range(count**2):
+        x, y = 0.5 * (k % count - (count - 1) / 2), 0.5 * (k // count - (count - 1) / 2)
+        velocity = (*(rng.uniform(-0.3, 0.3, 2) - [x, y]), rng.uniform(-5, 5))
+        balls.append(
+            Ball(pose=(x, y, 0), velocity=velocity, friction=0.7, restitution=restitution,
+                 mass=rng.uniform(1, 5))
+        )  # fmt: skip
+    return balls
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_contacts_tell_all_of_the_momentum_that_bodies_get(seed, restitution):
+    """What a free ball gains is the sum of the impulses of its contacts."""
+    world = endless([IDLE], meeting(seed, 3, restitution), sampling_time=0.02)
+    change, told = gained_and_told(world, 75)
     assert np.abs(change).max() > 0.1
     # A row has the first of the normals, which turns a little while two balls touch.
-    assert gained == pytest.approx(change, abs=0.01 * np.abs(change).max())
+    assert told == pytest.approx(change, abs=0.01 * np.abs(change).max())
+
+
+def impulses_of(world: World, ticks: int) -> tuple[np.ndarray, np.ndarray]:
+    """Do the same in Python, where a contact's impulse is seen as a vector before it is written."""
+    told = np.zeros((2, len(world.scenario.props)))
+    original = Touch.write
+
+    def write(touch: Touch, numbers: Doubles, k: int) -> None:
+        told[:, touch.a - 1] -= touch.impulse_x, touch.impulse_y
+        if touch.b > 0:
+            told[:, touch.b - 1] += touch.impulse_x, touch.impulse_y
+        original(touch, numbers, k)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Touch, "write", write)
+        change, _ = gained_and_told(world, ticks)
+    return change, told
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("restitution", [0.0, 0.7071, 1.0])
+def test_in_crowds_between_walls_they_add_up_to_the_last_digits(seed, restitution):
+    room = [(-1.6, -1.6), (1.6, -1.6), (1.6, 1.6), (-1.6, 1.6), (-1.6, -1.6)]
+    walls = Map(list(pairwise(room)), restitution=restitution)
+    balls = meeting(seed, 6, restitution)
+    with plainly():
+        world = endless([IDLE], balls, addons=[walls], sampling_time=0.02)
+    change, told = impulses_of(world, 250)
+    assert len(world.record.contacts) > 50
+    assert world.record.contacts["b"].min() < 0
+    assert np.abs(change).max() > 1
+    assert told == pytest.approx(change, abs=1e-12)
+
+
+@pytest.mark.parametrize("tied", [False, True])
+def test_in_a_tangle_of_shapes_they_add_up_but_for_what_joints_do(tied):
+    props, joints = tangle(1, 0.7, 0.5, tied=tied)
+    with plainly():
+        world = endless([IDLE], props, joints=joints)
+    change, told = impulses_of(world, 20)
+    loose = [k for k in range(len(props)) if not tied or k == 8]  # all others are tied
+    assert told[:, loose] == pytest.approx(change[:, loose], abs=1e-12)
+    assert told.sum(axis=1) == pytest.approx(change.sum(axis=1), abs=1e-9)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.7071, 0.9, 1.0])
+@pytest.mark.parametrize("gap", [0.0, 1e-4, 1e-3, 1e-2])
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_a_chain_of_pucks_before_a_wall_tells_of_all_its_momentum_and_wins_no_energy(
+    restitution, gap, count
+):
+    """One is thrown at 2 m/s at others that lie apart by a gap, the last by as much from a wall."""
+    still = [(0.5 + (0.2 + gap) * k, 0, 0) for k in range(count)]
+    pucks = [
+        Puck(diameter=0.2, pose=pose, restitution=restitution, friction=0, ground_friction=0)
+        for pose in [(0, 0, 0), *still]
+    ]
+    pucks[0] = pucks[0].replace(velocity=(2, 0, 0))
+    end = still[-1][0] + 0.1 + gap
+    wall = Map([[(end, -1), (end, 1)]], restitution=restitution)
+    world = endless([IDLE], pucks, addons=[wall], sampling_time=0.05)
+    energy = balance(world)[2]
+    change, told = gained_and_told(world, 20)
+    assert told == pytest.approx(change, abs=1e-6)
+    assert balance(world)[2] <= energy * (1 + 1e-9)
+    wall_rows = world.record.contacts[world.record.contacts["b"] == -1]
+    assert wall_rows["normal_impulse"].sum() == pytest.approx(-change[0].sum(), abs=1e-6)
+    assert world.prop_pose[0].max() < end - 0.1 + 1e-3
+    assert (np.diff(world.prop_pose[0]) > 0.2 - 1e-3).all()  # nobody passes another
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-2])
+def test_in_a_chain_each_impact_is_that_of_two(gap):
+    """With a gap before the wall, the second puck comes back and hits the first once more."""
+    e = 0.7071
+    pucks = [
+        Puck(diameter=0.2, pose=(0, 0, 0), velocity=(2, 0, 0), restitution=e, ground_friction=0),
+        Puck(diameter=0.2, pose=(0.5, 0, 0), restitution=1, ground_friction=0),
+    ]
+    end = 0.6 + gap
+    world = endless(
+        [IDLE], pucks, addons=[Map([[(end, -1), (end, 1)]], restitution=1)], sampling_time=0.05
+    )
+    coast(world, 0.6)
+    # The first goes on at 2 (1 - e) / 2, the second at 2 (1 + e) / 2 to the wall, and back into it.
+    first, second = 1 - e, -(1 + e)
+    common, apart = (first + second) / 2, e * (first - second) / 2
+    assert world.prop_velocity[0] == pytest.approx([common - apart, common + apart], abs=2e-3)

@@ -119,7 +119,7 @@ class Drive(Description):
         change = self.actuators(command) - had
         most = self._fastest_change * duration
         over = np.abs(change) > most + ROUNDING * (most + np.abs(had).max(axis=0))
-        if not over.any():
+        if not np.count_nonzero(over):
             return command
         return np.where(over.any(axis=0), self.command_for(had + change.clip(-most, most)), command)
 
@@ -152,13 +152,13 @@ class Wheeled(Drive):
         """V [m/s] and omega [rad/s]."""
         return Quantity("v", "m/s"), Quantity("omega", "rad/s")
 
-    @cached_property
-    def _arms(self) -> Float:
-        return np.array([[-self.wheel_semiaxis], [self.wheel_semiaxis]])
-
     def actuators(self, command: Float) -> Float:
         """Return the speeds (2, n) of the left and the right wheel's rim, m/s."""
-        return np.asarray(command[0] + self._arms * command[1])
+        rims = np.empty(command.shape)
+        speed, turn = command[0], np.multiply(command[1], self.wheel_semiaxis, out=rims[1])
+        np.subtract(speed, turn, out=rims[0])
+        np.add(speed, turn, out=turn)
+        return rims
 
     def command_for(self, actuators: Float) -> Float:
         """Return (v, omega), (2, n), of rims with these speeds."""
@@ -177,7 +177,7 @@ class Wheeled(Drive):
         """Return commands (2, n) with each rim's speed clipped to +-max_linear_speed."""
         rims, limit = self.actuators(command), self.max_linear_speed
         over = np.abs(rims) > limit * (1 + ROUNDING)
-        if not over.any():
+        if not np.count_nonzero(over):
             return command
         return np.where(over.any(axis=0), self.command_for(rims.clip(-limit, limit)), command)
 

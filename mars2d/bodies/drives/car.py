@@ -52,7 +52,7 @@ class Car(Drive):
         """Return commands (2, n), the speed clipped to +-max_linear_speed, the angle likewise."""
         limit = np.array([[self.max_linear_speed], [self.max_steering]])
         over = np.abs(command) > limit * (1 + ROUNDING)
-        if not over.any():
+        if not np.count_nonzero(over):
             return command
         return np.where(over, command.clip(-limit, limit), command)
 

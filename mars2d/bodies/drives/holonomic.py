@@ -32,7 +32,7 @@ class Holonomic(Drive):
         """Return commands (2, n) shortened to max_linear_speed where they are faster."""
         speed = np.hypot(command[0], command[1])
         over = speed > self.max_linear_speed * (1 + ROUNDING)
-        if not over.any():
+        if not np.count_nonzero(over):
             return command
         return command * np.where(over, self.max_linear_speed / np.where(over, speed, 1.0), 1.0)
 
@@ -47,7 +47,7 @@ class Holonomic(Drive):
         size = np.hypot(change[0], change[1])
         most = self.max_acceleration * duration
         over = size > most + ROUNDING * (most + np.hypot(last[0], last[1]))
-        if not over.any():
+        if not np.count_nonzero(over):
             return command
         return np.where(over, last + change * (most / np.where(over, size, 1.0)), command)
 

@@ -1,7 +1,7 @@
 """A bustle: all kinds of drives, props, joints and sensors, noise, messages, and many contacts.
 
 The tests run it in many ways, which all have to give the same bits. With discs=True there are discs
-and walls alone, which the kernel in C moves.
+and walls alone.
 """
 
 import numpy as np

@@ -1,23 +1,17 @@
-"""Large teams are stepped in groups: what happens to a robot is what happens in a small team."""
+"""Large teams fall into islands: what happens to a robot is what happens to it alone."""
 
 from __future__ import annotations
-
-import os
 
 import numpy as np
 import pytest
 
 from mars2d import Holonomic, Robot, Scenario, World
 from mars2d.addons import Map
-from mars2d.physics.engine import GROUP
-from mars2d.physics.kernel import reason_without
 from mars2d.reports.bench.scenes import team
 from mars2d.reports.bench.worlds import deepest, world_of
 from mars2d.sensors import Proximity, RangeFinder
 
-pytestmark = pytest.mark.skipif(bool(reason_without()), reason=f"no kernel: {reason_without()}")
-
-MANY = 2 * GROUP + 40
+MANY = 168
 APART = 3.0
 ROW = 16
 """How many robots stand in a row of the large teams here."""
@@ -40,24 +34,10 @@ def scenario(robots: list[Robot], **settings) -> Scenario:
     return Scenario(robots=robots, on_exit="ignore", sampling_time=0.05, stop_time=100, **settings)
 
 
-def test_only_large_teams_of_about_equal_masses_are_stepped_in_groups():
-    def groups(n, heaviest=1.0):
-        robots = [Robot(pose=(*place(i), 0.0)) for i in range(n - 1)]
-        robots.append(Robot(pose=(-9.0, 0.0, 0.0), mass=heaviest))
-        return World(scenario(robots)).simulation.engine._groups
-
-    assert groups(2 * GROUP - 1) == 1
-    assert groups(2 * GROUP) == 2
-    assert groups(MANY) == MANY // GROUP
-    assert groups(MANY, heaviest=2.0) == MANY // GROUP
-    assert groups(MANY, heaviest=2.1) == 1
-
-
 def duel(left: Robot, right: Robot) -> tuple[World, World, list[int]]:
     """Return a large team of which two robots move towards each other, and these two alone.
 
-    They stand at opposite ends of the grid's first column, in different groups, and the way between
-    is free.
+    They stand at opposite ends of the grid's first column, and the way between is free.
     """
     rows = MANY // ROW
     i, j = 0, ROW * (rows - 1)
@@ -67,7 +47,7 @@ def duel(left: Robot, right: Robot) -> tuple[World, World, list[int]]:
 
 
 @pytest.mark.parametrize("drive", [None, Holonomic()])
-def test_two_robots_of_different_groups_meet_as_two_robots_alone(drive):
+def test_two_robots_of_a_large_team_meet_as_two_robots_alone(drive):
     length = APART * (MANY // ROW - 1)
     options = {} if drive is None else {"drive": drive}
     down = np.pi / 2 if drive is None else 0.0
@@ -125,7 +105,7 @@ def test_free_motion_of_a_large_team_is_exact():
 
 
 @pytest.mark.parametrize("max_overlap", [1e-3, 0.02])
-def test_a_crowd_in_groups_stays_within_its_walls_and_its_overlap(max_overlap):
+def test_a_large_crowd_stays_within_its_walls_and_its_overlap(max_overlap):
     scene = team(400, 0.05)
     world = world_of(scene, max_overlap)
     poses = []
@@ -134,16 +114,6 @@ def test_a_crowd_in_groups_stays_within_its_walls_and_its_overlap(max_overlap):
         poses.append(world.pose)
     assert len(world.record.contacts) > 5000
     assert deepest(scene, np.array(poses)) < max_overlap
-
-
-def test_groups_stay_small_while_robots_wander_and_meet():
-    world = world_of(team(400, 0.05))
-    for _ in range(200):
-        world.step()
-    kernel = world.simulation.engine._kernel
-    sizes = [kernel._lib.mars2d_kernel_group_size(kernel._kernel, g) for g in range(400 // GROUP)]
-    assert sum(sizes) == 400
-    assert max(sizes) < 2 * GROUP
 
 
 def test_contacts_tell_of_the_momentum_that_a_crowd_gets():
@@ -199,31 +169,3 @@ def test_sensors_of_a_large_team_see_robots_where_they_are():
         ray = world.surroundings.ray(place(5), np.pi / 2, 5.0, 5)
         assert ray == pytest.approx(gap, abs=1e-9)
         world.step(command)
-
-
-ENDED = """
-import gc, resource
-from mars2d.reports.bench.scenes import team
-from mars2d.reports.bench.worlds import world_of
-
-scene = team(300, 0.05)
-
-def turn():
-    world = world_of(scene)
-    for _ in range(3):
-        world.step()
-    del world
-    gc.collect()
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-
-before = max(turn() for _ in range(10))
-print(max(turn() for _ in range(20)) / before)
-"""
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(os.name == "nt", reason="it does not tell how much memory a process takes")
-def test_worlds_that_end_give_their_memory_back(child):
-    """In a process of its own: what counts is the most that it ever took."""
-    done = child(ENDED)
-    assert float(done.stdout) < 1.1, done.stderr

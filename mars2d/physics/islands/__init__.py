@@ -1,0 +1,112 @@
+"""The engine's loop: bodies near each other form islands, and each is stepped by itself.
+
+It is written once, in Python that Cython compiles. What was compiled when the package was installed
+is used if it fits its sources and pymunk; else the same lines run as Python, more slowly, with the
+same bits.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import re
+from collections.abc import Iterator
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+from mars2d.physics.islands.build import fingerprint, functions
+
+__all__ = ["difference", "islands", "reason_without"]
+
+
+def islands() -> Any:
+    """Return the module that moves bodies: the compiled one, or `plain`."""
+    return import_module("mars2d.physics.islands.plain") if reason_without() else _loaded()[0]
+
+
+def reason_without() -> str:
+    """Return why worlds do without what is compiled; empty if they use it."""
+    if os.environ.get("MARS2D_PLAIN") == "1":
+        return "the environment variable MARS2D_PLAIN is 1"
+    return _loaded()[1]
+
+
+@cache
+def _loaded() -> tuple[Any, str]:
+    """Return the compiled module, or None and the reason why it can't be used."""
+    try:
+        made: Any = import_module("mars2d.physics.islands._compiled")
+    except ModuleNotFoundError:
+        return None, "it was not compiled when mars2d was installed"
+    except ImportError as error:
+        return None, f"it can't be loaded ({error})"
+    if fingerprint() != getattr(made, "FINGERPRINT", ""):
+        return None, "its sources have changed since it was compiled"
+    if difference():
+        return None, difference()
+    from pymunk._chipmunk_cffi import ffi, lib
+
+    addresses = [ffi.addressof(lib, name) for name, _ in functions()]
+    made.connect([int(ffi.cast("uintptr_t", address)) for address in addresses])
+    return made, ""
+
+
+def difference() -> str:
+    """Return how pymunk differs from what the islands can be compiled for; empty if it does not."""
+    from pymunk._chipmunk_cffi import ffi, lib
+
+    version = importlib.metadata.version("pymunk")
+    found = (f"pymunk {version} is not as it was written for: {what}" for what in changes(ffi, lib))
+    return next(found, "")
+
+
+FIELDS = {
+    "struct cpArbiter": {"count": (104, "int"), "contacts": (112, "struct cpContact *")},
+    "struct cpContact": {"jnAcc": (56, "double"), "jtAcc": (64, "double")},
+}
+"""Fields of the engine's structs that are written directly: where they are, and their types."""
+
+CONTACT_SIZE = 96
+"""The size of the engine's struct of a contact."""
+
+
+def changes(engine: Any, library: Any) -> Iterator[str]:
+    """Yield the differences between an engine and that which the islands were written for.
+
+    engine, library: its ffi, and its functions.
+    """
+    for name, kind in functions():
+        try:
+            found = engine.typeof(engine.addressof(library, name)).cname
+        except AttributeError:
+            yield f"it has no function {name}"
+            continue
+        if _plain(found) != _plain(kind):
+            yield f"its function {name} is a {found}"
+    for struct, wanted in FIELDS.items():
+        fields = _fields(engine, struct)
+        for field, (offset, kind) in wanted.items():
+            if field not in fields:
+                yield f"its {struct} has no field {field}"
+            elif (fields[field].offset, fields[field].type.cname) != (offset, kind):
+                found, at = fields[field].type.cname, fields[field].offset
+                yield f"the field {field} of its {struct} is a {found} at {at}"
+        if fields and struct == "struct cpContact" and engine.sizeof(struct) != CONTACT_SIZE:
+            yield f"its {struct} has {engine.sizeof(struct)} bytes"
+
+
+def _fields(engine: Any, struct: str) -> dict[str, Any]:
+    """Return the fields of a struct of an engine; none if it has no such struct."""
+    try:
+        return dict(engine.typeof(struct).fields or ())
+    except Exception:
+        return {}
+
+
+def _plain(kind: str) -> str:
+    """Return a function's type with all pointers alike, and vectors by our name."""
+    kind = kind.replace("struct cpVect *", "void *").replace("Vector *", "void *")
+    kind = kind.replace("struct cpVect", "Vector")
+    kind = re.sub(r"struct \w+ \*", "void *", kind).replace("void)", ")")
+    return kind.replace(" ", "")

@@ -1,0 +1,351 @@
+"""A body, in motion: robot or prop, and what drives or holds it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import chord_share, cosine_sine, length
+from mars2d.physics.islands.chipmunk import NOTHING, Handle
+
+__all__ = ["Body", "Corner", "Edge", "Piece"]
+
+
+@cython.final
+@cython.cclass
+class Corner:
+    """A corner of a piece: in the frame of its body, and from there, turned as the body is."""
+
+    local_x: cython.double
+    local_y: cython.double
+    x: cython.double
+    y: cython.double
+    lever: cython.double
+
+    def __init__(self, x: float, y: float) -> None:
+        """Take its place in the frame of its body, metres."""
+        self.local_x = self.x = x
+        self.local_y = self.y = y
+        self.lever = length(x, y)
+
+
+@cython.final
+@cython.cclass
+class Edge:
+    """A direction in which a piece may be parted from another, and an edge across it.
+
+    reach: how far the piece extends in this direction from the body's pose, metres.
+    """
+
+    local_x: cython.double
+    local_y: cython.double
+    x: cython.double
+    y: cython.double
+    reach: cython.double
+
+    def __init__(self, x: float, y: float, reach: float) -> None:
+        """Take the direction, a unit vector in the frame of its body."""
+        self.local_x = self.x = x
+        self.local_y = self.y = y
+        self.reach = reach
+
+
+@cython.final
+@cython.cclass
+class Piece:
+    """A convex piece of a body or wall: the hull of its corners, enlarged by a radius."""
+
+    corners: list[Corner]
+    edges: list[Edge]
+    radius: cython.double
+
+    def __init__(self, corners: list[Any], directions: list[Any], radius: float) -> None:
+        """Take corners (x, y) counter-clockwise, directions (x, y) in which it ends, a radius."""
+        self.corners = [Corner(x, y) for x, y in corners]
+        self.edges = [Edge(u, v, max([u * x + v * y for x, y in corners])) for u, v in directions]
+        self.radius = radius
+
+    @cython.cfunc
+    def turn(self, c: cython.double, s: cython.double) -> cython.void:
+        """Turn it by an angle of this cosine and sine from its body's frame."""
+        corner: Corner
+        edge: Edge
+        for corner in self.corners:
+            corner.x = c * corner.local_x - s * corner.local_y
+            corner.y = s * corner.local_x + c * corner.local_y
+        for edge in self.edges:
+            edge.x = c * edge.local_x - s * edge.local_y
+            edge.y = s * edge.local_x + c * edge.local_y
+
+
+@cython.final
+@cython.cclass
+class Body:
+    """A robot or prop. SI units; "now" is within the present substep, unless it says otherwise."""
+
+    # what it is
+    number: cython.int
+    is_robot: cython.bint
+    is_disc: cython.bint  # a single one, about the pose
+    mass: cython.double
+    moment: cython.double
+    radius: cython.double  # of a circle round it
+    offset_x: cython.double  # from the pose to the circle's centre, in its frame
+    offset_y: cython.double
+    offset: cython.double
+    reach: cython.double  # from the pose to its farthest point
+    surface: object
+    pieces: list[Piece]
+    # how it moves
+    x: cython.double
+    y: cython.double
+    angle: cython.double
+    vx: cython.double
+    vy: cython.double
+    spin: cython.double
+    slips: cython.bint  # moved by forces: it does not follow its command, or glide freely
+    # where the circle's centre is
+    center_x: cython.double
+    center_y: cython.double
+    # the robot's command, as a twist; and its drive
+    in_robot_frame: cython.bint
+    forward: cython.double
+    left: cython.double
+    turning: cython.double
+    force: cython.double
+    torque: cython.double
+    rim: cython.double
+    since: cython.int  # substeps since it slipped
+    holds: cython.bint  # whether the drive is to act in the next substep
+    engaged: cython.bint  # whether it does
+    effort: cython.double
+    # the floor under a prop
+    grip: cython.double  # N, its friction against sliding
+    twist_grip: cython.double  # N m, and against spinning
+    lever: cython.double
+    slows: cython.double  # m/s^2 and rad/s^2, how it slows
+    stops: cython.double
+    allowed: cython.double  # N and N m that the floor may use now
+    twist_allowed: cython.double
+    held: cython.double  # N and N m that it has used in the last substep
+    twist_held: cython.double
+    # a pull from outside
+    pulled: cython.bint
+    pull_x: cython.double
+    pull_y: cython.double
+    pull_torque: cython.double
+    # what the next substep is worked out from
+    touches: cython.bint
+    stopped: cython.bint
+    now_x: cython.double  # velocity
+    now_y: cython.double
+    now_spin: cython.double
+    bend: cython.double  # m/s^2, how fast that may change
+    aim_x: cython.double  # the velocity that it is told
+    aim_y: cython.double
+    aim_spin: cython.double
+    end_x: cython.double  # a gliding prop's velocity at the end
+    end_y: cython.double
+    end_spin: cython.double
+    back_x: cython.double  # where it was before a substep that may have to be done again
+    back_y: cython.double
+    back_angle: cython.double
+    gone: cython.double  # m, its way in this control step
+    # within a control step
+    near: cython.bint  # whether it may touch something
+    speed: cython.double  # how fast it may be
+    way: cython.double  # how far it may go, at most
+    strain: cython.double  # how many robots' pushes add up on it
+    slack: cython.double  # how much further than at its speed it may be thrown, a factor
+    home: object  # the body that stands for its island
+    fastest: cython.double  # of the island that it stands for
+    done: cython.bint  # whether its island has been stepped
+    island: object
+    start_x: cython.double  # where the circle's centre was at the beginning
+    start_y: cython.double
+    kept: cython.bint  # whether the state at the beginning was kept
+    kept_x: cython.double
+    kept_y: cython.double
+    kept_angle: cython.double
+    kept_vx: cython.double
+    kept_vy: cython.double
+    kept_spin: cython.double
+    kept_slips: cython.bint
+    kept_since: cython.int
+    kept_effort: cython.double
+    # since lists of what is near were made
+    moved: cython.double
+    wall_pairs: list[Any]
+    wall_gap: cython.double  # a lower bound of that to the nearest wall
+    wall_skin: cython.double  # how far it may move until the list of walls has to be made anew
+    cell: cython.int
+    next: cython.int
+    contacts: list[Any]  # with bodies of larger number, and obstacles
+    first_touch: object  # of the pairs that touch now: one of which it is the first body
+    # in the solver
+    solver: object
+    placed: cython.bint  # whether it is elsewhere than the solver thinks
+    made: cython.bint
+    handle: Handle
+    control: Handle
+    pivot: Handle
+    gear: Handle
+    shapes: list[Any]
+
+    def __init__(self, number: int, is_robot: bool, pieces: list[Piece], surface: Any) -> None:
+        """Take its number, its pieces, its friction and restitution; `describe` does the rest."""
+        self.number, self.is_robot, self.pieces, self.surface = number, is_robot, pieces, surface
+        self.mass = self.moment = 0.0
+        self.is_disc = self.slips = self.in_robot_frame = self.holds = self.engaged = False
+        self.pulled = self.touches = self.near = self.done = self.placed = self.made = False
+        self.stopped = False
+        self.radius = self.offset_x = self.offset_y = self.offset = self.reach = 0.0
+        self.x = self.y = self.angle = self.vx = self.vy = self.spin = 0.0
+        self.center_x = self.center_y = 0.0
+        self.forward = self.left = self.turning = self.force = self.torque = self.rim = 0.0
+        self.since, self.effort = 1 << 20, 0.0
+        self.grip = self.twist_grip = self.lever = self.slows = self.stops = 0.0
+        self.allowed = self.twist_allowed = self.held = self.twist_held = 0.0
+        self.pull_x = self.pull_y = self.pull_torque = 0.0
+        self.now_x = self.now_y = self.now_spin = self.bend = 0.0
+        self.aim_x = self.aim_y = self.aim_spin = 0.0
+        self.end_x = self.end_y = self.end_spin = 0.0
+        self.back_x = self.back_y = self.back_angle = self.gone = 0.0
+        self.speed = self.way = self.fastest = self.start_x = self.start_y = 0.0
+        self.slack = self.strain = 1.0
+        self.home = self.island = self.solver = None
+        self.kept = self.kept_slips = False
+        self.kept_x = self.kept_y = self.kept_angle = self.kept_effort = 0.0
+        self.kept_vx = self.kept_vy = self.kept_spin = 0.0
+        self.kept_since = 0
+        self.moved, self.wall_pairs, self.wall_gap, self.wall_skin = 0.0, [], -1.0, -1.0
+        self.cell = self.next = -1
+        self.contacts, self.first_touch = [], None
+        self.handle = self.control = self.pivot = self.gear = NOTHING
+        self.shapes = []
+
+    def describe(self, what: dict[str, Any]) -> None:
+        """Take what it is, by the names above; what does not hold of it may be left out."""
+        self.mass, self.moment = what["mass"], what["moment"]
+        self.radius, self.is_disc = what["radius"], what["is_disc"]
+        self.offset_x, self.offset_y = what["offset_x"], what["offset_y"]
+        self.offset = length(self.offset_x, self.offset_y)
+        self.reach = self.radius + self.offset
+        self.lever, self.grip = what.get("lever", 0.0), what.get("grip", 0.0)
+        self.twist_grip = self.grip * self.lever
+        self.slows, self.stops = self.grip / self.mass, self.twist_grip / self.moment
+        self.force, self.torque = what.get("force", 0.0), what.get("torque", 0.0)
+        self.rim, self.in_robot_frame = what.get("rim", 0.0), what.get("in_robot_frame", False)
+
+    def move(self, state: list[float], slips: bool) -> None:
+        """Take x, y, theta, x', y', theta', and whether it slips."""
+        self.x, self.y, self.angle, self.vx, self.vy, self.spin = state
+        self.slips = slips
+
+    # -- where it is --------------------------------------------------------------------------
+
+    @cython.cfunc
+    def locate(self) -> cython.void:
+        """Work out where its circle and its corners are."""
+        if self.is_disc:
+            self.center_x, self.center_y = self.x, self.y
+            return
+        c: cython.double
+        s: cython.double
+        c, s = cosine_sine(self.angle)
+        self.center_x = self.x + (c * self.offset_x - s * self.offset_y)
+        self.center_y = self.y + (s * self.offset_x + c * self.offset_y)
+        piece: Piece
+        for piece in self.pieces:
+            piece.turn(c, s)
+
+    # -- how it moves -------------------------------------------------------------------------
+
+    @cython.cfunc
+    def follow(self, angle: cython.double, h: cython.double) -> cython.void:
+        """Aim a robot along its command's arc: at the velocity that leads to its end within h s.
+
+        angle: its heading at the beginning. Source: the arc of radius v / omega seen as its chord,
+        of length v h sinc(omega h / 2) in the direction theta + omega h / 2.
+        """
+        half: cython.double = self.turning * (h / 2) if self.in_robot_frame else 0.0
+        turned: cython.double = angle + half if self.in_robot_frame else 0.0
+        share: cython.double = chord_share(half)
+        c: cython.double
+        s: cython.double
+        c, s = cosine_sine(turned)
+        c, s = share * c, share * s
+        self.aim_x = self.forward * c - self.left * s
+        self.aim_y = self.forward * s + self.left * c
+        self.aim_spin = self.turning
+
+    @cython.cfunc
+    def advance(self, h: cython.double) -> cython.void:
+        """Move at the velocity that it is told for h s."""
+        self.x += h * self.aim_x
+        self.y += h * self.aim_y
+        self.angle += h * self.aim_spin
+
+    @cython.cfunc
+    def look(self) -> cython.void:
+        """Work out how it moves now, and how fast its velocity may change."""
+        if self.slips or not self.is_robot:
+            self.now_x, self.now_y, self.now_spin = self.vx, self.vy, self.spin
+            self.bend = 0.0
+            if not self.slips:
+                if self.vx != 0.0 or self.vy != 0.0:
+                    self.bend = self.slows
+                if self.spin != 0.0:
+                    self.bend += self.stops * self.reach
+            return
+        self.follow(self.angle, 0.0)
+        self.now_x, self.now_y, self.now_spin = self.aim_x, self.aim_y, self.aim_spin
+        self.bend = 0.0
+        if self.in_robot_frame:
+            self.bend = abs(length(self.forward, self.left) * self.turning)
+
+    @cython.cfunc
+    def top_speed(self) -> cython.double:
+        """Return how fast its circle moves at most now."""
+        return length(self.now_x, self.now_y) + self.offset * abs(self.now_spin)
+
+    # -- its drive ----------------------------------------------------------------------------
+
+    @cython.cfunc
+    def time_to_brake(self, turned: cython.double) -> cython.double:
+        """Return when its drive stops the spin of a robot that begins to slip.
+
+        In a longer substep the robot turns on until its end. The time has a lower bound, where its
+        rim turns no further than by `turned`, too little to be seen.
+        """
+        spin: cython.double = abs(self.spin - self.turning)
+        return max(
+            spin * self.moment / self.torque, turned / max(spin * self.rim, 2.2250738585072014e-308)
+        )
+
+    @cython.cfunc
+    def out_of_reach(self, h: cython.double) -> cython.bint:
+        """Return whether its drive can't bring it back to its command within h seconds."""
+        self.follow(self.angle, h)
+        off: cython.double = length(self.vx - self.aim_x, self.vy - self.aim_y)
+        if off * self.mass > self.force * h:
+            return True
+        return abs(self.spin - self.turning) * self.moment > self.torque * h
+
+    # -- a control step that is done again ----------------------------------------------------
+
+    @cython.cfunc
+    def keep(self) -> cython.void:
+        """Keep the state, to begin with it again."""
+        self.kept = True
+        self.kept_x, self.kept_y, self.kept_angle = self.x, self.y, self.angle
+        self.kept_vx, self.kept_vy, self.kept_spin = self.vx, self.vy, self.spin
+        self.kept_slips, self.kept_since, self.kept_effort = self.slips, self.since, self.effort
+
+    @cython.cfunc
+    def begin_again(self) -> cython.void:
+        """Go back to the state that was kept."""
+        self.x, self.y, self.angle = self.kept_x, self.kept_y, self.kept_angle
+        self.vx, self.vy, self.spin = self.kept_vx, self.kept_vy, self.kept_spin
+        self.slips, self.since, self.effort = self.kept_slips, self.kept_since, self.kept_effort
+        self.done = False

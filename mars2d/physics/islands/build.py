@@ -1,0 +1,90 @@
+"""How the islands are compiled: by `pip install`, through the hook in ``hatch_build.py``.
+
+The modules are joined into one, in the order in which they import each other, with Cython in the
+place of `shadow`, and ``chipmunk.pxi`` in that of `chipmunk`. So what runs in Python where there is
+no compiler and what runs as C where there is one are the same lines.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+__all__ = ["compile_into", "fingerprint", "functions", "joined"]
+
+HERE = Path(__file__).parent
+
+MODULES = (
+    "arithmetic", "body", "floor", "pair", "tie", "solver", "contacts", "island", "neighbours",
+    "mover",
+)  # fmt: skip
+"""The modules, each after those that it imports."""
+
+HEAD = """
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
+# cython: initializedcheck=False, nonecheck=False, binding=False, auto_pickle=False
+cimport cython
+from libc.math cimport ceil, floor, fmod, sqrt
+from typing import Any
+
+FINGERPRINT = "{fingerprint}"
+"""
+
+EXACTLY = ["/O2", "/fp:precise", "/w"] if sys.platform == "win32" else [
+    "-O2", "-ffp-contract=off", "-fno-tree-vectorize", "-fno-strict-aliasing",
+    "-fvisibility=hidden", "-g0", "-w",
+]  # fmt: skip
+"""Fused multiplications round once where Python rounds twice. Warnings would be of Cython's C."""
+
+
+def fingerprint() -> str:
+    """Return what tells whether the islands were compiled of the sources that are here now."""
+    names = [*(f"{name}.py" for name in MODULES), "build.py", "chipmunk.pxi"]
+    return hashlib.sha256(b"\0".join((HERE / name).read_bytes() for name in names)).hexdigest()
+
+
+def functions() -> list[tuple[str, str]]:
+    """Return the engine's functions that are called: their names and types, as declared in C."""
+    text = (HERE / "chipmunk.pxi").read_text(encoding="utf-8")
+    declared = text[text.index("static struct {") : text.index("} engine;")]
+    found = re.findall(r"^\s+([\w ]+\*?)\(\*(\w+)\)\((.*)\);$", declared, flags=re.M)
+    return [(name, f"{result.strip()}(*)({taken})") for result, name, taken in found]
+
+
+def joined() -> str:
+    """Return the modules as one for Cython."""
+    parts = [HEAD.format(fingerprint=fingerprint()), (HERE / "chipmunk.pxi").read_text("utf-8")]
+    for name in MODULES:
+        text = (HERE / f"{name}.py").read_text(encoding="utf-8")
+        text = re.sub(r"^from [^\n]+ import (\([^)]*\)|[^\n]*)\n", "", text, flags=re.M)
+        text = re.sub(r"^__all__ = \[[^]]*\]\n", "", text, flags=re.M)
+        text = re.sub(r"\bcython\.Doubles\b", "cython.double[::1]", text)
+        parts.append(f"# -- {name}.py\n{text}")
+    return "\n".join(parts)
+
+
+def compile_into(folder: Path, flags: Sequence[str] = ()) -> Path:
+    """Compile, with `folder` for what comes and goes, and return the extension module's file.
+
+    flags: more of them for the compiler and the linker, as a sanitizer's.
+    """
+    from Cython.Build import cythonize
+    from setuptools import Distribution, Extension
+
+    source = folder / "_compiled.pyx"
+    source.write_text(joined(), encoding="utf-8")
+    extension = Extension(
+        "mars2d.physics.islands._compiled",
+        [str(source)],
+        extra_compile_args=[*EXACTLY, *flags],
+        extra_link_args=list(flags),
+    )
+    made = cythonize([extension], quiet=True, force=True)
+    command = Distribution({"ext_modules": made}).get_command_obj("build_ext")
+    command.build_lib, command.build_temp = str(folder), str(folder / "temp")
+    command.ensure_finalized()
+    command.run()
+    return Path(command.get_ext_fullpath("mars2d.physics.islands._compiled"))

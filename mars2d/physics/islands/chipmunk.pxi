@@ -1,0 +1,438 @@
+# chipmunk.py in C: the engine's functions by their addresses, which `connect` takes.
+
+from cpython.exc cimport PyErr_CheckSignals
+from libc.stdint cimport intptr_t, uintptr_t
+from libc.stdlib cimport free as free_memory, realloc
+
+cdef extern from *:
+    """
+    typedef struct { double x, y; } Vector;
+    typedef void *Handle;
+
+    static struct {
+        void *(*cpSpaceNew)(void);
+        void (*cpSpaceFree)(void *);
+        void (*cpSpaceStep)(void *, double);
+        void (*cpSpaceSetCurrentTimeStep)(void *, double);
+        void (*cpSpaceSetIterations)(void *, int);
+        void (*cpSpaceSetCollisionSlop)(void *, double);
+        void (*cpSpaceSetCollisionPersistence)(void *, unsigned int);
+        void *(*cpSpaceGetStaticBody)(void *);
+        void *(*cpBodyNew)(double, double);
+        void *(*cpBodyNewKinematic)(void);
+        void *(*cpBodyNewStatic)(void);
+        void (*cpBodyFree)(void *);
+        void (*cpBodySetUserData)(void *, void *);
+        void *(*cpBodyGetUserData)(void *);
+        void *(*cpCircleShapeNew)(void *, double, Vector);
+        void *(*cpSegmentShapeNew)(void *, Vector, Vector, double);
+        void *(*cpPolyShapeNewRaw)(void *, int, Vector *, double);
+        void (*cpShapeSetFriction)(void *, double);
+        void (*cpShapeSetElasticity)(void *, double);
+        void (*cpShapeFree)(void *);
+        void *(*cpSpaceAddBody)(void *, void *);
+        void (*cpSpaceRemoveBody)(void *, void *);
+        void *(*cpSpaceAddShape)(void *, void *);
+        void (*cpSpaceRemoveShape)(void *, void *);
+        void *(*cpSpaceAddConstraint)(void *, void *);
+        void (*cpSpaceRemoveConstraint)(void *, void *);
+        void (*cpConstraintFree)(void *);
+        void (*cpBodySetPosition)(void *, Vector);
+        void (*cpBodySetAngle)(void *, double);
+        void (*cpBodySetVelocity)(void *, Vector);
+        void (*cpBodySetAngularVelocity)(void *, double);
+        Vector (*cpBodyGetPosition)(void *);
+        double (*cpBodyGetAngle)(void *);
+        Vector (*cpBodyGetVelocity)(void *);
+        double (*cpBodyGetAngularVelocity)(void *);
+        void (*cpBodySetForce)(void *, Vector);
+        void (*cpBodySetTorque)(void *, double);
+        void *(*cpPivotJointAlloc)(void);
+        void *(*cpPivotJointInit)(void *, void *, void *, Vector, Vector);
+        void *(*cpGearJointAlloc)(void);
+        void *(*cpGearJointInit)(void *, void *, void *, double, double);
+        void *(*cpSlideJointAlloc)(void);
+        void *(*cpSlideJointInit)(void *, void *, void *, Vector, Vector, double, double);
+        void *(*cpPinJointAlloc)(void);
+        void *(*cpPinJointInit)(void *, void *, void *, Vector, Vector);
+        void (*cpPinJointSetDist)(void *, double);
+        void *(*cpDampedSpringAlloc)(void);
+        void *(*cpDampedSpringInit)(void *, void *, void *, Vector, Vector, double, double, double);
+        void *(*cpRotaryLimitJointAlloc)(void);
+        void *(*cpRotaryLimitJointInit)(void *, void *, void *, double, double);
+        void *(*cpDampedRotarySpringAlloc)(void);
+        void *(*cpDampedRotarySpringInit)(void *, void *, void *, double, double, double);
+        void (*cpConstraintSetMaxForce)(void *, double);
+        void (*cpConstraintSetMaxBias)(void *, double);
+        void (*cpConstraintSetErrorBias)(void *, double);
+        void (*cpConstraintSetCollideBodies)(void *, unsigned char);
+        double (*cpConstraintGetImpulse)(void *);
+        void (*cpSpaceEachCachedArbiter)(void *, void (*)(void *, void *), void *);
+        void (*cpArbiterGetBodies)(void *, void **, void **);
+        Vector (*cpArbiterTotalImpulse)(void *);
+        Vector (*cpArbiterGetNormal)(void *);
+        int (*cpArbiterGetCount)(void *);
+        Vector (*cpArbiterGetPointA)(void *, int);
+        Vector (*cpArbiterGetPointB)(void *, int);
+    } engine;
+
+    /* The first fields of the engine's structs, as far as they are used. */
+    typedef struct {
+        Vector r1, r2;
+        double normal_mass, tangent_mass, bounce, normal_impulse, tangent_impulse, bias_impulse, bias;
+        uintptr_t hash;
+    } Contact_;
+    typedef struct {
+        double e, u;
+        Vector surface_velocity;
+        void *data, *a, *b, *body_a, *body_b, *thread_a[2], *thread_b[2];
+        int count;
+        Contact_ *contacts;
+    } Arbiter_;
+
+    static void connect_function(int k, uintptr_t address) {
+        ((void (**)(void))&engine)[k] = (void (*)(void))address;
+    }
+    static size_t count_functions(void) { return sizeof engine / sizeof(void (*)(void)); }
+    static Vector vector(double x, double y) { Vector v = {x, y}; return v; }
+    static void scale_contacts(void *arbiter, double ratio) {
+        Arbiter_ *itself = arbiter;
+        for (int k = 0; k < itself->count; k++) {
+            itself->contacts[k].normal_impulse *= ratio;
+            itself->contacts[k].tangent_impulse *= ratio;
+        }
+    }
+    """
+    ctypedef struct Vector:
+        double x
+        double y
+    ctypedef void *Handle
+    ctypedef struct Engine_:
+        void *(*cpSpaceNew)() noexcept
+        void (*cpSpaceFree)(void *) noexcept
+        void (*cpSpaceStep)(void *, double) noexcept
+        void (*cpSpaceSetCurrentTimeStep)(void *, double) noexcept
+        void (*cpSpaceSetIterations)(void *, int) noexcept
+        void (*cpSpaceSetCollisionSlop)(void *, double) noexcept
+        void (*cpSpaceSetCollisionPersistence)(void *, unsigned int) noexcept
+        void *(*cpSpaceGetStaticBody)(void *) noexcept
+        void *(*cpBodyNew)(double, double) noexcept
+        void *(*cpBodyNewKinematic)() noexcept
+        void *(*cpBodyNewStatic)() noexcept
+        void (*cpBodyFree)(void *) noexcept
+        void (*cpBodySetUserData)(void *, void *) noexcept
+        void *(*cpBodyGetUserData)(void *) noexcept
+        void *(*cpCircleShapeNew)(void *, double, Vector) noexcept
+        void *(*cpSegmentShapeNew)(void *, Vector, Vector, double) noexcept
+        void *(*cpPolyShapeNewRaw)(void *, int, Vector *, double) noexcept
+        void (*cpShapeSetFriction)(void *, double) noexcept
+        void (*cpShapeSetElasticity)(void *, double) noexcept
+        void (*cpShapeFree)(void *) noexcept
+        void *(*cpSpaceAddBody)(void *, void *) noexcept
+        void (*cpSpaceRemoveBody)(void *, void *) noexcept
+        void *(*cpSpaceAddShape)(void *, void *) noexcept
+        void (*cpSpaceRemoveShape)(void *, void *) noexcept
+        void *(*cpSpaceAddConstraint)(void *, void *) noexcept
+        void (*cpSpaceRemoveConstraint)(void *, void *) noexcept
+        void (*cpConstraintFree)(void *) noexcept
+        void (*cpBodySetPosition)(void *, Vector) noexcept
+        void (*cpBodySetAngle)(void *, double) noexcept
+        void (*cpBodySetVelocity)(void *, Vector) noexcept
+        void (*cpBodySetAngularVelocity)(void *, double) noexcept
+        Vector (*cpBodyGetPosition)(void *) noexcept
+        double (*cpBodyGetAngle)(void *) noexcept
+        Vector (*cpBodyGetVelocity)(void *) noexcept
+        double (*cpBodyGetAngularVelocity)(void *) noexcept
+        void (*cpBodySetForce)(void *, Vector) noexcept
+        void (*cpBodySetTorque)(void *, double) noexcept
+        void *(*cpPivotJointAlloc)() noexcept
+        void *(*cpPivotJointInit)(void *, void *, void *, Vector, Vector) noexcept
+        void *(*cpGearJointAlloc)() noexcept
+        void *(*cpGearJointInit)(void *, void *, void *, double, double) noexcept
+        void *(*cpSlideJointAlloc)() noexcept
+        void *(*cpSlideJointInit)(void *, void *, void *, Vector, Vector, double, double) noexcept
+        void *(*cpPinJointAlloc)() noexcept
+        void *(*cpPinJointInit)(void *, void *, void *, Vector, Vector) noexcept
+        void (*cpPinJointSetDist)(void *, double) noexcept
+        void *(*cpDampedSpringAlloc)() noexcept
+        void *(*cpDampedSpringInit)(
+            void *, void *, void *, Vector, Vector, double, double, double) noexcept
+        void *(*cpRotaryLimitJointAlloc)() noexcept
+        void *(*cpRotaryLimitJointInit)(void *, void *, void *, double, double) noexcept
+        void *(*cpDampedRotarySpringAlloc)() noexcept
+        void *(*cpDampedRotarySpringInit)(void *, void *, void *, double, double, double) noexcept
+        void (*cpConstraintSetMaxForce)(void *, double) noexcept
+        void (*cpConstraintSetMaxBias)(void *, double) noexcept
+        void (*cpConstraintSetErrorBias)(void *, double) noexcept
+        void (*cpConstraintSetCollideBodies)(void *, unsigned char) noexcept
+        double (*cpConstraintGetImpulse)(void *) noexcept
+        void (*cpSpaceEachCachedArbiter)(
+            void *, void (*)(void *, void *) noexcept, void *) noexcept
+        void (*cpArbiterGetBodies)(void *, void **, void **) noexcept
+        Vector (*cpArbiterTotalImpulse)(void *) noexcept
+        Vector (*cpArbiterGetNormal)(void *) noexcept
+        int (*cpArbiterGetCount)(void *) noexcept
+        Vector (*cpArbiterGetPointA)(void *, int) noexcept
+        Vector (*cpArbiterGetPointB)(void *, int) noexcept
+    Engine_ engine
+    void connect_function(int, uintptr_t) noexcept
+    size_t count_functions() noexcept
+    Vector vector(double, double) noexcept
+    void scale_contacts(void *, double) noexcept
+
+
+def connect(addresses):
+    """Take the addresses of the engine's functions, in the order in which they stand above."""
+    if len(addresses) != count_functions():
+        raise ValueError(f"{len(addresses)} functions, expected {count_functions()}")
+    for k, address in enumerate(addresses):
+        connect_function(k, address)
+
+
+cdef Handle NOTHING = NULL
+cdef enum:
+    PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING
+
+# -- spaces -----------------------------------------------------------------------------------
+
+cdef Handle new_space(double slop) except NULL:
+    cdef Handle space = engine.cpSpaceNew()
+    if space == NULL:
+        raise MemoryError
+    engine.cpSpaceSetCollisionSlop(space, slop)
+    engine.cpSpaceSetCollisionPersistence(space, 1)
+    return space
+
+cdef inline void set_iterations(Handle space, int count) noexcept:
+    engine.cpSpaceSetIterations(space, count)
+
+cdef inline Handle ground_of(Handle space) noexcept:
+    return engine.cpSpaceGetStaticBody(space)
+
+cdef inline void step(Handle space, double h) noexcept:
+    engine.cpSpaceSetCurrentTimeStep(space, h)
+    engine.cpSpaceStep(space, h)
+
+cdef inline void free_space(Handle space) noexcept:
+    engine.cpSpaceFree(space)
+
+# -- bodies and shapes ------------------------------------------------------------------------
+
+cdef Handle new_body(double mass, double moment, int number) except NULL:
+    cdef Handle body = engine.cpBodyNew(mass, moment)
+    if body == NULL:
+        raise MemoryError
+    engine.cpBodySetUserData(body, <void *><intptr_t>number)
+    return body
+
+cdef Handle new_ground(int number) except NULL:
+    cdef Handle body = engine.cpBodyNewStatic()
+    if body == NULL:
+        raise MemoryError
+    engine.cpBodySetUserData(body, <void *><intptr_t>number)
+    return body
+
+cdef Handle new_control() except NULL:
+    cdef Handle body = engine.cpBodyNewKinematic()
+    if body == NULL:
+        raise MemoryError
+    return body
+
+cdef Handle surfaced(Handle shape, surface) except NULL:
+    if shape == NULL:
+        raise MemoryError
+    engine.cpShapeSetFriction(shape, surface[0])
+    engine.cpShapeSetElasticity(shape, surface[1])
+    return shape
+
+cdef Handle new_disc(Handle body, double radius, double x, double y, surface) except NULL:
+    return surfaced(engine.cpCircleShapeNew(body, radius, vector(x, y)), surface)
+
+cdef Handle new_polygon(Handle body, points, surface) except NULL:
+    cdef Vector vertices[64]
+    cdef int k, count = len(points)
+    if count > 64:
+        raise ValueError(f"{count} vertices, expected at most 64")
+    for k in range(count):
+        vertices[k] = vector(points[k][0], points[k][1])
+    return surfaced(engine.cpPolyShapeNewRaw(body, count, vertices, 0.0), surface)
+
+cdef Handle new_segment(Handle body, ends, surface) except NULL:
+    a, b = ends
+    return surfaced(
+        engine.cpSegmentShapeNew(body, vector(a[0], a[1]), vector(b[0], b[1]), 0.0), surface)
+
+cdef inline void add_body(Handle space, Handle body) noexcept:
+    engine.cpSpaceAddBody(space, body)
+
+cdef inline void remove_body(Handle space, Handle body) noexcept:
+    engine.cpSpaceRemoveBody(space, body)
+
+cdef inline void free_body(Handle body) noexcept:
+    engine.cpBodyFree(body)
+
+cdef inline void add_shape(Handle space, Handle shape) noexcept:
+    engine.cpSpaceAddShape(space, shape)
+
+cdef inline void remove_shape(Handle space, Handle shape) noexcept:
+    engine.cpSpaceRemoveShape(space, shape)
+
+cdef inline void free_shape(Handle shape) noexcept:
+    engine.cpShapeFree(shape)
+
+cdef inline void put(Handle body, double x, double y, double angle) noexcept:
+    engine.cpBodySetPosition(body, vector(x, y))
+    engine.cpBodySetAngle(body, angle)
+
+cdef inline void aim(Handle body, double vx, double vy, double spin) noexcept:
+    engine.cpBodySetVelocity(body, vector(vx, vy))
+    engine.cpBodySetAngularVelocity(body, spin)
+
+cdef inline void push(Handle body, double x, double y, double torque) noexcept:
+    engine.cpBodySetForce(body, vector(x, y))
+    engine.cpBodySetTorque(body, torque)
+
+cdef inline Vector position_of(Handle body) noexcept:
+    return engine.cpBodyGetPosition(body)
+
+cdef inline Vector velocity_of(Handle body) noexcept:
+    return engine.cpBodyGetVelocity(body)
+
+cdef inline double angle_of(Handle body) noexcept:
+    return engine.cpBodyGetAngle(body)
+
+cdef inline double spin_of(Handle body) noexcept:
+    return engine.cpBodyGetAngularVelocity(body)
+
+# -- joints -----------------------------------------------------------------------------------
+
+cdef Handle new_joint(int kind) noexcept:
+    if kind == PIVOT:
+        return engine.cpPivotJointAlloc()
+    if kind == GEAR:
+        return engine.cpGearJointAlloc()
+    if kind == SLIDE:
+        return engine.cpSlideJointAlloc()
+    if kind == PIN:
+        return engine.cpPinJointAlloc()
+    if kind == DAMPED_SPRING:
+        return engine.cpDampedSpringAlloc()
+    if kind == ROTARY_LIMIT:
+        return engine.cpRotaryLimitJointAlloc()
+    return engine.cpDampedRotarySpringAlloc()
+
+cdef Handle make_joint(
+    int kind, Handle joint, Handle a, Handle b, ends, double p, double q, double r
+) except NULL:
+    cdef Vector on_a = vector(ends[0][0], ends[0][1]), on_b = vector(ends[1][0], ends[1][1])
+    if joint == NULL:
+        joint = new_joint(kind)
+    if joint == NULL:
+        raise MemoryError
+    if kind == PIVOT:
+        engine.cpPivotJointInit(joint, a, b, on_a, on_b)
+    elif kind == GEAR:
+        engine.cpGearJointInit(joint, a, b, p, q)
+    elif kind == ROTARY_LIMIT:
+        engine.cpRotaryLimitJointInit(joint, a, b, p, q)
+    elif kind == SLIDE:
+        engine.cpSlideJointInit(joint, a, b, on_a, on_b, p, q)
+    elif kind == PIN:
+        engine.cpPinJointInit(joint, a, b, on_a, on_b)
+        engine.cpPinJointSetDist(joint, p)
+    elif kind == DAMPED_SPRING:
+        engine.cpDampedSpringInit(joint, a, b, on_a, on_b, p, q, r)
+    else:
+        engine.cpDampedRotarySpringInit(joint, a, b, p, q, r)
+    return joint
+
+cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
+    engine.cpConstraintSetErrorBias(joint, bias)
+    engine.cpConstraintSetCollideBodies(joint, collide)
+
+cdef inline void set_max_force(Handle joint, double force) noexcept:
+    engine.cpConstraintSetMaxForce(joint, force)
+
+cdef inline void set_max_bias(Handle joint, double bias) noexcept:
+    engine.cpConstraintSetMaxBias(joint, bias)
+
+cdef inline void add_joint(Handle space, Handle joint) noexcept:
+    engine.cpSpaceAddConstraint(space, joint)
+
+cdef inline void remove_joint(Handle space, Handle joint) noexcept:
+    engine.cpSpaceRemoveConstraint(space, joint)
+
+cdef inline void free_joint(Handle joint) noexcept:
+    engine.cpConstraintFree(joint)
+
+cdef inline double used_of(Handle joint) noexcept:
+    return engine.cpConstraintGetImpulse(joint)
+
+# -- contacts ---------------------------------------------------------------------------------
+
+cdef struct Found:
+    Handle *arbiters
+    int count
+    int room
+
+cdef void note_arbiter(void *arbiter, void *data) noexcept:
+    cdef Found *found = <Found *>data
+    cdef Handle *more
+    if found.count >= found.room:
+        more = <Handle *>realloc(found.arbiters, (2 * found.room + 16) * sizeof(Handle))
+        if more == NULL:
+            found.room = -1
+            return
+        found.arbiters = more
+        found.room = 2 * found.room + 16
+    found.arbiters[found.count] = arbiter
+    found.count += 1
+
+cdef class Arbiters:
+    cdef Found found
+
+    def __dealloc__(self):
+        free_memory(self.found.arbiters)
+
+    cdef int find(self, Handle space) except -1:
+        self.found.count = 0
+        engine.cpSpaceEachCachedArbiter(space, note_arbiter, &self.found)
+        if self.found.room < 0:
+            raise MemoryError
+        return self.found.count
+
+    cdef inline Handle at(self, int k) noexcept:
+        return self.found.arbiters[k]
+
+cdef int number_of(Handle body) noexcept:
+    return <int><intptr_t>engine.cpBodyGetUserData(body)
+
+cdef int first_of(Handle arbiter) noexcept:
+    cdef Handle a, b
+    engine.cpArbiterGetBodies(arbiter, &a, &b)
+    return number_of(a)
+
+cdef int second_of(Handle arbiter) noexcept:
+    cdef Handle a, b
+    engine.cpArbiterGetBodies(arbiter, &a, &b)
+    return number_of(b)
+
+cdef inline void scale(Handle arbiter, double ratio) noexcept:
+    scale_contacts(arbiter, ratio)
+
+cdef inline int count_of(Handle arbiter) noexcept:
+    return engine.cpArbiterGetCount(arbiter)
+
+cdef inline Vector impulse_of(Handle arbiter) noexcept:
+    return engine.cpArbiterTotalImpulse(arbiter)
+
+cdef inline Vector normal_of(Handle arbiter) noexcept:
+    return engine.cpArbiterGetNormal(arbiter)
+
+cdef inline Vector point_of(Handle arbiter, int k, bint second) noexcept:
+    if second:
+        return engine.cpArbiterGetPointB(arbiter, k)
+    return engine.cpArbiterGetPointA(arbiter, k)
+
+cdef inline int check_signals() except -1:
+    return PyErr_CheckSignals()

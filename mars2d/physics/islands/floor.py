@@ -1,0 +1,179 @@
+"""The floor: its friction against the sliding and spinning of props.
+
+A body that lies flat and moves at v, turning at omega, is held by a force F u / d against v and a
+torque F k s / d against omega, where F = mu m g, u = |v|, s = k |omega|, d = sqrt(u^2 + s^2), and
+the lever k is the mean distance of the body's points from its centre of mass. So a body that only
+slides is held by F, one that only spins by F k, and one that does both by less of either: a body
+that is pushed turns easily. Source: the ellipsoid in place of the limit surface of S. Goyal, A.
+Ruina, J. Papadopoulos, Wear 143, 307 (1991), as in R. D. Howe, M. R. Cutkosky, Int. J. Robotics
+Research 15, 531 (1996).
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import length, power
+from mars2d.physics.islands.body import Body
+
+__all__ = ["Glide", "hold"]
+
+
+@cython.cfunc
+def hold(body: Body, h: cython.double) -> cython.void:
+    """Set what the floor may use against a body in the next substep of h s.
+
+    A body at rest is held by force and torque together as by either alone, in the parts that they
+    had in the last substep. It counts as at rest if the floor stops it at once, within a hundredth
+    of the substep: else what barely spins could be pushed along as if there were no floor.
+    """
+    u: cython.double = length(body.vx, body.vy)
+    s: cython.double = body.lever * abs(body.spin)
+    d: cython.double = length(u, s)
+    if d > max(1e-6, 0.01 * body.slows * h):
+        body.allowed = body.grip * (u / d)
+        body.twist_allowed = body.twist_grip * (s / d)
+        return
+    first: cython.double = body.held / max(body.grip, 1e-300)
+    second: cython.double = body.twist_held / max(body.twist_grip, 1e-300)
+    over: cython.double = length(first, second)
+    if over > 1.0:
+        body.allowed = body.grip * (first / over)
+        body.twist_allowed = body.twist_grip * (second / over)
+    else:
+        body.allowed, body.twist_allowed = body.grip, body.twist_grip
+
+
+@cython.final
+@cython.cclass
+class Glide:
+    """How props glide where nothing but the floor acts on them, in closed form."""
+
+    # nodes and weights for integrals from 0 to 1 of functions that bend sharply at 0
+    nodes: list[float]
+    weights: list[float]
+    way: cython.double  # s, the way over the speed at the beginning
+    spin_way: cython.double
+    left: cython.double  # the share of the speed that is left
+    spin_left: cython.double
+    # of the two speeds: the one that falls more slowly, the other, and their rates
+    slow: cython.double
+    other: cython.double
+    rate: cython.double
+    exponent: cython.double
+
+    def __init__(self, nodes: list[float], weights: list[float]) -> None:
+        """Take nodes and weights."""
+        self.nodes, self.weights = nodes, weights
+        self.way = self.spin_way = self.left = self.spin_left = 0.0
+        self.slow = self.other = self.rate = self.exponent = 0.0
+
+    @cython.cfunc
+    def over(self, body: Body, h: cython.double) -> cython.void:
+        """Aim a prop at where it will be after h seconds, and work out its velocity then."""
+        if body.vx == 0.0 and body.vy == 0.0 and body.spin == 0.0:
+            body.aim_x = body.aim_y = body.aim_spin = 0.0
+            body.end_x = body.end_y = body.end_spin = 0.0
+            return
+        slide: cython.double = body.slows
+        turn: cython.double = body.lever * body.stops
+        u: cython.double = length(body.vx, body.vy)
+        s: cython.double = body.lever * abs(body.spin)
+        if u > 0 and s > 0 and slide > 0 and turn > 0:
+            self.together(u, s, slide, turn, h)
+        else:
+            self.way, self.left = self.lasts(u, slide, h), self.remains(u, slide, h)
+            self.spin_way, self.spin_left = self.lasts(s, turn, h), self.remains(s, turn, h)
+        body.aim_x, body.aim_y = body.vx * (self.way / h), body.vy * (self.way / h)
+        body.aim_spin = body.spin * (self.spin_way / h)
+        body.end_x, body.end_y = body.vx * self.left, body.vy * self.left
+        body.end_spin = body.spin * self.spin_left
+
+    @cython.cfunc
+    def remains(self, speed: cython.double, rate: cython.double, h: cython.double) -> cython.double:
+        """Return the share of a speed that is left at constant deceleration."""
+        if speed <= 0 or (rate > 0 and rate * h >= speed):
+            return 0.0
+        return 1.0 - rate * h / speed
+
+    @cython.cfunc
+    def lasts(self, speed: cython.double, rate: cython.double, h: cython.double) -> cython.double:
+        """Return the way by the initial speed, at constant deceleration."""
+        moves: cython.double = h
+        if rate > 0 and rate * h >= speed:
+            moves = speed / rate
+        return moves * (1.0 + self.remains(speed, rate, h)) / 2
+
+    @cython.cfunc
+    def integral(self, x: cython.double, by: cython.double) -> cython.double:
+        """Return the time until x is left of the slow speed; by > 0: weighed by y^by, at y left."""
+        total: cython.double = 0.0
+        k: cython.int
+        for k in range(len(self.nodes)):
+            node: cython.double = self.nodes[k]
+            weight: cython.double = self.weights[k]
+            node = x + (1 - x) * node
+            d: cython.double = length(self.slow, self.other * power(node, self.exponent - 1))
+            if by > 0:
+                d = d * power(node, by)
+            total = total + weight * d
+        return (1 - x) * total / self.rate
+
+    @cython.cfunc
+    def together(
+        self,
+        u: cython.double,
+        s: cython.double,
+        slide: cython.double,
+        turn: cython.double,
+        h: cython.double,
+    ) -> cython.void:
+        """Let sliding and spinning share the friction.
+
+        With x what is left of the speed b that falls more slowly, and x^e of the other, o, where e
+        is the ratio of their rates, the time gone is the integral of sqrt(b^2 + o^2 x^(2 e - 2)) /
+        rate from x to 1, and the ways are those of x and x^e times the same.
+        """
+        sliding: cython.bint = slide <= turn
+        self.slow = u if sliding else s
+        self.other = s if sliding else u
+        self.rate = min(slide, turn)
+        self.exponent = max(slide, turn) / self.rate
+        x: cython.double = 0.0
+        if self.integral(0.0, 0.0) > h:
+            x = self.left_after(h)
+        way: cython.double = self.integral(x, 1.0)
+        other: cython.double = self.integral(x, self.exponent)
+        share: cython.double = power(x, self.exponent)
+        if sliding:
+            self.way, self.spin_way, self.left, self.spin_left = way, other, x, share
+        else:
+            self.way, self.spin_way, self.left, self.spin_left = other, way, share, x
+
+    @cython.cfunc
+    def left_after(self, h: cython.double) -> cython.double:
+        """Return what is left of the slow speed after h seconds, by Newton's method.
+
+        Where that leaves the bounds, they are halved.
+        """
+        low: cython.double = 0.0
+        high: cython.double = 1.0
+        d: cython.double = sqrt(self.slow * self.slow + self.other * self.other)
+        x: cython.double = max(1 - self.rate * h / max(d, 1e-150), 0.0)
+        _round: cython.int
+        for _round in range(30):
+            gone: cython.double = self.integral(x, 0.0)
+            if gone >= h:
+                low = x
+            if gone <= h:
+                high = x
+            d = length(self.slow, self.other * power(x, self.exponent - 1))
+            better: cython.double = x + (gone - h) * self.rate / max(d, 1e-150)
+            if not (low <= better <= high):
+                better = (low + high) / 2
+            moved: cython.double = abs(better - x)
+            x = better
+            if moved <= 1e-13:
+                break
+        return x

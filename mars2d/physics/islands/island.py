@@ -1,0 +1,617 @@
+"""Islands: bodies that may touch each other or are tied, stepped as finely as they need.
+
+A robot that follows its command gets the velocity of its chord in each substep, a prop glides: both
+need no solver. When a contact or a joint has thrown a robot off its command, it slips: the solver
+decides its velocity, and its drive is engaged. That is a control body which pulls the robot with
+bounded force and torque until it follows again, and for a few short substeps more.
+"""
+
+from __future__ import annotations
+
+from math import ceil, sqrt
+from typing import Any
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.chipmunk import (
+    Handle,
+    Vector,
+    check_signals,
+    count_of,
+    first_of,
+    impulse_of,
+    normal_of,
+    point_of,
+    second_of,
+    set_iterations,
+)
+from mars2d.physics.islands.contacts import Row, Touch, touch_between
+from mars2d.physics.islands.floor import Glide
+from mars2d.physics.islands.pair import Pair
+from mars2d.physics.islands.solver import Solver
+from mars2d.physics.islands.tie import Tie
+
+__all__ = ["Accuracy", "Island"]
+
+STRAINED = 1.05
+GROW = 2.0
+ROOM = 0.9
+NOTCH = 0.75
+FADE = 0.98
+
+
+@cython.final
+@cython.cclass
+class Accuracy:
+    """How finely islands are stepped; see ``mars2d/physics/settings.py``, and for units there."""
+
+    max_overlap: cython.double
+    entry: cython.double
+    slop: cython.double
+    pressed: cython.double
+    turned: cython.double
+    growth: cython.double
+    linger: cython.int
+    slack: cython.double
+    taut: cython.double
+    stretch: cython.double
+    give: cython.double
+    push_depth: cython.double  # of an iteration
+    push_room: cython.double
+    strained: cython.double
+    strain_growth: cython.double
+    strain_fade: cython.double
+    toil: cython.int
+    iterations: cython.int
+    iterations_unequal: cython.int
+    iterations_ties: cython.int
+    spring_step: cython.double
+    graze: cython.double
+
+    def __init__(self, numbers: dict[str, Any]) -> None:
+        """Take the numbers by name."""
+        self.max_overlap, self.entry = numbers["max_overlap"], numbers["entry"]
+        self.slop, self.pressed, self.turned = (
+            numbers["slop"], numbers["pressed"], numbers["turned"],
+        )  # fmt: skip
+        self.growth, self.linger, self.slack = (
+            numbers["growth"], numbers["linger"], numbers["slack"],
+        )  # fmt: skip
+        self.taut, self.stretch, self.give = numbers["taut"], numbers["stretch"], numbers["give"]
+        self.push_depth, self.spring_step = numbers["push_depth"], numbers["spring_step"]
+        self.push_room, self.strained = numbers["push_room"], numbers["strained"]
+        self.strain_growth, self.strain_fade = numbers["strain_growth"], numbers["strain_fade"]
+        self.toil, self.graze = numbers["toil"], numbers["graze"]
+        self.iterations, self.iterations_unequal, self.iterations_ties = (
+            numbers["iterations"], numbers["iterations_unequal"], numbers["iterations_ties"],
+        )  # fmt: skip
+
+
+@cython.final
+@cython.cclass
+class Island:
+    """Some bodies, and all that they may touch in this control step."""
+
+    accuracy: Accuracy
+    glide: Glide
+    numbers: list[Body]  # all bodies by their numbers
+    bodies: list[Body]
+    pairs: list[Pair]
+    ties: list[Tie]
+    solver: Solver
+    solved: cython.bint
+    solvers: list[Solver]
+    spare: list[Solver]
+    contact_step: cython.double
+    push_step: cython.double  # how long that is for the push of one robot
+    strain: cython.double  # how many robots' pushes add up
+    least_strain: cython.double
+    most_strain: cython.double
+    iterations: cython.int
+    tries: cython.int  # substeps in a row in which the solver had more iterations than these
+    deepest: cython.double  # m, the overlap
+    limit: cython.double  # m, how far a body may go
+    any_slips: cython.bint
+    any_touch: cython.bint
+
+    def __init__(
+        self,
+        accuracy: Accuracy,
+        glide: Glide,
+        numbers: list[Body],
+        solvers: list[Solver],
+        spare: list[Solver],
+    ) -> None:
+        """Take what all islands share: bodies by number, all solvers, and those in no use."""
+        self.accuracy, self.glide, self.numbers = accuracy, glide, numbers
+        self.solvers, self.spare = solvers, spare
+        self.bodies, self.pairs, self.ties = [], [], []
+        self.solved = self.any_slips = self.any_touch = False
+        self.contact_step = self.push_step = 1e300
+        self.strain = self.least_strain = self.most_strain = 1.0
+        self.iterations, self.tries = accuracy.iterations, 0
+        self.deepest = self.limit = 0.0
+
+    @cython.cfunc
+    def clear(self) -> cython.void:
+        """Make it one without bodies."""
+        del self.bodies[:]
+        del self.pairs[:]
+        del self.ties[:]
+        self.solved = self.any_slips = self.any_touch = False
+
+    # -- before the first substep -------------------------------------------------------------
+
+    @cython.cfunc
+    def set_accuracy(self) -> cython.void:
+        """Work out the solver's iterations, and how pushes drive bodies into each other."""
+        accuracy: Accuracy = self.accuracy
+        body: Body
+        robots: cython.int = 0
+        strongest: cython.double = 0.0
+        push: cython.double = 0.0
+        lightest: cython.double = 1e300
+        heaviest: cython.double = 0.0
+        self.strain = 1.0
+        for body in self.bodies:
+            lightest = min(lightest, body.mass)
+            heaviest = max(heaviest, body.mass)
+            self.strain = max(self.strain, body.strain)
+            if body.is_robot:
+                robots += 1
+                strongest = max(strongest, body.force)
+                push = max(push, body.force / body.mass)
+        push = max(push, strongest / lightest)
+        self.iterations = accuracy.iterations
+        if heaviest > 3 * lightest:
+            self.iterations = accuracy.iterations_unequal
+        if self.ties:
+            self.iterations = accuracy.iterations_ties
+        self.push_step = 1e300
+        if push > 0.0:
+            self.push_step = sqrt(accuracy.push_depth * self.iterations / push)
+        # In a file, pushes from both ends meet in the middle; in a heap they spread.
+        self.most_strain = max(1.0, robots / 2.0)
+        self.least_strain = sqrt(self.most_strain)
+        self.strain = min(max(self.strain, self.least_strain), self.most_strain)
+
+    @cython.cfunc
+    def set_contact_step(self) -> cython.void:
+        """Work out the longest substep in contact: the pushes that add up use no more than room.
+
+        The depth under a force F settles at about F h^2 / (m iterations).
+        """
+        accuracy: Accuracy = self.accuracy
+        room: cython.double = max(accuracy.push_room - self.deepest, accuracy.push_depth / 4)
+        share: cython.double = 1.0
+        while share * share * self.strain * accuracy.push_depth > room:
+            share *= 0.9  # in steps, so that substeps keep their length for a while
+        self.contact_step = share * self.push_step
+        if self.ties:
+            self.contact_step = min(self.contact_step, accuracy.spring_step)
+
+    @cython.cfunc
+    def weigh(self) -> cython.void:
+        """Learn from overlaps how many pushes add up, and how hard the solver has to try."""
+        accuracy: Accuracy = self.accuracy
+        if self.deepest > accuracy.strained:
+            self.strain = min(accuracy.strain_growth * self.strain, self.most_strain)
+            # If the solver goes round in a circle it ends elsewhere in it each time.
+            self.tries = min(self.tries + 1, 64)
+            set_iterations(self.solver.space, self.iterations * accuracy.toil + 2 * self.tries)
+            return
+        self.strain = max(accuracy.strain_fade * self.strain, self.least_strain)
+        if self.tries > 0:
+            self.tries = 0
+            set_iterations(self.solver.space, self.iterations)
+
+    @cython.cfunc
+    def land(self) -> cython.void:
+        """Take a solver for these bodies alone: that in which most of them are."""
+        self.solved = True
+        self.solver = self.find_solver()
+        solver: Solver = self.solver
+        k: cython.int
+        body: Body
+        one: Solver
+        for k in range(len(solver.bodies) - 1, -1, -1):
+            body = solver.bodies[k]
+            if body.island is not self:
+                solver.leave(body)
+        for body in self.bodies:
+            if body.solver is not solver:
+                if body.solver is not None:
+                    one = body.solver
+                    one.leave(body)
+                solver.enter(body)
+        pair: Pair
+        for pair in self.pairs:
+            if pair.is_wall and pair.walled_in is not solver.walls:
+                solver.wall_off(pair.wall)
+                pair.walled_in = solver.walls
+        tie: Tie
+        for tie in self.ties:
+            solver.tie(tie)
+        self.tries = 0
+        set_iterations(solver.space, self.iterations)
+        solver.used = True
+
+    @cython.cfunc
+    def find_solver(self) -> Solver:
+        """Return the solver in which most of these bodies are, or one that nobody uses."""
+        solver: Solver
+        one: Solver
+        most: cython.int = 0
+        body: Body
+        other: Body
+        for body in self.bodies:
+            if body.solver is None:
+                continue
+            one = body.solver
+            count: cython.int = 0
+            for other in self.bodies:
+                if other.solver is one:
+                    count += 1
+            if count > most:
+                most, solver = count, one
+            if 2 * most >= len(self.bodies):
+                break
+        if most > 0:
+            return solver
+        if self.spare:
+            solver = self.spare.pop()
+            solver.idle = False
+        else:
+            solver = Solver(self.accuracy.slop)
+            self.solvers.append(solver)
+        return solver
+
+    # -- substeps -----------------------------------------------------------------------------
+
+    @cython.cfunc
+    def run(self, duration: cython.double, time: cython.double) -> cython.bint:
+        """Step through `duration` s; return whether nobody went further than was thought possible.
+
+        time: at the beginning, s.
+        """
+        elapsed: cython.double = 0.0
+        h: cython.double
+        left: cython.double
+        count: cython.int = 0
+        body: Body
+        self.set_accuracy()
+        for body in self.bodies:
+            body.gone = 0.0
+            self.any_slips = self.any_slips or body.slips
+        if self.any_slips:
+            self.land()
+        self.measure()
+        while elapsed < duration:
+            if self.any_touch:
+                self.press()
+            left = duration - elapsed
+            h = self.look_ahead(left)
+            if not elapsed + h > elapsed:
+                raise FloatingPointError
+            count += 1
+            if count % 256 == 0:
+                check_signals()
+            for body in self.bodies:
+                body.gone += h * body.top_speed()
+                if body.gone > self.limit:
+                    return False
+            self.aim(h)
+            if self.any_slips or not self.glide_on(h):
+                if not self.solved:
+                    self.land()
+                self.solver.go(h, self.accuracy.growth)
+                self.measure()
+                self.weigh()
+            elapsed = duration if h == left else elapsed + h
+            self.note(time + elapsed, h)
+        for body in self.bodies:
+            body.strain = self.strain
+        return True
+
+    @cython.cfunc
+    def measure(self) -> cython.void:
+        """Measure all gaps, and find who touches something."""
+        body: Body
+        pair: Pair
+        self.any_touch = False
+        self.deepest = 0.0
+        for body in self.bodies:
+            body.locate()
+            body.touches, body.first_touch = False, None
+        for pair in self.pairs:
+            if pair.measure():
+                self.deepest = max(self.deepest, -pair.gap)
+                self.any_touch = pair.a.touches = pair.b.touches = True
+                pair.next_touch, pair.a.first_touch = pair.a.first_touch, pair
+
+    @cython.cfunc
+    def press(self) -> cython.void:
+        """Press bodies together that touch by a rounding error only, and would part by another."""
+        pressed: cython.double = self.accuracy.pressed
+        pair: Pair
+        for pair in self.pairs:
+            if pair.gap > 0 or pair.gap <= -pressed / 8:
+                continue
+            a: Body = pair.a
+            b: Body = pair.b
+            share: cython.double = 1.0  # their common centre of mass stays where it is
+            if not pair.is_wall:
+                share = b.mass / (a.mass + b.mass)
+                b.x += (share - 1) * pressed * pair.normal_x
+                b.y += (share - 1) * pressed * pair.normal_y
+                b.placed = True
+            a.x += share * pressed * pair.normal_x
+            a.y += share * pressed * pair.normal_y
+            a.placed = True
+
+    @cython.cfunc
+    def look_ahead(self, left: cython.double) -> cython.double:
+        """Find who slips and how all move, and return how long the next substep is.
+
+        left: s, until the end.
+        """
+        accuracy: Accuracy = self.accuracy
+        body: Body
+        tie: Tie
+        for tie in self.ties:
+            tie.measure()
+            if tie.holds(accuracy.taut):
+                tie.a.touches = tie.b.touches = True
+        h: cython.double = self.contact_limit(left)
+        for body in self.bodies:
+            body.look()
+        pair: Pair
+        for pair in self.pairs:
+            h = pair.time_to_touch(h, accuracy.entry)
+        for tie in self.ties:
+            h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.give, accuracy.taut))
+        return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
+
+    @cython.cfunc
+    def contact_limit(self, left: cython.double) -> cython.double:
+        """Mark who slips: what touches or is pulled does, and what its drive can't bring back.
+
+        Returns how long a substep may be for them, at most `left`.
+        """
+        accuracy: Accuracy = self.accuracy
+        body: Body
+        h: cython.double = left
+        self.any_slips = False
+        for body in self.bodies:
+            if body.pulled:
+                body.touches = True
+            if body.touches:
+                body.slips = True
+            if body.slips:
+                self.any_slips = True
+        if not self.any_slips:
+            return h
+        self.set_contact_step()
+        h = min(h, self.contact_step)
+        if self.solved:
+            h = min(h, accuracy.growth * self.solver.last_step)
+        for body in self.bodies:
+            if body.is_robot and body.slips and body.since > 0:
+                h = min(h, body.time_to_brake(accuracy.turned))
+        self.any_slips = False
+        for body in self.bodies:
+            if body.slips and not body.touches:
+                body.slips = body.is_robot and body.out_of_reach(h)
+            if body.slips:
+                self.any_slips = True
+        return h
+
+    @cython.cfunc
+    def aim(self, h: cython.double) -> cython.void:
+        """Set the velocities of all bodies for a substep of h seconds.
+
+        A drive stays engaged for a while after its robot follows again if substeps are as short as
+        in contact, since a robot that pushes loses touch now and then. But a robot that comes from
+        afar hits with its momentum alone, without its drive's force.
+        """
+        brief: cython.bint = h <= self.contact_step
+        body: Body
+        for body in self.bodies:
+            if body.slips:
+                body.aim_x, body.aim_y, body.aim_spin = body.vx, body.vy, body.spin
+                body.since, body.holds = 0, True
+            elif body.is_robot:
+                body.follow(body.angle, h)
+                body.since = min(body.since + 1, 1 << 20)
+                body.holds = brief and body.since <= self.accuracy.linger
+            else:
+                self.glide.over(body, h)
+
+    @cython.cfunc
+    def glide_on(self, h: cython.double) -> cython.bint:
+        """Move all bodies as they are aimed; return whether they touch nothing then.
+
+        If they do they are back where they were, for the solver.
+        """
+        body: Body
+        for body in self.bodies:
+            body.back_x, body.back_y, body.back_angle = body.x, body.y, body.angle
+            body.advance(h)
+        self.measure()
+        if self.any_touch:
+            for body in self.bodies:
+                body.x, body.y, body.angle = body.back_x, body.back_y, body.back_angle
+            return False
+        for body in self.bodies:
+            body.placed = True
+            if body.is_robot:
+                body.vx, body.vy, body.spin = body.aim_x, body.aim_y, body.aim_spin
+            else:
+                body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
+        if self.solved:
+            self.solver.stale = True
+        return True
+
+    # -- without forces -----------------------------------------------------------------------
+
+    @cython.cfunc
+    def pass_through(
+        self, duration: cython.double, time: cython.double, stops: cython.bint
+    ) -> cython.void:
+        """Move through `duration` s without forces, and find each touch.
+
+        time: at the beginning, s. stops: whether a robot that moves into something stands still for
+        the rest of it, and a prop for good.
+        """
+        elapsed: cython.double = 0.0
+        h: cython.double
+        left: cython.double
+        body: Body
+        pair: Pair
+        self.measure()
+        while elapsed < duration:
+            for body in self.bodies:
+                body.look()
+            if stops and self.any_touch:
+                self.stop_some()
+            left = h = duration - elapsed
+            for pair in self.pairs:
+                if stops or pair.gap > 0:
+                    h = pair.time_to_touch(h, self.accuracy.graze)
+            if not elapsed + h > elapsed:
+                raise FloatingPointError
+            for body in self.bodies:
+                self.drift(body, h)
+            self.measure()
+            elapsed = duration if h == left else elapsed + h
+            self.note_touches(time + elapsed, h)
+
+    @cython.cfunc
+    def stop_some(self) -> cython.void:
+        """Stop what moves into something that it touches."""
+        pair: Pair
+        body: Body
+        for pair in self.pairs:
+            if pair.gap > 0:
+                continue
+            pair.meet()
+            pair.a.stopped = pair.a.stopped or pair.into_b > 1e-9
+            if not pair.is_wall:
+                pair.b.stopped = pair.b.stopped or pair.into_a > 1e-9
+        for body in self.bodies:
+            if body.stopped:
+                body.forward = body.left = body.turning = 0.0
+                if not body.is_robot:
+                    body.vx = body.vy = body.spin = 0.0
+                body.stopped = False
+                body.look()
+
+    @cython.cfunc
+    def drift(self, body: Body, h: cython.double) -> cython.void:
+        """Move a body for h s as nothing but its command or the floor says."""
+        if body.is_robot:
+            body.follow(body.angle, h)
+        else:
+            self.glide.over(body, h)
+            body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
+        body.advance(h)
+
+    @cython.cfunc
+    def note_touches(self, time: cython.double, h: cython.double) -> cython.void:
+        """Note who touches whom after h s, without impulses."""
+        row: Row
+        pair: Pair
+        body: Body
+        touch: Touch
+        if self.any_touch:
+            for body in self.bodies:
+                body.look()
+                body.aim_x, body.aim_y, body.aim_spin = body.now_x, body.now_y, body.now_spin
+        for pair in self.pairs:
+            if pair.gap > 0:
+                continue
+            pair.meet()
+            touch = touch_between(pair.a, pair.other)
+            row = touch.fresh()
+            row.impulse_x = row.impulse_y = row.vx = row.vy = 0.0
+            row.x, row.y = pair.point_x, pair.point_y
+            row.normal_x, row.normal_y = pair.normal_x, pair.normal_y
+            if not pair.is_wall:
+                row.add_speed(pair.b, 1.0)
+            row.add_speed(pair.a, -1.0)
+        self.close(time, h)
+
+    # -- contacts -----------------------------------------------------------------------------
+
+    @cython.cfunc
+    def note(self, time: cython.double, h: cython.double) -> cython.void:
+        """Note who touches whom after a substep of h seconds, which ends at `time`."""
+        if self.any_touch:
+            solver: Solver = self.solver
+            k: cython.int
+            for k in range(solver.arbiters.find(solver.space)):
+                self.note_one(solver.arbiters.at(k))
+        self.close(time, h)
+
+    @cython.cfunc
+    def close(self, time: cython.double, h: cython.double) -> cython.void:
+        """Add up what was noted in a substep."""
+        body: Body
+        touch: Touch
+        for body in self.bodies:
+            for touch in body.contacts:
+                touch.close(time, h)
+
+    @cython.cfunc
+    def note_one(self, arbiter: Handle) -> cython.void:
+        """Note what the solver knows of one contact, if it touches still."""
+        first: cython.int = first_of(arbiter)
+        second: cython.int = second_of(arbiter)
+        swap: cython.bint = first < 0 or (second >= 0 and second < first)
+        a: Body = self.numbers[second if swap else first]
+        b: cython.int = first if swap else second
+        if not still_touch(a, b):
+            return
+        touch: Touch = touch_between(a, b)
+        row: Row = touch.fresh()
+        row.x = row.y = row.vx = row.vy = 0.0
+        impulse: Vector = impulse_of(arbiter)
+        normal: Vector = normal_of(arbiter)
+        row.impulse_x, row.impulse_y = impulse.x, impulse.y
+        row.normal_x, row.normal_y = normal.x, normal.y
+        count: cython.int = count_of(arbiter)
+        # each body's velocity is that of its own point
+        self.stand(row, arbiter, count, not swap)
+        if b >= 0:
+            row.add_speed(self.numbers[b], 1.0)
+        self.stand(row, arbiter, count, swap)
+        row.add_speed(a, -1.0)
+        if swap:
+            row.normal_x, row.normal_y = -row.normal_x, -row.normal_y
+        row.push_apart()
+
+    @cython.cfunc
+    def stand(
+        self, row: Row, arbiter: Handle, count: cython.int, second: cython.bint
+    ) -> cython.void:
+        """Put a row at the middle of a contact's points on one of its bodies."""
+        point: Vector
+        if count > 0:
+            point = point_of(arbiter, 0, second)
+            row.x, row.y = point.x, point.y
+        if count > 1:
+            point = point_of(arbiter, 1, second)
+            row.x, row.y = (row.x + point.x) / 2, (row.y + point.y) / 2
+
+
+@cython.cfunc
+def still_touch(a: Body, b: cython.int) -> cython.bint:
+    """Return whether a body touches another or an obstacle now, by the measured gaps."""
+    pair: Pair
+    found: object = a.first_touch
+    while found is not None:
+        pair = found
+        if pair.other == b:
+            return True
+        found = pair.next_touch
+    return False

@@ -1,0 +1,470 @@
+"""Mover: moves all bodies of a world, and finds the islands that they form."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import length
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.contacts import (
+    Touch,
+    begin_touches_again,
+    keep_touches,
+    part,
+    take_touches,
+)
+from mars2d.physics.islands.floor import Glide
+from mars2d.physics.islands.island import Accuracy, Island
+from mars2d.physics.islands.neighbours import Neighbours
+from mars2d.physics.islands.pair import Pair, Wall
+from mars2d.physics.islands.solver import Solver, free_things_of, free_tie
+from mars2d.physics.islands.tie import Tie
+
+__all__ = ["Mover"]
+
+
+@cython.final
+@cython.cclass
+class Mover:
+    """All bodies of a world, by their numbers, with what they may touch and what ties them."""
+
+    accuracy: Accuracy
+    glide: Glide
+    bodies: list[Body]
+    ties: list[Tie]
+    neighbours: Neighbours
+    taken: list[Any]  # contacts that were counted, but not written yet
+    solvers: list[Solver]
+    spare: list[Solver]  # those that no island uses
+    islands: list[Island]  # as many as there were at most
+    found: cython.int  # how many there are now
+
+    def __init__(
+        self,
+        accuracy: Accuracy,
+        glide: Glide,
+        bodies: list[Body],
+        walls: list[Wall],
+        ties: list[Tie],
+        passing: set[Any],
+    ) -> None:
+        """Take bodies, walls, ties, and pairs of bodies that pass through each other."""
+        self.accuracy, self.glide, self.bodies, self.ties = accuracy, glide, bodies, ties
+        self.neighbours = Neighbours(bodies, walls, passing)
+        self.taken = []
+        self.spare, self.solvers, self.islands, self.found = [], [], [], 0
+        body: Body
+        for body in bodies:
+            body.slack = accuracy.slack
+
+    # -- a control step -----------------------------------------------------------------------
+
+    def drive(self, twist: cython.Doubles, duration: float, time: float) -> None:
+        """Move all bodies for `duration` seconds under constant twists of the robots.
+
+        twist: ahead [m/s] or x', to the left or y', spin [rad/s] of all robots. time: at the
+        beginning, s.
+        """
+        self.command(twist)
+        self.begin(duration)
+        self.neighbours.measure()
+        self.find_islands(duration)
+        while not self.run_islands(duration, time):
+            self.find_islands(duration)  # with more room for those that went too far
+        self.neighbours.advance()
+        for body in self.bodies:
+            if not body.near:
+                self.carry(body, duration)
+        self.clear_up()
+
+    def drift(self, twist: cython.Doubles, duration: float, time: float, stops: bool) -> None:
+        """Do the same without forces: bodies that touch go through, or stop; see `Island`."""
+        self.command(twist)
+        self.begin(duration)
+        body: Body
+        for body in self.bodies:
+            body.near, body.home, body.way = False, body, body.speed * duration
+        self.neighbours.refresh()
+        self.neighbours.measure()
+        self.join()
+        island: Island
+        k: cython.int
+        self.make_islands()
+        for k in range(self.found):
+            island = self.islands[k]
+            island.pass_through(duration, time, stops)
+        self.neighbours.advance()
+        for body in self.bodies:
+            if not body.near:
+                self.carry(body, duration)
+            if body.is_robot:
+                body.look()
+                body.vx, body.vy, body.spin = body.now_x, body.now_y, body.now_spin
+
+    def command(self, twist: cython.Doubles) -> None:
+        """Take the twists of all robots."""
+        n: cython.int = len(twist) // 3
+        i: cython.int
+        body: Body
+        for i in range(n):
+            body = self.bodies[i]
+            body.forward = twist[i]
+            body.left = twist[n + i]
+            body.turning = twist[2 * n + i]
+
+    @cython.cfunc
+    def begin(self, duration: cython.double) -> cython.void:
+        """Find out who slips, and how fast each body may be."""
+        body: Body
+        for body in self.bodies:
+            body.done = body.kept = False
+            body.start_x, body.start_y = body.x, body.y
+            if not body.is_disc:
+                body.locate()
+                body.start_x, body.start_y = body.center_x, body.center_y
+            body.speed = 0.0
+            if body.slips or not body.is_robot:
+                body.speed = length(body.vx, body.vy) + body.offset * abs(body.spin)
+            asked: cython.double = 0.0
+            if body.is_robot:
+                asked = length(body.forward, body.left)
+                body.speed = max(body.speed, asked + body.offset * abs(body.turning))
+            if not body.speed + asked + abs(body.x) + abs(body.y) < 1e100:  # squares are finite
+                raise FloatingPointError
+            if body.pulled:
+                push: cython.double = length(body.pull_x, body.pull_y) / body.mass
+                push += body.offset * abs(body.pull_torque) / body.moment
+                body.speed += push * duration
+
+    @cython.cfunc
+    def find_islands(self, duration: cython.double) -> cython.void:
+        """Mark who may touch something or is held, and find who is in one island.
+
+        A body that is near may be pushed by the fastest of its island, and so get near to others.
+        """
+        body: Body
+        for body in self.bodies:
+            body.near = body.kept_slips if body.kept else body.slips
+            body.home = body
+        more: cython.bint = True
+        while more:
+            self.set_ways(duration)
+            if self.neighbours.refresh():
+                self.neighbours.measure()
+            more = self.join()
+
+    @cython.cfunc
+    def set_ways(self, duration: cython.double) -> cython.void:
+        """Work out how far each body may go."""
+        body: Body
+        home: Body
+        for body in self.bodies:
+            body.fastest = 0.0
+            body.way = body.speed * duration
+        for body in self.bodies:
+            if body.near:
+                home = root(body)
+                # A spring may move what is at rest.
+                thrown: cython.double = (body.slack - self.accuracy.slack) * 0.01
+                home.fastest = max(home.fastest, body.slack * body.speed * duration + thrown)
+        for body in self.bodies:
+            if body.near:
+                home = root(body)
+                body.way = home.fastest + self.accuracy.max_overlap
+
+    @cython.cfunc
+    def join(self) -> cython.bint:
+        """Join those that may touch or hold each other; return whether anything is new."""
+        more: cython.bint = False
+        pair: Pair
+        for pair in self.neighbours.pairs:
+            if pair.start_gap <= pair.a.way + pair.b.way:
+                if pair.a.near and pair.b.near and root(pair.a) is root(pair.b):
+                    continue
+                join_homes(pair.a, pair.b)
+                more = True
+        tie: Tie
+        for tie in self.ties:
+            if tie.a.near and tie.b.near and root(tie.a) is root(tie.b):
+                continue
+            tie.measure()
+            if tie.may_hold():
+                join_homes(tie.a, tie.b)
+                more = True
+        body: Body
+        for body in self.bodies:
+            if not body.near and self.neighbours.at_wall(body):
+                body.near = True
+                more = True
+        return more
+
+    @cython.cfunc
+    def run_islands(self, duration: cython.double, time: cython.double) -> cython.bint:
+        """Step all islands that were not yet; return whether none went further than it could."""
+        good: cython.bint = True
+        island: Island
+        body: Body
+        home: Body
+        k: cython.int
+        self.make_islands()
+        for k in range(self.found):
+            island = self.islands[k]
+            if self.is_done(island):
+                continue
+            body = island.bodies[0]
+            home = root(body)
+            island.limit = home.fastest
+            if island.run(duration, time):
+                for body in island.bodies:
+                    body.done = True
+            else:
+                good = False
+                for body in island.bodies:
+                    self.begin_again(body)
+                    body.slack = 2 * body.slack
+        return good
+
+    @cython.cfunc
+    def is_done(self, island: Island) -> cython.bint:
+        """Return whether an island has been stepped as it is.
+
+        If it has grown since, all of it begins again.
+        """
+        body: Body
+        done: cython.int = 0
+        for body in island.bodies:
+            done += body.done
+        if done == len(island.bodies):
+            return True
+        if done:
+            for body in island.bodies:
+                if body.done:
+                    self.begin_again(body)
+        return False
+
+    @cython.cfunc
+    def begin_again(self, body: Body) -> cython.void:
+        """Put a body back to where it was at the beginning; its solver forgets it."""
+        solver: Solver
+        if body.solver is not None:
+            solver = body.solver
+            solver.leave(body)
+        body.begin_again()
+        begin_touches_again(body)
+
+    @cython.cfunc
+    def make_islands(self) -> cython.void:
+        """Make the islands of those that are near."""
+        island: Island
+        body: Body
+        home: Body
+        self.found = 0
+        for body in self.bodies:
+            body.island = None
+        for body in self.bodies:
+            if not body.near:
+                continue
+            home = root(body)
+            if home.island is None:
+                home.island = self.next_island()
+            island = home.island
+            body.island = island
+            island.bodies.append(body)
+            if not body.kept:
+                body.keep()
+                keep_touches(body)
+            if self.neighbours.at_wall(body):
+                self.add_pairs(island, body.wall_pairs)
+        self.add_pairs_of_bodies()
+
+    @cython.cfunc
+    def next_island(self) -> Island:
+        """Return an island without bodies."""
+        island: Island
+        if self.found == len(self.islands):
+            self.islands.append(
+                Island(self.accuracy, self.glide, self.bodies, self.solvers, self.spare)
+            )
+        island = self.islands[self.found]
+        island.clear()
+        self.found += 1
+        return island
+
+    @cython.cfunc
+    def add_pairs(self, island: Island, pairs: list[Pair]) -> cython.void:
+        """Add those pairs of a body and walls that may touch."""
+        pair: Pair
+        for pair in pairs:
+            if pair.apart() <= pair.a.way:
+                island.pairs.append(pair)
+
+    @cython.cfunc
+    def add_pairs_of_bodies(self) -> cython.void:
+        """Add pairs of bodies that may touch, and ties that may hold."""
+        pair: Pair
+        island: Island
+        for pair in self.neighbours.pairs:
+            if pair.start_gap <= pair.a.way + pair.b.way:
+                island = pair.a.island
+                island.pairs.append(pair)
+        tie: Tie
+        for tie in self.ties:
+            if tie.a.near and tie.b.near and tie.a.island is tie.b.island:
+                island = tie.a.island
+                island.ties.append(tie)
+
+    # -- who is free --------------------------------------------------------------------------
+
+    @cython.cfunc
+    def carry(self, body: Body, duration: cython.double) -> cython.void:
+        """Move a body that nothing can reach, in closed form."""
+        solver: Solver
+        if body.solver is not None:
+            solver = body.solver
+            solver.leave(body)
+        if body.contacts:
+            part(body)
+        body.slack, body.strain = self.accuracy.slack, 1.0
+        if body.is_robot:
+            body.since = 1 << 20
+            body.follow(body.angle, duration)
+            body.vx, body.vy, body.spin = body.aim_x, body.aim_y, body.aim_spin
+        else:
+            self.glide.over(body, duration)
+            body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
+        body.advance(duration)
+
+    @cython.cfunc
+    def clear_up(self) -> cython.void:
+        """Empty the solvers that were not needed, and keep those that were."""
+        solver: Solver
+        for solver in self.solvers:
+            if not solver.used or not solver.bodies:
+                solver.empty()
+                if not solver.idle:
+                    solver.idle = True
+                    self.spare.append(solver)
+            solver.used = False
+
+    # -- what is asked of it ------------------------------------------------------------------
+
+    def write_states(self, states: cython.Doubles) -> None:
+        """Write x, y, theta, x', y', theta' of all bodies into a row of numbers."""
+        k: cython.int = 0
+        body: Body
+        for body in self.bodies:
+            states[k] = body.x
+            states[k + 1] = body.y
+            states[k + 2] = body.angle
+            states[k + 3] = body.vx
+            states[k + 4] = body.vy
+            states[k + 5] = body.spin
+            k += 6
+
+    def count_contacts(self) -> int:
+        """Return how many pairs have touched since contacts were last written."""
+        self.taken = take_touches(self.bodies)
+        return len(self.taken)
+
+    def write_contacts(self, numbers: cython.Doubles) -> None:
+        """Write the contacts that were counted, fifteen numbers each; see `Touch.write`."""
+        k: cython.int = 0
+        touch: Touch
+        for touch in self.taken:
+            touch.write(numbers, k)
+            touch.begin()
+            k += 15
+        self.taken = []
+
+    def write_velocities(self, velocities: cython.Doubles) -> None:
+        """Write all x', then all y', then all theta', as they are at this instant."""
+        i: cython.int
+        n: cython.int = len(self.bodies)
+        body: Body
+        for i in range(n):
+            body = self.bodies[i]
+            body.look()
+            velocities[i] = body.now_x
+            velocities[n + i] = body.now_y
+            velocities[2 * n + i] = body.now_spin
+
+    def take_effort(self, efforts: cython.Doubles) -> None:
+        """Write the largest share of its bounds that each drive used since the last call."""
+        i: cython.int
+        body: Body
+        for i in range(len(efforts)):
+            body = self.bodies[i]
+            efforts[i] = min(body.effort, 1.0)
+            body.effort = 0.0
+
+    def slipping(self) -> list[bool]:
+        """Return which bodies slip."""
+        slips: list[bool] = []
+        body: Body
+        for body in self.bodies:
+            slips.append(body.slips)  # noqa: PERF401 - a comprehension would not know the class
+        return slips
+
+    def pull(self, i: int, pull: list[float], velocity: list[float]) -> None:
+        """Let a force x, y and a torque act on a body that moves like this, until `let_go`."""
+        body: Body = self.bodies[i]
+        body.pull_x, body.pull_y, body.pull_torque = pull
+        body.vx, body.vy, body.spin = velocity
+        body.pulled = body.slips = True
+
+    def let_go(self) -> None:
+        """End all pulls."""
+        body: Body
+        for body in self.bodies:
+            body.pulled = False
+
+    def bears(self, i: int, force: float, torque: float) -> bool:
+        """Return whether a body stays where it is held under a force and a torque."""
+        body: Body = self.bodies[i]
+        if body.slips:
+            return False
+        if body.is_robot:
+            share: cython.double = max(force / body.force, torque / body.torque)
+            if share > 1.0:
+                return False
+            body.effort = max(body.effort, share)
+            return True
+        if body.vx != 0.0 or body.vy != 0.0 or body.spin != 0.0 or body.grip == 0.0:
+            return False
+        return length(force / body.grip, torque / body.twist_grip) <= 1.0
+
+    def free(self) -> None:
+        """Free what the engine has; nothing is moved after that."""
+        solver: Solver
+        for solver in self.solvers:
+            solver.free()
+        tie: Tie
+        for tie in self.ties:
+            free_tie(tie)
+        body: Body
+        for body in self.bodies:
+            free_things_of(body)
+        self.solvers, self.spare = [], []
+
+
+@cython.cfunc
+def root(body: Body) -> Body:
+    """Return the body that stands for an island."""
+    home: Body = body.home
+    while home.home is not home:
+        home = home.home
+    body.home = home
+    return home
+
+
+@cython.cfunc
+def join_homes(a: Body, b: Body) -> cython.void:
+    """Join the islands of two bodies; the smaller number stands for both."""
+    a.near = b.near = True
+    first: Body = root(a)
+    second: Body = root(b)
+    if first.number < second.number:
+        second.home = first
+    elif second is not first:
+        first.home = second

@@ -1,0 +1,498 @@
+"""Pairs: two bodies, or a body and a wall, that may touch; how far apart they are, and until when.
+
+Of bodies with several pieces each pair of pieces is a pair. A normal leads from the first to the
+second; gaps of what overlaps are negative: how far one has to be moved to part them.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import length
+from mars2d.physics.islands.body import Body, Corner, Edge, Piece
+
+__all__ = ["DiscPair", "DiscWall", "Pair", "PiecePair", "Wall"]
+
+
+@cython.final
+@cython.cclass
+class Wall:
+    """A straight edge of an obstacle. obstacle: its number, -1, -2, ..."""
+
+    number: cython.int
+    obstacle: cython.int
+    surface: object
+    x: cython.double
+    y: cython.double
+    edge_x: cython.double
+    edge_y: cython.double
+    share_x: cython.double
+    share_y: cython.double
+    piece: Piece
+
+    def __init__(
+        self, number: int, obstacle: int, ends: list[float], surface: tuple[float, float]
+    ) -> None:
+        """Take its ends x1, y1, x2, y2 [m], and its friction and restitution."""
+        x1, y1, x2, y2 = ends
+        dx, dy = x2 - x1, y2 - y1
+        far = sqrt(dx * dx + dy * dy)
+        u, v = dx / far, dy / far
+        self.number, self.obstacle, self.surface = number, obstacle, surface
+        self.x, self.y, self.edge_x, self.edge_y = x1, y1, dx, dy
+        self.share_x, self.share_y = dx / (far * far), dy / (far * far)
+        sides = [(v, -u), (-v, u), (u, v), (-u, -v)]
+        self.piece = Piece([(x1, y1), (x2, y2)], sides, 0.0)
+
+    @cython.cfunc
+    def gap(self, x: cython.double, y: cython.double) -> cython.double:
+        """Return how far a point is from it."""
+        from_x: cython.double = x - self.x
+        from_y: cython.double = y - self.y
+        along: cython.double = from_x * self.share_x + from_y * self.share_y
+        along = min(max(along, 0.0), 1.0)
+        return length(along * self.edge_x - from_x, along * self.edge_y - from_y)
+
+
+@cython.cclass
+class Pair:
+    """The base of all pairs. b: the second body; where there is none, a wall stands still."""
+
+    a: Body
+    b: Body
+    is_wall: cython.bint
+    wall: Wall
+    other: cython.int  # the number of what the second is
+    radii: cython.double  # of the circles round both
+    gap: cython.double
+    normal_x: cython.double
+    normal_y: cython.double
+    walled_in: object  # the walls of the solver in which the wall is
+    start_gap: cython.double  # between the circles at the beginning of the control step
+    next_touch: object  # the next pair that touches now with the same first body
+    # where bodies that no forces act on touch
+    point_x: cython.double
+    point_y: cython.double
+    into_a: cython.double
+    into_b: cython.double
+
+    def __init__(self, a: Body, b: Body, wall: Wall | None) -> None:
+        """Take two bodies, or one twice and a wall."""
+        self.a, self.b = a, b
+        self.is_wall = wall is not None
+        self.gap = self.normal_x = self.normal_y = 0.0
+        self.point_x = self.point_y = self.into_a = self.into_b = 0.0
+        self.next_touch, self.walled_in, self.start_gap = None, None, 0.0
+        if wall is None:
+            self.other, self.radii = b.number, a.radius + b.radius
+        else:
+            self.wall, self.other, self.radii = wall, wall.obstacle, a.radius
+
+    @cython.cfunc
+    def apart(self) -> cython.double:
+        """Return how far apart the circles were at the beginning of the control step."""
+        if self.is_wall:
+            return self.wall.gap(self.a.start_x, self.a.start_y) - self.radii
+        x: cython.double = self.b.start_x - self.a.start_x
+        y: cython.double = self.b.start_y - self.a.start_y
+        return length(x, y) - self.radii
+
+    @cython.cfunc
+    def measure(self) -> cython.bint:
+        """Measure the gap and the normal; return whether they touch."""
+        raise NotImplementedError
+
+    @cython.cfunc
+    def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
+        """Return for how long they get no deeper than `depth`, or h if that is shorter.
+
+        A pair that is already that deep may get a little deeper, so that the solver is called again
+        soon after an impact that it could not stop at once.
+        """
+        raise NotImplementedError
+
+    @cython.cfunc
+    def meet(self) -> cython.void:
+        """Find the point where they touch, and how fast each moves into the other there."""
+        self.point_x = self.a.x + self.a.radius * self.normal_x
+        self.point_y = self.a.y + self.a.radius * self.normal_y
+        self.into_b = self.a.now_x * self.normal_x + self.a.now_y * self.normal_y
+        self.into_a = -(self.b.now_x * self.normal_x + self.b.now_y * self.normal_y)
+
+
+@cython.cfunc
+def time_to_close(
+    room: cython.double, closing: cython.double, turn: cython.double
+) -> cython.double:
+    """Return the time until closing t + turn t^2 / 2 = room; closing [m/s] may be negative."""
+    bent: cython.double = 2 * turn * room
+    quick: cython.double = abs(closing)
+    total: cython.double = sqrt(closing * closing + bent) + quick
+    if closing < 0:
+        total = bent / max(total, 1e-24)  # root - |closing|, without cancellation
+    return 2 * room / (total + 1e-12)
+
+
+@cython.cfunc
+def measure_way(pair: Pair, x: cython.double, y: cython.double) -> cython.bint:
+    """Do `Pair.measure` of a disc, given the way from its middle to the other disc or the wall."""
+    far: cython.double = length(x, y)
+    scale: cython.double = 1.0 / max(far, 1e-12)
+    pair.gap = far - pair.radii
+    pair.normal_x, pair.normal_y = x * scale, y * scale
+    return pair.gap <= 0
+
+
+@cython.cfunc
+def disc_time(pair: Pair, h: cython.double, depth: cython.double) -> cython.double:
+    """Return `Pair.time_to_touch` of a disc and another, or a wall.
+
+    Along straight lines, the distance to a convex shape is a convex function of time, so it never
+    falls faster than it does now.
+    """
+    x: cython.double = pair.a.now_x
+    y: cython.double = pair.a.now_y
+    turn: cython.double = pair.a.bend
+    if not pair.is_wall:
+        x = x - pair.b.now_x
+        y = y - pair.b.now_y
+        turn = turn + pair.b.bend
+    closing: cython.double = max(x * pair.normal_x + y * pair.normal_y, 0.0)
+    room: cython.double = max(pair.gap + depth, depth / 64)
+    if closing * h + 0.5 * turn * h * h <= room:
+        return h
+    return min(h, time_to_close(room, closing, turn))
+
+
+@cython.final
+@cython.cclass
+class DiscPair(Pair):
+    """Two discs."""
+
+    @cython.cfunc
+    def measure(self) -> cython.bint:
+        """Measure the gap and the normal; return whether they touch."""
+        x: cython.double = self.b.x - self.a.x
+        y: cython.double = self.b.y - self.a.y
+        return measure_way(self, x, y)
+
+    @cython.cfunc
+    def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
+        """Return for how long they get no deeper than `depth`."""
+        return disc_time(self, h, depth)
+
+
+@cython.final
+@cython.cclass
+class DiscWall(Pair):
+    """A disc and a wall."""
+
+    @cython.cfunc
+    def measure(self) -> cython.bint:
+        """Measure the gap and the normal; return whether they touch."""
+        wall: Wall = self.wall
+        from_x: cython.double = self.a.x - wall.x
+        from_y: cython.double = self.a.y - wall.y
+        along: cython.double = from_x * wall.share_x + from_y * wall.share_y
+        along = min(max(along, 0.0), 1.0)
+        x: cython.double = along * wall.edge_x - from_x
+        y: cython.double = along * wall.edge_y - from_y
+        return measure_way(self, x, y)
+
+    @cython.cfunc
+    def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
+        """Return for how long they get no deeper than `depth`."""
+        return disc_time(self, h, depth)
+
+
+@cython.final
+@cython.cclass
+class PiecePair(Pair):
+    """Two convex pieces.
+
+    Source of the gap of pieces that overlap: the separating axis theorem, as in C. Ericson,
+    Real-Time Collision Detection, section 5.2.1 (2005).
+    """
+
+    p: Piece
+    q: Piece
+    rounding: cython.double  # both radii
+    # from the first body's pose to that of the second, or for a wall to the origin
+    between_x: cython.double
+    between_y: cython.double
+    # the edge that parts them best: whose it is, its outward normal, how far it parts them
+    of_second: cython.bint
+    edge_x: cython.double
+    edge_y: cython.double
+    reach: cython.double
+    parted: cython.double
+    # the shortest way, and its square
+    way_x: cython.double
+    way_y: cython.double
+    square: cython.double
+
+    def __init__(self, a: Body, b: Body, wall: Wall | None, p: Piece, q: Piece) -> None:
+        """Take the bodies or the wall, and a piece of each."""
+        Pair.__init__(self, a, b, wall)
+        self.p, self.q = p, q
+        self.rounding = p.radius + q.radius
+        self.between_x = self.between_y = self.way_x = self.way_y = self.square = 0.0
+        self.of_second, self.parted = False, -1e300
+        self.edge_x = self.edge_y = self.reach = 0.0
+
+    @cython.cfunc
+    def measure(self) -> cython.bint:
+        """Measure the gap and the normal; return whether they touch."""
+        self.between_x, self.between_y = -self.a.x, -self.a.y
+        if not self.is_wall:
+            self.between_x = self.b.x - self.a.x
+            self.between_y = self.b.y - self.a.y
+        self.parted = -1e300
+        self.part(self.p, self.q, False)
+        self.part(self.q, self.p, True)
+        self.normal_x = -self.edge_x if self.of_second else self.edge_x
+        self.normal_y = -self.edge_y if self.of_second else self.edge_y
+        if self.parted <= 0.0 and self.parted > -1e300:
+            self.gap = self.parted - self.rounding
+            return self.gap <= 0
+        self.square = 1e300
+        self.approach(self.p, self.q, 1.0)
+        self.approach(self.q, self.p, -1.0)
+        far: cython.double = sqrt(self.square)
+        # Between points that almost coincide, the axis is the more accurate direction.
+        if far > 1e-7:
+            self.normal_x, self.normal_y = self.way_x / far, self.way_y / far
+        elif self.parted == -1e300:
+            self.normal_x, self.normal_y = 1.0, 0.0
+        self.gap = far - self.rounding
+        return self.gap <= 0
+
+    @cython.cfunc
+    def part(self, p: Piece, q: Piece, second: cython.bint) -> cython.void:
+        """Find out whether an edge of one piece parts it better from another than those before.
+
+        second: whether p is the second piece of the pair.
+        """
+        x: cython.double = -self.between_x if second else self.between_x
+        y: cython.double = -self.between_y if second else self.between_y
+        edge: Edge
+        corner: Corner
+        for edge in p.edges:
+            least: cython.double = 1e300
+            for corner in q.corners:
+                along: cython.double = (
+                    edge.x * (corner.x + x) + edge.y * (corner.y + y) - edge.reach
+                )
+                if along < least:
+                    least = along
+                    if least <= self.parted:
+                        break
+            if least > self.parted:
+                self.parted, self.of_second = least, second
+                self.edge_x, self.edge_y, self.reach = edge.x, edge.y, edge.reach
+
+    @cython.cfunc
+    def approach(self, p: Piece, q: Piece, sign: cython.double) -> cython.void:
+        """Find the shortest way from an edge of one piece to a corner of another.
+
+        sign: 1 where p is the first piece, else -1.
+        """
+        x: cython.double = sign * self.between_x
+        y: cython.double = sign * self.between_y
+        last: Corner = p.corners[len(p.corners) - 1]
+        corner: Corner
+        other: Corner
+        for corner in p.corners:
+            edge_x: cython.double = corner.x - last.x
+            edge_y: cython.double = corner.y - last.y
+            square: cython.double = edge_x * edge_x + edge_y * edge_y
+            for other in q.corners:
+                way_x: cython.double = other.x + x - last.x
+                way_y: cython.double = other.y + y - last.y
+                share: cython.double = 0.0
+                if square > 0.0:
+                    share = (way_x * edge_x + way_y * edge_y) / square
+                    share = min(max(share, 0.0), 1.0)
+                way_x = way_x - share * edge_x
+                way_y = way_y - share * edge_y
+                far: cython.double = way_x * way_x + way_y * way_y
+                if far < self.square:
+                    self.square = far
+                    self.way_x, self.way_y = sign * way_x, sign * way_y
+            last = corner
+
+    @cython.cfunc
+    def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
+        """Return for how long they get no deeper than `depth`."""
+        turning: cython.double = self.time_along_edge(h, depth)
+        if turning >= h:
+            return h
+        return max(turning, self.time_along_normal(h, depth))
+
+    @cython.cfunc
+    def time_along_edge(self, h: cython.double, depth: cython.double) -> cython.double:
+        """Return the time, at most h, that follows from the edge which parts them now.
+
+        How far it parts them, turning with its body, is a lower bound of the gap at any time. As
+        seen from there, a corner at d from the body's pose moves with d' and turns by at most both
+        bends + spin^2 |d| + 2 |spin| |d'| + the corner's own spin^2 |r|.
+        """
+        # An edge that parts them less than they are apart says nothing once they would be too deep.
+        floor: cython.double = depth / 256
+        along: cython.double = self.parted - self.rounding
+        if self.parted == -1e300 or (along + depth < floor and self.gap > along + 1e-9):
+            return 0.0
+        still: cython.bint = self.is_wall and self.of_second
+        body: Body = self.b if self.of_second else self.a
+        other: Body = self.a if self.of_second else self.b
+        piece: Piece = self.p if self.of_second else self.q
+        stands: cython.bint = self.is_wall and not self.of_second
+        x: cython.double = -self.between_x if self.of_second else self.between_x
+        y: cython.double = -self.between_y if self.of_second else self.between_y
+        spin: cython.double = 0.0 if still else body.now_spin
+        vx: cython.double = 0.0 if still else -body.now_x
+        vy: cython.double = 0.0 if still else -body.now_y
+        bends: cython.double = 0.0 if still else body.bend
+        own: cython.double = 0.0
+        if not stands:
+            own = other.now_spin
+            vx = vx + other.now_x
+            vy = vy + other.now_y
+            bends = bends + other.bend
+        nx: cython.double = self.edge_x
+        ny: cython.double = self.edge_y
+        corner: Corner
+        for corner in piece.corners:
+            dx: cython.double = corner.x + x
+            dy: cython.double = corner.y + y
+            ux: cython.double = vx - own * corner.y
+            uy: cython.double = vy + own * corner.x
+            room: cython.double = max(nx * dx + ny * dy - self.reach - self.rounding + depth, floor)
+            closing: cython.double = -(nx * ux + ny * uy) - spin * (nx * dy - ny * dx)
+            turn: cython.double = bends + own * own * corner.lever
+            if spin != 0.0:
+                turn += spin * spin * length(dx, dy) + 2 * abs(spin) * length(ux, uy)
+            if closing * h + 0.5 * turn * h * h > room:
+                h = min(h, time_to_close(room, closing, turn))
+        return h
+
+    @cython.cfunc
+    def time_along_normal(self, h: cython.double, depth: cython.double) -> cython.double:
+        """Return the time, at most h, that follows from the present normal.
+
+        The distance along it is a lower bound of the gap at any time. A corner at r from its body's
+        pose moves with velocity + i spin r, which turns by at most bend + spin^2 |r|.
+        """
+        floor: cython.double = depth / 256
+        base: cython.double = (
+            self.normal_x * self.between_x + self.normal_y * self.between_y - self.rounding
+        )
+        if self.clear(h, base + depth) and base + self.nearest() + depth >= floor:
+            return h
+        a: Body = self.a
+        b: Body = self.b
+        nx: cython.double = self.normal_x
+        ny: cython.double = self.normal_y
+        corner: Corner
+        other: Corner
+        for corner in self.p.corners:
+            place: cython.double = nx * corner.x + ny * corner.y
+            speed: cython.double = (
+                nx * a.now_x + ny * a.now_y + a.now_spin * (ny * corner.x - nx * corner.y)
+            )
+            turn: cython.double = a.bend + a.now_spin * a.now_spin * corner.lever
+            for other in self.q.corners:
+                room: cython.double = nx * other.x + ny * other.y - place + base + depth
+                closing: cython.double = speed
+                turns: cython.double = turn
+                if not self.is_wall:
+                    closing = closing - (
+                        nx * b.now_x + ny * b.now_y + b.now_spin * (ny * other.x - nx * other.y)
+                    )
+                    turns = turns + b.bend + b.now_spin * b.now_spin * other.lever
+                room = max(room, floor)
+                if closing * h + 0.5 * turns * h * h > room:
+                    h = min(h, time_to_close(room, closing, turns))
+        return h
+
+    @cython.cfunc
+    def nearest(self) -> cython.double:
+        """Return the least distance of corners along the normal, as from coinciding poses."""
+        front: cython.double = -1e300
+        back: cython.double = 1e300
+        corner: Corner
+        for corner in self.p.corners:
+            front = max(front, self.normal_x * corner.x + self.normal_y * corner.y)
+        for corner in self.q.corners:
+            back = min(back, self.normal_x * corner.x + self.normal_y * corner.y)
+        return back - front
+
+    @cython.cfunc
+    def clear(self, h: cython.double, room: cython.double) -> cython.bint:
+        """Return whether no corner of one comes nearer than that to one of the other within h s."""
+        a: Body = self.a
+        b: Body = self.b
+        nx: cython.double = self.normal_x
+        ny: cython.double = self.normal_y
+        half: cython.double = 0.5 * h * h
+        front: cython.double = -1e300
+        back: cython.double = 1e300
+        corner: Corner
+        for corner in self.p.corners:
+            speed: cython.double = (
+                nx * a.now_x + ny * a.now_y + a.now_spin * (ny * corner.x - nx * corner.y)
+            )
+            turn: cython.double = a.bend + a.now_spin * a.now_spin * corner.lever
+            front = max(front, nx * corner.x + ny * corner.y + speed * h + turn * half)
+        for corner in self.q.corners:
+            place: cython.double = nx * corner.x + ny * corner.y
+            if not self.is_wall:
+                speed = nx * b.now_x + ny * b.now_y + b.now_spin * (ny * corner.x - nx * corner.y)
+                turn = b.bend + b.now_spin * b.now_spin * corner.lever
+                place = place + speed * h - turn * half
+            back = min(back, place)
+        return back - front + room >= 0.0
+
+    @cython.cfunc
+    def meet(self) -> cython.void:
+        """Find the middle of their common face, and how fast each moves into the other there.
+
+        Corners within 1 mm of a surface belong to the face.
+        """
+        nx: cython.double = self.normal_x
+        ny: cython.double = self.normal_y
+        front: cython.double = -1e300
+        back: cython.double = 1e300
+        corner: Corner
+        for corner in self.p.corners:
+            front = max(front, nx * corner.x + ny * corner.y)
+        for corner in self.q.corners:
+            back = min(back, nx * corner.x + ny * corner.y)
+        low: cython.double = 1e300
+        high: cython.double = -1e300
+        along: cython.double
+        speed: cython.double
+        self.into_b = self.into_a = -1e300
+        for corner in self.p.corners:
+            if nx * corner.x + ny * corner.y < front - 1e-3:
+                continue
+            along = nx * corner.y - ny * corner.x
+            low, high = min(low, along), max(high, along)
+            speed = nx * self.a.now_x + ny * self.a.now_y
+            speed += self.a.now_spin * (ny * corner.x - nx * corner.y)
+            self.into_b = max(self.into_b, speed)
+        other_low: cython.double = 1e300
+        other_high: cython.double = -1e300
+        for corner in self.q.corners:
+            if nx * corner.x + ny * corner.y > back + 1e-3:
+                continue
+            along = nx * (corner.y + self.between_y) - ny * (corner.x + self.between_x)
+            other_low, other_high = min(other_low, along), max(other_high, along)
+            speed = nx * self.b.now_x + ny * self.b.now_y
+            speed += self.b.now_spin * (ny * corner.x - nx * corner.y)
+            self.into_a = max(self.into_a, -speed)
+        out: cython.double = front + self.p.radius
+        along = (max(low, other_low) + min(high, other_high)) / 2
+        self.point_x = self.a.x + nx * out - ny * along
+        self.point_y = self.a.y + ny * out + nx * along

@@ -1,0 +1,38 @@
+"""The names of C types and decorators, which mean nothing to Python.
+
+The modules of this package import it as ``cython``. Where there is a compiler, `build` puts Cython
+in its place: then a `double` is C's, a `cclass` is a struct, and a `cfunc` is a C function.
+"""
+
+from __future__ import annotations
+
+import builtins
+from array import array
+from typing import TypeAlias, TypeVar
+
+__all__ = ["Doubles", "bint", "cclass", "cfunc", "double", "final", "int", "longlong", "void"]
+
+T = TypeVar("T")
+
+double: TypeAlias = float
+int: TypeAlias = builtins.int  # noqa: A001
+longlong: TypeAlias = builtins.int
+bint: TypeAlias = bool
+void: TypeAlias = None
+Doubles: TypeAlias = "array[float]"
+"""Numbers in a row, shared with numpy."""
+
+
+def cclass(kind: type[T]) -> type[T]:
+    """Return the class as it is."""
+    return kind
+
+
+def final(kind: type[T]) -> type[T]:
+    """Return the class as it is."""
+    return kind
+
+
+def cfunc(function: T) -> T:
+    """Return the function as it is."""
+    return function

@@ -1,0 +1,423 @@
+"""Solver: a space of pymunk's engine, in which one island is stepped."""
+
+from __future__ import annotations
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.chipmunk import (
+    GEAR,
+    NOTHING,
+    PIVOT,
+    Arbiters,
+    Handle,
+    Vector,
+    add_body,
+    add_joint,
+    add_shape,
+    aim,
+    angle_of,
+    free_body,
+    free_joint,
+    free_shape,
+    free_space,
+    ground_of,
+    make_joint,
+    new_body,
+    new_control,
+    new_disc,
+    new_ground,
+    new_polygon,
+    new_segment,
+    new_space,
+    position_of,
+    push,
+    put,
+    remove_body,
+    remove_joint,
+    remove_shape,
+    scale,
+    set_joint,
+    set_max_bias,
+    set_max_force,
+    spin_of,
+    step,
+    used_of,
+    velocity_of,
+)
+from mars2d.physics.islands.floor import hold
+from mars2d.physics.islands.pair import Wall
+from mars2d.physics.islands.tie import Tie
+
+__all__ = ["Solver"]
+
+ENDS = ((0.0, 0.0), (0.0, 0.0))
+
+
+@cython.final
+@cython.cclass
+class Held:
+    """A thing of the engine that Python keeps: a shape, or a joint."""
+
+    handle: Handle
+    ground: Handle
+
+    def __init__(self) -> None:
+        """Hold nothing yet."""
+        self.handle = self.ground = NOTHING
+
+
+@cython.final
+@cython.cclass
+class Solver:
+    """A space of the engine: its bodies, the walls near them, and their joints."""
+
+    space: Handle
+    bodies: list[Body]
+    walls: dict[int, Held]
+    ties: list[Tie]
+    arbiters: Arbiters
+    last_step: cython.double
+    used: cython.bint  # in this control step
+    idle: cython.bint  # whether it waits for an island
+    stale: cython.bint  # whether bodies have moved without it since its last step
+
+    def __init__(self, slop: float) -> None:
+        """Make an empty one. slop: the overlap that is left in steady contact, metres."""
+        self.space = new_space(slop)
+        self.bodies, self.walls, self.ties = [], {}, []
+        self.arbiters = Arbiters()
+        self.last_step, self.used, self.stale, self.idle = 1e300, False, False, False
+
+    # -- who is in it -------------------------------------------------------------------------
+
+    @cython.cfunc
+    def enter(self, body: Body) -> cython.void:
+        """Put a body in."""
+        if not body.made:
+            self.make(body)
+        shape: Held
+        add_body(self.space, body.handle)
+        for shape in body.shapes:
+            add_shape(self.space, shape.handle)
+        body.solver, body.placed = self, True
+        self.bodies.append(body)
+        if not body.is_robot and body.grip > 0.0:  # the floor is another one in each space
+            body.allowed = body.twist_allowed = body.held = body.twist_held = 0.0
+            self.hold_by(body, ground_of(self.space))
+            self.engage(body)
+
+    @cython.cfunc
+    def make(self, body: Body) -> cython.void:
+        """Make a body, its shapes, and the joints that hold it."""
+        body.made = True
+        body.handle = new_body(body.mass, body.moment, body.number)
+        piece: Piece
+        for piece in body.pieces:
+            points = [(corner.local_x, corner.local_y) for corner in piece.corners]
+            shape = Held()
+            body.shapes.append(shape)
+            if len(points) == 1:
+                x, y = points[0]
+                shape.handle = new_disc(body.handle, piece.radius, x, y, body.surface)
+            else:
+                shape.handle = new_polygon(body.handle, points, body.surface)
+        if body.is_robot:
+            body.control = new_control()
+            self.hold_by(body, body.control)
+
+    @cython.cfunc
+    def hold_by(self, body: Body, holder: Handle) -> cython.void:
+        """Make the joints of a body begin anew: they make it move as its holder does."""
+        body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
+        body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
+        if body.is_robot:
+            self.limit(body, body.force, body.torque)
+        else:
+            self.limit(body, body.allowed, body.twist_allowed)
+
+    @cython.cfunc
+    def limit(self, body: Body, force: cython.double, torque: cython.double) -> cython.void:
+        """Bound the force and the torque of its joints, which never draw bodies together."""
+        set_max_bias(body.pivot, 0.0)
+        set_max_bias(body.gear, 0.0)
+        set_max_force(body.pivot, force)
+        set_max_force(body.gear, torque)
+
+    @cython.cfunc
+    def engage(self, body: Body) -> cython.void:
+        """Let its joints act."""
+        add_joint(self.space, body.pivot)
+        add_joint(self.space, body.gear)
+        body.engaged = True
+
+    @cython.cfunc
+    def disengage(self, body: Body) -> cython.void:
+        """Take its joints out."""
+        remove_joint(self.space, body.pivot)
+        remove_joint(self.space, body.gear)
+        body.engaged = False
+
+    @cython.cfunc
+    def leave(self, body: Body) -> cython.void:
+        """Take a body out, and what it is tied by."""
+        tie: Tie
+        for tie in self.ties[:]:
+            if tie.a is body or tie.b is body:
+                self.untie(tie)
+        if body.engaged:
+            self.disengage(body)
+        shape: Held
+        for shape in body.shapes:
+            remove_shape(self.space, shape.handle)
+        remove_body(self.space, body.handle)
+        body.solver = None
+        self.bodies.remove(body)
+
+    @cython.cfunc
+    def empty(self) -> cython.void:
+        """Take all bodies out."""
+        body: Body
+        for body in self.bodies[::-1]:
+            self.leave(body)
+        if len(self.walls) > 8:
+            self.take_walls_down()
+        self.last_step, self.stale = 1e300, False
+
+    @cython.cfunc
+    def take_walls_down(self) -> cython.void:
+        """Take all walls out."""
+        held: Held
+        for held in self.walls.values():
+            remove_shape(self.space, held.handle)
+            remove_body(self.space, held.ground)
+            free_shape(held.handle)
+            free_body(held.ground)
+        self.walls = {}
+
+    @cython.cfunc
+    def wall_off(self, wall: Wall) -> cython.void:
+        """Put a wall in."""
+        if wall.number in self.walls:
+            return
+        held = Held()
+        self.walls[wall.number] = held
+        held.ground = new_ground(wall.obstacle)
+        ends = ((wall.x, wall.y), (wall.x + wall.edge_x, wall.y + wall.edge_y))
+        held.handle = new_segment(held.ground, ends, wall.surface)
+        add_body(self.space, held.ground)
+        add_shape(self.space, held.handle)
+
+    # -- joints -------------------------------------------------------------------------------
+
+    @cython.cfunc
+    def tie(self, tie: Tie) -> cython.void:
+        """Put a joint in."""
+        if tie in self.ties:
+            return
+        self.ties.append(tie)
+        self.make_parts(tie)
+        self.add_parts(tie)
+
+    @cython.cfunc
+    def make_parts(self, tie: Tie) -> cython.void:
+        """Make the parts of a joint begin anew."""
+        k: cython.int
+        a: Handle = tie.a.handle
+        b: Handle = ground_of(self.space) if tie.to_world else tie.b.handle
+        ends = ((tie.anchor_ax, tie.anchor_ay), (tie.anchor_bx, tie.anchor_by))
+        part: Held
+        for k in range(len(tie.parts)):
+            kind, turned, numbers, settings = tie.parts[k]
+            if len(tie.joints) <= k:
+                tie.joints.append(Held())
+            part = tie.joints[k]
+            p, q, r = numbers
+            first: Handle = b if turned else a
+            second: Handle = a if turned else b
+            part.handle = make_joint(kind, part.handle, first, second, ends, p, q, r)
+            set_joint(part.handle, settings, not tie.pinned)
+            if tie.is_rope and k == 0:
+                set_max_bias(part.handle, 0.0)
+
+    @cython.cfunc
+    def add_parts(self, tie: Tie) -> cython.void:
+        """Put the parts of a joint in."""
+        part: Held
+        for part in tie.joints:
+            add_joint(self.space, part.handle)
+
+    @cython.cfunc
+    def remove_parts(self, tie: Tie) -> cython.void:
+        """Take the parts of a joint out."""
+        part: Held
+        for part in tie.joints:
+            remove_joint(self.space, part.handle)
+
+    @cython.cfunc
+    def untie(self, tie: Tie) -> cython.void:
+        """Take a joint out."""
+        self.remove_parts(tie)
+        self.ties.remove(tie)
+
+    @cython.cfunc
+    def draw_in(self, tie: Tie, speed: cython.double) -> cython.void:
+        """Bound the speed at which a rope, if it is too long, is drawn in.
+
+        A body that is drawn in keeps moving, which makes the rope slack.
+        """
+        part: Held = tie.joints[0]
+        set_max_bias(part.handle, speed)
+
+    # -- a step -------------------------------------------------------------------------------
+
+    @cython.cfunc
+    def forget(self, h: cython.double) -> cython.void:
+        """Make what the solver remembers fit a step of h seconds.
+
+        The solver begins with the impulses of the step before, scaled by the ratio of the steps'
+        lengths, but takes back the unscaled ones: a drive at its bound would push with
+        F (2 h - h before), and impacts would be undone by half. So the impulses of contacts are
+        scaled where they are kept, and the solver is told that both steps are equally long. Joints
+        of bodies begin anew.
+        """
+        ratio: cython.double = 0.0 if self.stale else h / self.last_step
+        self.stale = False
+        k: cython.int
+        if ratio != 1.0:
+            for k in range(self.arbiters.find(self.space)):
+                scale(self.arbiters.at(k), ratio)
+            tie: Tie
+            for tie in self.ties:
+                self.remove_parts(tie)
+                self.make_parts(tie)
+                self.add_parts(tie)
+        self.last_step = h
+
+    @cython.cfunc
+    def renew(self, body: Body) -> cython.void:
+        """Let the joints of a body begin anew."""
+        self.disengage(body)
+        if body.is_robot:
+            self.hold_by(body, body.control)
+        else:
+            self.hold_by(body, ground_of(self.space))
+        self.engage(body)
+
+    @cython.cfunc
+    def go(self, h: cython.double, growth: cython.double) -> cython.void:
+        """Step by h seconds, with all bodies moving as they are aimed, and read what came of it."""
+        body: Body
+        slips: cython.bint = False
+        for body in self.bodies:
+            slips = slips or body.slips
+            if body.is_robot and body.holds and not body.engaged:
+                self.hold_by(body, body.control)
+                self.engage(body)
+        for body in self.bodies:
+            if body.is_robot and body.engaged and not body.holds:
+                self.disengage(body)
+        if slips and growth * h < self.last_step:
+            for body in self.bodies:
+                if body.slips and body.engaged:
+                    self.renew(body)
+        self.forget(h)
+        tie: Tie
+        for tie in self.ties:
+            if tie.is_rope:
+                self.draw_in(tie, tie.turn * h)
+        for body in self.bodies:
+            self.prepare(body, h)
+        step(self.space, h)
+        self.used = True
+        for body in self.bodies:
+            where: Vector = position_of(body.handle)
+            fast: Vector = velocity_of(body.handle)
+            body.x, body.y, body.angle = where.x, where.y, angle_of(body.handle)
+            body.vx, body.vy, body.spin = fast.x, fast.y, spin_of(body.handle)
+            if not body.is_robot and body.engaged:
+                body.held = used_of(body.pivot) / h
+                body.twist_held = used_of(body.gear) / h
+            if body.is_robot and body.slips:
+                share: cython.double = used_of(body.pivot) / (body.force * h)
+                body.effort = max(body.effort, share)
+                share = used_of(body.gear) / (body.torque * h)
+                body.effort = max(body.effort, share)
+
+    @cython.cfunc
+    def prepare(self, body: Body, h: cython.double) -> cython.void:
+        """Tell the engine of a body all that it needs for a step of h seconds."""
+        vx: cython.double = body.aim_x
+        vy: cython.double = body.aim_y
+        spin: cython.double = body.aim_spin
+        if body.is_robot:
+            if body.engaged:  # joints act on the velocity of the step after this
+                body.follow(body.angle + (body.spin if body.slips else body.turning) * h, h)
+                aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+                body.aim_x, body.aim_y, body.aim_spin = vx, vy, spin
+        elif not body.slips and (vx != 0.0 or vy != 0.0 or spin != 0.0):
+            # It gets its velocity at the end, so that an impact has the right one. With that it
+            # would not go far enough, so it is put ahead by the difference.
+            body.x = body.x + h * (vx - body.end_x)
+            body.y = body.y + h * (vy - body.end_y)
+            body.angle = body.angle + h * (spin - body.end_spin)
+            vx, vy, spin = body.end_x, body.end_y, body.end_spin
+            body.aim_x, body.aim_y, body.aim_spin = vx, vy, spin
+            body.placed = True
+        if not body.is_robot and body.grip > 0.0:
+            self.brake(body, h)
+        if body.placed:
+            put(body.handle, body.x, body.y, body.angle)
+            body.placed = False
+        if body.pulled:
+            push(body.handle, body.pull_x, body.pull_y, body.pull_torque)
+        aim(body.handle, vx, vy, spin)
+
+    @cython.cfunc
+    def brake(self, body: Body, h: cython.double) -> cython.void:
+        """Let the floor hold a prop that slips; a prop at rest is free until it is hit."""
+        force: cython.double = body.allowed
+        torque: cython.double = body.twist_allowed
+        if body.slips:
+            hold(body, h)
+        else:
+            body.allowed = body.twist_allowed = 0.0
+        if body.allowed != force or body.twist_allowed != torque:
+            set_max_force(body.pivot, body.allowed)
+            set_max_force(body.gear, body.twist_allowed)
+
+    # -- freeing ------------------------------------------------------------------------------
+
+    @cython.cfunc
+    def free(self) -> cython.void:
+        """Free the space; nothing of it is used after that."""
+        self.empty()
+        self.take_walls_down()
+        free_space(self.space)
+        self.space = NOTHING
+
+
+@cython.cfunc
+def free_tie(tie: Tie) -> cython.void:
+    """Free the joints of a tie that is in no space."""
+    part: Held
+    for part in tie.joints:
+        free_joint(part.handle)
+    tie.joints = []
+
+
+@cython.cfunc
+def free_things_of(body: Body) -> cython.void:
+    """Free what a body that is in no space has in the engine."""
+    if not body.made:
+        return
+    body.made = False
+    shape: Held
+    for shape in body.shapes:
+        free_shape(shape.handle)
+    body.shapes = []
+    if body.is_robot or body.grip > 0.0:
+        free_joint(body.pivot)
+        free_joint(body.gear)
+    if body.is_robot:
+        free_body(body.control)
+    free_body(body.handle)

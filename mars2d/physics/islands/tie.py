@@ -1,0 +1,144 @@
+"""Ties: what joints do to two bodies, or to one and the world; when they hold, and how firmly."""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import cosine_sine, length
+from mars2d.physics.islands.body import Body
+
+__all__ = ["Tie"]
+
+
+@cython.final
+@cython.cclass
+class Tie:
+    """A joint. b: the second body; where there is none, the world, and a again.
+
+    A rope holds its bodies while it is taut; others always do.
+    """
+
+    a: Body
+    b: Body
+    to_world: cython.bint
+    anchor_ax: cython.double
+    anchor_ay: cython.double
+    anchor_bx: cython.double
+    anchor_by: cython.double
+    length: cython.double  # of a rope or rod, or a spring at rest
+    is_rope: cython.bint
+    always: cython.bint
+    rigid: cython.bint
+    pinned: cython.bint
+    parts: list[Any]  # how it is made in the solver: kind, whether turned round, three numbers
+    joints: list[Any]  # there
+    # as measured now
+    arm_ax: cython.double
+    arm_ay: cython.double
+    arm_bx: cython.double
+    arm_by: cython.double
+    normal_x: cython.double
+    normal_y: cython.double
+    apart: cython.double
+    slack: cython.double
+    turn: cython.double
+
+    def __init__(
+        self,
+        a: Body,
+        b: Body | None,
+        anchors: list[float],
+        far: float,
+        is_what: dict[str, bool],
+        parts: list[Any],
+    ) -> None:
+        """Take its bodies, its ends in their frames, its length, its nature, and its parts."""
+        self.a, self.b, self.to_world = a, a if b is None else b, b is None
+        self.anchor_ax, self.anchor_ay, self.anchor_bx, self.anchor_by = anchors
+        self.length = far
+        self.is_rope, self.always = is_what["is_rope"], is_what["always"]
+        self.rigid, self.pinned = is_what["rigid"], is_what["pinned"]
+        self.parts, self.joints = parts, []
+        self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
+        self.normal_x = self.normal_y = self.apart = self.slack = self.turn = 0.0
+
+    @cython.cfunc
+    def measure(self) -> cython.void:
+        """Measure where its ends are."""
+        c: cython.double
+        s: cython.double
+        c, s = cosine_sine(self.a.angle)
+        self.arm_ax = c * self.anchor_ax - s * self.anchor_ay
+        self.arm_ay = s * self.anchor_ax + c * self.anchor_ay
+        x: cython.double = self.anchor_bx
+        y: cython.double = self.anchor_by
+        self.arm_bx, self.arm_by = x, y
+        if not self.to_world:
+            c, s = cosine_sine(self.b.angle)
+            self.arm_bx = c * x - s * y
+            self.arm_by = s * x + c * y
+            x = self.b.x + self.arm_bx
+            y = self.b.y + self.arm_by
+        x = x - (self.a.x + self.arm_ax)
+        y = y - (self.a.y + self.arm_ay)
+        self.apart = length(x, y)
+        scale: cython.double = max(self.apart, 1e-12)
+        self.normal_x, self.normal_y = x / scale, y / scale
+        self.slack = self.length - self.apart if self.is_rope else 0.0
+
+    @cython.cfunc
+    def may_hold(self) -> cython.bint:
+        """Return whether it may hold its bodies in this control step."""
+        if self.always:
+            return True
+        way: cython.double = self.a.way + 2 * length(self.anchor_ax, self.anchor_ay)
+        if not self.to_world:
+            way = way + self.b.way + 2 * length(self.anchor_bx, self.anchor_by)
+        return self.slack <= way
+
+    @cython.cfunc
+    def holds(self, taut: cython.double) -> cython.bint:
+        """Return whether it holds its bodies now; taut: the slack of a rope that is straight."""
+        return self.always or self.slack <= taut
+
+    @cython.cfunc
+    def time_to_jerk(
+        self, stretch: cython.double, give: cython.double, taut: cython.double
+    ) -> cython.double:
+        """Return how long a substep may be, seconds.
+
+        Until then no rope gets longer by more than `stretch` metres, and no joint is pulled apart
+        by more than `give`, since its ends go straight on instead of round.
+        """
+        nx: cython.double = self.normal_x
+        ny: cython.double = self.normal_y
+        a: Body = self.a
+        b: Body = self.b
+        part_x: cython.double = a.now_spin * self.arm_ay - a.now_x
+        part_y: cython.double = -a.now_y - a.now_spin * self.arm_ax
+        turn: cython.double = a.bend + a.now_spin * a.now_spin * length(self.arm_ax, self.arm_ay)
+        if not self.to_world:
+            part_x = part_x + b.now_x - b.now_spin * self.arm_by
+            part_y = part_y + b.now_y + b.now_spin * self.arm_bx
+            turn = turn + b.bend + b.now_spin * b.now_spin * length(self.arm_bx, self.arm_by)
+        along: cython.double = part_x * nx + part_y * ny
+        if self.length > 0:  # motion across a rope or rod lengthens it, too
+            across: cython.double = part_x * ny - part_y * nx
+            turn = turn + across * across / max(self.apart, 1e-12)
+        self.turn = turn
+        h: cython.double = 1e300
+        if self.is_rope:
+            room: cython.double = max(self.slack + stretch, stretch / 64)
+            rate: cython.double = max(along, 0.0)
+            h = 2 * room / (rate + sqrt(rate * rate + 2 * turn * room) + 1e-12)
+        if self.slack <= taut and self.rigid:
+            # The ends of a hinge may part in any direction at the start, those of a rod along it.
+            speed: cython.double = 0.0
+            if self.length <= 0:
+                speed = length(part_x, part_y)
+            elif not self.is_rope:
+                speed = abs(along)
+            h = min(h, 2 * give / (speed + sqrt(speed * speed + 2 * turn * give) + 1e-12))
+        return h

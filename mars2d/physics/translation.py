@@ -1,0 +1,209 @@
+"""Translation: a scenario in terms of the islands, which know numbers alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.bodies.constraints import (
+    Constraint,
+    FixedDistance,
+    MaxDistance,
+    Pin,
+    SpringDamper,
+    TurningRange,
+    TurningSpring,
+)
+from mars2d.bodies.joints.base import AttachedJoint
+from mars2d.bodies.props.base import Prop
+from mars2d.bodies.rigid import Rigid
+from mars2d.core.materials import GRAVITY
+from mars2d.core.plane import edges_of
+from mars2d.physics import settings
+from mars2d.physics.islands import chipmunk, islands
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["iterations_of", "mover_of"]
+
+Float = NDArray[np.float64]
+
+
+def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) -> Any:
+    """Return what moves the bodies of a scenario.
+
+    states: (N, 6) where and how all bodies move at first; None: as the scenario says. slips: which
+    of them slip then.
+    """
+    module = islands()
+    parts: tuple[Robot | Prop, ...] = (*scenario.robots, *scenario.props)
+    bodies = [
+        _body(module, i, rigid, part)
+        for i, (rigid, part) in enumerate(zip(scenario.bodies, parts, strict=True))
+    ]
+    if states is not None:
+        for body, state, one in zip(bodies, states.tolist(), slips, strict=True):
+            body.move(state, bool(one))
+    return module.Mover(
+        module.Accuracy(_accuracy(scenario)),
+        module.Glide(*(part.tolist() for part in _quadrature(20))),
+        bodies,
+        _walls(module, scenario),
+        [_tie(module, tie, bodies) for tie in scenario.ties],
+        set(scenario.joined),
+    )
+
+
+def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
+    shape, inertia = rigid.shape, rigid.inertia
+    (x, y), radius = shape.bound
+    pieces = [
+        module.Piece(
+            [(float(x), float(y)) for x, y in piece.vertices], _sides(piece.vertices),
+            float(piece.radius),
+        )
+        for piece in shape.pieces
+    ]  # fmt: skip
+    surface = float(rigid.surface.friction), float(rigid.surface.restitution)
+    body = module.Body(number, isinstance(part, Robot), pieces, surface)
+    what = {
+        "mass": inertia.mass, "moment": inertia.moment, "radius": radius,
+        "offset_x": x, "offset_y": y, "is_disc": rigid.is_disc and not (x or y),
+    }  # fmt: skip
+    if isinstance(part, Prop):
+        what |= {"grip": part.ground_friction * inertia.mass * GRAVITY, "lever": shape.lever}
+    else:
+        drive = part.drive
+        what |= {
+            "force": drive.max_force, "torque": drive.max_torque, "rim": radius,
+            "in_robot_frame": drive.frame == "robot",
+        }  # fmt: skip
+    body.describe(what)
+    body.move([float(number) for number in (*rigid.pose, *rigid.velocity)], False)
+    return body
+
+
+def _walls(module: Any, scenario: Scenario) -> list[Any]:
+    edges = [
+        (-1 - k, (*a, *b), surface)
+        for k, surface in enumerate(scenario.surfaces)
+        for a, b in edges_of(surface.outline)
+    ]
+    return [
+        module.Wall(
+            number, obstacle, list(map(float, ends)),
+            (float(surface.friction), float(surface.restitution)),
+        )
+        for number, (obstacle, ends, surface) in enumerate(edges)
+    ]  # fmt: skip
+
+
+def _tie(module: Any, attached: AttachedJoint, bodies: Sequence[Any]) -> Any:
+    a = bodies[attached.a]
+    b = bodies[attached.b] if attached.b >= 0 else None
+    anchors = [*attached.joint.anchor_a, *attached.joint.anchor_b]
+    kinds = [type(each) for each in attached.constraints]
+    is_what = {
+        "is_rope": MaxDistance in kinds,
+        "always": any(kind is not MaxDistance for kind in kinds),
+        "rigid": any(kind in (MaxDistance, FixedDistance, Pin) for kind in kinds),
+        "pinned": attached.pinned,
+    }
+    return module.Tie(
+        a, b, list(map(float, anchors)), float(attached.length), is_what,
+        [_translated(attached, each) for each in attached.constraints],
+    )  # fmt: skip
+
+
+def _accuracy(scenario: Scenario) -> dict[str, float]:
+    """Return the deepest entry in one substep, and all else that says how fine these are."""
+    overlap = scenario.max_overlap
+    thinnest = min(body.shape.thickness for body in scenario.bodies)
+    slop = min(settings.SLOP, overlap / 4, thinnest / 32)
+    # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
+    entry = min(0.75 * overlap, 0.125 * thinnest)
+    springs = [_swing(tie, scenario.bodies) for tie in scenario.ties]
+    return {
+        "max_overlap": float(overlap),
+        "entry": entry,
+        "slop": slop,
+        "pressed": settings.PRESSED * slop,
+        "turned": settings.TURNED * overlap * max(1.0, overlap / settings.DEFAULT_OVERLAP),
+        "growth": settings.GROWTH,
+        "linger": settings.LINGER,
+        "slack": settings.SLACK,
+        "taut": settings.TAUT,
+        "stretch": settings.STRETCH * entry,
+        "give": settings.BENT * settings.STRETCH * entry,
+        "push_depth": settings.PUSH_DEPTH * overlap,
+        "push_room": settings.PUSH_ROOM * overlap,
+        "strained": settings.STRAINED * entry,
+        "strain_growth": settings.STRAIN_GROWTH,
+        "strain_fade": settings.STRAIN_FADE,
+        "toil": settings.TOIL,
+        "spring_step": min(springs, default=1e300),
+        "iterations": settings.ITERATIONS,
+        "iterations_unequal": settings.ITERATIONS_UNEQUAL,
+        "iterations_ties": settings.ITERATIONS_JOINTS,
+        "graze": min(settings.SLOP, thinnest / 32),
+    }
+
+
+def _sides(corners: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return the outward normals of a polygon's sides; none for a disc."""
+    if len(corners) < 2:
+        return []
+    ends = zip(corners, (*corners[1:], corners[0]), strict=True)
+    ways = [(x2 - x1, y2 - y1) for (x1, y1), (x2, y2) in ends]
+    lengths = [sqrt(x * x + y * y) for x, y in ways]
+    return [(y / far, -x / far) for (x, y), far in zip(ways, lengths, strict=True) if far > 0]
+
+
+def _quadrature(count: int) -> tuple[Float, Float]:
+    """Return nodes and weights for integrals from 0 to 1 of functions that bend sharply at 0.
+
+    They are those of Gauss and Legendre in t, where the variable of the integrals is t^3.
+    """
+    t, weight = np.polynomial.legendre.leggauss(count)
+    t = (t + 1) / 2
+    return t**3, 1.5 * weight * t**2
+
+
+def iterations_of(scenario: Scenario) -> int:
+    """Return the least number of iterations that any island has."""
+    return settings.ITERATIONS_JOINTS if scenario.ties else settings.ITERATIONS
+
+
+def _swing(joint: AttachedJoint, bodies: Sequence[Rigid]) -> float:
+    """Return the longest substep that resolves how a joint's springs swing, seconds."""
+    springs = [each for each in joint.constraints if isinstance(each, SpringDamper | TurningSpring)]
+    steps = (settings.SWING / joint.frequency(s, bodies) for s in springs if s.stiffness)
+    return min(steps, default=1e300)
+
+
+def _translated(
+    attached: AttachedJoint, constraint: Constraint
+) -> tuple[int, bool, tuple[float, float, float], float]:
+    """Return the engine's joint for a constraint: kind, whether b is first, numbers, and bias."""
+    bias = settings.JOINT_BIAS
+    turned = attached.turned if attached.b >= 0 else -attached.turned
+    world_first = attached.b < 0  # it is a that turns against the world
+    match constraint:
+        case MaxDistance(length=length):
+            return chipmunk.SLIDE, False, (0.0, float(length) - settings.TAUT, 0.0), bias
+        case FixedDistance(length=length):
+            return chipmunk.PIN, False, (float(length), 0.0, 0.0), bias
+        case SpringDamper(length=length, stiffness=k, damping=c):
+            return chipmunk.DAMPED_SPRING, False, (float(length), float(k), float(c)), bias
+        case Pin():
+            return chipmunk.PIVOT, False, (0.0, 0.0, 0.0), bias
+        case TurningRange(least=least, largest=largest):
+            numbers = float(turned + least), float(turned + largest), 0.0
+            return chipmunk.ROTARY_LIMIT, world_first, numbers, bias
+        case TurningSpring(stiffness=k, damping=c):
+            return chipmunk.ROTARY_SPRING, world_first, (float(-turned), float(k), float(c)), bias
+    raise TypeError(f"{constraint!r} is unknown to the physics")

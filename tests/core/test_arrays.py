@@ -1,0 +1,37 @@
+"""Arrays that can't be written, and bounds of values."""
+
+import math
+import sys
+
+import numpy as np
+import pytest
+
+from mars2d.core.arrays import frozen, locked, within
+
+
+def test_a_locked_array_is_the_same_one_and_can_not_be_written():
+    array = np.zeros(3)
+    assert locked(array) is array
+    with pytest.raises(ValueError, match="read-only"):
+        array[0] = 1.0
+
+
+def test_a_frozen_array_is_a_view_of_one_that_can_still_be_written():
+    array = np.zeros(3)
+    view = frozen(array)
+    array[0] = 1.0
+    assert view[0] == 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        view[0] = 2.0
+
+
+@pytest.mark.parametrize("most", [1.0, 1e6, 1e300, sys.float_info.max])
+@pytest.mark.parametrize("count", [1, 2, 1000])
+def test_values_are_within_a_bound_if_each_of_them_is(most, count):
+    for value in (0.0, most, -most, most / 2, 1e-300):
+        assert within(most, np.full((2, count), value))
+    for value in (math.nextafter(most, math.inf), np.inf, -np.inf, np.nan):
+        for place in (0, -1):
+            values = np.zeros((2, count))
+            values[place, place] = value
+            assert not within(most, values)

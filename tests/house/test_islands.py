@@ -1,0 +1,118 @@
+"""The islands' modules can be joined into one, and each has what the others take from it."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from mars2d.physics import islands
+from mars2d.physics.islands import build, chipmunk, shadow
+
+FOLDER = Path(islands.__file__).parent
+IMPORTS = "mars2d.physics.islands."
+
+
+def text_of(name: str) -> str:
+    return (FOLDER / name).read_text(encoding="utf-8")
+
+
+def defined(text: str) -> Iterator[str]:
+    """Yield the names that a module defines at its top level, once for each definition."""
+    for node in ast.parse(text).body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            yield node.name
+        elif isinstance(node, (ast.Assign, ast.AnnAssign)):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for target in targets:
+                yield from (each.id for each in ast.walk(target) if isinstance(each, ast.Name))
+
+
+def offered() -> list[str]:
+    """The names that chipmunk.pxi defines, once for each definition."""
+    own = text_of("chipmunk.pxi")
+    declared = own[own.index('    """\n    ctypedef') :]
+    found = re.findall(
+        r"^(?:cdef (?!extern|enum)[^(=\n:]*?|def )(\w+) ?[(:=]", declared, flags=re.M
+    )
+    [kinds] = re.findall(r"^cdef enum:\n +(.*)$", declared, flags=re.M)
+    types = re.findall(r"^    ctypedef (?:struct |void \*)(\w+)", declared, flags=re.M)
+    return [*found, *kinds.split(", "), *types]
+
+
+def helpers() -> list[str]:
+    """The names in C that chipmunk.pxi declares for itself."""
+    own = text_of("chipmunk.pxi")
+    declared = own[own.index('    """\n    ctypedef') : own.index("def connect(")]
+    return re.findall(r"^    (?!ctypedef)\w+ (\w+)(?:\(|$)", declared, flags=re.M)
+
+
+def imports(name: str) -> Iterator[tuple[str, set[str]]]:
+    """Yield the modules of the islands that a module imports from, and the names."""
+    for node in ast.walk(ast.parse(text_of(f"{name}.py"))):
+        if isinstance(node, ast.ImportFrom) and str(node.module).startswith(IMPORTS):
+            yield node.module.removeprefix(IMPORTS), {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            yield str(node.module), {alias.name for alias in node.names}
+
+
+def test_no_name_is_defined_twice_in_all_modules_together():
+    names = Counter([*offered(), *helpers()])
+    for name in build.MODULES:
+        names.update(n for n in defined(text_of(f"{name}.py")) if n != "__all__")
+    assert len(names) > 90
+    assert {name: count for name, count in names.items() if count > 1} == {}
+
+
+def test_chipmunk_is_the_same_in_python_and_in_c():
+    """What is in C alone is for itself: it hands functions' addresses over, and takes them."""
+    assert len(chipmunk.__all__) == len(set(chipmunk.__all__)) > 45
+    assert set(chipmunk.__all__) <= set(dir(chipmunk))
+    alone = {"connect", "surfaced", "new_joint", "Found", "note_arbiter", "number_of", "Engine_"}
+    assert {"engine", "vector"} <= set(helpers())
+    assert set(offered()) - alone == set(chipmunk.__all__)
+
+
+def test_each_method_of_arbiters_is_there_in_both():
+    own = text_of("chipmunk.pxi")
+    body = own[own.index("cdef class Arbiters:") : own.index("cdef int number_of")]
+    methods = set(re.findall(r"^    (?:cdef|def) .*?(\w+)\(", body, flags=re.M))
+    assert methods - {"__dealloc__"} == {n for n in vars(chipmunk.Arbiters) if n[0] != "_"}
+
+
+@pytest.mark.parametrize("name", build.MODULES)
+def test_a_module_imports_only_what_is_there_when_they_are_joined(name):
+    """Of those before it in the list, by their own names; of C's mathematics; of typing."""
+    before = build.MODULES[: build.MODULES.index(name)]
+    known = {"chipmunk": set(chipmunk.__all__), "math": {"ceil", "floor", "fmod", "sqrt"}}
+    known |= {
+        "typing": {"Any"},
+        "__future__": {"annotations"},
+        "mars2d.physics.islands": {"shadow"},
+    }
+    known |= {each: set(defined(text_of(f"{each}.py"))) for each in before}
+    for module, names in imports(name):
+        assert names <= known.get(module, set()), f"{names} of {module}"
+
+
+def test_every_module_is_joined():
+    apart = {"__init__", "build", "chipmunk", "plain", "shadow"}
+    assert {path.stem for path in FOLDER.glob("*.py")} - apart == set(build.MODULES)
+
+
+def test_cythons_names_that_the_modules_use_are_there_in_python():
+    used = {
+        n for each in build.MODULES for n in re.findall(r"cython\.(\w+)", text_of(f"{each}.py"))
+    }
+    assert used <= set(shadow.__all__)
+
+
+def test_what_is_joined_imports_nothing_of_its_own_parts():
+    joined = build.joined()
+    assert IMPORTS not in joined
+    assert "cython.Doubles" not in joined
+    assert f'FINGERPRINT = "{build.fingerprint()}"' in joined

@@ -1,0 +1,101 @@
+"""The islands as Python runs them: their bodies and pairs, and a look at each of their substeps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mars2d import Scenario
+from mars2d.physics import translation
+from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.island import Island
+from mars2d.physics.islands.mover import Mover
+from mars2d.physics.islands.pair import Wall
+
+FIND_TESTS = f"import sys; sys.path.append({str(Path(__file__).parents[1])!r})\n"
+"""Code by which a process of its own finds these tests, after the package that is installed."""
+
+SQUARE = np.array([-0.5 - 0.5j, 0.5 - 0.5j, 0.5 + 0.5j, -0.5 + 0.5j])
+"""A square of one metre, counter-clockwise, as complex numbers."""
+
+DISC = np.array([0j])
+"""The middle of a disc."""
+
+
+@contextmanager
+def plainly() -> Iterator[None]:
+    """Let worlds that are made in this block do without what is compiled."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MARS2D_PLAIN", "1")
+        yield
+
+
+def mover_of(scenario: Scenario) -> Mover:
+    """Return what moves the bodies of a scenario, in Python."""
+    with plainly():
+        mover: Mover = translation.mover_of(scenario, None, ())
+    return mover
+
+
+@contextmanager
+def looked_at(look: Callable[[Island, float], None]) -> Iterator[None]:
+    """Call look(island, h) after each substep of h seconds of an island in Python."""
+    original = Island.close
+
+    def close(island: Island, time: float, h: float) -> None:
+        original(island, time, h)
+        look(island, h)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Island, "close", close)
+        yield
+
+
+def piece_of(vertices: Any, radius: float = 0.0) -> Piece:
+    """Return a piece: the hull of vertices (k,), counter-clockwise, and a radius round it."""
+    corners = np.asarray(vertices, dtype=complex)
+    edges = np.roll(corners, -1) - corners
+    edges = edges[np.abs(edges) > 1e-100]
+    return Piece(pairs_of(corners), pairs_of(-1j * edges / np.abs(edges)), radius)
+
+
+def pairs_of(points: Any) -> list[tuple[float, float]]:
+    """Return complex numbers as pairs of numbers."""
+    return [(float(z.real), float(z.imag)) for z in np.asarray(points)]
+
+
+def body_of(*pieces: Piece, number: int = 0, **what: float) -> Body:
+    """Return a prop of some pieces, without friction on the floor; more of what it is, by name."""
+    body = Body(number, False, list(pieces), (0.0, 0.0))
+    reach = max(corner.lever + piece.radius for piece in pieces for corner in piece.corners)
+    round_one = len(pieces) == 1 and len(pieces[0].corners) == 1 and not pieces[0].corners[0].lever
+    usual = {"mass": 1.0, "moment": 1.0, "radius": reach, "offset_x": 0.0, "offset_y": 0.0}
+    body.describe({**usual, "is_disc": round_one, **what})
+    return body
+
+
+def wall_of(start: complex, end: complex, number: int = 0) -> Wall:
+    """Return a wall: the obstacle -1 - number."""
+    ends = [start.real, start.imag, end.real, end.imag]
+    return Wall(number, -1 - number, ends, (0.0, 0.0))
+
+
+def place(body: Body, position: complex, angle: float = 0.0) -> None:
+    """Put a body somewhere."""
+    body.x, body.y, body.angle = position.real, position.imag, angle
+    body.locate()
+
+
+def let_move(body: Body, velocity: complex, spin: float = 0.0, bend: float = 0.0) -> None:
+    """Let a body have a velocity that turns by `bend` m/s^2 at most."""
+    body.now_x, body.now_y, body.now_spin, body.bend = velocity.real, velocity.imag, spin, bend
+
+
+def states_of(bodies: Sequence[Body]) -> np.ndarray:
+    """Return x, y, theta of bodies, (k, 3)."""
+    return np.array([(body.x, body.y, body.angle) for body in bodies])
