@@ -172,6 +172,8 @@ def _touches(
     contacts: NDArray[np.void], hunters: tuple[int, ...], evaders: tuple[int, ...]
 ) -> list[Capture]:
     """Return a capture for each touch of a hunter and an evader, in the order of the contacts."""
+    if not len(contacts):
+        return []
     a, b = contacts["a"], contacts["b"]
     hunts = np.isin(a, hunters) & np.isin(b, evaders)
     hunted = np.isin(b, hunters) & np.isin(a, evaders)

@@ -43,7 +43,7 @@ class Voronoi(Addon):
     )
     resolution: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,
-        doc="of the sums over a density, see Tessellation; None: 1/16 of the workspace's side",
+        doc="of sums over a density, see Tessellation; None: 1/12 of the workspace's longer side",
     )  # fmt: skip
 
     def of(self, frame: FrameLike) -> Tessellation:

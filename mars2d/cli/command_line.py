@@ -61,7 +61,7 @@ def _outcome(argv: Sequence[str] | None) -> int:
         print(f"mars2d: {one_line(error)}", file=sys.stderr)
         return FAULT
     except BrokenPipeError:
-        sys.stderr.close()  # the reader of our output, such as `head`, has ended
+        _stop_telling()  # the reader of our output, such as `head`, has ended
     except Exception as error:
         if was_interrupted(error):
             raise
@@ -72,6 +72,14 @@ def _outcome(argv: Sequence[str] | None) -> int:
         print("mars2d: this is a fault of MARS2D's; please report it as above", file=sys.stderr)
         return FAULT
     return OK
+
+
+def _stop_telling() -> None:
+    """Let what is still to be printed go nowhere: Python would fail with it as it ends."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
+    sys.stderr.close()
 
 
 def parser() -> argparse.ArgumentParser:

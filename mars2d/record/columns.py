@@ -14,6 +14,7 @@ from weakref import finalize
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arrays import locked
 from mars2d.core.errors import InputError
 
 __all__ = ["Column", "DiskError", "Scratch", "Storage", "Texts", "blocks"]
@@ -52,6 +53,12 @@ class Column:
             self._grow(row, row + 1)
         self._rows[row] = value
 
+    def place(self, row: int) -> NDArray[Any]:
+        """Return the array in which this row, and others up to its end, are to be written."""
+        if row >= len(self._rows):
+            self._grow(row, row + 1)
+        return self._rows
+
     def write_block(self, row: int, values: NDArray[Any]) -> None:
         """Write several rows, of which the first is at most the one after the last."""
         end = row + len(values)
@@ -65,9 +72,7 @@ class Column:
 
     def upto(self, count: int) -> NDArray[Any]:
         """Return the first `count` rows, as a view that can't be written."""
-        view = self._rows[:count]
-        view.flags.writeable = False
-        return view
+        return locked(self._rows[:count])
 
     def _grow(self, filled: int, rows: int) -> None:
         """Make room for `rows` rows, and keep the first `filled` ones."""

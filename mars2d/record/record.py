@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arrays import frozen
 from mars2d.core.errors import counted
 from mars2d.core.scene import Scene
 from mars2d.record.columns import Texts, blocks
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
-__all__ = ["COLUMNS", "Record", "frozen", "load"]
+__all__ = ["COLUMNS", "Record", "load"]
 
 Float = NDArray[np.float64]
 
@@ -306,10 +307,3 @@ def load(path: str | Path, largest: float = LOAD_LIMIT) -> Record:
     from mars2d.output import formats
 
     return formats.load(path, largest)
-
-
-def frozen(array: NDArray[Any]) -> NDArray[Any]:
-    """Return a view of an array that can't be written."""
-    view = array.view()
-    view.flags.writeable = False
-    return view

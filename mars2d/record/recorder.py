@@ -24,6 +24,9 @@ __all__ = ["History", "Recorder"]
 
 Float = NDArray[np.float64]
 
+KEPT = frozenset({np.dtype(bool), np.dtype(float)})
+"""The types in which readings are kept; a 3 is kept as 3.0, since 3.5 may follow."""
+
 
 class History:
     """The record so far, as views: time (k,), pose (k, 3, n), command (k, 2, n) and so on."""
@@ -94,6 +97,8 @@ class Recorder:
             "prop_pose": storage((3, props), float, capacity),
             "effort": storage((n,), float, capacity),
         }
+        self._places: list[tuple[str, NDArray[Any]]] = []  # where rows of columns are written
+        self._room = 0  # the number of rows that all of them have
         self._capacity = capacity
         self._storage = storage
         self.scenario = scenario
@@ -104,38 +109,39 @@ class Recorder:
         self._contents = Texts(storage)
         self.rows = 0
         self.sensor_robots: dict[str, tuple[int, ...]] = {}
-        self._reads: dict[str, Callable[..., Any]] = {}
+        self._blamed: dict[str, called] = {}  # for an error in a sensor's readings
         for i, robot in enumerate(scenario.robots):
             for sensor in robot.sensors:
                 if sensor.recorded:
                     self.sensor_robots[sensor.key] = (*self.sensor_robots.get(sensor.key, ()), i)
-                    self._reads.setdefault(sensor.key, sensor.read)
+                    blamed = called(f"sensor {sensor.key!r}", sensor.read)
+                    self._blamed.setdefault(sensor.key, blamed)
 
     def write(
-        self,
-        time: float,
-        *,
-        readings: Mapping[str, Sequence[Any] | NDArray[Any]],
-        **columns: Float | float,
+        self, readings: Mapping[str, Sequence[Any] | NDArray[Any]], **columns: Float | float
     ) -> None:
-        """Write a row: the world at `time`. columns: the rows of the other columns, by name."""
+        """Write a row: the readings by the sensors' names, and the rows of all columns by name."""
         row = self.rows
-        self._columns["time"].write(row, time)
-        for name, value in columns.items():
-            self._columns[name].write(row, value)
+        if row >= self._room:
+            places = [(name, column.place(row)) for name, column in self._columns.items()]
+            self._room = min(len(place) for _, place in places)
+            self._places = [(name, place) for name, place in places if place.size]
+        for name, place in self._places:
+            place[row] = columns[name]
         for name, values in readings.items():
-            with called(f"sensor {name!r}", self._reads[name]):  # whom to blame for an error
+            try:
                 self._write_readings(row, name, values)
+            except BaseException as error:
+                self._blamed[name].blame(error)
+                raise
         self.rows += 1
 
     def _write_readings(self, row: int, name: str, values: Sequence[Any] | NDArray[Any]) -> None:
         given = _as_reading(name, values)
-        # A first reading of 3 may be followed by 3.5: whole numbers are kept as floats.
-        dtype = bool if given.dtype.kind == "b" else float
         column = self._sensors.get(name)
         if column is None:
-            column = self._sensors[name] = self._storage(given.shape, dtype, self._capacity)
-        if given.shape != column.shape or dtype != column.dtype:
+            column = self._sensors[name] = self._storage(given.shape, given.dtype, self._capacity)
+        if given.shape != column.shape or given.dtype != column.dtype:
             raise LawError(
                 f"sensor {name!r} read {shown(values)}: the shape and kind of a reading can't "
                 f"change; it was {_kind(column.dtype, column.shape)}, now it is "
@@ -252,7 +258,7 @@ class Recorder:
 
 def _as_reading(name: str, values: Sequence[Any] | NDArray[Any]) -> NDArray[Any]:
     """Return the readings of the robots that carry sensor `name` as one array (m, ...)."""
-    if isinstance(values, np.ndarray) and values.dtype == float:
+    if isinstance(values, np.ndarray) and values.dtype in KEPT:
         return values
     given = as_numbers(
         name, values,

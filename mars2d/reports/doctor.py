@@ -1,4 +1,4 @@
-"""An examination of this machine: versions, extras, display, kernel, plug-ins, physics."""
+"""An examination of this machine: versions, extras, display, engine, plug-ins, physics."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def examine() -> Iterator[Finding]:
         yield _library(name)
     yield _display()
     yield from map(_extra, EXTRAS)
-    yield _kernel()
+    yield _engine()
     yield from _plugins()
     yield _physics()
 
@@ -91,14 +91,14 @@ def _extra(extra: Extra) -> Finding:
     return Finding(extra.name, f"{offered} ({', '.join(found)})")
 
 
-def _kernel() -> Finding:
-    from mars2d.physics.kernel import reason_without
+def _engine() -> Finding:
+    from mars2d.physics.islands import reason_without
+    from mars2d.reports.remedy import remedy
 
     why = reason_without()
     if why:
-        text = f"not in use, and large teams take several times longer: {why}"
-        return Finding("kernel", text, ok=None)
-    return Finding("kernel", "compiled, and rounds as numpy does")
+        return Finding("engine", f"in Python, much slower: {why}. To mend it: {remedy()}", ok=None)
+    return Finding("engine", "compiled")
 
 
 def _plugins() -> Iterator[Finding]:

@@ -27,6 +27,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 from mars2d.core.scene import Scene
+from mars2d.core.streams import Random, Streams
 from mars2d.sensors.error_model import Imperfection
 
 __all__ = [
@@ -417,15 +418,24 @@ class Sensor(Stateful):
     def _perfect(self) -> bool:
         return self._imperfection.none
 
-    def measured(self, reading: Any, rng: np.random.Generator) -> Any:
-        """Return a perfect reading with the errors of the device, all but the latency."""
+    def measured(self, reading: Any, rng: Random) -> Any:
+        """Return a perfect reading with the errors of the device, all but the latency.
+
+        reading: or those of many devices as one array, whose first axis has one entry for each;
+        then `rng` is their `Streams`.
+        """
         return self._imperfection.of(reading, rng)
 
     def measured_all(
         self, readings: Sequence[Any] | NDArray[Any], rngs: Sequence[np.random.Generator]
     ) -> Any:
-        """Return the perfect readings of several robots with errors; an array may stay one."""
-        return self._imperfection.of_all(readings, rngs)
+        """Return the perfect readings of several robots with errors; arrays in one stay so."""
+        if isinstance(readings, np.ndarray):
+            if readings.ndim > 1:
+                return self.measured(readings, Streams(rngs))
+            each = zip(readings.tolist(), rngs, strict=True)
+            return np.array([self.measured(reading, rng) for reading, rng in each])
+        return [self.measured(each, rng) for each, rng in zip(readings, rngs, strict=True)]
 
     def lost(self, reading: Any) -> Any:
         """Return the reading in place of one that has not arrived."""
@@ -433,7 +443,7 @@ class Sensor(Stateful):
 
 
 class Scanner(Sensor):
-    """The base of sensors with many beams: `read` is `read_all` of a team of one."""
+    """The base of sensors that read a team at once: `read` is `read_all` of a team of one."""
 
     stays: ClassVar[bool] = True
 

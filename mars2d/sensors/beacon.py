@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from math import inf, pi
 from typing import Any, ClassVar, NoReturn
 
@@ -14,12 +14,13 @@ from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, 
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene, faded
+from mars2d.core.streams import Random
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
 from mars2d.sensors.base import (
     NOTHING,
     Float,
     Quantity,
-    Sensor,
+    Scanner,
     Sighting,
     Surroundings,
     sight_angle,
@@ -101,7 +102,7 @@ def _place(name: str, beacons: Mapping[str, Point]) -> Point:
         ) from None
 
 
-class Beacon(Sensor):
+class Beacon(Scanner):
     """Measures the range and bearing of the beacons that the add-on Beacon puts into the world.
 
     A law finds a mapping from each beacon's name to a `Sighting`; one that is not seen has range
@@ -116,7 +117,6 @@ class Beacon(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (RANGE, BEARING)
-    stays: ClassVar[bool] = True
 
     range: float = number(default=100.0, above=0, high=1e6, unit="m", doc="how far it sees")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about its heading")
@@ -143,22 +143,27 @@ class Beacon(Sensor):
                     f"{nearest(name, known)}"
                 )
 
-    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
-        """Return rows (k, 2) of range and bearing, (inf, nan) for a beacon that is not seen."""
-        there = world.beacons
+    def read_all(
+        self,
+        robots: Sequence[RobotLike],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],  # noqa: ARG002
+    ) -> Float:
+        """Return rows (m, k, 2) of range and bearing, (inf, nan) for a beacon that is not seen."""
+        there, mine = world.beacons, [robot.index for robot in robots]
         points = np.array([_place(name, there) for name in self._beacons])
         return sighted(
-            self.placed(robot.pose),
+            self.placed(world.pose[:, mine]),
             points,
             self.range,
             self.field_of_view,
-            None if self.through_walls else world,
             np.full(len(points), NOTHING),
-            robot.index,
+            mine,
+            None if self.through_walls else world,
         )
 
-    def measured(self, reading: Float, rng: np.random.Generator) -> Float:
-        """Return a perfect reading with errors; a beacon that is not seen stays unseen."""
+    def measured(self, reading: Float, rng: Random) -> Float:
+        """Return perfect readings with errors; a beacon that is not seen stays unseen."""
         rows: Float = super().measured(reading, rng)
         return rows if self._perfect else hold_missing(rows, reading)
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import LawError, shown
 from mars2d.core.quantity import FLAG, Quantity
+from mars2d.core.streams import Random
 
 __all__ = ["Imperfection", "as_numbers"]
 
@@ -49,15 +50,20 @@ class Imperfection:
     @cached_property
     def none(self) -> bool:
         """Whether the device has no errors."""
-        return not (any(self.noise) or any(self.resolution) or self.outliers or self.dropouts)
+        return not (self._spreads or self.outliers or self.dropouts)
+
+    @cached_property
+    def _spreads(self) -> bool:
+        """Whether values have noise or are rounded."""
+        return any(self.noise) or any(self.resolution)
 
     @cached_property
     def _limited(self) -> bool:
         """Whether a quantity of the reading has limits."""
         return any(quantity.kind not in ("number", "flag") for quantity in self.quantities)
 
-    def of(self, reading: Any, rng: np.random.Generator) -> Any:
-        """Return a perfect reading with errors."""
+    def of(self, reading: Any, rng: Random) -> Any:
+        """Return a perfect reading with errors; or those of many devices, see `Sensor.measured`."""
         true = self._checked(reading)
         if self.none and not self._limited:
             return reading
@@ -70,17 +76,6 @@ class Imperfection:
             result = np.array(result)
             result[rng.random(self._rows(result)) < self.dropouts] = self._missing(result)
         return result if result.ndim else result.item()
-
-    def of_all(
-        self, readings: Sequence[Any] | NDArray[Any], rngs: Sequence[np.random.Generator]
-    ) -> Any:
-        """Return the perfect readings of equal devices with errors, each by its own random numbers.
-
-        An array stays an array where nothing is random.
-        """
-        if self.none and isinstance(readings, np.ndarray):
-            return self.of(readings, rngs[0])
-        return [self.of(reading, rng) for reading, rng in zip(readings, rngs, strict=True)]
 
     def lost(self, reading: Any) -> Any:
         """Return the reading in place of one that has not arrived."""
@@ -108,14 +103,14 @@ class Imperfection:
                 f"sensor {self.name!r} read {shown(reading)}: it measures {count} quantities, so "
                 f"the last axis of its reading must have {count} entries"
             )
-        if true.dtype == bool and (any(self.noise) or any(self.resolution)):
+        if self._spreads and true.dtype == bool:
             raise LawError(
                 f"sensor {self.name!r} read {shown(reading)}: True or False has neither noise nor "
                 "resolution; give it outliers or drop-outs"
             )
         return true
 
-    def _disturbed(self, true: NDArray[Any], k: int, rng: np.random.Generator) -> NDArray[Any]:
+    def _disturbed(self, true: NDArray[Any], k: int, rng: Random) -> NDArray[Any]:
         """Return true values of quantity k with noise, outliers, limits and resolution."""
         quantity = FLAG if true.dtype == bool else self.quantities[k]
         noise, step = self.noise[k], self.resolution[k]

@@ -98,14 +98,15 @@ class Odometry(Sensor):
 
     def on_step(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:
         """Add the turning of the wheels in the last control step."""
+        index, b, in_world = robot.index, self._semiaxis, robot.drive.frame == "world"
         for seconds, twist in world.driven:
-            forward, left, spin = (seconds * twist[:, robot.index]).tolist()
-            if robot.drive.frame == "world":
+            forward, left, spin = (seconds * twist[:, index]).tolist()
+            if in_world:
                 forward, left = _arc_of(forward, left, self._heading, spin)
-            self._heading += spin
-            b = self._semiaxis
+                self._heading += spin
             self._roll([forward - b * spin, forward + b * spin, left], rng)
-        self._heading = float(robot.pose[2])
+        if in_world:
+            self._heading = float(robot.pose[2])
 
     def _roll(self, travel: list[float], rng: np.random.Generator) -> None:
         """Add the true travels of the wheels (left, right, across), metres."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import cos, hypot, pi, sin
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mars2d.core.description import number
 from mars2d.core.interfaces import RobotLike
@@ -29,12 +31,27 @@ class Proximity(Sensor):
     range: float = number(above=0, high=1e6, unit="m", doc="how far it sees, from its mount")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about the heading")
 
-    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> bool:  # noqa: ARG002
+    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> bool:
         """Return whether something is within range and field of view."""
-        x, y, theta = self.placed(robot.pose).tolist()
-        me = robot.index
-        if self.field_of_view >= 2 * pi:
-            return world.distance((x, y), self.range, me) < self.range
+        return bool(self.read_all([robot], world, [rng])[0])
+
+    def read_all(
+        self,
+        robots: Sequence[RobotLike],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],  # noqa: ARG002
+    ) -> NDArray[np.bool_]:
+        """Return whether something is within range and field of view of each robot, (m,)."""
+        mine = [robot.index for robot in robots]
+        poses = self.placed(world.pose.take(mine, axis=1)).T.tolist()
+        each = zip(poses, mine, strict=True)
+        if self.field_of_view < 2 * pi:
+            return np.array([self._sees(world, x, y, to, me) for (x, y, to), me in each])
+        reach = self.range
+        return np.array([world.distance((x, y), reach, me) < reach for (x, y, _), me in each])
+
+    def _sees(self, world: Surroundings, x: float, y: float, theta: float, me: int) -> bool:
+        """Return whether something is within the sector that a robot sees."""
         half = self.field_of_view / 2
         # All surfaces are convex pieces: their point nearest to us within the sector is either the
         # nearest of all, or lies where an edge of the sector first meets them.

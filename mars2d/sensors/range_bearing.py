@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import inf, pi
+from collections.abc import Sequence
+from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
@@ -10,13 +11,14 @@ import numpy as np
 from mars2d.core.description import flag, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
+from mars2d.core.streams import Random
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.sensors.base import Float, Quantity, Sensor, Sighting, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Quantity, Scanner, Sighting, Surroundings, sight_angle
 
 __all__ = ["RangeBearing"]
 
 
-class RangeBearing(Sensor):
+class RangeBearing(Scanner):
     """Measures the range and bearing of the other robots in view, from the sensor to their poses.
 
     A law finds a tuple of `Sighting`, nearest first, of the robots that are seen. The record has
@@ -31,7 +33,6 @@ class RangeBearing(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (RANGE, BEARING)
-    stays: ClassVar[bool] = True
 
     range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about its heading")
@@ -40,25 +41,27 @@ class RangeBearing(Sensor):
     )
     identity: bool = flag(default=True, doc="whether it knows which robot it sees")
 
-    def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
+    def read_all(
+        self,
+        robots: Sequence[RobotLike],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],  # noqa: ARG002
+    ) -> Float:
         """Return rows of range and bearing: of robot i, or without identity nearest first."""
-        everyone = np.arange(world.pose.shape[1])
+        mine, everyone = [robot.index for robot in robots], np.arange(world.pose.shape[1])
         rows = sighted(
-            self.placed(robot.pose),
+            self.placed(world.pose[:, mine]),
             world.pose[:2].T,
             self.range,
             self.field_of_view,
-            None if self.through_walls else world,
             everyone,
-            robot.index,
+            mine,
+            None if self.through_walls else world,
         )
-        if self.identity:
-            rows[robot.index] = inf, np.nan
-            return rows
-        return _nearest_first(rows[everyone != robot.index])
+        return rows if self.identity else _nearest_first(rows)[:, :-1]  # not itself, never seen
 
-    def measured(self, reading: Float, rng: np.random.Generator) -> Float:
-        """Return a perfect reading with errors; a robot that is not seen stays unseen."""
+    def measured(self, reading: Float, rng: Random) -> Float:
+        """Return perfect readings with errors; a robot that is not seen stays unseen."""
         rows: Float = super().measured(reading, rng)
         if self._perfect:
             return rows
@@ -68,13 +71,10 @@ class RangeBearing(Sensor):
     def shown(self, reading: Float) -> tuple[Sighting, ...]:
         """Return the sightings, nearest first."""
         robots = np.flatnonzero(np.isfinite(reading[:, 0]))
-        seen = [
-            Sighting(distance, bearing, i if self.identity else None)
-            for i, (distance, bearing) in zip(
-                robots.tolist(), reading[robots].tolist(), strict=True
-            )
-        ]
-        return tuple(sorted(seen, key=lambda each: each[:2]))
+        near = zip(reading[robots].tolist(), robots.tolist(), strict=True)
+        if not self.identity:  # its rows are in order
+            return tuple([Sighting(*row) for row, _ in near])
+        return tuple(sorted([Sighting(apart, bearing, i) for (apart, bearing), i in near]))
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, and a line to each robot where it is measured to be."""
@@ -86,5 +86,6 @@ class RangeBearing(Sensor):
 
 
 def _nearest_first(rows: Float) -> Float:
-    """Return rows (k, 2) in the order of range, then bearing; missing ones last."""
-    return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
+    """Return rows (..., k, 2) in the order of range, then bearing; missing ones last."""
+    order = np.lexsort((rows[..., 1], rows[..., 0]))
+    return np.take_along_axis(rows, order[..., None], axis=-2)

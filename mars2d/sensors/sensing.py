@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arrays import locked
 from mars2d.core.errors import UnknownNameError, nearest
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.usercode import called
@@ -59,6 +60,7 @@ class Device:
     """One sensor on one robot.
 
     reading: the one that is recorded and drawn at this control step; None if none was measured.
+    readings: those that the robot's law finds now, by the sensors' names.
     """
 
     def __init__(
@@ -79,7 +81,7 @@ class Device:
         self.rng = stream(self._name)
         self._sense: Sense = robot.sense
         self._sense._names.append(self.key)
-        self._readings = vars(self._sense)
+        self.readings = vars(self._sense)
         self.period = sensor.period(world.sampling_time)
         self.age = sensor.age(world.sampling_time)
         self._on_its_way: deque[tuple[int, Any]] = deque()
@@ -103,10 +105,11 @@ class Device:
             return
         if iteration % self.period == 0:
             self.send(self._measured(self.rng), iteration)
-        self.show(iteration)
+        else:
+            self.show(iteration)
 
     def send(self, measured: Any, iteration: int) -> None:
-        """Send a measurement of this control step on its way."""
+        """Send a measurement of this control step on its way, and show the latest reading."""
         if self.age == 0:
             self._take(measured)
             return
@@ -114,16 +117,14 @@ class Device:
             with self.reading_it:
                 self._take(self.sensor.lost(measured))
         self._on_its_way.append((iteration + self.age, measured))
+        self.show(iteration)
 
     def show(self, iteration: int) -> None:
         """Show the latest reading that has arrived by this control step."""
         if self._on_its_way and self._on_its_way[0][0] <= iteration:
             self._take(self._on_its_way.popleft()[1])
-        self._readings[self.key] = self._shown
-
-    def hide(self) -> None:
-        """Remove the reading of the last control step, so that nobody takes it for a new one."""
-        self._readings.pop(self.key, None)
+        else:
+            self.readings[self.key] = self._shown
 
     def close(self) -> None:
         """Measure nothing more of this control step: things begin to move."""
@@ -135,16 +136,20 @@ class Device:
         return self._shown
 
     def _measured(self, rng: np.random.Generator) -> Any:
-        with self.reading_it:
+        try:
             reading = self.sensor.read(self.view, self.world, rng)
             return _kept(self.sensor.measured(reading, rng))
+        except BaseException as error:
+            self.reading_it.blame(error)
+            raise
 
     def _take(self, reading: Any) -> None:
-        """Keep a reading as the latest one."""
+        """Keep a reading as the latest one, and show it."""
         self.reading = self._shown = reading
         if self._shows_more:
             with called(f"sensor {self.key!r}", self.sensor.shown):
                 self._shown = self.sensor.shown(reading)
+        self.readings[self.key] = self._shown
 
 
 class _Team:
@@ -166,20 +171,23 @@ class _Team:
         if iteration % self._first.period == 0:
             for device, measured in zip(self.devices, self._measured(), strict=True):
                 device.send(measured, iteration)
-        for device in self.devices:
-            device.show(iteration)
+        else:
+            for device in self.devices:
+                device.show(iteration)
 
     def _measured(self) -> Sequence[Any]:
         first = self._first
-        with first.reading_it:
+        try:
             found = first.sensor.read_all(self._robots, first.world, self._rngs)
             measured = first.sensor.measured_all(found, self._rngs)
             if not isinstance(measured, np.ndarray):
                 return [_kept(reading) for reading in measured]
-            block = np.array(measured)
-            block.flags.writeable = False
-            self.readings = block if first.age == 0 else None
-            return list(block)
+        except BaseException as error:
+            first.reading_it.blame(error)
+            raise
+        block = locked(np.array(measured))
+        self.readings = block if first.age == 0 else None
+        return block.tolist() if block.ndim == 1 else [*block]  # numbers are Python's own
 
 
 class Sensing:
@@ -206,9 +214,9 @@ class Sensing:
         }
 
     def hide(self) -> None:
-        """Remove the readings of the last control step."""
+        """Remove the readings of the last control step, so that nobody takes them for new ones."""
         for device in self.devices:
-            device.hide()
+            device.readings.pop(device.key, None)
 
     def step(self, iteration: int) -> None:
         """Call each `on_step`, then read all sensors that are due and show readings that arrive."""
@@ -258,5 +266,4 @@ def _kept(reading: Any) -> Any:
         kept: NDArray[Any] = np.array(reading)
     except ValueError:  # rows of different lengths: the recorder refuses it
         return reading
-    kept.flags.writeable = False
-    return kept
+    return locked(kept)

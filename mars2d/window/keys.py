@@ -132,12 +132,13 @@ class Keyboard:
 
         code: pygame's code of the key; character, manual: as for `action_of`.
         """
-        if _is_digit(character):
-            self.number = min(10 * self.number + int(character), MAX_NUMBER)
-            return None
-        key = action_of(pygame.key.name(code), character, manual=manual)
         held = code in self._held
         self._held.add(code)
+        if _is_digit(character):
+            if not held:
+                self.number = min(10 * self.number + int(character), MAX_NUMBER)
+            return None
+        key = action_of(pygame.key.name(code), character, manual=manual)
         return key if key is not None and (key.repeats or not held) else None
 
     def forget(self, code: int, character: str) -> None:

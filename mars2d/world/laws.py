@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterator, Sequence
+from types import GeneratorType
 from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core import checks
+from mars2d.core.arrays import within
 from mars2d.core.errors import LawError, shown
 from mars2d.core.usercode import called, definition, name_of
 
@@ -45,13 +46,16 @@ class Law:
 
     def command(self) -> Any:
         """Return the law's command now, unchecked. Raises LawError where the law raises."""
-        with self._calling:
+        try:
             if self._running is None:
                 result = self.function(self._subject)
-                if not inspect.isgenerator(result):
+                if not isinstance(result, GeneratorType):
                     return result
                 self._running = result
             return next(self._running, self._still)
+        except BaseException as error:
+            self._calling.blame(error)
+            raise
 
     def refuse(self, message: str) -> NoReturn:
         """Raise the error that the law's command can't be used; it points at the law."""
@@ -64,9 +68,10 @@ def robot_command(law: Law, value: Any) -> tuple[float, float]:
     """Check the command of one robot: two finite numbers."""
     if value is None:
         law.refuse("returned nothing: a law returns its command, as `return v, omega`")
-    if type(value) is tuple and len(value) == 2 and {*map(type, value)} <= PLAIN:
+    if type(value) is tuple and len(value) == 2:
         first, second = value
-        if abs(first) <= LARGEST and abs(second) <= LARGEST:
+        plain = type(first) in PLAIN and type(second) in PLAIN
+        if plain and abs(first) <= LARGEST and abs(second) <= LARGEST:
             return first, second
     command = _numbers(value)
     if command is None or command.shape not in ((2,), (2, 1)):
@@ -90,9 +95,8 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     if command.shape != (2, robots):
         turned = "; transpose it" if command.shape == (robots, 2) else ""
         refuse(f"returned an array of shape {command.shape}: {expected}{turned}")
-    within = np.abs(command) <= LARGEST  # false for NaN
-    if not within.all():
-        row, column = np.argwhere(~within)[0]
+    if not within(LARGEST, command):
+        row, column = np.argwhere(~(np.abs(command) <= LARGEST))[0]  # also NaN
         refuse(f"returned {command[row, column]} for robot {column}: {BOUNDED}")
     return command
 

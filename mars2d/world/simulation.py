@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import cached_property
-from typing import Any, NoReturn
+from time import perf_counter
+from typing import Any, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.communication import Communication
 from mars2d.bodies.team import Drives
+from mars2d.core.arrays import frozen, locked
 from mars2d.core.delay import DelayLine
 from mars2d.core.errors import InputError, LawError, described
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.plane import outside_polygon
 from mars2d.core.scene import Scene
 from mars2d.physics.motion import Start
 from mars2d.record.columns import DiskError, Storage
-from mars2d.record.record import Record, frozen
+from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
 from mars2d.world.channel import Channel
 from mars2d.world.laws import Laws, team_command
 from mars2d.world.operator import Operator
+from mars2d.world.room import Room
 from mars2d.world.state import Addons, Hooks, State
 from mars2d.world.surroundings import Around
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView
@@ -33,6 +34,7 @@ __all__ = ["Simulation"]
 
 Float = NDArray[np.float64]
 Control = Callable[[Any], Any]
+T = TypeVar("T")
 
 
 class Simulation(State):
@@ -42,7 +44,8 @@ class Simulation(State):
     nowhere else.
 
     operator: does to the world what is done from outside. watch: called with the world between
-    sensing and control. view: the world as laws may see it.
+    sensing and control. view: the world as laws may see it. engine_seconds: how long the engine has
+    taken by now.
     """
 
     def __init__(self, scenario: Scenario, seed: int, filename: str, storage: Storage) -> None:
@@ -50,6 +53,7 @@ class Simulation(State):
         super().__init__(scenario, seed, storage)
         self.filename = filename
         self.watch: Callable[[Any], None] | None = None
+        self.engine_seconds = 0.0
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
         self._observed = -1  # the iteration that add-ons and sensors were last called for
@@ -98,7 +102,9 @@ class Simulation(State):
         there: the live add-ons that stay, by name.
         """
         scenario = self.scenario
-        self._room = None if scenario.workspace is None else np.array(scenario.workspace)
+        self._room: Room | None = None
+        if scenario.workspace is not None and scenario.on_exit == "stop":
+            self._room = Room(scenario.workspace, len(scenario.robots))
         self._laws.renew(
             control,
             self._team_view,
@@ -158,8 +164,7 @@ class Simulation(State):
         """Do one control step, see `WorldView.step`."""
         if self.over:
             raise InputError(f"the experiment is over: {self.over_message}")
-        with self._busy():
-            self._control_step(command)
+        self._alone(self._control_step, command)
 
     def follow(self, command: Any) -> Float:
         """Do one control step under a command (2, n) that is known from before.
@@ -167,14 +172,12 @@ class Simulation(State):
         The laws are asked all the same, so that they remember what they did then. Returns the
         commands (2, n) that the laws ask for now, limited by the drives.
         """
-        with self._busy():
-            return self._control_step(command, ask=True)
+        return self._alone(self._control_step, command, ask=True)
 
     def observe(self) -> None:
         """Call the add-ons and read the sensors, see `WorldView.observe`."""
         if self._observed != self.iteration and not self.over:
-            with self._busy():
-                self._observe()
+            self._alone(self._observe)
             if self.over:  # an add-on has stopped it
                 self._close()
 
@@ -190,16 +193,15 @@ class Simulation(State):
         if not self.over:
             self.over, self.over_message, self.broken_off = True, str(why), True
 
-    @contextmanager
-    def _busy(self) -> Iterator[None]:
-        """Refuse to be entered from within; an error within ends the experiment."""
+    def _alone(self, act: Callable[..., T], *arguments: Any, **options: Any) -> T:
+        """Act on the world. Refuse to from within such an act; an error ends the experiment."""
         if self._stepping:
             raise InputError(
                 "world.step() was called from within a step: by a law, sensor or add-on"
             )
         self._stepping = True
         try:
-            yield
+            return act(*arguments, **options)
         except (LawError, DiskError) as error:
             if isinstance(error, LawError):
                 error.where = error.where or self.filename or None
@@ -219,8 +221,7 @@ class Simulation(State):
 
     def _close(self) -> None:
         """Do the control step that ends the experiment."""
-        with self._busy():
-            self._control_step(None)
+        self._alone(self._control_step, None)
 
     def _control_step(self, command: Any, *, ask: bool = False) -> Float:
         """Do one pass of the loop of MARS's Algorithm 1; return the commands that laws ask for."""
@@ -233,7 +234,7 @@ class Simulation(State):
             wanted = asked if command is None else wanted
         if ask:
             asked = self._saturate(self.operator.command(asked))
-        self.command = frozen(self._saturate(self.operator.command(wanted)))
+        self.command = locked(self._saturate(self.operator.command(wanted)))
         self._write_row()
         self._check_workspace()
         if self.iteration >= self.scenario.last_iteration:
@@ -270,25 +271,21 @@ class Simulation(State):
     def _write_row(self) -> None:
         time = self.time
         self.recorder.write(
-            time,
+            self.sensing.recorded(),
+            time=time,
             pose=self.pose,
             command=self.command,
             command_time=time + self.scenario.command_delay,
             prop_pose=self.prop_pose,
             effort=self.effort,
-            readings=self.sensing.recorded(),
         )
 
     def _check_workspace(self) -> None:
         """End the experiment when a robot's centre has left the workspace, if that is asked for."""
-        if self._room is None or self.scenario.on_exit != "stop":
-            return
-        x, y = self.pose[:2]
-        outside = np.flatnonzero(outside_polygon(x, y, self._room))
-        if len(outside):
-            i = int(outside[0])
-            name = self.scenario.robots[i].name
-            self.stop(f"Out of bounds: {name} left the workspace at ({x[i]:.3g}, {y[i]:.3g})")
+        gone = self._room.left(self.pose[:2]) if self._room is not None else ()
+        if gone:
+            name, (x, y) = self.scenario.robots[gone[0]].name, self.pose[:2, gone[0]]
+            self.stop(f"Out of bounds: {name} left the workspace at ({x:.3g}, {y:.3g})")
 
     def _drive(self) -> None:
         """Move the robots for one sampling time under the commands in effect."""
@@ -296,11 +293,13 @@ class Simulation(State):
         time = self.time
         self._drives.draw()
         self.driven = []
+        start = perf_counter()
         for duration, command in self._delay.send(self.command):
             twist = self._drives.twist(command)
             self.driven.append((duration, twist))
             self.operator.drive(self.engine, twist, duration, time)
             time += duration
+        self.engine_seconds += perf_counter() - start
         self.contacts = frozen(self.engine.take_contacts())
         self.recorder.write_contacts(self.contacts)
         self.take_poses()

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import HOOKS, Addon, hooks_of
+from mars2d.core.arrays import locked
 from mars2d.core.errors import UnknownNameError, nearest
 from mars2d.core.streams import stream
 from mars2d.core.usercode import called
@@ -20,7 +21,6 @@ from mars2d.physics.motion import Start
 from mars2d.physics.settings import versions
 from mars2d.record.columns import Storage
 from mars2d.record.contact import CONTACT
-from mars2d.record.record import frozen
 from mars2d.record.recorder import History, Recorder
 from mars2d.scenario.scenario import Scenario
 
@@ -102,11 +102,12 @@ class State:
         self.history = History(self.recorder)
         self.addons = Addons()
         n = len(scenario.robots)
-        self.command: Float = frozen(np.zeros((2, n)))
+        self.command: Float = locked(np.zeros((2, n)))
         self.contacts: NDArray[np.void] = np.empty(0, dtype=CONTACT)
-        self.effort: Float = frozen(np.zeros(n))
+        self.effort: Float = locked(np.zeros(n))
         self.driven: list[tuple[float, Float]] = []
         self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
+        self._robots, self._props = slice(n), slice(n, None)  # columns of all bodies' arrays
         self.restart_engine(None)
 
     def restart_engine(self, start: Start | None) -> None:
@@ -117,9 +118,8 @@ class State:
 
     def take_poses(self) -> None:
         """Take the poses of robots and props from the engine."""
-        n = len(self.scenario.robots)
-        pose = frozen(self.engine.pose)
-        self.pose, self.prop_pose = pose[:, :n], pose[:, n:]
+        pose = locked(self.engine.pose)
+        self.pose, self.prop_pose = pose[:, self._robots], pose[:, self._props]
 
     @property
     def time(self) -> float:
@@ -139,18 +139,18 @@ class State:
     @property
     def velocity(self) -> Float:
         """The robots' velocities (3, n): x', y' [m/s], theta' [rad/s]."""
-        return self._velocities[:, : self.pose.shape[1]]
+        return self._velocities[:, self._robots]
 
     @property
     def prop_velocity(self) -> Float:
         """The props' velocities (3, p)."""
-        return self._velocities[:, self.pose.shape[1] :]
+        return self._velocities[:, self._props]
 
     @property
     def _velocities(self) -> Float:
         """The velocities of all bodies, asked of the engine once a control step."""
         if self._velocity_at[0] != self.iteration:
-            self._velocity_at = self.iteration, frozen(self.engine.velocity)
+            self._velocity_at = self.iteration, locked(self.engine.velocity)
         return self._velocity_at[1]
 
     @property

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.drives.base import Drive
+from mars2d.core.arrays import locked
 from mars2d.core.errors import LawError, UnknownNameError, nearest
 from mars2d.record.message import Message
 from mars2d.sensors.sensing import Sense
@@ -48,9 +49,7 @@ def unseen(what: str, sees: str, instead: str = "") -> Any:
 
 def alone(values: Float) -> Float:
     """Return a copy that can't be written. A view would lead, as its `base`, to all robots."""
-    copy = values.copy()
-    copy.setflags(write=False)
-    return copy
+    return locked(values.copy())
 
 
 MAX_LISTED = 30

@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--save", type=Path, metavar="FILE", help="write the figures: .json")
     add("--compare", type=Path, metavar="FILE", help="compare with the figures of an earlier run")
     add("--json", action="store_true", help="print the figures as one line of JSON")
-    add("--quick", action="store_true", help="take a few seconds only; less certain")
+    add("--quick", action="store_true", help="take less than a minute; less certain")
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -111,14 +111,14 @@ def _foot(report: Report, old: Report | None, path: Path | None) -> str:
         lines += [
             f"x: times as fast as in {path}, of {old.date} UTC, each in units of its yardstick",
             "noise: no more than the yardstick varied meanwhile, or the rounds disagree",
-            *_without_kernel(old, f"{path} was measured "),
+            *_uncompiled(old, f"{path} was measured "),
         ]
-    return "\n".join([*lines, *_without_kernel(report)])
+    return "\n".join([*lines, *_uncompiled(report)])
 
 
-def _without_kernel(report: Report, words: str = "") -> list[str]:
-    why = report.without_kernel
-    return [f"{words}without the kernel: {why}"] if why else []
+def _uncompiled(report: Report, words: str = "") -> list[str]:
+    why = report.uncompiled
+    return [f"{words}with the engine in Python: {why}"] if why else []
 
 
 def _as_json(report: Report, old: Report | None) -> str:

@@ -41,6 +41,9 @@ from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.prediction import Prediction
 from mars2d.world.loop import Interrupted
 
+LONG = 20.0
+"""Seconds of the engine's work after which it is worth while to have it compiled."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
@@ -132,14 +135,32 @@ def _run_headless(
     """Run as fast as possible; without a window, --speed is the film's."""
     log = formats.log_to(arguments.record)
     if arguments.video is None:
-        return run_headless(experiment, arguments.seed, log=log).record, None
+        world = run_headless(experiment, arguments.seed, log=log)
+        _advise_to_compile(world.simulation.engine_seconds)
+        return world.record, None
     from mars2d.output.films.footage import Footage
 
     speed = film_speed(experiment.scenario, arguments.speed)
     footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
     world = run_headless(experiment, arguments.seed, [footage], log)
+    _advise_to_compile(world.simulation.engine_seconds)
     last, path, size = world.frame, arguments.video, arguments.size
     return world.record, lambda: save_footage(footage, last, path, size)
+
+
+def _advise_to_compile(seconds: float) -> None:
+    """Print how the engine would be quicker, if it took long because it was not compiled."""
+    from mars2d.physics.islands import reason_without
+
+    if seconds < LONG or not reason_without():
+        return
+    from mars2d.reports.remedy import remedy
+
+    print(
+        f"mars2d: the engine took {seconds:.0f} s, since {reason_without()}. "
+        f"Compiled it is many times quicker: {remedy()}",
+        file=sys.stderr,
+    )
 
 
 def _as_text(record: Record) -> str:

@@ -1,1 +1,1 @@
-"""The speed bench of ``mars2d bench``: four scenes, which other simulators are given as well."""
+"""The speed bench of ``mars2d bench``: scenes that other simulators are given as well."""

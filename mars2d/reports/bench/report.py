@@ -16,7 +16,7 @@ import numpy as np
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
-from mars2d.physics.kernel import reason_without
+from mars2d.physics.islands import reason_without
 from mars2d.physics.settings import versions
 
 __all__ = ["ALIKE", "FORMAT", "Change", "Figures", "Report", "Row", "load_report"]
@@ -30,8 +30,8 @@ KIND = "mars2d bench"
 ALIKE = 0.05
 """The relative difference between runs of the same program on an idle machine."""
 
-USED = "used"
-"""The entry of the kernel among the versions; otherwise the reason why it was not used."""
+COMPILED = "compiled"
+"""The entry of the engine among the versions; otherwise the reason why it ran in Python."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class Change(NamedTuple):
 
 
 def _machine() -> dict[str, str]:
-    return versions() | {"cores": str(os.cpu_count()), "kernel": reason_without() or USED}
+    return versions() | {"cores": str(os.cpu_count()), "engine": reason_without() or COMPILED}
 
 
 @dataclass(frozen=True)
@@ -127,9 +127,13 @@ class Report:
         return 1 / median(bare for row in self.rows for bare in row.yardsticks)
 
     @property
-    def without_kernel(self) -> str:
-        """The reason why the kernel in C was not used, or an empty text if it was."""
-        return self.versions.get("kernel", "").removeprefix(USED)
+    def uncompiled(self) -> str:
+        """The reason why the engine ran in Python, or an empty text if it was compiled.
+
+        In reports of earlier versions the same was said of the kernel that it had then.
+        """
+        former = self.versions.get("kernel", "").removeprefix("used")
+        return self.versions.get("engine", former).removeprefix(COMPILED)
 
     def change(self, new: Row) -> Change | None:
         """Compare with a row of a later run; None if this run has no such row."""

@@ -12,6 +12,8 @@ from functools import partial
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
+import numpy as np
+
 from mars2d.record.record import Record
 from mars2d.reports.bench.report import Figures, Row
 from mars2d.reports.bench.scenes import SCENES, Scene
@@ -48,7 +50,7 @@ COMMANDS: dict[str, Sequence[str]] = {
 YARDSTICK = "S2"
 """The scene of the bare loop that all rows are compared with."""
 
-STEPS = {"S1": 600, "S2": 150, "S3": 40, "S4": 15}
+STEPS = {"S1": 600, "S2": 150, "S3": 40, "S4": 15, "P1": 40, "P2": 40, "P3": 40}
 """Control steps in a round of each scene."""
 
 WARM_UP = 5.0
@@ -90,7 +92,7 @@ def jobs(names: Iterable[str]) -> dict[str, Job]:
 
 
 def _scene(scene: Scene, setting: str, effort: Effort) -> Row:
-    """Time a scene at one setting, and measure the overlaps of its robots."""
+    """Time a scene at one setting, and measure the overlaps of its bodies."""
     max_overlap, steps = SETTINGS[setting], STEPS[scene.name]
     world = warmed_up(scene, max_overlap)
 
@@ -103,7 +105,8 @@ def _scene(scene: Scene, setting: str, effort: Effort) -> Row:
     rounds = _rounds(timed, effort)
     record = world.record
     size = _size(record) / record.effort.size
-    figures = Figures(scene.sampling_time, max_overlap, deepest(scene, record.pose), size)
+    poses = np.concatenate([record.pose, record.prop_pose], axis=2)
+    figures = Figures(scene.sampling_time, max_overlap, deepest(scene, poses), size)
     return Row(f"{scene.name} {setting}", scene.title, rounds, figures)
 
 

@@ -1,4 +1,4 @@
-"""The suite's scenes as worlds of MARS2D, and the overlaps of their robots."""
+"""The suite's scenes as worlds of MARS2D, and the overlaps of their bodies."""
 
 from __future__ import annotations
 
@@ -6,7 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons import Map
-from mars2d.reports.bench.scenes import Scene, Turns
+from mars2d.bodies import Box, Rope
+from mars2d.geometry.shapes import rectangle
+from mars2d.reports.bench.gaps import Gaps
+from mars2d.reports.bench.scenes import BOX, FLOOR, MASS, Scene
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors import Proximity, RangeFinder
@@ -38,12 +41,18 @@ def world_of(scene: Scene, max_overlap: float = 1e-3) -> World:
         sensors.append(Proximity(range=scene.proximity))
     if scene.beams:
         sensors.append(RangeFinder(beams=scene.beams, range=scene.range))
-    robot = Robot(
-        diameter=2 * scene.radius, sensors=sensors, controller=wander if scene.proximity else None
-    )
+    controller = wander if scene.proximity else None
+    if scene.square:
+        square = rectangle(2 * scene.radius, 2 * scene.radius)
+        robot = Robot(shape=square, sensors=sensors, controller=controller)
+    else:
+        robot = Robot(diameter=2 * scene.radius, sensors=sensors, controller=controller)
+    crate = Box(length=BOX, width=BOX, mass=MASS, ground_friction=FLOOR)
     scenario = Scenario(
         title=scene.title,
         robots=[robot.at(*pose) for pose in scene.poses.tolist()],
+        props=[crate.at(*pose) for pose in scene.crates.tolist()],
+        joints=[Rope(a=f"robot{i}", b=f"box{k}", length=length) for i, k, length in scene.ropes],
         workspace=scene.walls,
         on_exit="wall",
         sampling_time=scene.sampling_time,
@@ -53,28 +62,15 @@ def world_of(scene: Scene, max_overlap: float = 1e-3) -> World:
     )
     if scene.proximity:
         return World(scenario)
-    law = Turns(len(scene.poses), scene.sampling_time)
+    law = scene.law()
     return World(scenario, lambda world: law(world.iteration))
 
 
 def deepest(scene: Scene, pose: Float) -> float:
-    """Return the deepest overlap at any of the poses (T, 3, n), metres; 0 if there is none.
+    """Return the deepest overlap at any of the poses (T, 3, n + p), metres; 0 if there is none.
 
-    Overlaps of robots with each other, with the walls and with the boxes count.
+    The poses are those of robots, then crates. Overlaps with each other, with the walls and with
+    the obstacles count.
     """
-    import shapely
-    from scipy.spatial import cKDTree
-
-    r = scene.radius
-    x, y = pose[:, 0].ravel(), pose[:, 1].ravel()
-    wall = float(np.maximum(np.abs(x), np.abs(y)).max()) + r - scene.side / 2
-    # Rows lie in planes that are further apart than touching robots: one tree finds all pairs.
-    plane = np.repeat(np.arange(len(pose)) * 4 * r, pose.shape[2])
-    space = np.column_stack([x, y, plane])
-    i, j = cKDTree(space).query_pairs(2 * r, output_type="ndarray").T
-    pairs = 2 * r - np.hypot(x[i] - x[j], y[i] - y[j])
-    boxes = np.array([shapely.Polygon(box) for box in scene.boxes], dtype=object)
-    centers = shapely.points(x, y)
-    k, box = shapely.STRtree(boxes).query(centers, "dwithin", r)
-    inside = r - shapely.distance(centers[k], boxes[box])
-    return float(max(0.0, wall, pairs.max(initial=0.0), inside.max(initial=0.0)))
+    gaps = Gaps(scene)
+    return max(0.0, *(-float(gap.min()) for row in pose for gap in gaps(row.T)))

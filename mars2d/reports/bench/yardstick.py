@@ -7,7 +7,7 @@ import pymunk
 from numpy.typing import NDArray
 from pymunk import batch
 
-from mars2d.reports.bench.scenes import Scene, Turns
+from mars2d.reports.bench.scenes import FORCE, FRICTION, MASS, TORQUE, WALL_FRICTION, Scene
 
 __all__ = ["Bare"]
 
@@ -24,7 +24,7 @@ class Bare:
     def __init__(self, scene: Scene, substeps: int = 1) -> None:
         """Build the scene. substeps: in each control step."""
         self._n = n = len(scene.poses)
-        self._law, self._iteration = Turns(n, scene.sampling_time), 0
+        self._law, self._iteration = scene.law(), 0
         self._substeps, self._h = substeps, scene.sampling_time / substeps
         self._space = space = pymunk.Space()
         space.collision_slop, space.iterations = 1e-4, 15
@@ -38,10 +38,10 @@ class Bare:
         self._out.set_float_buf(self._velocity)
 
     def _robot(self, pose: list[float], radius: float) -> pymunk.Body:
-        body = pymunk.Body(1.0, radius**2 / 2)
+        body = pymunk.Body(MASS, MASS * radius**2 / 2)
         body.position, body.angle = (pose[0], pose[1]), pose[2]
         disc = pymunk.Circle(body, radius)
-        disc.friction = 0.5
+        disc.friction = FRICTION
         self._space.add(body, disc)
         return body
 
@@ -51,7 +51,7 @@ class Bare:
         pivot = pymunk.PivotJoint(control, body, (0, 0), (0, 0))
         gear = pymunk.GearJoint(control, body, 0, 1)
         pivot.max_bias = gear.max_bias = 0
-        pivot.max_force, gear.max_force = 5.0, 0.5
+        pivot.max_force, gear.max_force = FORCE, TORQUE
         self._space.add(control, pivot, gear)
 
     def _build_obstacles(self, scene: Scene) -> None:
@@ -60,7 +60,7 @@ class Bare:
         ends = zip(scene.walls, [*scene.walls[1:], scene.walls[0]], strict=True)
         walls = [pymunk.Segment(fixed, a, b, 0) for a, b in ends]
         for shape in (*walls, *(pymunk.Poly(fixed, box) for box in scene.boxes)):
-            shape.friction = shape.elasticity = 1.0
+            shape.friction, shape.elasticity = WALL_FRICTION, 1.0
             self._space.add(shape)
 
     @property
