@@ -7,8 +7,9 @@ Each run is a crowd of 2 to 24 discs in a walled room with obstacles, drawn by c
 validation admits: speeds of 0.1 to 1000 m/s, mass ratios of 1 to 10, walls without thickness, thin
 ones from 0.01 mm on and thick ones, diameters of 2 cm to 1 m, strong drives and weak ones, friction
 and restitution. All drive at full speed at each other, at the walls and into corners. After each
-step of the engine, be it made by the kernel or in Python, its own narrow phase says how deep bodies
-overlap, and each centre's way is compared with the walls: one that crosses a wall has escaped.
+substep of an island, its bodies' overlaps are worked out from their places, and each centre's way
+is compared with the walls: one that crosses a wall has escaped. The engine runs as Python for it,
+which gives the same bits as what is compiled.
 
 A robot-run is one robot in one run. Run k depends on the seed and on k alone, not on the workers.
 """
@@ -16,6 +17,7 @@ A robot-run is one robot in one run. Run k depends on the seed and on k alone, n
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -26,16 +28,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pymunk
 from numpy.typing import NDArray
 from outcome import write
-from pymunk._chipmunk_cffi import ffi, lib
 
 from mars2d import Holonomic, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.core.progress import Progress
 from mars2d.geometry import edges_of, inside_polygon, point_segment_distance, wrap
-from mars2d.physics.kernel import chipmunk
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.island import Island
 from mars2d.study.work import Failure, each_done
 
 Float = NDArray[np.float64]
@@ -206,52 +207,46 @@ class Watch:
     """
 
     def __init__(self, world: World) -> None:
-        """Take a world of discs; see `after_each_step`."""
-        self._world, self._space = world, world.simulation.engine.space
-        shapes = self._space._shapes
-        circles = [shape for shape in shapes if isinstance(shape, pymunk.Circle)]
-        walls = [shape for shape in shapes if isinstance(shape, pymunk.Segment)]
-        walls = [wall for wall in walls if wall.filter.categories & 1]  # not for sight alone
-        self._circles = [circle._shape for circle in circles]
-        self._segments = [wall._shape for wall in walls]
-        self._radius = np.array([circle.radius for circle in circles])
-        self._edges = np.array([(*wall.a, *wall.b) for wall in walls])
-        self._i, self._j = np.triu_indices(len(circles), 1)
-        self._reach = self._radius[self._i] + self._radius[self._j]
-        self._solid = [np.array(o) for o in world.scenario.obstacles if len(o) > 2]
+        """Take a world of discs; see `after_each_substep`."""
+        self._world = world
+        scenario = world.scenario
+        self._radius = np.array([robot.radius for robot in scenario.robots])
+        outlines = [surface.outline for surface in scenario.surfaces]
+        self._edges = np.array([(*a, *b) for outline in outlines for a, b in edges_of(outline)])
+        self._solid = [np.array(o) for o in scenario.obstacles if len(o) > 2]
         room = world.workspace
         self._room = None if room is None else np.array(room)
-        self._center = self._read()
+        self._center = world.position.T.copy()
         self._far = self._from_walls(self._center)
         self.deepest, self.when = {"bodies": 0.0, "walls": 0.0}, {"bodies": 0, "walls": 0}
         self._escaped: dict[int, str] = {}
         self.engine_steps = 0
 
-    def _read(self) -> Float:
-        return self._space.read()[:, :2].copy()
+    @property
+    def edges(self) -> Float:
+        """All edges of walls and obstacles, (k, 4) = x1, y1, x2, y2."""
+        return self._edges
 
     def _from_walls(self, center: Float) -> Float:
-        """Return the distances (n, edges) of points from all edges."""
+        """Return the distances (m, edges) of points from all edges."""
         return point_segment_distance(center[:, :1], center[:, 1:], self._edges)
 
-    def look(self) -> None:
-        """Look at all bodies; to be called after a step of the engine."""
-        self.engine_steps += 1
-        before, center = self._center, self._read()
+    def look(self, who: Sequence[int], center: Float) -> None:
+        """Look at some robots, which are at (m, 2) now, all at the same time."""
         if not np.isfinite(center).all():
-            self._note_escapes(range(len(center)), "or another is nowhere")
+            self._note_escapes(who, "or another is nowhere")
             return
+        before, radius = self._center[who], self._radius[who]
         moved = np.hypot(*(center - before).T)
-        for i, k in np.argwhere(self._far <= moved[:, None]):
+        for i, k in np.argwhere(self._far[who] <= moved[:, None]):
             if crosses(before[i], center[i], self._edges[k]):
-                self._note_escapes([i], "crossed a wall")
-        self._center, self._far = center, self._from_walls(center)
-        apart = np.hypot(*(center[self._i] - center[self._j]).T)
-        for p in np.flatnonzero(apart < self._reach).tolist():
-            a, b = self._circles[self._i[p]], self._circles[self._j[p]]
-            self._note_depth("bodies", depth_of(a, b))
-        for i, k in np.argwhere(self._far < self._radius[:, None]).tolist():
-            self._note_depth("walls", depth_of(self._circles[i], self._segments[k]))
+                self._note_escapes([who[i]], "crossed a wall")
+        far = self._from_walls(center)
+        self._center[who], self._far[who] = center, far
+        i, j = np.triu_indices(len(center), 1)
+        depth = radius[i] + radius[j] - np.hypot(*(center[i] - center[j]).T)
+        self._note_depth("bodies", float(depth.max(initial=0.0)))
+        self._note_depth("walls", float((radius[:, None] - far).max(initial=0.0)))
 
     def look_where(self) -> None:
         """Look whether all are in the room and out of obstacles; to be called now and then."""
@@ -276,12 +271,6 @@ class Watch:
         return [*self._escaped.values()]
 
 
-def depth_of(a: Any, b: Any) -> float:
-    """Return how deep two shapes of the engine overlap, by its narrow phase; metres."""
-    found = lib.cpShapesCollide(a, b)
-    return max((-found.points[k].distance for k in range(found.count)), default=0.0)
-
-
 def crosses(start: Float, end: Float, edge: Float) -> bool:
     """Return whether the way from a point to another crosses an edge (x1, y1, x2, y2)."""
 
@@ -295,36 +284,21 @@ def crosses(start: Float, end: Float, edge: Float) -> bool:
 
 
 @contextmanager
-def after_each_step(look: Callable[[], None]) -> Iterator[None]:
-    """Call something after each step of the engine of all worlds that are built meanwhile.
+def after_each_substep(look: Callable[[list[Body]], None]) -> Iterator[None]:
+    """Call something with an island's bodies after each substep of worlds that are built within."""
+    note = Island.note
 
-    The kernel is given another function by the address of the engine's.
-    """
-    errors: list[Exception] = []
-    functions, step = chipmunk.functions, pymunk.Space.step
+    def note_and_look(island: Island, time: float, h: float) -> None:
+        note(island, time, h)
+        look(island.bodies)
 
-    def stepped(space: Any, h: float) -> None:
-        lib.cpSpaceStep(space, h)
-        try:
-            look()
-        except Exception as error:  # the engine would swallow it
-            errors.append(error)
-
-    address = ffi.callback("void(cpSpace *, double)", stepped)
-
-    def with_ours(kernel: Any) -> Any:
-        made = functions(kernel)
-        made.step = kernel.cast("void(*)(void *, double)", int(ffi.cast("uintptr_t", address)))
-        return made
-
-    def step_and_look(space: pymunk.Space, h: float) -> None:
-        step(space, h)
-        look()
-
-    with replaced(chipmunk, "functions", with_ours), replaced(pymunk.Space, "step", step_and_look):
-        yield
-    if errors:
-        raise errors[0]
+    plain = os.environ.get("MARS2D_PLAIN", "")
+    os.environ["MARS2D_PLAIN"] = "1"
+    try:
+        with replaced(Island, "note", note_and_look):
+            yield
+    finally:
+        os.environ["MARS2D_PLAIN"] = plain
 
 
 @contextmanager
@@ -352,16 +326,19 @@ def figures(seed: int, run: int) -> dict[str, Any]:
     crowd = Crowd.drawn(rng, robots_of(seed, run))
     watch: Watch | None = None
 
-    def look() -> None:
+    def look(bodies: list[Body]) -> None:
         assert watch is not None
-        watch.look()
+        watch.engine_steps += 1
+        center = np.array([(body.x, body.y) for body in bodies])
+        watch.look([body.number for body in bodies], center)
 
-    with after_each_step(look):
+    with after_each_substep(look):
         world = World(crowd.scenario)
-        watch = Watch(world)
-        law = rush(rng, world, float(np.ptp(watch._edges)))
+        watch, everybody = Watch(world), range(len(world.robots))
+        law = rush(rng, world, float(np.ptp(watch.edges)))
         while world.iteration < CONTROL_STEPS and watch.engine_steps < ENGINE_STEPS:
             world.step(law())
+            watch.look(everybody, world.position.T)
             watch.look_where()
     return {
         "run": run, "robots": len(crowd.scenario.robots), "walls": crowd.walls,
@@ -435,7 +412,7 @@ def as_lines(result: dict[str, Any]) -> Iterator[str]:
         )
     steps = f"{result['control_steps']:,} control steps, {result['engine_steps']:,} engine steps"
     deeper = result["all"]["runs deeper than allowed"]
-    yield f"{steps}; overlaps after each engine step, in {deeper} runs deeper than max_overlap"
+    yield f"{steps}; overlaps after each of these, in {deeper} runs deeper than max_overlap"
     for escaped in result["escaped"]:
         yield f"run {escaped['run']}: {escaped['what'][0]}"
 

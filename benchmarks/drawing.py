@@ -53,7 +53,7 @@ from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame
-from mars2d.reports.bench.scenes import Turns, s2
+from mars2d.reports.bench.scenes import s2
 from mars2d.sensors import RangeFinder
 from mars2d.window.display import Preferences, be_quick
 from mars2d.window.player import between
@@ -84,7 +84,7 @@ def frames(seeing: int, steps: int) -> list[Frame]:
         stop_time=scene.sampling_time * (FIRST + steps),
         addons=[Map(scene.boxes)],
     )
-    law = Turns(len(scene.poses), scene.sampling_time)
+    law = scene.law()
     world = World(scenario, lambda world: law(world.iteration))
     result = []
     while not world.over:

@@ -110,20 +110,23 @@ def drawing(size: int, rounds: int) -> dict[str, Any]:
     from mars2d.output.raster.painter import Painter
 
     side = int(np.ceil(np.sqrt(size)))
-    at = (np.arange(size) % side + 0.5, np.arange(size) // side + 0.5)
-    off = np.random.default_rng(size).uniform(-0.2, 0.2, (2, size))
-    robots = [Robot().at(x, y) for x, y in ((np.array(at) + off) * SIDE / side).T.tolist()]
-    voronoi = Voronoi()
-    scenario = Scenario(robots=robots, workspace=REGIONS["square"], addons=[voronoi])
-    frame, painter = World(scenario).frame, Painter()
+    at = np.array([np.arange(size) % side + 0.5, np.arange(size) // side + 0.5])
+    rng = np.random.default_rng(size)
+    frames = []
+    for _ in range(PLACES):
+        places = (at + rng.uniform(-0.2, 0.2, (2, size))) * SIDE / side
+        robots = [Robot().at(x, y) for x, y in places.T.tolist()]
+        scenario = Scenario(robots=robots, workspace=REGIONS["square"], addons=[Voronoi()])
+        frames.append(World(scenario).frame)
+    painter = Painter()
     surface = pygame.Surface((1280, 720), 0, 32)
     camera = Camera(scale=70.0, x=290.0, y=710.0)
     shapes: list[float] = []
     painting: list[float] = []
-    for _ in range(rounds * PLACES):
+    for frame in frames * rounds:
         start = time.process_time()
         scene = Scene()
-        voronoi.draw(scene, frame)
+        frame.scenario.addons[0].draw(scene, frame)
         middle = time.process_time()
         painter.paint(surface, scene.shapes, camera)
         shapes.append(middle - start)

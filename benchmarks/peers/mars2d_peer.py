@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
+import numpy as np
 from peer import Float, Simulator, main
 
 from mars2d.reports.bench.worlds import SETTINGS, world_of
@@ -29,7 +30,7 @@ class Mars2d(Simulator):
         self.command = self._world.command
 
     def poses(self) -> Float:
-        return self._world.pose.T.copy()
+        return np.concatenate([self._world.pose, self._world.prop_pose], axis=1).T
 
     def near(self) -> Sequence[bool]:
         self._world.observe()

@@ -2,7 +2,8 @@
 
 A script derives its class from `Peer` and ends with `main(TheClass)`. It then runs a scene by
 itself, or, with ``--serve``, is told by ``run.py`` what to do, a line of JSON at a time. It runs
-where MARS2D is not installed: this file needs numpy alone, and takes the scenes by their path.
+where MARS2D is not installed: this file needs numpy alone, and takes the scenes, and what measures
+gaps, by their paths.
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SCENES", "Geometry", "Peer", "Simulator", "main"]
+__all__ = ["SCENES", "Engine", "Geometry", "Peer", "Simulator", "main"]
 
 Float = NDArray[np.float64]
 
-FILE = Path(__file__).parents[2] / "mars2d" / "reports" / "bench" / "scenes.py"
+BENCH = Path(__file__).parents[2] / "mars2d" / "reports" / "bench"
 
 TOLERANCE = 2e-3
 """How far a peer's readings may be from geometry, metres: peers count in 32 bits, or draw a circle
@@ -36,24 +37,24 @@ SLACK = 0.02
 """By what part of it a free robot may miss the way that it is told to go."""
 
 LOST = 0.2
-"""What part of the robots may end outside the walls or deep in boxes."""
+"""What part of the bodies may end outside the walls or deep in boxes."""
 
 SETTLED = 3
 """So many steps a peer may take to reach the speed that it is told."""
 
 
-def _scenes() -> Any:
-    """Load the scenes by the path of their file."""
-    spec = importlib.util.spec_from_file_location("mars2d_bench_scenes", FILE)
+def _module(name: str) -> Any:
+    """Load a module of the bench by the path of its file."""
+    spec = importlib.util.spec_from_file_location(f"mars2d_bench_{name}", BENCH / f"{name}.py")
     if spec is None or spec.loader is None:
-        raise ImportError(f"cannot load {FILE}")
+        raise ImportError(f"cannot load {name}.py of {BENCH}")
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module  # dataclasses look themselves up there
     spec.loader.exec_module(module)
     return module
 
 
-scenes = _scenes()
+scenes, gaps = _module("scenes"), _module("gaps")
 
 SCENES: dict[str, Callable[[], Any]] = scenes.SCENES
 
@@ -91,7 +92,7 @@ class Simulator(ABC):
 
     @abstractmethod
     def poses(self) -> Float:
-        """Return the poses (n, 3): x, y [m], theta [rad]."""
+        """Return the poses (n + p, 3) of robots, then crates: x, y [m], theta [rad]."""
 
     @abstractmethod
     def near(self) -> Sequence[bool]:
@@ -111,7 +112,7 @@ class Peer(Simulator):
     def __init__(self, scene: Any, setting: str) -> None:
         robots = len(scene.poses)
         self._streams = [stream(0, f"robot robot{k}") for k in range(robots)]
-        self._law = scenes.Turns(robots, scene.sampling_time)
+        self._law = scene.law()
         self._iteration = 0
         super().__init__(scene, setting)
 
@@ -143,6 +144,22 @@ class Peer(Simulator):
         return command
 
 
+class Engine(Peer):
+    """An engine of rigid bodies alone, which does some equal substeps in each control step.
+
+    At "1 mm" they are as many as a scene needs for it, see `substeps.py`.
+    """
+
+    SETTINGS: ClassVar[tuple[str, ...]] = ("1 mm", "15 substeps")
+
+    SUBSTEPS: ClassVar[dict[str, int]]
+    """The number of substeps at "1 mm" of each scene."""
+
+    def __init__(self, scene: Any, setting: str) -> None:
+        self.substeps = 15 if setting == "15 substeps" else self.SUBSTEPS[scene.name]
+        super().__init__(scene, setting)
+
+
 def stream(seed: int, name: str) -> np.random.Generator:
     """Return the random stream that MARS2D gives to what is called so: the same numbers."""
     key = np.frombuffer(hashlib.sha256(name.encode()).digest()[:16], dtype=np.uint32)
@@ -167,7 +184,7 @@ class Geometry:
         gap = offset - np.clip(part, 0, 1)[..., None] * along
         distance = np.sqrt((gap**2).sum(axis=2))
         inside = self._inside(points)
-        wall, boxes = distance[:, :4].min(axis=1), distance[:, 4:].reshape(len(points), -1, 4)
+        wall, boxes = distance[:, :4].min(axis=1), distance[:, 4:].reshape(*inside.shape, 4)
         outside = np.abs(points).max(axis=1) > self._scene.side / 2
         nearest = np.where(outside, -wall, wall)
         to_box = np.where(inside, -boxes.min(axis=2), boxes.min(axis=2))
@@ -219,11 +236,15 @@ class Run:
         self._start()
         peer = self.peer
         self._geometry = Geometry(peer.scene)
+        self._gaps = gaps.Gaps(peer.scene)
         wide = peer.scene.radius * (1.0 if peer.ROUND else 1.5)
         self._wide = Geometry(dataclasses.replace(peer.scene, radius=wide))
 
     def timed(self, steps: int, seconds: float) -> dict[str, float]:
-        """Do so many steps, or fewer if the time is up, and say how many and how long it took."""
+        """Do so many steps, or fewer if the time is up, and say how many and how long it took.
+
+        Also said is how far robots, and crates, are from where they were at the start, on average.
+        """
         done, took = 0, 0.0
         while done < steps and (done == 0 or took < seconds):
             if self._count >= self.peer.episode:
@@ -231,7 +252,14 @@ class Run:
             more = min(steps - done, self.peer.episode - self._count)
             count, spent = self._stretch(more, seconds - took)
             done, took = done + count, took + spent
-        return {"steps": done, "seconds": took}
+        start = np.concatenate([self.peer.scene.poses, self.peer.scene.crates])
+        way = np.hypot(*(self.peer.poses() - start)[:, :2].T)
+        robots, crates = np.split(way, [len(self.peer.scene.poses)])
+        moved = {
+            "robots": float(robots.mean()),
+            "crates": float(crates.sum()) / max(1, len(crates)),
+        }
+        return {"steps": done, "seconds": took, **moved}
 
     def _start(self) -> None:
         """Build the scene."""
@@ -256,7 +284,7 @@ class Run:
         lost = self._geometry.off(points) < -self.peer.scene.radius
         if lost.mean() > LOST:
             raise ValueError(
-                f"{lost.sum()} of {len(lost)} robots are outside the walls or deep in boxes after "
+                f"{lost.sum()} of {len(lost)} bodies are outside the walls or deep in boxes after "
                 f"{self._count} steps"
             )
         return np.asarray(lost)
@@ -264,18 +292,19 @@ class Run:
     def looked_at(self, steps: int, seconds: float) -> dict[str, float]:
         """Do steps, check after each what is said of the run, and return what was seen.
 
-        Returns the deepest overlaps of robots with each other and with walls and boxes, metres; how
+        Returns the deepest overlaps of bodies with each other and with walls and boxes, metres; how
         many were lost, outside the walls or deep in a box; and the number of steps. Raises
         ValueError for a run that is not what it seems.
         """
-        deep = {"robots": 0.0, "walls": 0.0}
+        deep = {"bodies": 0.0, "walls": 0.0}
         if self.peer.episode < sys.maxsize:
             self._start()
             steps = min(steps, self.peer.episode)
         start = time.perf_counter()
         done, free, left = 0, 0, 0
+        after = self.peer.poses()
         while done < steps and (done == 0 or time.perf_counter() - start < seconds):
-            before = self.peer.poses()
+            before = after
             self._check_senses(before)
             self.peer.advance()
             after = self.peer.poses()
@@ -283,11 +312,10 @@ class Run:
             self._count += 1
             if self._count > SETTLED:
                 free += self._check_way(before, after)
-            points, radius = after[:, :2], self.peer.scene.radius
-            lost = self._lost(points)
+            lost = self._lost(after[:, :2])
             left = max(left, int(lost.sum()))
-            for what, gap in (("robots", self._geometry.apart), ("walls", self._geometry.off)):
-                deep[what] = max(deep[what], radius - float(gap(points)[~lost].min()))
+            for what, gap in zip(deep, self._gaps(after), strict=True):
+                deep[what] = max(deep[what], -float(gap[~lost].min()))
         if self._count > SETTLED and not free:
             raise ValueError("no robot was ever free to move as it was told")
         return {"steps": done, "lost": left, **deep}
@@ -297,10 +325,13 @@ class Run:
         scene = self.peer.scene
         v, omega = self.peer.command
         way = np.abs(v) * scene.sampling_time
-        gap = np.minimum(
-            self._geometry.off(before[:, :2]), self._geometry.apart(before[:, :2])
-        ) - scene.radius * (1.0 if self.peer.ROUND else 2.0)
-        free = gap > 2 * scene.sampling_time * scenes.SPEED + 0.01
+        room = 2 * scene.sampling_time * scenes.SPEED + 0.01
+        if not self.peer.ROUND:
+            room += scene.radius
+        free = np.minimum(*self._gaps(before, 2 * room))[: len(way)] > room
+        for i, k, length in scene.ropes:
+            free[i] &= np.hypot(*(before[i] - before[len(way) + k])[:2]) < length - room
+        before, after = before[: len(way)], after[: len(way)]
         went = after - before
         moved = np.hypot(went[:, 0], went[:, 1])
         turn = (went[:, 2] - omega * scene.sampling_time + np.pi) % (2 * np.pi) - np.pi
@@ -378,8 +409,8 @@ def main(kind: type[Simulator]) -> None:
     except ValueError as error:
         sys.exit(f"not a run to be timed: {error}")
     print(
-        f"deepest overlap in {seen['steps']} steps: robots {1e3 * seen['robots']:.2f} mm, "
-        f"walls and boxes {1e3 * seen['walls']:.2f} mm; {seen['lost']} robots lost"
+        f"deepest overlap in {seen['steps']} steps: bodies {1e3 * seen['bodies']:.2f} mm, "
+        f"walls and boxes {1e3 * seen['walls']:.2f} mm; {seen['lost']} lost"
     )
     took = run.timed(arguments.steps, arguments.seconds)
     print(f"{took['steps'] / took['seconds']:.4g} steps/s")

@@ -26,8 +26,8 @@ import subprocess
 import sys
 import tempfile
 import venv
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -43,14 +43,14 @@ WARM_UP, TIMED, LOOKED_AT = 5.0, 1.0, 2.5
 class Kind:
     """A simulator that can be compared: its package, the version that was tried, its script.
 
-    settings: the ways to run it. without: the scenes that it is not run in, and why.
+    settings: the ways to run it. without: why it is not run in a scene, by the scene's name.
     """
 
     package: str
     version: str
     script: str
     settings: tuple[str, ...] = ("",)
-    without: tuple[tuple[str, str], ...] = ()
+    without: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def requirement(self) -> str:
@@ -58,15 +58,30 @@ class Kind:
         return f"{self.package}=={self.version}"
 
 
+CONTACTS = ("P1", "P2", "P3")
+"""The scenes in which bodies touch all the time."""
+
+ROBOTS_ALONE = dict.fromkeys(CONTACTS, "its script builds neither square robots nor crates")
+
 PEERS = {
-    "navground": Kind("navground", "0.7.0", "navground_peer.py", ("each step", "when changed")),
-    "ir-sim": Kind("ir-sim", "2.12.0", "irsim_peer.py", ("contact", "stop")),
-    "vmas": Kind("vmas", "1.5.2", "vmas_peer.py"),
+    "pymunk": Kind("pymunk", "7.3.1", "pymunk_peer.py", ("1 mm", "15 substeps")),
+    "Box2D": Kind(
+        "Box2D",
+        "2.3.10",
+        "box2d_peer.py",
+        ("1 mm", "15 substeps"),
+        without=dict.fromkeys(("S1", "S3"), "its queries call Python back for each shape"),
+    ),
+    "navground": Kind(
+        "navground", "0.7.0", "navground_peer.py", ("each step", "when changed"), ROBOTS_ALONE
+    ),
+    "ir-sim": Kind("ir-sim", "2.12.0", "irsim_peer.py", ("contact", "stop"), ROBOTS_ALONE),
+    "vmas": Kind("vmas", "1.5.2", "vmas_peer.py", without=ROBOTS_ALONE),
     "aitk.robots": Kind(
         "aitk.robots",
         "2.0.0",
         "aitk_peer.py",
-        without=(("S4", "it takes half a minute to build, and some 4 s a step"),),
+        without={"S4": "it takes half a minute to build, and some 4 s a step"} | ROBOTS_ALONE,
     ),
 }
 """The peers by name."""
@@ -74,10 +89,14 @@ PEERS = {
 OURS = Kind("mars2d", "", "mars2d_peer.py", ("default", "loose"))
 
 STEPS = {"S1": (200, 1000), "S2": (200, 100), "S3": (100, 50), "S4": (200, 20)}
+STEPS |= dict.fromkeys(CONTACTS, (200, 50))
 """The steps of each scene to warm up, and those of each timing."""
 
-START, END = "<!-- measured: start -->", "<!-- measured: end -->"
-"""Between these lines of a Markdown file the table is replaced."""
+TABLES = {"S": "robots", "P": "contacts"}
+"""The tables of a Markdown file: the first letter of their scenes, and their names.
+
+A table is replaced between the lines ``<!-- NAME: start -->`` and ``<!-- NAME: end -->``.
+"""
 
 
 class PeerError(Exception):
@@ -131,7 +150,7 @@ def children(scene: str, pythons: dict[str, str]) -> Iterator[list[Child]]:
     kinds += [(name, PEERS[name], python) for name, python in pythons.items()]
     try:
         for name, kind, python in kinds:
-            if scene not in dict(kind.without):
+            if scene not in kind.without:
                 for setting in kind.settings:
                     child = Child(name, kind, python, setting)
                     started.append(child)
@@ -148,8 +167,7 @@ def compare(
     """Run a scene in all simulators in turns; return what was measured, by label."""
     warm, timed = STEPS[scene] if steps is None else (steps, steps)
     with children(scene, pythons) as all_of_them:
-        for child in all_of_them:
-            child.ask(do="time", steps=warm, seconds=WARM_UP)
+        began = {c.label: c.ask(do="time", steps=warm, seconds=WARM_UP) for c in all_of_them}
         rows: dict[str, list[dict[str, Any]]] = {child.label: [] for child in all_of_them}
         for _ in range(rounds):
             for child in all_of_them:
@@ -163,7 +181,8 @@ def compare(
             "steps": sum(row["steps"] for row in rows[label]),
             "looked_at": seen[label]["steps"],
             "lost": seen[label]["lost"],
-            "overlap_mm": {k: round(1e3 * seen[label][k], 3) for k in ("robots", "walls")},
+            "overlap_mm": {k: round(1e3 * seen[label][k], 3) for k in ("bodies", "walls")},
+            "warm_up": {k: began[label][k] for k in ("steps", "robots", "crates")},
             "ratios": {
                 mine: spread([a / b for a, b in zip(speeds[mine], speed, strict=True)])
                 for mine in ours
@@ -233,7 +252,7 @@ def install(folder: Path, names: list[str]) -> list[str]:
         print(f"installing {requirement} in {home}", flush=True)
         venv.create(home, with_pip=True)
         python = home / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
-        command = [str(python), "-m", "pip", "install", "--quiet", requirement]
+        command = [str(python), "-m", "pip", "install", "--quiet", requirement, "numpy"]
         if subprocess.run(command, check=False).returncode:
             raise PeerError(f"pip could not install {requirement} in {home}")
         made.append(f"{name}={python}")
@@ -248,23 +267,25 @@ def short(number: float) -> str:
     return f"{float(f'{number:.3g}'):,g}".replace(",", " ")
 
 
-def rows_of(result: dict[str, Any]) -> Iterator[tuple[str, ...]]:
-    """Return the table's rows: scene, simulator, steps/s, the ratios, overlaps, steps timed."""
-    for scene, measured in result["scenes"].items():
+def rows_of(scenes: dict[str, Any]) -> Iterator[tuple[str, ...]]:
+    """Return the table's rows; see `HEADER`."""
+    for scene, measured in scenes.items():
+        complete = max(row["warm_up"]["steps"] for row in measured.values())
         for label, row in measured.items():
             ratios = [
                 "1" if mine == label else f"{short(mid)} ({short(low)} to {short(high)})"
                 for mine, (mid, low, high) in row["ratios"].items()
             ]
-            overlap = row["overlap_mm"]
+            overlap, way = row["overlap_mm"], row["warm_up"]
             yield (
                 scene,
                 label,
                 short(row["steps_per_s"]),
                 *ratios,
-                f"{overlap['robots']:.2f} / {overlap['walls']:.2f}",
+                f"{overlap['bodies']:.2f} / {overlap['walls']:.2f}",
                 f"{row['lost']}",
                 f"{row['steps']} / {row['looked_at']}",
+                f"{way['robots']:.2f} / {way['crates']:.2f}" if way["steps"] == complete else "-",
             )
 
 
@@ -274,16 +295,21 @@ HEADER = (
     "steps/s",
     "MARS2D by default is so many times as fast",
     "MARS2D, loose",
-    "deepest overlap of robots / with walls, mm",
-    "robots lost",
+    "deepest overlap of bodies / with walls, mm",
+    "lost",
     "steps timed / looked at",
+    "way of robots / crates, m",
 )
 
 
-def table(result: dict[str, Any]) -> str:
-    """Return the table in Markdown, and what it was measured on."""
-    rows = [HEADER, ("---",) * len(HEADER), *rows_of(result)]
-    versions = ", ".join(f"{name} {number}" for name, number in result["versions"].items())
+def table(result: dict[str, Any], letter: str) -> str:
+    """Return the table in Markdown of the scenes with a letter, and what it was measured on."""
+    scenes = {name: rows for name, rows in result["scenes"].items() if name.startswith(letter)}
+    rows = [HEADER, ("---",) * len(HEADER), *rows_of(scenes)]
+    there = {label.partition(",")[0].lower() for rows in scenes.values() for label in rows}
+    versions = ", ".join(
+        f"{name} {number}" for name, number in result["versions"].items() if name.lower() in there
+    )
     note = (
         f"{result['rounds']} rounds on {result['machine']}; {versions}. Ratios: the median of "
         "those within a round (the least to the most)."
@@ -291,14 +317,19 @@ def table(result: dict[str, Any]) -> str:
     return "\n".join([*("| " + " | ".join(row) + " |" for row in rows), "", note])
 
 
-def replace(file: Path, text: str) -> None:
-    """Put a text between the two marks of a Markdown file. Raises PeerError without them."""
-    whole = file.read_text(encoding="utf-8") if file.is_file() else ""
-    if START not in whole or END not in whole:
-        raise PeerError(f"--markdown {file}: no such file with the lines {START} and {END}")
-    head, _, rest = whole.partition(START)
-    tail = rest.partition(END)[2]
-    file.write_text(f"{head}{START}\n{text}\n{END}{tail}", encoding="utf-8")
+def replace(file: Path, result: dict[str, Any]) -> None:
+    """Put the tables of all scenes that were run into a Markdown file.
+
+    Raises PeerError where it has no lines that mark them.
+    """
+    text = file.read_text(encoding="utf-8") if file.is_file() else ""
+    for letter in dict.fromkeys(scene[0] for scene in result["scenes"]):
+        start, end = (f"<!-- {TABLES[letter]}: {where} -->" for where in ("start", "end"))
+        if start not in text or end not in text:
+            raise PeerError(f"--markdown {file}: no such file with the lines {start} and {end}")
+        head, _, rest = text.partition(start)
+        text = f"{head}{start}\n{table(result, letter)}\n{end}{rest.partition(end)[2]}"
+    file.write_text(text, encoding="utf-8")
 
 
 def processor() -> str:
@@ -331,13 +362,14 @@ def measure(arguments: argparse.Namespace) -> dict[str, Any]:
     for scene in arguments.scenes:
         measured = compare(scene, pythons, arguments.rounds, arguments.steps)
         result["scenes"][scene] = measured
-        for row in rows_of({"scenes": {scene: measured}}):
+        for row in rows_of({scene: measured}):
             print(
-                "{:<4}{:<26}{:>9} steps/s  x {:<26} x {:<26} {:>15} mm  {:>3} lost  {}".format(*row)
+                "{:<4}{:<26}{:>9} steps/s  x {:<26} x {:<26} {:>15} mm  {:>3} lost  {:>12}"
+                "  {} m".format(*row)
             )
         for name in pythons:
-            if scene in dict(PEERS[name].without):
-                print(f"{scene:<4}{name:<26} left out: {dict(PEERS[name].without)[scene]}")
+            if scene in PEERS[name].without:
+                print(f"{scene:<4}{name:<26} left out: {PEERS[name].without[scene]}")
         sys.stdout.flush()
     return result
 
@@ -352,7 +384,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=ROUNDS, help="how often all are timed")
     parser.add_argument("--steps", type=int, help="steps of a timing, instead of the scenes' own")
     parser.add_argument("--json", type=Path, metavar="OUT.json", help="write the figures")
-    parser.add_argument("--markdown", type=Path, metavar="FILE.md", help="replace the table in it")
+    parser.add_argument("--markdown", type=Path, metavar="FILE.md", help="replace its tables")
     arguments = parser.parse_args()
     try:
         if arguments.install is not None:
@@ -363,7 +395,7 @@ def main() -> None:
         if arguments.json is not None:
             arguments.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
         if arguments.markdown is not None:
-            replace(arguments.markdown, table(result))
+            replace(arguments.markdown, result)
     except PeerError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
