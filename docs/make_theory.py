@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mars2d import Car, Differential, Holonomic, Prediction, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies import Ball, Box, Joint, Prop, Puck, Rope, Spring
-from mars2d.physics.floor import GRAVITY
+from mars2d.core.materials import GRAVITY
 from mars2d.record import episodes
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import examples, open_experiment
