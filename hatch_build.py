@@ -1,4 +1,4 @@
-"""Compiles the kernel while the package is installed; without a compiler all works, more slowly."""
+"""Compiles the engine while the package is installed; without a compiler all works, more slowly."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-KERNEL = Path("mars2d") / "physics" / "kernel"
+ISLANDS = Path("mars2d") / "physics" / "islands"
 
 
 class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg]
@@ -26,13 +26,13 @@ class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg]
             made = self._compiled(Path(self._folder.name), editable=version == "editable")
         except Exception as error:  # whatever a compiler may lack
             self.app.display_warning(
-                f"The kernel was not compiled ({type(error).__name__}: {error}). MARS2D works "
-                "without it, but teams are several times slower."
+                f"The engine was not compiled ({type(error).__name__}: {error}). MARS2D works "
+                "as it is, but contacts take many times longer."
             )
             return
         build_data["pure_python"] = False
         build_data["infer_tag"] = True
-        build_data["force_include"][str(made)] = str(KERNEL / made.name)
+        build_data["force_include"][str(made)] = str(ISLANDS / made.name)
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:  # noqa: ARG002
         """Clear away what the compiler has left."""
@@ -41,8 +41,8 @@ class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg]
 
     def _compiled(self, folder: Path, *, editable: bool) -> Path:
         """Compile in `folder`, and return the extension module's file."""
-        source = Path(self.root) / KERNEL
-        spec = importlib.util.spec_from_file_location("mars2d_kernel_build", source / "build.py")
+        source = Path(self.root) / ISLANDS
+        spec = importlib.util.spec_from_file_location("mars2d_islands_build", source / "build.py")
         assert spec is not None
         assert spec.loader is not None
         build = importlib.util.module_from_spec(spec)

@@ -13,7 +13,7 @@ import numpy as np
 
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
 from mars2d.bodies import Box
-from mars2d.physics.floor import GRAVITY
+from mars2d.core.materials import GRAVITY
 
 SPEED = 0.2  # m/s
 TEAMS, LANES = (1, 2, 3, 4), (2.4, 0.8, -0.8, -2.4)  # robots, m

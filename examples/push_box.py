@@ -13,7 +13,7 @@ import numpy as np
 
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
 from mars2d.bodies import Box
-from mars2d.physics.floor import GRAVITY
+from mars2d.core.materials import GRAVITY
 
 SPEED = 0.2  # m/s
 MASSES, LANES = (0.5, 1.0, 1.04, 2.0), (1.5, 0.5, -0.5, -1.5)  # kg, m

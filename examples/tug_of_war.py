@@ -12,7 +12,7 @@ from math import inf, pi, sqrt
 
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
 from mars2d.bodies import Box, Rope
-from mars2d.physics.floor import GRAVITY
+from mars2d.core.materials import GRAVITY
 
 LINE = 1.0  # m, from the middle to a team's line
 ORANGE, BLUE, GREEN = "#d55e00", "#0072b2", "#009e73"

@@ -10,6 +10,7 @@ import mars2d
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Density, Voronoi
 from mars2d.core.scene import Circle, Line, Polygon, Scene
+from mars2d.geometry.partition import Partition
 from mars2d.geometry.voronoi import Tessellation, Weight
 from mars2d.output.raster.picture import paint_frame
 
@@ -46,19 +47,27 @@ def test_laws_find_the_cells_of_this_instant():
         world.step([[0.3, 0, -0.2], [0.1, 0.3, 0]])
 
 
-def test_cells_are_worked_out_once_a_control_step(monkeypatch):
+def test_cells_are_worked_out_once_a_control_step_whoever_asks(monkeypatch):
     made = []
-    original = Tessellation.__init__
+    original = Partition.__init__
 
-    def watched(self, *args, **kwargs):
+    def watched(self, *args):
         made.append(args)
-        original(self, *args, **kwargs)
+        original(self, *args)
 
-    monkeypatch.setattr(Tessellation, "__init__", watched)
-    world = World(team(), control=lambda world: lloyd(world) + 0 * lloyd(world))
-    for _ in range(4):
+    def law(world):
+        return lloyd(world) + 0 * lloyd(world) + 1e-3 * (1 + world.iteration)
+
+    monkeypatch.setattr(Partition, "__init__", watched)
+    world = World(team(addons=[Density(slope)]), control=law)
+    world.step()
+    made.clear()
+    for count in range(1, 5):
         world.step()
-    assert len(made) == 4
+        world.addons.voronoi.draw(Scene(), world.frame)
+        world.addons.voronoi.theory(Scene(), world.frame)
+        world.scenario.addons[0].of(world.record.frame(-1)).edge(0, 1)
+        assert len(made) == count + 1  # the cells after a step are those of the next law
 
 
 def test_a_law_can_not_change_what_the_next_one_sees():
@@ -69,9 +78,11 @@ def test_a_law_can_not_change_what_the_next_one_sees():
 
 
 def test_nothing_is_worked_out_that_nobody_asks_for():
-    world = World(team(), control=lambda world: np.zeros((2, 3)))
+    world = World(team(), control=lambda world: np.full((2, 3), 0.0123))
     world.step()
-    assert "_diagram" not in vars(world.addons.voronoi._now)
+    assert "_diagram" not in vars(world.addons.voronoi._now._partition)
+    assert world.addons.voronoi.cells
+    assert "_diagram" in vars(world.addons.voronoi._now._partition)
 
 
 def test_a_record_has_the_cells_that_the_law_saw():

@@ -10,7 +10,7 @@ import pytest
 from mars2d import Holonomic, InputError, Robot, Unicycle, World
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Puck
-from mars2d.physics.floor import GRAVITY
+from mars2d.core.materials import GRAVITY
 from tests.worlds import drive, endless
 
 IDLE = Robot(pose=(50, 50, 0))

@@ -10,8 +10,8 @@ import pytest
 from mars2d import Holonomic, Robot, Unicycle
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
+from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Compound, Disc
-from mars2d.physics.floor import GRAVITY
 from tests.worlds import ELL, drive, endless
 
 EXACT = 1e-9  # metres, radians

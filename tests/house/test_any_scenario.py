@@ -318,10 +318,11 @@ def tried(data: Data, rng_seed: int, plain: bool) -> str:
     hard = scenario.physics != "ideal"
     inside = hard and scenario.on_exit == "wall" and scenario.workspace is not None
     allowed = scenario.max_overlap
-    with watched(world) as watch:
+    with watched(world) as watcher:
+        watch = watcher.watch
         for _ in range(TICKS):
             scale = float(10 ** rng.uniform(-2, 2)) if rng.uniform() < 0.9 else 1e12
-            watch.tick(rng.uniform(-scale, scale, (2, len(scenario.robots))))
+            watcher.tick(rng.uniform(-scale, scale, (2, len(scenario.robots))))
             for name in ("pose", "velocity", "prop_pose", "prop_velocity", "effort"):
                 assert np.isfinite(getattr(world, name)).all(), f"{name} is not finite"
             if hard:

@@ -1,4 +1,4 @@
-"""What `pip install` makes: a wheel with the kernel in it, or without where nothing compiles it."""
+"""What `pip install` makes: a wheel with the engine compiled, or not where nothing compiles it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import pytest
 PROJECT = Path(__file__).parents[2]
 PARTS = ["mars2d", "examples", "hatch_build.py", "pyproject.toml", "README.md", "LICENSE"]
 
-NEEDED = ["hatchling", "setuptools", "cffi"]
+NEEDED = ["hatchling", "setuptools", "Cython"]
 MISSING = [name for name in NEEDED if importlib.util.find_spec(name) is None]
 COMPILER = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "").split()
 
@@ -66,19 +66,19 @@ def unpacked(wheel: Path) -> Path:
     return folder
 
 
-def kernel_of(site: Path) -> str:
-    """What `mars2d doctor` says of the kernel of the package in a folder."""
+def engine_of(site: Path) -> str:
+    """What `mars2d doctor` says of the engine of the package in a folder."""
     done = subprocess.run(
         [sys.executable, "-P", "-m", "mars2d", "doctor"], cwd=site,
         env={**os.environ, "PYTHONPATH": str(site)}, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stdout + done.stderr
-    [line] = [line for line in done.stdout.splitlines() if line[4:].startswith("kernel")]
+    [line] = [line for line in done.stdout.splitlines() if line[4:].startswith("engine")]
     return line
 
 
 @compiles
-def test_a_wheel_of_the_source_distribution_brings_the_kernel_compiled(project, tmp_path):
+def test_a_wheel_of_the_source_distribution_brings_the_engine_compiled(project, tmp_path):
     file, _ = built(project, "sdist")
     with tarfile.open(file) as archive:
         archive.extractall(tmp_path / "sources", filter="data")
@@ -86,20 +86,20 @@ def test_a_wheel_of_the_source_distribution_brings_the_kernel_compiled(project, 
     wheel, _ = built(project, "wheel")
     assert not wheel.name.endswith("none-any.whl")  # it is for one kind of machine
     site = unpacked(wheel)
-    assert len(list((site / "mars2d" / "physics" / "kernel").glob("_kernel.*"))) == 1
-    assert not list((project / "mars2d").rglob("_kernel.*"))  # the sources are left as they are
-    assert kernel_of(site).startswith("ok  kernel      compiled")
+    assert len(list((site / "mars2d" / "physics" / "islands").glob("_compiled.*"))) == 1
+    assert not list((project / "mars2d").rglob("_compiled.*"))  # the sources are left as they are
+    assert engine_of(site).startswith("ok  engine      compiled")
 
-    source = site / "mars2d" / "physics" / "kernel" / "gaps.c"
-    source.write_text(source.read_text() + "/* changed */\n")
-    assert "its sources have changed" in kernel_of(site)
+    source = site / "mars2d" / "physics" / "islands" / "chipmunk.pxi"
+    source.write_text(source.read_text() + "# changed\n")
+    assert "its sources have changed" in engine_of(site)
 
 
 def test_a_wheel_is_built_without_a_compiler_as_well(project):
     wheel, printed = built(project, "wheel", CC="/nonexistent")
     assert wheel.name.endswith("none-any.whl")
-    assert "The kernel was not compiled" in printed
-    assert "several times longer: it was not compiled" in kernel_of(unpacked(wheel))
+    assert "The engine was not compiled" in printed
+    assert "was not compiled" in engine_of(unpacked(wheel))
 
 
 def test_nothing_is_compiled_where_the_environment_says_so(project):
@@ -109,8 +109,8 @@ def test_nothing_is_compiled_where_the_environment_says_so(project):
 
 
 @compiles
-def test_an_editable_install_has_the_kernel_beside_its_sources(project):
+def test_an_editable_install_has_the_engine_compiled_beside_its_sources(project):
     pytest.importorskip("editables")
     built(project, "wheel:editable")
-    assert len(list((project / "mars2d" / "physics" / "kernel").glob("_kernel.*"))) == 1
-    assert kernel_of(project).startswith("ok  kernel      compiled")
+    assert len(list((project / "mars2d" / "physics" / "islands").glob("_compiled.*"))) == 1
+    assert engine_of(project).startswith("ok  engine      compiled")

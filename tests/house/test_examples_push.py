@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mars2d.physics.floor import GRAVITY
+from mars2d.core.materials import GRAVITY
 from tests.worlds import predicted
 
 pytestmark = pytest.mark.slow

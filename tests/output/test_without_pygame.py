@@ -2,7 +2,7 @@
 
 Each test runs Python in a child process in which pygame is not to be found. What Pyodide, which is
 Python in a browser, has not either raises there as well: threads, processes, signals by the clock;
-and the kernel in C is switched off.
+and nothing of the engine is compiled.
 """
 
 from __future__ import annotations

@@ -8,12 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from shapely import MultiPoint, Point
 
 from mars2d import InputError, Robot, Scenario, World
 from mars2d.cli import command_line as cli
 from mars2d.reports.bench import suite
+from mars2d.reports.bench.gaps import Gaps
 from mars2d.reports.bench.report import ALIKE, FORMAT, Change, Figures, Report, Row, load_report
-from mars2d.reports.bench.scenes import SCENES, Scene, Turns, team
+from mars2d.reports.bench.scenes import FORCE, LEVER, SCENES, TORQUE, Scene, Turns, team
 from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
 
@@ -53,9 +55,11 @@ def test_a_scene_is_the_same_each_time_and_nothing_touches_in_it(name):
     scene, again = SCENES[name](), SCENES[name]()
     assert scene.name == name
     assert np.array_equal(scene.poses, again.poses)
-    assert scene.boxes == again.boxes
-    assert deepest(scene, scene.poses.T[None]) == 0
-    assert np.abs(scene.poses[:, :2]).max() < scene.side / 2 - scene.radius
+    assert np.array_equal(scene.crates, again.crates)
+    assert (scene.boxes, scene.ropes) == (again.boxes, again.ropes)
+    starts = np.concatenate([scene.poses, scene.crates])
+    assert deepest(scene, starts.T[None]) == 0
+    assert np.abs(starts[:, :2]).max() < scene.side / 2 - scene.radius
 
 
 def test_teams_of_all_sizes_cover_as_much_of_the_arena():
@@ -73,6 +77,41 @@ def test_a_world_of_a_scene_has_its_robots_sensors_obstacles_and_settings():
     assert len(world.obstacles) == 51  # and the wall
     world.step()
     assert world.record.sensors["range_finder"].shape == (1, 20, 180)
+
+
+@pytest.mark.parametrize(
+    ("name", "robots", "crates"), [("P1", 20, 30), ("P2", 60, 0), ("P3", 10, 5)]
+)
+def test_a_world_of_contacts_has_its_robots_crates_and_ropes(name, robots, crates):
+    scene = SCENES[name]()
+    world = world_of(scene)
+    assert (len(world.robots), len(world.props)) == (robots, crates)
+    assert set(scene.half_sides[:robots]) == {0.15 if name == "P2" else 0}
+    drives = {(robot.drive.max_force, robot.drive.max_torque) for robot in world.scenario.robots}
+    assert drives == {(FORCE, TORQUE)}
+    for crate in world.scenario.props:
+        assert crate.side_lengths == (0.4, 0.4)
+        assert crate.inertia.mass == 1
+        lever = crate.shape.plate.lever
+        assert lever == pytest.approx(LEVER)  # by which other engines hold it
+    world.step()
+    assert np.abs(world.command[1]).max() > 1.5
+    for i, k, length in scene.ropes:
+        apart = np.hypot(*(scene.poses[i] - scene.crates[k])[:2])
+        assert length == pytest.approx(1.5 * apart)
+        rope = world.scenario.joints[i]
+        assert (rope.a, rope.b, rope.length) == (f"robot{i}", f"box{k}", length)
+    assert len(scene.ropes) == len(world.scenario.joints)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["P1", "P3"])
+def test_crates_are_pushed_and_towed(name):
+    world = world_of(SCENES[name](), SETTINGS["loose"])
+    for _ in range(200):
+        world.step()
+    pose = world.record.prop_pose
+    assert np.hypot(*(pose[-1] - pose[0])[:2]).mean() > 0.05
 
 
 def test_the_law_of_a_team_turns_anew_once_a_second():
@@ -134,6 +173,54 @@ def test_robots_that_were_at_the_same_place_at_different_times_do_not_overlap():
     scene = Scene("", "", 0.1, 6.0, np.zeros((2, 3)), [])
     first, second = np.array([(0, 0, 0), (1, 0, 0)]).T, np.array([(1, 0, 0), (0, 0, 0)]).T
     assert deepest(scene, np.array([first, second] * 50)) == 0
+
+
+SQUARES = Scene("", "", 0.1, 6.0, np.zeros((1, 3)), [BOX], square=True, crates=np.zeros((1, 3)))
+"""A robot of 0.3 m and a crate of 0.4 m, both squares."""
+
+
+@pytest.mark.parametrize(
+    ("robot", "crate", "expected"),
+    [
+        ((0, 0, 0), (0.36, 0, 0), (0.01, 0.85)),  # apart by a face
+        ((0, 0, 0), (0.34, 0.1, np.pi / 2), (-0.01, 0.85)),
+        ((-1, 0, np.pi / 4), (-1, 0.45, np.pi / 4), (0.45 * 0.5**0.5 - 0.35, 1)),
+        ((-1, 0, 0), (-1, 0.42, np.pi / 4), (0.42 - 0.15 - 0.08**0.5, 1)),  # by a corner
+        ((-2.9, 0, 0), (0, 0, 0), (1, -0.05)),  # in a wall
+        ((-2.8, 0, np.pi / 4), (0, 0, 0), (1, 0.2 - 0.15 * 2**0.5)),
+        ((0.9, 0.2, 0), (-1, 0, 0), (1, -0.05)),  # in the box
+    ],
+)
+def test_gaps_of_squares_are_those_which_one_works_out(robot, crate, expected):
+    among, fixed = Gaps(SQUARES)(np.array([robot, crate], float), within=1.0)
+    assert among == pytest.approx([expected[0]] * 2)
+    assert fixed[0] == pytest.approx(expected[1])
+
+
+@pytest.mark.parametrize("square", [False, True])
+def test_overlaps_of_turned_bodies_are_those_of_minkowskis_difference(square):
+    rng = np.random.default_rng(0)
+    scene = Scene("", "", 0.1, 6.0, np.zeros((1, 3)), [], square=square, crates=np.zeros((1, 3)))
+    gaps, found = Gaps(scene), []
+    for _ in range(200):
+        (x, y), a, b = rng.uniform(-0.3, 0.3, 2), *rng.uniform(-np.pi, np.pi, 2)
+        robot, crate = np.zeros((1, 2)), _corners(0.2, b)
+        if square:
+            robot = _corners(0.15, a)
+        hull = MultiPoint((crate[:, None] - robot).reshape(-1, 2)).convex_hull
+        there = Point(x, y)
+        depth = hull.exterior.distance(there) * (1 if hull.contains(there) else -1)
+        gap = float(gaps(np.array([(x, y, a), (0, 0, b)]), 1.0)[0][0])
+        if depth > 0 or not square:
+            found.append(gap)
+            assert gap == pytest.approx(-depth - (0 if square else 0.15))
+    assert min(found) < -0.1
+
+
+def _corners(half, angle):
+    """The corners of a turned square round the origin."""
+    turns = angle + np.pi / 4 + np.pi / 2 * np.arange(4)
+    return half * 2**0.5 * np.column_stack([np.cos(turns), np.sin(turns)])
 
 
 # -- the suite ------------------------------------------------------------------------------------
@@ -257,10 +344,10 @@ def test_the_command_prints_one_line_of_json(tmp_path, capsys):
 
 
 @pytest.mark.slow
-def test_a_run_without_the_kernel_says_so(capsys, monkeypatch):
+def test_a_run_with_the_engine_in_python_says_so(capsys, monkeypatch):
     monkeypatch.setenv("MARS2D_PLAIN", "1")
     _, out, _ = bench(capsys, "S1", "--quick")
-    assert "without the kernel: the environment variable MARS2D_PLAIN is 1" in out
+    assert "with the engine in Python: the environment variable MARS2D_PLAIN is 1" in out
 
 
 # -- what it can't do -----------------------------------------------------------------------------
@@ -268,7 +355,7 @@ def test_a_run_without_the_kernel_says_so(capsys, monkeypatch):
 
 def test_an_unknown_scene_is_answered_with_the_nearest(capsys):
     assert "bench S22: the suite has no such scene; did you mean 'S2'?" in refused(capsys, "S22")
-    assert "known: S1, S2, S3, S4, start" in refused(capsys, "crowd")
+    assert "known: P1, P2, P3, S1, S2, S3, S4, start" in refused(capsys, "crowd")
 
 
 def test_what_can_not_be_written_is_refused_before_the_suite_is_run(tmp_path, capsys):
@@ -338,13 +425,15 @@ def test_the_growth_is_measured_fitted_and_drawn(tmp_path):
     result = json.loads((tmp_path / "a.json").read_text())
     rows = result["rows"]
     assert [(row["n"], row["setting"]) for row in rows] == [
-        (4, "default"), (16, "default"), (4, "loose"), (16, "loose"),
+        (4, "default"), (16, "default"), (4, "loose"), (16, "loose"), (4, "crates"), (16, "crates"),
     ]  # fmt: skip
     slope = np.log(rows[1]["tick_s"] / rows[0]["tick_s"]) / np.log(4)
     assert result["exponents"]["default"] == pytest.approx(slope)
     for row in rows:
         assert row["real_time"] == pytest.approx(0.1 / row["tick_s"])
-        assert row["bytes_needed"] == 48 + 16 / row["n"] + row["bytes_of_contacts"]
+        crates = 24 * 1.5 if row["setting"] == "crates" else 0
+        needed = 48 + 16 / row["n"] + crates + row["bytes_of_contacts"]
+        assert row["bytes_needed"] == pytest.approx(needed)
     with Image.open(tmp_path / "a.png") as picture:
         assert picture.size == (1210, 462)
         assert len(picture.getcolors()) <= 128

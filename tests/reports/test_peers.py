@@ -15,6 +15,8 @@ pytestmark = pytest.mark.slow
 
 FOLDER = Path(__file__).parents[2] / "benchmarks" / "peers"
 SCRIPTS = {
+    "pymunk": "pymunk_peer.py",
+    "Box2D": "box2d_peer.py",
     "navground": "navground_peer.py",
     "ir-sim": "irsim_peer.py",
     "vmas": "vmas_peer.py",
@@ -52,7 +54,7 @@ def bare(tmp_path):
 
 def test_without_peers_both_settings_of_mars2d_are_compared(tmp_path):
     (tmp_path / "page.md").write_text(
-        "before\n<!-- measured: start -->\nold\n<!-- measured: end -->\nafter\n"
+        "before\n<!-- robots: start -->\nold\n<!-- robots: end -->\nafter\n"
     )
     done = run(
         *("--scenes", "S1", "S2", "--steps", 8, "--rounds", 2),
@@ -70,7 +72,8 @@ def test_without_peers_both_settings_of_mars2d_are_compared(tmp_path):
             assert row["lost"] == 0
         middle, least, most = rows["MARS2D, default"]["ratios"]["MARS2D, loose"]
         assert 0 < least <= middle <= most
-        assert rows["MARS2D, default"]["overlap_mm"]["robots"] < 1.0
+        assert rows["MARS2D, default"]["overlap_mm"]["bodies"] < 1.0
+        assert rows["MARS2D, default"]["warm_up"]["steps"] == 8
     page = (tmp_path / "page.md").read_text()
     assert page.startswith("before\n")
     assert page.endswith("after\n")
@@ -78,11 +81,34 @@ def test_without_peers_both_settings_of_mars2d_are_compared(tmp_path):
     assert "old" not in page
 
 
+def test_scenes_of_contacts_have_a_table_of_their_own(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text(
+        "<!-- robots: start -->\nmine\n<!-- robots: end -->\n"
+        "<!-- contacts: start -->\nold\n<!-- contacts: end -->\n"
+    )
+    done = run(
+        *("--scenes", "P3", "--steps", 20, "--rounds", 1, "--peer", f"pymunk={sys.executable}"),
+        *("--markdown", "page.md", "--json", "out.json"),
+        cwd=tmp_path,
+    )
+    assert done.returncode == 0, done.stderr
+    text = page.read_text()
+    assert "start -->\nmine\n<!-- robots" in text
+    assert "old" not in text
+    rows = json.loads((tmp_path / "out.json").read_text())["scenes"]["P3"]
+    labels = ["MARS2D, default", "MARS2D, loose", "pymunk, 1 mm", "pymunk, 15 substeps"]
+    assert list(rows) == labels
+    for label in labels:
+        assert f"| P3 | {label} |" in text
+        assert 0.2 < rows[label]["warm_up"]["robots"] < 0.31  # of 0.3 m in 20 steps
+
+
 def test_a_page_without_the_marks_is_not_written(tmp_path):
     (tmp_path / "page.md").write_text("mine\n")
     done = run("--scenes", "S1", "--steps", 8, "--rounds", 1, "--markdown", "page.md", cwd=tmp_path)
     assert done.returncode == 2
-    assert "page.md: no such file with the lines <!-- measured: start -->" in done.stderr
+    assert "page.md: no such file with the lines <!-- robots: start -->" in done.stderr
     assert (tmp_path / "page.md").read_text() == "mine\n"
 
 
@@ -90,7 +116,7 @@ def test_a_page_without_the_marks_is_not_written(tmp_path):
     ("given", "says"),
     [
         ("navgroud=python", "no peer 'navgroud'; did you mean 'navground'?"),
-        ("gazebo=python", "no peer 'gazebo'. There are navground, ir-sim, vmas, aitk.robots."),
+        ("gazebo=python", "no peer 'gazebo'. There are pymunk, Box2D, navground, ir-sim, vmas,"),
         ("vmas", "--peer vmas: say which interpreter has it, vmas=DIR/bin/python"),
         ("ir-sim=nowhere/python", "--peer ir-sim: there is no interpreter nowhere/python"),
         ("ir-sim=nowhere/python", "pip install ir-sim=="),
@@ -123,6 +149,7 @@ def drawn(peer, **wrong):
     class Drawn(peer.Peer):
         def build(self):
             self._at = self.scene.poses.copy()
+            self._crates = self.scene.crates
             self._geometry = peer.Geometry(self.scene)
 
         def move(self, command):
@@ -131,9 +158,12 @@ def drawn(peer, **wrong):
             now = self._at[:, 2] + omega * h / 2
             way = v * h * np.sinc(omega * h / 2 / np.pi)
             self._at += np.column_stack([way * np.cos(now), way * np.sin(now), omega * h])
+            for i, k, length in self.scene.ropes:
+                rope = (self._at[i] - self._crates[k])[:2]
+                self._at[i, :2] = self._crates[k, :2] + rope * min(1, length / np.hypot(*rope))
 
         def poses(self):
-            return self._at.copy()
+            return np.concatenate([self._at, self._crates])
 
         def near(self):
             points = self._at[:, :2]
@@ -146,7 +176,7 @@ def drawn(peer, **wrong):
     return Drawn
 
 
-@pytest.mark.parametrize("scene", ["S1", "S2", "S3"])
+@pytest.mark.parametrize("scene", ["S1", "S2", "S3", "P1", "P2", "P3"])
 def test_a_run_that_does_as_it_is_told_is_fit_to_be_timed(scene, peer):
     run = peer.Run(drawn(peer), peer.SCENES[scene](), "")
     assert run.looked_at(8, 60.0)["steps"] == 8
@@ -168,9 +198,38 @@ def test_a_run_that_is_not_what_it_seems_is_not_timed(scene, wrong, says, peer):
         run.looked_at(200, 60.0)
 
 
+def test_who_is_held_by_a_rope_need_not_go_as_told(peer):
+    run = peer.Run(drawn(peer), peer.SCENES["P3"](), "")
+    seen = run.looked_at(100, 60.0)
+    assert seen["steps"] == 100
+    ends = [
+        np.hypot(*(run.peer.poses()[i] - run.peer.scene.crates[k])[:2]) / length
+        for i, k, length in run.peer.scene.ropes
+    ]
+    assert max(ends) == pytest.approx(1)
+
+
+def test_squares_that_pass_through_each_other_are_seen(peer):
+    run = peer.Run(drawn(peer), peer.SCENES["P2"](), "")
+    seen = run.looked_at(60, 60.0)
+    assert 0.02 < seen["bodies"] < 0.37
+
+
+def test_an_engines_substeps_are_the_fewest_that_keep_the_bound(peer):
+    spec = importlib.util.spec_from_file_location("pymunk_peer", FOLDER / "pymunk_peer.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    command = [sys.executable, str(FOLDER / "substeps.py"), "pymunk_peer", "--scenes", "P3"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    name, substeps, _, overlap, *_ = done.stdout.split()
+    assert name == "P3:"
+    assert float(overlap) <= 1
+    assert int(substeps) == pytest.approx(module.Pymunk.SUBSTEPS["P3"], rel=0.3)
+
+
 def test_robots_that_leave_the_walls_are_missed(peer):
     run = peer.Run(drawn(peer), peer.SCENES["S2"](), "")
-    with pytest.raises(ValueError, match="robots are outside the walls or deep in boxes"):
+    with pytest.raises(ValueError, match="bodies are outside the walls or deep in boxes"):
         run.timed(1000, 60.0)
 
 
@@ -204,16 +263,18 @@ def test_the_law_draws_the_numbers_that_it_draws_in_mars2d(peer):
 
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_a_peer_runs_a_scene_as_it_should(name, tmp_path):
-    python = os.environ.get(variable(name))
+    python = os.environ.get(variable(name), sys.executable if name == "pymunk" else None)
     if python is None:
         pytest.skip(f"{name} is not here: {variable(name)} names the interpreter that has it")
     done = run(
-        *("--peer", f"{name}={python}", "--scenes", "S1", "S2", "--steps", 8, "--rounds", 1),
+        *("--peer", f"{name}={python}", "--scenes", "S1", "S2", "P1", "--steps", 8, "--rounds", 1),
         *("--json", "out.json"),
         cwd=tmp_path,
     )
     assert done.returncode == 0, done.stderr
     result = json.loads((tmp_path / "out.json").read_text())
     assert name in result["versions"]
-    for rows in result["scenes"].values():
-        assert any(label.startswith(name) for label in rows)
+    for scene, rows in result["scenes"].items():
+        left_out = f"{scene}  {name} " in done.stdout and "left out" in done.stdout
+        assert left_out != any(label.startswith(name) for label in rows)
+    assert any(label.startswith(name) for label in result["scenes"]["S2"])

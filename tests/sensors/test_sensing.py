@@ -9,9 +9,17 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, LawError, Robot, Scenario, World
+from mars2d import InputError, LawError, Robot, Scenario, World, addons
 from mars2d.addons import Map
-from mars2d.sensors import LineCamera, Proximity, RangeFinder, Sensor, SonarRing
+from mars2d.sensors import (
+    Beacon,
+    LineCamera,
+    Proximity,
+    RangeBearing,
+    RangeFinder,
+    Sensor,
+    SonarRing,
+)
 from mars2d.sensors.base import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 
 MANY = 40_000
@@ -672,6 +680,45 @@ def test_sensors_that_differ_are_recorded_in_the_order_of_their_robots():
     assert (row[[1, 3]] > 1.5).any()
 
 
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {},
+        {"mount": (0.1, 0.1, 0.3)},
+        {"outliers": 0.5},
+        {"dropouts": 0.5},
+        {"field_of_view": 2 * pi, "range": 0.7, "mount": (0.2, 0, 0)},
+    ],
+)
+def test_a_team_reads_true_or_false_as_each_robot_would_alone(fields):
+    sensor = Proximity(**({"range": 0.95, "field_of_view": 1.0} | fields))
+    world = team(*[[sensor]] * 7)
+    world.observe()
+    alone = [
+        sensor.measured(sensor.read(robot, world.surroundings, rng), rng)
+        for robot in world.robots
+        for rng in [world.stream(f"sensor {robot.name} proximity")]
+    ]
+    found = [robot.sense.proximity for robot in world.robots]
+    assert found == alone
+    assert {*map(type, found)} == {bool}
+    assert {*found} == {True, False}
+
+
+def test_numbers_that_a_team_reads_are_python_s_own():
+    class Heading(Sensor):
+        def read(self, robot, world, rng):
+            return float(robot.pose[2])
+
+        def read_all(self, robots, world, rngs):
+            return world.pose[2, [robot.index for robot in robots]]
+
+    world = team([Heading()], [Heading()])
+    world.observe()
+    assert [robot.sense.heading for robot in world.robots] == [0.0, 0.7]
+    assert {type(robot.sense.heading) for robot in world.robots} == {float}
+
+
 def test_what_may_be_changed_is_not_read_with_a_team():
     """Whether two arrays are equal is no question of yes or no."""
 
@@ -764,3 +811,32 @@ def test_the_readings_of_a_team_can_not_be_written():
     world.step([[0.5, 0.5], [1, 1]])
     assert np.array_equal(before, kept)
     assert not np.array_equal(world.robots[1].sense.range_finder, kept)
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields"),
+    [
+        (RangeBearing, {"range": 2.5, "mount": (0.1, 0.0, 0.5), "noise": (0.1, 0.02)}),
+        (RangeBearing, {"identity": False, "field_of_view": 4.0, "noise": (0.1, 0.02)}),
+        (RangeBearing, {"through_walls": True}),
+        (Beacon, {"noise": (0.1, 0.02), "mount": (0.1, 0.1, 0.5)}),
+        (RangeFinder, {"beams": 7, "noise": 0.1}),
+        (SonarRing, {"noise": 0.1}),
+        (LineCamera, {"pixels": 5, "noise": 0.1}),
+    ],
+)
+@pytest.mark.parametrize("errors", [{}, {"outliers": 0.2, "dropouts": 0.2, "resolution": 0.01}])
+def test_with_a_team_a_sensor_reads_what_it_reads_alone_to_the_last_bit(kind, fields, errors):
+    class Alone(kind):
+        """It does not say itself how many are read at once."""
+
+    together = kind(**fields, **errors)
+    alone = Alone(**fields, **errors, name=together.key)
+    lamps = [addons.Beacon(at=(1, 0.4), name="a"), addons.Beacon(at=(-3, 1), name="b")]
+    rows = []
+    for sensor in (together, alone):
+        world = team(*[[sensor]] * 5, addons=[*lamps, Map([[(0.5, -2), (0.5, 0.5)]])])
+        for _ in range(20):
+            world.step(np.full((2, 5), 0.1))
+        rows.append(world.record.sensors[together.key].tobytes())
+    assert rows[0] == rows[1]

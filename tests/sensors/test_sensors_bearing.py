@@ -65,14 +65,15 @@ def all_sighted(pose, points, reach, field_of_view):
 def test_what_is_sighted_is_the_same_to_the_last_bit_however_many_are_far_off(reach, field_of_view):
     rng = np.random.default_rng(4)
     points = np.vstack([rng.uniform(-5, 5, (200, 2)), np.round(rng.uniform(-3, 3, (100, 2)), 1)])
-    for pose in ((0.0, 0.0, 0.0), (0.1, -0.2, 2.5), (1e5, 0.3, -7.0), (points[3, 0], 2.0, 0.0)):
-        found = sighted(np.array(pose), points, reach, field_of_view)
-        assert found.tobytes() == all_sighted(pose, points, reach, field_of_view).tobytes()
+    poses = ((0.0, 0.0, 0.0), (0.1, -0.2, 2.5), (1e5, 0.3, -7.0), (points[3, 0], 2.0, 0.0))
+    found = sighted(np.transpose(poses), points, reach, field_of_view)
+    for rows, pose in zip(found, poses, strict=True):
+        assert rows.tobytes() == all_sighted(pose, points, reach, field_of_view).tobytes()
 
 
 def test_the_bound_of_the_range_is_in_sight():
     points = np.array([[0.3, 0.0], [0.0, -0.3], [0.1 + 0.2, 0.0]])
-    found = sighted(np.zeros(3), points, 0.3, 2 * pi)
+    found = sighted(np.zeros((3, 1)), points, 0.3, 2 * pi)[0]
     assert found[:, 0].tolist() == [0.3, 0.3, inf]
 
 
@@ -219,10 +220,10 @@ def test_a_hundred_robots_look_about_in_no_time():
 
 
 def test_points_are_seen_all_round_if_nothing_says_what_hides_them():
-    here = np.array([0.0, 0.0, 0.0])
+    here = np.zeros((3, 1))
     points = np.array([[1.0, 0.0], [0.0, -2.0], [inf, inf]])
     expected = [[1, 0], [2, -pi / 2], [inf, nan]]
-    assert np.array_equal(sighted(here, points, 5, 2 * pi), expected, equal_nan=True)
+    assert np.array_equal(sighted(here, points, 5, 2 * pi)[0], expected, equal_nan=True)
 
 
 def test_a_row_is_there_as_a_whole_or_not_at_all():

@@ -9,7 +9,7 @@ import pytest
 
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.bodies.props import Ball, Box, Solid
-from mars2d.physics.floor import GRAVITY
+from mars2d.core.materials import GRAVITY
 from mars2d.window.forcemeter import Meter, bound_of
 from mars2d.window.picking import body_at, next_body, selection_mark
 from mars2d.window.player import between

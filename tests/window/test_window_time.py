@@ -282,6 +282,13 @@ def test_a_recording_can_be_looked_at_and_says_what_can_not_be_done(open_window,
     assert window.look()[PLOT].mean() > 200
 
 
+def test_a_digit_that_is_held_is_typed_once(open_window):
+    window = open_window(0)
+    window.do("keydown", "2", "sleep", "1", "keyup", "2")  # an arrow would repeat
+    window.press("5")
+    window.until(lambda s: s["chip"] == "25 ...")
+
+
 def test_escape_forgets_a_number_and_closes_nothing(open_window):
     window = open_window(0)
     window.press("2", "5")

@@ -14,7 +14,7 @@ from mars2d import Holonomic, InputError, LawError, Robot, Scenario, Unicycle, W
 from mars2d.addons import Game, Map
 from mars2d.bodies.joints import Hinge, Rope, Spring
 from mars2d.bodies.props import Box, Puck
-from mars2d.physics.kernel import reason_without
+from mars2d.physics.islands import reason_without
 from mars2d.world.verify import rerun
 
 WALL = Map([[(1.0, -3.0), (1.0, 3.0)]])
@@ -226,8 +226,8 @@ def test_a_spring_gives_way_as_far_as_the_hand_is_strong():
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(bool(reason_without()), reason="there is no kernel")
-def test_kernel_and_plain_engine_give_the_same_bits():
+@pytest.mark.skipif(bool(reason_without()), reason="the engine is not compiled")
+def test_pulls_give_the_same_bits_compiled_and_in_python():
     code = "from tests.world.test_operator import digest_of_a_crowd\nprint(digest_of_a_crowd())"
     digests = {
         subprocess.run(
@@ -254,7 +254,7 @@ def digest_of_a_crowd():
     return world.record.digest
 
 
-def test_in_a_large_team_which_is_stepped_in_groups_a_pull_is_the_same():
+def test_in_a_large_team_a_pull_is_the_same():
     places = [(0.5 * (k % 13) - 3, 0.5 * (k // 13) - 2.5) for k in range(143)]
     robots = [Robot(pose=(*place, 0)) for place in places]
     world = World(Scenario(robots=robots, on_exit="ignore"))

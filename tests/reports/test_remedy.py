@@ -1,0 +1,125 @@
+"""Where the engine is not compiled, the line that mends it is one that does so here."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import mars2d
+from mars2d.cli.command_line import main
+from mars2d.cli.verbs import run
+from mars2d.physics import islands
+from mars2d.reports import remedy as remedies
+from mars2d.reports.doctor import examine
+from mars2d.reports.remedy import remedy
+
+PACKAGE = Path(mars2d.__file__).parent
+AGAIN = "pip install --force-reinstall --no-deps"
+
+
+class Installed:
+    """An installed distribution: where it is, and what pip has noted of where it came from."""
+
+    def __init__(self, told: dict | None, folder: Path) -> None:
+        self.told, self.folder = told, folder
+
+    def read_text(self, name: str) -> str | None:
+        assert name == "direct_url.json"
+        return None if self.told is None else json.dumps(self.told)
+
+    def locate_file(self, name: str) -> Path:
+        return self.folder / name
+
+
+@pytest.fixture
+def tools(monkeypatch):
+    """Say which programs there are; MARS2D_PLAIN is not set, and the sources are elsewhere."""
+    monkeypatch.delenv("MARS2D_PLAIN", raising=False)
+    monkeypatch.setenv("CC", "gcc -pthread")
+
+    def there_are(*names: str, headers: bool = True) -> None:
+        monkeypatch.setattr(remedies.shutil, "which", lambda name: name if name in names else None)
+        monkeypatch.setattr(remedies.Path, "exists", lambda path: headers and path.suffix == ".h")
+
+    there_are("gcc", "apt-get")
+    return there_are
+
+
+@pytest.mark.parametrize(
+    ("told", "line"),
+    [
+        ({"url": "file:///a/my%20code", "dir_info": {}}, f"{AGAIN} file:///a/my%20code"),
+        (
+            {"url": "https://x.org/m.git", "vcs_info": {"vcs": "git", "commit_id": "abc"}},
+            f"{AGAIN} --no-cache-dir git+https://x.org/m.git@abc",
+        ),
+        (
+            {"url": "file:///a/m-1.tar.gz", "archive_info": {}},
+            f"{AGAIN} --no-cache-dir file:///a/m-1.tar.gz",
+        ),
+        ({"url": "file:///a/m-1.whl", "archive_info": {}}, f"{AGAIN} FOLDER, that of its sources"),
+        (
+            None,
+            f"{AGAIN} --no-cache-dir --no-binary mars2d mars2d=={mars2d.__version__}",
+        ),
+    ],
+    ids=["a folder", "a repository", "an archive", "a wheel", "the index"],
+)
+@pytest.mark.usefixtures("tools")
+def test_it_installs_again_from_where_it_was_installed(told, line, monkeypatch):
+    monkeypatch.setattr(remedies, "distribution", lambda _: Installed(told, PACKAGE.parent))
+    assert remedy() == line
+
+
+@pytest.mark.usefixtures("tools")
+def test_what_another_installation_came_from_does_not_count(monkeypatch):
+    told = {"url": "file:///a", "dir_info": {}}
+    monkeypatch.setattr(remedies, "distribution", lambda _: Installed(told, Path("/other")))
+    assert remedy() == f"{AGAIN} FOLDER, that of its sources"
+
+
+@pytest.mark.skipif(not (PACKAGE.parent / "pyproject.toml").exists(), reason="no sources here")
+def test_what_is_run_from_its_sources_is_installed_so(monkeypatch):
+    monkeypatch.delenv("MARS2D_PLAIN", raising=False)
+    assert remedy().endswith(f"pip install --no-deps -e {PACKAGE.parent}")
+
+
+@pytest.mark.skipif(remedies.sys.platform != "linux", reason="it is another line elsewhere")
+def test_what_compiles_is_installed_first_where_it_is_missing(tools):
+    version = ".".join(map(str, remedies.sys.version_info[:2]))
+    tools("apt-get")
+    assert remedy().startswith("apt-get install gcc && pip install ")
+    tools("apt-get", headers=False)
+    assert remedy().startswith(f"apt-get install gcc python{version}-dev && pip install ")
+    tools("gcc", "apt-get", headers=False)
+    assert remedy().startswith(f"apt-get install python{version}-dev && pip install ")
+    tools("dnf", headers=False)
+    assert remedy().startswith("dnf install gcc python3-devel && pip install ")
+    tools("gcc", "apt-get")
+    assert remedy().startswith("pip install ")
+
+
+def test_a_pymunk_that_does_not_fit_is_replaced(tools, monkeypatch):
+    monkeypatch.setattr(islands, "CONTACT_SIZE", 1)
+    assert remedy() == "pip install pymunk==7.3.1"
+
+
+def test_doctor_and_long_runs_say_it(capsys, monkeypatch, tmp_path):
+    monkeypatch.setenv("MARS2D_PLAIN", "1")
+    [finding] = [finding for finding in examine() if finding.name == "engine"]
+    assert finding.ok is None
+    assert finding.text.endswith("variable MARS2D_PLAIN is 1. To mend it: unset MARS2D_PLAIN")
+    monkeypatch.chdir(tmp_path)
+    line = "Compiled it is many times quicker: unset MARS2D_PLAIN"
+    command = ["run", "head_on", "--headless"]
+    main(command)
+    assert line not in capsys.readouterr().err  # it took less than 20 s
+    monkeypatch.setattr(run, "LONG", 0.0)
+    main(command)
+    assert capsys.readouterr().err.count(line) == 1
+    if islands._loaded()[0]:
+        monkeypatch.delenv("MARS2D_PLAIN")
+        main(command)
+        assert line not in capsys.readouterr().err
