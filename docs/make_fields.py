@@ -17,6 +17,7 @@ from mars2d import (
     Drive,
     Everyone,
     Graph,
+    MaterialPair,
     Nearest,
     Prediction,
     Robot,
@@ -47,6 +48,7 @@ KINDS: tuple[type[Description], ...] = (
     Sensor, *shipped("sensors"),
     Addon, *shipped("addons"), Burst,
     Everyone, Within, Nearest, Delaunay, Graph,
+    MaterialPair,
     Prediction,
 )  # fmt: skip
 

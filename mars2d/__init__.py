@@ -22,6 +22,7 @@ from mars2d.core.former import FormerNames
 from mars2d.record.record import Record, load
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import load_law
+from mars2d.scenario.material_pair import MaterialPair
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.robot import Robot
@@ -50,6 +51,7 @@ __all__ = [
     "InputError",
     "LawError",
     "Mars2dError",
+    "MaterialPair",
     "Nearest",
     "Neighbourhood",
     "Prediction",

@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core import checks
-from mars2d.core.description import Stateful, entry, snake_case, text
+from mars2d.core.description import Stateful, entry, number, snake_case, text
 from mars2d.core.errors import InputError, nearest
-from mars2d.core.materials import surface_friction, surface_restitution
+from mars2d.core.materials import check_static, surface_friction, surface_restitution
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
 
@@ -48,6 +48,10 @@ class Addon(Stateful):
         default=1.0, check=surface_restitution,
         doc="of its obstacles, a number or a material's name; a contact has the product of both",
     )  # fmt: skip
+    static_friction: float | None = number(
+        default=None, low=0, high=1e3, optional=True,
+        doc="holds for as long as nothing slips; None: as friction",
+    )  # fmt: skip
     only_one: ClassVar[str] = ""
     """Why a scenario has no two of them, as "robots talk over one"; "": it may have several."""
     carries_messages: ClassVar[bool] = False
@@ -70,7 +74,9 @@ class Addon(Stateful):
         return self.name or snake_case(type(self).__name__)
 
     def _validate(self) -> None:
-        checks.identifier(f"{type(self).__name__}.name", self.name, "world.addons.")
+        kind = type(self).__name__
+        checks.identifier(f"{kind}.name", self.name, "world.addons.")
+        check_static(f"{kind}.static_friction", self.static_friction, self.friction)
 
     @property
     def acts(self) -> bool:

@@ -21,10 +21,14 @@ class Inertia(NamedTuple):
 
 
 class Surface(NamedTuple):
-    """Coefficients of friction and restitution; a contact has the product of both bodies'."""
+    """Coefficients of friction and restitution; a contact has the product of both bodies'.
+
+    static_friction: holds while nothing slips; None: as friction.
+    """
 
     friction: float
     restitution: float
+    static_friction: float | None = None
 
 
 class Rigid(NamedTuple):

@@ -2,8 +2,10 @@
 
 The engine multiplies the values of the two surfaces in a contact. So each surface has the square
 root of the value for a pair of the same material: steel on steel gets 0.76 * 0.76 = 0.58. Pairs of
-different materials come out near the tables in most cases, but too high with ice. In contact with
-a surface of friction 1 and restitution 1, the default of obstacles, a body's own values apply.
+different materials come out near the tables in most cases, but too high with ice; a table of pairs
+states these. In contact with a surface of friction 1 and restitution 1, the default of obstacles, a
+body's own values apply. Other rules than the product are those of other engines and textbooks; the
+values of materials are made for the product.
 
 The figures are typical of clean, dry, solid bodies. Real values scatter by a third or more, with
 finish, moisture and speed: measure where it matters. Sources:
@@ -18,7 +20,7 @@ finish, moisture and speed: measure where it matters. Sources:
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import nearest
@@ -26,8 +28,12 @@ from mars2d.core.errors import nearest
 __all__ = [
     "GRAVITY",
     "MATERIALS",
+    "RULES",
+    "Coefficient",
     "Material",
+    "check_static",
     "material",
+    "material_of",
     "surface_friction",
     "surface_restitution",
 ]
@@ -70,6 +76,56 @@ MATERIALS: dict[str, Material] = {
 """The materials by name."""
 
 
+RULES = ("product", "minimum", "mean", "geometric", "maximum")
+"""How the values of two surfaces make that of their contact; "mean" is (p + q) / 2, "geometric"
+sqrt(p q).
+"""
+
+
+class Coefficient(float):
+    """A coefficient of friction or restitution that was given by a material's name."""
+
+    material: str
+
+    def __new__(cls, value: float, material: str) -> Self:
+        """Take the number and the name."""
+        made = super().__new__(cls, value)
+        made.material = material
+        return made
+
+    def __eq__(self, other: object) -> bool:
+        """Tell two materials apart that have the same value; any other number is compared as one.
+
+        >>> wood = Coefficient(0.63, "wood")
+        >>> wood == Coefficient(0.63, "glass"), wood == 0.63
+        (False, True)
+        """
+        if isinstance(other, Coefficient) and other.material != self.material:
+            return False
+        return super().__eq__(other)
+
+    def __ne__(self, other: object) -> bool:
+        """Return what `__eq__` does not."""
+        return not self == other
+
+    __hash__ = float.__hash__
+
+    def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override]
+        """Return what a copy is made of."""
+        return float(self), self.material
+
+
+def material_of(coefficient: float) -> str | None:
+    """Return the name of the material by which a coefficient was given; None: it was a number."""
+    return coefficient.material if isinstance(coefficient, Coefficient) else None
+
+
+def check_static(name: str, static: float | None, kinetic: float) -> None:
+    """Refuse a coefficient of static friction below the kinetic one. name: of the field."""
+    if static is not None and static < kinetic:
+        raise wrong(name, static, f"at least the kinetic coefficient, {kinetic:g}, or None")
+
+
 def material(name: str, value: object) -> str | None:
     """Check a material's name, or None.
 
@@ -106,7 +162,9 @@ def _surface(name: str, value: object, quantity: str, high: float) -> float:
     if isinstance(value, str):
         if value not in MATERIALS:
             raise wrong(name, value, expected + _known(value))
-        return float(getattr(MATERIALS[value], quantity))
+        return Coefficient(getattr(MATERIALS[value], quantity), value)
+    if isinstance(value, Coefficient) and getattr(MATERIALS[value.material], quantity) == value:
+        return value
     result = real(name, value, expected)
     if not 0 <= result <= high:
         raise wrong(name, value, expected)

@@ -72,6 +72,15 @@ BENT = 0.75
 SWING = 0.05
 """The longest substep, in periods of a spring over 2 pi."""
 
+# -- surfaces -----------------------------------------------------------------------------------
+
+STICKS = 1e-3
+"""The speed along each other below which two surfaces stick rather than slide, m/s.
+
+Static friction holds up to there. Models of friction use a like speed to tell both apart, as D.
+Karnopp, J. Dyn. Syst. Meas. Control 107, 100 (1985).
+"""
+
 # -- drives -------------------------------------------------------------------------------------
 
 LINGER = 3

@@ -20,13 +20,13 @@ from mars2d.bodies.constraints import (
 )
 from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.props.base import Prop
-from mars2d.bodies.rigid import Rigid
-from mars2d.core.materials import GRAVITY
+from mars2d.bodies.rigid import Rigid, Surface
+from mars2d.core.materials import GRAVITY, MATERIALS, RULES, material_of
 from mars2d.core.plane import edges_of
 from mars2d.physics import settings
 from mars2d.physics.islands import chipmunk, islands
 from mars2d.scenario.robot import Robot
-from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.scenario import Obstacle, Scenario
 
 __all__ = ["iterations_of", "mover_of"]
 
@@ -55,6 +55,7 @@ def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) ->
         _walls(module, scenario),
         [_tie(module, tie, bodies) for tie in scenario.ties],
         set(scenario.joined),
+        _surfaces(module, scenario, bodies),
     )
 
 
@@ -75,7 +76,11 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
         "offset_x": x, "offset_y": y, "is_disc": rigid.is_disc and not (x or y),
     }  # fmt: skip
     if isinstance(part, Prop):
-        what |= {"grip": part.ground_friction * inertia.mass * GRAVITY, "lever": shape.lever}
+        what |= {
+            "grip": part.ground_friction * inertia.mass * GRAVITY,
+            "rest_grip": part.resting_friction * inertia.mass * GRAVITY,
+            "lever": shape.lever,
+        }
     else:
         drive = part.drive
         what |= {
@@ -100,6 +105,46 @@ def _walls(module: Any, scenario: Scenario) -> list[Any]:
         )
         for number, (obstacle, ends, surface) in enumerate(edges)
     ]  # fmt: skip
+
+
+def _surfaces(module: Any, scenario: Scenario, bodies: Sequence[Any]) -> Any:
+    """Return what settles friction and restitution; None where both are products."""
+    of_bodies = [body.surface for body in scenario.bodies]
+    of_obstacles = scenario.surfaces
+    rules = RULES.index(scenario.friction_rule), RULES.index(scenario.restitution_rule)
+    static = [each.static_friction for each in of_bodies]
+    static += [each.static_friction for each in of_obstacles]
+    asks = any(rules) or scenario.material_pairs or any(each is not None for each in static)
+    if not asks:
+        return None
+    return module.Surfaces(
+        list(bodies), [_surface(module, each) for each in of_bodies],
+        [_surface(module, each) for each in of_obstacles], rules, settings.STICKS,
+        _pairs(scenario),
+    )  # fmt: skip
+
+
+def _surface(module: Any, surface: Surface | Obstacle) -> Any:
+    """Return a surface, with the numbers of the materials by whose names it was given."""
+    friction, restitution, static = surface.friction, surface.restitution, surface.static_friction
+    names = (material_of(friction), material_of(restitution))
+    rubs, bounces = (-1 if name is None else [*MATERIALS].index(name) for name in names)
+    held = friction if static is None else static
+    return module.Surface(float(friction), float(held), float(restitution), rubs, bounces)
+
+
+def _pairs(scenario: Scenario) -> tuple[list[float], list[float], list[float]]:
+    """Return friction, static friction and restitution of pairs of materials, row by row."""
+    names = [*MATERIALS]
+    tables = np.full((3, len(names), len(names)), -1.0)
+    for pair in scenario.material_pairs:
+        static = pair.friction if pair.static_friction is None else pair.static_friction
+        for k, value in enumerate((pair.friction, static, pair.restitution)):
+            if value is not None:
+                a, b = names.index(pair.a), names.index(pair.b)
+                tables[k, a, b] = tables[k, b, a] = value
+    friction, static_friction, restitution = tables.reshape(3, -1).tolist()
+    return friction, static_friction, restitution
 
 
 def _tie(module: Any, attached: AttachedJoint, bodies: Sequence[Any]) -> Any:

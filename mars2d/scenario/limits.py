@@ -120,11 +120,13 @@ def _check_mass(body: Rigid, material: Mapping[str, str]) -> None:
 
 def _check_motion(body: Rigid, fastest: float) -> None:
     """Refuse an impossible surface of a user's own prop, and a body that starts too fast."""
-    friction, restitution = body.surface
-    if not (0 <= friction <= 1e3 and 0 <= restitution <= 1):
+    friction, restitution, static = body.surface
+    most = friction if static is None else static
+    if not (0 <= friction <= most <= 1e3 and 0 <= restitution <= 1):
         raise wrong(
-            f"{body.kind}.surface of {body.name}", (friction, restitution),
-            "friction >= 0 and <= 1000, restitution >= 0 and <= 1",
+            f"{body.kind}.surface of {body.name}", tuple(body.surface),
+            "friction >= 0 and <= 1000, restitution >= 0 and <= 1, static_friction >= friction "
+            "and <= 1000, or None",
         )  # fmt: skip
     vx, vy, omega = body.velocity
     speed = hypot(vx, vy) + abs(omega) * body.shape.reach

@@ -12,7 +12,7 @@ from mars2d.bodies.drives.unicycle import Unicycle
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
 from mars2d.core.description import Description, choice, entry, number, text, wrong
-from mars2d.core.materials import surface_friction, surface_restitution
+from mars2d.core.materials import check_static, surface_friction, surface_restitution
 from mars2d.core.plane import Point
 from mars2d.core.scene import optional_color
 from mars2d.geometry.shapes import Disc, Shape, known_shape
@@ -65,6 +65,10 @@ class Robot(Description):
     restitution: float = entry(
         default=0.0, check=surface_restitution,
         doc="0 stops, 1 bounces back; or a material's name; a contact has the product of both",
+    )  # fmt: skip
+    static_friction: float | None = number(
+        default=None, low=0, high=1e3, optional=True,
+        doc="holds for as long as nothing slips; None: as friction",
     )  # fmt: skip
     center_offset: float = number(
         default=0.0, low=-1e3, high=1e3, unit="m",
@@ -123,7 +127,7 @@ class Robot(Description):
     @property
     def surface(self) -> Surface:
         """The friction and restitution of its sides."""
-        return Surface(self.friction, self.restitution)
+        return Surface(self.friction, self.restitution, self.static_friction)
 
     @property
     def rigid(self) -> Rigid:
@@ -133,6 +137,7 @@ class Robot(Description):
         return Rigid("Robot", str(self.name), self.pose, still, shape, inertia, surface)
 
     def _validate(self) -> None:
+        check_static("Robot.static_friction", self.static_friction, self.friction)
         if self.drive.max_force > MAX_ACCELERATION * self.mass:
             raise wrong(
                 "Robot.drive.max_force", self.drive.max_force,

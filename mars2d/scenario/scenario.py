@@ -21,11 +21,13 @@ from mars2d.core import checks
 from mars2d.core.description import Description, choice, entry, number, snake_case, text, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.files import file_beside
+from mars2d.core.materials import RULES
 from mars2d.core.plane import Outline, bounds_of
 from mars2d.core.usercode import called
 from mars2d.geometry.shapes import known_shape
 from mars2d.scenario import limits, starts
 from mars2d.scenario.animation import Animation
+from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
 from mars2d.scenario.robot import Robot
 
@@ -44,11 +46,15 @@ def _outlines(addon: Addon) -> tuple[Outline, ...]:
 
 
 class Obstacle(NamedTuple):
-    """Something fixed: its outline [m], coefficient of friction and restitution."""
+    """Something fixed: its outline [m], coefficients of friction and restitution.
+
+    static_friction: holds while nothing slips; None: as friction.
+    """
 
     outline: Outline
     friction: float
     restitution: float
+    static_friction: float | None = None
 
 
 def _robots(name: str, value: object) -> object:
@@ -114,6 +120,15 @@ class Scenario(Description):
     max_overlap: float = number(
         default=1e-3, low=1e-5, high=1.0, unit="m", doc="how deep bodies may overlap for an instant"
     )
+    friction_rule: str = choice(
+        default="product", of=RULES, doc="how the friction of a contact follows from both surfaces'"
+    )
+    restitution_rule: str = choice(default="product", of=RULES, doc="how its restitution does")
+    material_pairs: Sequence[MaterialPair] = entry(
+        default=(),
+        check=checks.listing(MaterialPair, "MaterialPair('steel', 'ice', friction=0.03)"),
+        doc="what certain materials do to each other, whatever the rule",
+    )
     addons: Sequence[Addon] = entry(
         default=(), check=checks.listing(Addon, "Map([...])"), doc="maps, measures, games"
     )
@@ -143,6 +158,7 @@ class Scenario(Description):
         names = [str(robot.name) for robot in robots] + [str(prop.name) for prop in props]
         checks.unique("Scenario.robots and props", names)
         checks.unique("Scenario.addons", [addon.key for addon in self.addons])
+        check_once("Scenario.material_pairs", self.material_pairs)
         self._check_only_ones()
         if self.stop_time / self.sampling_time > ROW_LIMIT:
             raise wrong(
@@ -293,7 +309,7 @@ class Scenario(Description):
     def surfaces(self) -> tuple[Obstacle, ...]:
         """The obstacles: those of the add-ons, then the workspace if it is a wall."""
         found = [
-            Obstacle(outline, addon.friction, addon.restitution)
+            Obstacle(outline, addon.friction, addon.restitution, addon.static_friction)
             for addon in self.addons
             for outline in _outlines(addon)
         ]

@@ -16,8 +16,10 @@ from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.solid import Solid
 from mars2d.core.description import Description, snake_case
 from mars2d.core.errors import InputError
+from mars2d.core.materials import Coefficient
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
 from mars2d.scenario.animation import Animation
+from mars2d.scenario.material_pair import MaterialPair
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.scenario.registry import FAMILIES, family_of, members, package_of, plugin
 from mars2d.scenario.robot import Robot
@@ -55,6 +57,7 @@ PARTS: dict[type[Description], dict[str, Place]] = {
         "robots": Place(Robot, many=True, default=Robot),
         "props": Place(Prop, many=True),
         "joints": Place(Joint, many=True),
+        "material_pairs": Place(MaterialPair, many=True, default=MaterialPair),
         "addons": Place(Addon, many=True),
         "neighbours": Place(Neighbourhood),
         "animation": Place(Animation, default=Animation),
@@ -127,6 +130,8 @@ def from_description(value: Any) -> Any:
         return head | _fields(value) | _moving(value)
     if isinstance(value, (list, tuple)):
         return [from_description(item) for item in value]
+    if isinstance(value, Coefficient):
+        return value.material
     if value is None or isinstance(value, (bool, int, float, str)):
         return value
     return {"function": getattr(value, "__name__", type(value).__name__)}
@@ -144,10 +149,12 @@ def _moving(value: Description) -> dict[str, Any]:
         return {"obstacles": from_description(value.obstacles())}
     if isinstance(value, Prop):
         mass, moment = value.inertia
-        friction, restitution = value.surface
+        surface = value.surface
         return {
             "shape": from_description(value.shape), "mass": mass, "moment": moment,
-            "friction": friction, "restitution": restitution,
+            "friction": from_description(surface.friction),
+            "restitution": from_description(surface.restitution),
+            "static_friction": surface.static_friction,
             "joints": from_description(value.joints()),
         }  # fmt: skip
     if isinstance(value, Shape):
@@ -293,7 +300,7 @@ def _type_of(kind: type[Description]) -> str:
 
 _KNOWN = (
     Scenario, Robot, Animation, Disc, Polygon, Compound, Burst,
-    Everyone, Within, Nearest, Delaunay, Graph,
+    Everyone, Within, Nearest, Delaunay, Graph, MaterialPair,
 )  # fmt: skip
 
 

@@ -16,6 +16,7 @@ from typing import Any
 from mars2d.core.description import Check, Description, wrong
 from mars2d.core.errors import InputError, described, nearest, shown
 from mars2d.core.files import atomic_write, file_beside
+from mars2d.core.materials import Coefficient
 from mars2d.core.picture import image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
@@ -173,6 +174,8 @@ class _Writer:
             return quoted(NONE)
         if isinstance(value, bool):
             return str(value).lower()
+        if isinstance(value, Coefficient):
+            return quoted(value.material)
         if isinstance(value, (int, float)):
             return numeral(value)
         if isinstance(value, str):

@@ -54,7 +54,7 @@ def holding_force(scenario: Scenario, body: int) -> float:
     if body < n:
         return scenario.robots[body].drive.max_force
     prop = scenario.props[body - n]
-    return prop.ground_friction * prop.inertia.mass * GRAVITY
+    return prop.resting_friction * prop.inertia.mass * GRAVITY
 
 
 class Meter:

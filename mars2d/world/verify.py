@@ -105,6 +105,7 @@ def _in_motion(scenario: Scenario) -> Scenario:
             name=addon.key,
             friction=addon.friction,
             restitution=addon.restitution,
+            static_friction=addon.static_friction,
         )
         for addon in scenario.addons
         if addon.obstacles()

@@ -9,7 +9,14 @@ from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
 from mars2d.core.description import Description, entry, number, real, text, wrong
-from mars2d.core.materials import MATERIALS, material, surface_friction, surface_restitution
+from mars2d.core.materials import (
+    MATERIALS,
+    Coefficient,
+    check_static,
+    material,
+    surface_friction,
+    surface_restitution,
+)
 from mars2d.core.scene import optional_color
 from mars2d.geometry.shapes import Shape
 
@@ -33,7 +40,8 @@ class Prop(Description):
     """The base of all props: bodies without a drive.
 
     Its pose is the pose of its centre of mass. Coulomb friction with the floor slows it down, with
-    the force ground_friction * mass * g.
+    the force ground_friction * mass * g; at rest it is held by up to static_ground_friction * mass
+    * g.
     """
 
     pose: tuple[float, float, float] = entry(
@@ -66,11 +74,27 @@ class Prop(Description):
         default=None, check=checks.optional(surface_restitution),
         doc="of its sides, a number or a material's name; None: the material's, or 0",
     )  # fmt: skip
+    static_friction: float | None = number(
+        default=None, low=0, high=1e3, optional=True,
+        doc="holds for as long as nothing slips; None: as friction",
+    )  # fmt: skip
     ground_friction: float = number(
         default=0.5, low=0, high=100, doc="coefficient of friction between it and the floor"
     )
+    static_ground_friction: float | None = number(
+        default=None, low=0, high=100, optional=True,
+        doc="the same for as long as it rests; None: as ground_friction",
+    )  # fmt: skip
     name: str | None = text(default=None, optional=True, doc="its name, else box0, ball1, ...")
     color: str | None = entry(default=None, check=optional_color, doc="its colour")
+
+    def _validate(self) -> None:
+        kind = type(self).__name__
+        if self.static_friction is not None:
+            check_static(f"{kind}.static_friction", self.static_friction, self.surface.friction)
+        check_static(
+            f"{kind}.static_ground_friction", self.static_ground_friction, self.ground_friction
+        )
 
     def at(self, x: float, y: float, theta: float = 0.0) -> Self:
         """Return a copy of this prop at pose (x [m], y [m], theta [rad])."""
@@ -115,10 +139,15 @@ class Prop(Description):
     @property
     def surface(self) -> Surface:
         """The friction and restitution of its sides."""
-        made_of = None if self.material is None else MATERIALS[self.material]
-        friction, restitution = self.friction, self.restitution
+        friction, restitution, name = self.friction, self.restitution, self.material
         if friction is None:
-            friction = 0.5 if made_of is None else made_of.friction
+            friction = 0.5 if name is None else Coefficient(MATERIALS[name].friction, name)
         if restitution is None:
-            restitution = 0.0 if made_of is None else made_of.restitution
-        return Surface(friction, restitution)
+            restitution = 0.0 if name is None else Coefficient(MATERIALS[name].restitution, name)
+        return Surface(friction, restitution, self.static_friction)
+
+    @property
+    def resting_friction(self) -> float:
+        """The coefficient of friction with which the floor holds it at rest."""
+        static = self.static_ground_friction
+        return self.ground_friction if static is None else static

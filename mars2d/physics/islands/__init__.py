@@ -63,6 +63,10 @@ def difference() -> str:
 
 FIELDS = {
     "struct cpArbiter": {"count": (104, "int"), "contacts": (112, "struct cpContact *")},
+    "struct cpCollisionHandler": {
+        "preSolveFunc": (24, "void(*)(struct cpArbiter *, struct cpSpace *, void *)"),
+        "userData": (48, "void *"),
+    },
     "struct cpContact": {"jnAcc": (56, "double"), "jtAcc": (64, "double")},
 }
 """Fields of the engine's structs that are written directly: where they are, and their types."""

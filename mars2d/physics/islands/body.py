@@ -122,6 +122,8 @@ class Body:
     # the floor under a prop
     grip: cython.double  # N, its friction against sliding
     twist_grip: cython.double  # N m, and against spinning
+    rest_grip: cython.double  # the same while it rests
+    rest_twist_grip: cython.double
     lever: cython.double
     slows: cython.double  # m/s^2 and rad/s^2, how it slows
     stops: cython.double
@@ -205,6 +207,7 @@ class Body:
         self.forward = self.left = self.turning = self.force = self.torque = self.rim = 0.0
         self.since, self.effort = 1 << 20, 0.0
         self.grip = self.twist_grip = self.lever = self.slows = self.stops = 0.0
+        self.rest_grip = self.rest_twist_grip = 0.0
         self.allowed = self.twist_allowed = self.held = self.twist_held = 0.0
         self.pull_x = self.pull_y = self.pull_torque = 0.0
         self.now_x = self.now_y = self.now_spin = self.bend = 0.0
@@ -233,6 +236,8 @@ class Body:
         self.reach = self.radius + self.offset
         self.lever, self.grip = what.get("lever", 0.0), what.get("grip", 0.0)
         self.twist_grip = self.grip * self.lever
+        self.rest_grip = what.get("rest_grip", self.grip)
+        self.rest_twist_grip = self.rest_grip * self.lever
         self.slows, self.stops = self.grip / self.mass, self.twist_grip / self.moment
         self.force, self.torque = what.get("force", 0.0), what.get("torque", 0.0)
         self.rim, self.in_robot_frame = what.get("rim", 0.0), what.get("in_robot_frame", False)

@@ -74,6 +74,9 @@ cdef extern from *:
         int (*cpArbiterGetCount)(void *);
         Vector (*cpArbiterGetPointA)(void *, int);
         Vector (*cpArbiterGetPointB)(void *, int);
+        void (*cpArbiterSetFriction)(void *, double);
+        void (*cpArbiterSetRestitution)(void *, double);
+        void *(*cpSpaceAddGlobalCollisionHandler)(void *);
     } engine;
 
     /* The first fields of the engine's structs, as far as they are used. */
@@ -90,6 +93,14 @@ cdef extern from *:
         Contact_ *contacts;
     } Arbiter_;
 
+    typedef void (*Before_)(void *, void *, void *);
+    typedef struct {
+        uintptr_t kind_a, kind_b;
+        void *begin;
+        Before_ before;
+        void *after, *parted, *data;
+    } Handler_;
+
     static void connect_function(int k, uintptr_t address) {
         ((void (**)(void))&engine)[k] = (void (*)(void))address;
     }
@@ -101,6 +112,10 @@ cdef extern from *:
             itself->contacts[k].normal_impulse *= ratio;
             itself->contacts[k].tangent_impulse *= ratio;
         }
+    }
+    static void set_handler(void *handler, Before_ before, void *data) {
+        ((Handler_ *)handler)->before = before;
+        ((Handler_ *)handler)->data = data;
     }
     """
     ctypedef struct Vector:
@@ -174,11 +189,15 @@ cdef extern from *:
         int (*cpArbiterGetCount)(void *) noexcept
         Vector (*cpArbiterGetPointA)(void *, int) noexcept
         Vector (*cpArbiterGetPointB)(void *, int) noexcept
+        void (*cpArbiterSetFriction)(void *, double) noexcept
+        void (*cpArbiterSetRestitution)(void *, double) noexcept
+        void *(*cpSpaceAddGlobalCollisionHandler)(void *) noexcept
     Engine_ engine
     void connect_function(int, uintptr_t) noexcept
     size_t count_functions() noexcept
     Vector vector(double, double) noexcept
     void scale_contacts(void *, double) noexcept
+    void set_handler(void *, void (*)(void *, void *, void *) noexcept, void *) noexcept
 
 
 def connect(addresses):
@@ -419,6 +438,16 @@ cdef int second_of(Handle arbiter) noexcept:
 
 cdef inline void scale(Handle arbiter, double ratio) noexcept:
     scale_contacts(arbiter, ratio)
+
+cdef inline void set_surface(Handle arbiter, double friction, double restitution) noexcept:
+    engine.cpArbiterSetFriction(arbiter, friction)
+    engine.cpArbiterSetRestitution(arbiter, restitution)
+
+cdef void settle_contact(void *arbiter, void *space, void *data) noexcept:
+    (<Surfaces>data).settle(arbiter)
+
+cdef void watch(Handle space, surfaces) noexcept:
+    set_handler(engine.cpSpaceAddGlobalCollisionHandler(space), settle_contact, <void *>surfaces)
 
 cdef inline int count_of(Handle arbiter) noexcept:
     return engine.cpArbiterGetCount(arbiter)

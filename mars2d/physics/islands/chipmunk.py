@@ -17,7 +17,8 @@ __all__ = [
     "ground_of", "impulse_of", "make_joint", "new_body", "new_control", "new_disc", "new_ground",
     "new_polygon", "new_segment", "new_space", "normal_of", "point_of", "position_of", "push",
     "put", "remove_body", "remove_joint", "remove_shape", "scale", "second_of", "set_iterations",
-    "set_joint", "set_max_bias", "set_max_force", "spin_of", "step", "used_of", "velocity_of",
+    "set_joint", "set_max_bias", "set_max_force", "set_surface", "spin_of", "step", "used_of",
+    "velocity_of", "watch",
 ]  # fmt: skip
 
 Handle: TypeAlias = Any
@@ -69,6 +70,8 @@ def step(space: Handle, h: float) -> None:
     """Step by h seconds, as if the last step had been as long."""
     lib.cpSpaceSetCurrentTimeStep(space, h)
     lib.cpSpaceStep(space, h)
+    if _caught:
+        raise _caught.pop()
 
 
 free_space = lib.cpSpaceFree
@@ -193,6 +196,19 @@ def _NOTE(arbiter: Handle, data: Handle) -> None:  # noqa: N802
     ffi.from_handle(data).append(arbiter)
 
 
+@ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
+def _SETTLE(arbiter: Handle, _space: Handle, data: Handle) -> None:  # noqa: N802
+    ffi.from_handle(data).settle(arbiter)
+
+
+def watch(space: Handle, surfaces: Any) -> None:
+    """Let surfaces settle each contact of a space before each step."""
+    if surfaces.handle is None:
+        surfaces.handle = ffi.new_handle(surfaces)
+    handler = lib.cpSpaceAddGlobalCollisionHandler(space)
+    handler.preSolveFunc, handler.userData = _SETTLE, surfaces.handle
+
+
 class Arbiters:
     """The contacts that the solver of a space knows."""
 
@@ -240,6 +256,12 @@ def scale(arbiter: Handle, ratio: float) -> None:
         contact = arbiter.contacts[k]
         contact.jnAcc *= ratio
         contact.jtAcc *= ratio
+
+
+def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
+    """Set the friction and the restitution of a contact for this step."""
+    lib.cpArbiterSetFriction(arbiter, friction)
+    lib.cpArbiterSetRestitution(arbiter, restitution)
 
 
 count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse

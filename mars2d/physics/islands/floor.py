@@ -6,7 +6,8 @@ the lever k is the mean distance of the body's points from its centre of mass. S
 slides is held by F, one that only spins by F k, and one that does both by less of either: a body
 that is pushed turns easily. Source: the ellipsoid in place of the limit surface of S. Goyal, A.
 Ruina, J. Papadopoulos, Wear 143, 307 (1991), as in R. D. Howe, M. R. Cutkosky, Int. J. Robotics
-Research 15, 531 (1996).
+Research 15, 531 (1996). At rest F is that of static friction, which may be larger: C. A. Coulomb,
+Theorie des machines simples (1785).
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ def hold(body: Body, h: cython.double) -> cython.void:
 
     A body at rest is held by force and torque together as by either alone, in the parts that they
     had in the last substep. It counts as at rest if the floor stops it at once, within a hundredth
-    of the substep: else what barely spins could be pushed along as if there were no floor.
+    of the substep: else what barely spins could be pushed along as if there were no floor. Where
+    static friction is larger it breaks loose once that was used up.
     """
     u: cython.double = length(body.vx, body.vy)
     s: cython.double = body.lever * abs(body.spin)
@@ -35,14 +37,17 @@ def hold(body: Body, h: cython.double) -> cython.void:
         body.allowed = body.grip * (u / d)
         body.twist_allowed = body.twist_grip * (s / d)
         return
-    first: cython.double = body.held / max(body.grip, 1e-300)
-    second: cython.double = body.twist_held / max(body.twist_grip, 1e-300)
+    first: cython.double = body.held / max(body.rest_grip, 1e-300)
+    second: cython.double = body.twist_held / max(body.rest_twist_grip, 1e-300)
     over: cython.double = length(first, second)
-    if over > 1.0:
+    if over > 1.0 - 1e-9 and body.rest_grip > body.grip:
         body.allowed = body.grip * (first / over)
         body.twist_allowed = body.twist_grip * (second / over)
+    elif over > 1.0:
+        body.allowed = body.rest_grip * (first / over)
+        body.twist_allowed = body.rest_twist_grip * (second / over)
     else:
-        body.allowed, body.twist_allowed = body.grip, body.twist_grip
+        body.allowed, body.twist_allowed = body.rest_grip, body.rest_twist_grip
 
 
 @cython.final

@@ -102,6 +102,7 @@ class Island:
     solved: cython.bint
     solvers: list[Solver]
     spare: list[Solver]
+    surfaces: object  # None: friction and restitution are products
     contact_step: cython.double
     push_step: cython.double  # how long that is for the push of one robot
     strain: cython.double  # how many robots' pushes add up
@@ -121,10 +122,11 @@ class Island:
         numbers: list[Body],
         solvers: list[Solver],
         spare: list[Solver],
+        surfaces: Any,
     ) -> None:
         """Take what all islands share: bodies by number, all solvers, and those in no use."""
         self.accuracy, self.glide, self.numbers = accuracy, glide, numbers
-        self.solvers, self.spare = solvers, spare
+        self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
         self.bodies, self.pairs, self.ties = [], [], []
         self.solved = self.any_slips = self.any_touch = False
         self.contact_step = self.push_step = 1e300
@@ -262,7 +264,7 @@ class Island:
             solver = self.spare.pop()
             solver.idle = False
         else:
-            solver = Solver(self.accuracy.slop)
+            solver = Solver(self.accuracy.slop, self.surfaces)
             self.solvers.append(solver)
         return solver
 

@@ -39,6 +39,7 @@ class Mover:
     spare: list[Solver]  # those that no island uses
     islands: list[Island]  # as many as there were at most
     found: cython.int  # how many there are now
+    surfaces: object  # what settles friction and restitution; None: they are products
 
     def __init__(
         self,
@@ -48,8 +49,13 @@ class Mover:
         walls: list[Wall],
         ties: list[Tie],
         passing: set[Any],
+        surfaces: Any = None,
     ) -> None:
-        """Take bodies, walls, ties, and pairs of bodies that pass through each other."""
+        """Take bodies, walls, ties, and pairs of bodies that pass through each other.
+
+        surfaces: what settles friction and restitution of contacts; None: they are products.
+        """
+        self.surfaces = surfaces
         self.accuracy, self.glide, self.bodies, self.ties = accuracy, glide, bodies, ties
         self.neighbours = Neighbours(bodies, walls, passing)
         self.taken = []
@@ -284,7 +290,9 @@ class Mover:
         island: Island
         if self.found == len(self.islands):
             self.islands.append(
-                Island(self.accuracy, self.glide, self.bodies, self.solvers, self.spare)
+                Island(
+                    self.accuracy, self.glide, self.bodies, self.solvers, self.spare, self.surfaces
+                )
             )
         island = self.islands[self.found]
         island.clear()
@@ -430,9 +438,9 @@ class Mover:
                 return False
             body.effort = max(body.effort, share)
             return True
-        if body.vx != 0.0 or body.vy != 0.0 or body.spin != 0.0 or body.grip == 0.0:
+        if body.vx != 0.0 or body.vy != 0.0 or body.spin != 0.0 or body.rest_grip == 0.0:
             return False
-        return length(force / body.grip, torque / body.twist_grip) <= 1.0
+        return length(force / body.rest_grip, torque / body.rest_twist_grip) <= 1.0
 
     def free(self) -> None:
         """Free what the engine has; nothing is moved after that."""

@@ -5,6 +5,7 @@ from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.island import Accuracy
 from mars2d.physics.islands.mover import Mover
 from mars2d.physics.islands.pair import Wall
+from mars2d.physics.islands.surfaces import Surface, Surfaces
 from mars2d.physics.islands.tie import Tie
 
-__all__ = ["Accuracy", "Body", "Glide", "Mover", "Piece", "Tie", "Wall"]
+__all__ = ["Accuracy", "Body", "Glide", "Mover", "Piece", "Surface", "Surfaces", "Tie", "Wall"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.chipmunk import (
@@ -43,6 +45,7 @@ from mars2d.physics.islands.chipmunk import (
     step,
     used_of,
     velocity_of,
+    watch,
 )
 from mars2d.physics.islands.floor import hold
 from mars2d.physics.islands.pair import Wall
@@ -80,10 +83,18 @@ class Solver:
     used: cython.bint  # in this control step
     idle: cython.bint  # whether it waits for an island
     stale: cython.bint  # whether bodies have moved without it since its last step
+    surfaces: object  # kept for the space, which knows its address
 
-    def __init__(self, slop: float) -> None:
-        """Make an empty one. slop: the overlap that is left in steady contact, metres."""
+    def __init__(self, slop: float, surfaces: Any) -> None:
+        """Make an empty one.
+
+        slop: the overlap that is left in steady contact, metres. surfaces: what settles friction
+        and restitution; None: they are products.
+        """
         self.space = new_space(slop)
+        self.surfaces = surfaces
+        if surfaces is not None:
+            watch(self.space, surfaces)
         self.bodies, self.walls, self.ties = [], {}, []
         self.arbiters = Arbiters()
         self.last_step, self.used, self.stale, self.idle = 1e300, False, False, False
@@ -101,7 +112,7 @@ class Solver:
             add_shape(self.space, shape.handle)
         body.solver, body.placed = self, True
         self.bodies.append(body)
-        if not body.is_robot and body.grip > 0.0:  # the floor is another one in each space
+        if not body.is_robot and body.rest_grip > 0.0:  # the floor is another one in each space
             body.allowed = body.twist_allowed = body.held = body.twist_held = 0.0
             self.hold_by(body, ground_of(self.space))
             self.engage(body)
@@ -363,7 +374,7 @@ class Solver:
             vx, vy, spin = body.end_x, body.end_y, body.end_spin
             body.aim_x, body.aim_y, body.aim_spin = vx, vy, spin
             body.placed = True
-        if not body.is_robot and body.grip > 0.0:
+        if not body.is_robot and body.rest_grip > 0.0:
             self.brake(body, h)
         if body.placed:
             put(body.handle, body.x, body.y, body.angle)
@@ -415,7 +426,7 @@ def free_things_of(body: Body) -> cython.void:
     for shape in body.shapes:
         free_shape(shape.handle)
     body.shapes = []
-    if body.is_robot or body.grip > 0.0:
+    if body.is_robot or body.rest_grip > 0.0:
         free_joint(body.pivot)
         free_joint(body.gear)
     if body.is_robot:

@@ -1,0 +1,139 @@
+"""Surfaces: friction and restitution of a contact, where they are no products of two numbers.
+
+The solver multiplies the values of two shapes by itself. In worlds that ask for another rule, for
+values of certain pairs of materials, or for static friction, it asks here before each substep.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.chipmunk import (
+    Handle,
+    Vector,
+    first_of,
+    normal_of,
+    point_of,
+    position_of,
+    second_of,
+    set_surface,
+)
+
+__all__ = ["Surface", "Surfaces"]
+
+
+@cython.final
+@cython.cclass
+class Surface:
+    """That of a body or obstacle. rubs, bounces: numbers of materials, or -1."""
+
+    friction: cython.double
+    static: cython.double
+    restitution: cython.double
+    rubs: cython.int  # the material by whose name the friction was given
+    bounces: cython.int  # and the restitution
+
+    def __init__(
+        self, friction: float, static: float, restitution: float, rubs: int, bounces: int
+    ) -> None:
+        """Take its coefficients and materials."""
+        self.friction, self.static, self.restitution = friction, static, restitution
+        self.rubs, self.bounces = rubs, bounces
+
+
+@cython.final
+@cython.cclass
+class Surfaces:
+    """Those of all bodies, by number, and of all obstacles; and how two make a contact."""
+
+    bodies: list[Body]
+    of_bodies: list[Surface]
+    of_obstacles: list[Surface]
+    rule: cython.int
+    bounce_rule: cython.int
+    sticks: cython.double  # m/s, slower is not slipping
+    count: cython.int  # of materials
+    frictions: list[float]  # of pairs of materials, row by row; -1: by the rule
+    statics: list[float]
+    restitutions: list[float]
+    handle: object  # by which the engine finds it, in Python
+
+    def __init__(
+        self,
+        bodies: list[Body],
+        of_bodies: list[Surface],
+        of_obstacles: list[Surface],
+        rules: tuple[int, int],
+        sticks: float,
+        pairs: tuple[list[float], list[float], list[float]],
+    ) -> None:
+        """Take surfaces, rules for friction and restitution, and tables of pairs.
+
+        rules: 0 product, 1 minimum, 2 mean, 3 geometric mean, 4 maximum.
+        """
+        self.bodies, self.of_bodies, self.of_obstacles = bodies, of_bodies, of_obstacles
+        self.rule, self.bounce_rule = rules
+        self.frictions, self.statics, self.restitutions = pairs
+        self.sticks, self.count, self.handle = sticks, round(sqrt(len(pairs[0]))), None
+
+    @cython.cfunc
+    def settle(self, arbiter: Handle) -> cython.void:
+        """Set friction and restitution of a contact, as the solver is to use them now."""
+        first: cython.int = first_of(arbiter)
+        second: cython.int = second_of(arbiter)
+        a: Surface = self.of_bodies[first] if first >= 0 else self.of_obstacles[-1 - first]
+        b: Surface = self.of_bodies[second] if second >= 0 else self.of_obstacles[-1 - second]
+        friction: cython.double = -1.0
+        static: cython.double = -1.0
+        restitution: cython.double = -1.0
+        if a.rubs >= 0 and b.rubs >= 0:
+            friction = self.frictions[a.rubs * self.count + b.rubs]
+            static = self.statics[a.rubs * self.count + b.rubs]
+        if a.bounces >= 0 and b.bounces >= 0:
+            restitution = self.restitutions[a.bounces * self.count + b.bounces]
+        if friction < 0.0:
+            friction = blend(self.rule, a.friction, b.friction)
+            static = blend(self.rule, a.static, b.static)
+        if restitution < 0.0:
+            restitution = blend(self.bounce_rule, a.restitution, b.restitution)
+        if static > friction and self.slip(arbiter, first, second) < self.sticks:
+            friction = static
+        set_surface(arbiter, friction, restitution)
+
+    @cython.cfunc
+    def slip(self, arbiter: Handle, first: cython.int, second: cython.int) -> cython.double:
+        """Return how fast two bodies slide along each other, before the substep, m/s."""
+        vx: cython.double = 0.0
+        vy: cython.double = 0.0
+        body: Body
+        place: Vector
+        point: Vector
+        if second >= 0:
+            body = self.bodies[second]
+            place, point = position_of(body.handle), point_of(arbiter, 0, True)
+            vx = body.aim_x - body.aim_spin * (point.y - place.y)
+            vy = body.aim_y + body.aim_spin * (point.x - place.x)
+        if first >= 0:
+            body = self.bodies[first]
+            place, point = position_of(body.handle), point_of(arbiter, 0, False)
+            vx = vx - (body.aim_x - body.aim_spin * (point.y - place.y))
+            vy = vy - (body.aim_y + body.aim_spin * (point.x - place.x))
+        normal: Vector = normal_of(arbiter)
+        along: cython.double = vy * normal.x - vx * normal.y
+        return abs(along)
+
+
+@cython.cfunc
+def blend(rule: cython.int, p: cython.double, q: cython.double) -> cython.double:
+    """Return what a rule makes of the values of two surfaces, the same in both orders."""
+    if rule == 1:
+        return min(p, q)
+    if rule == 2:
+        return (p + q) / 2
+    if rule == 3:
+        return sqrt(p * q)
+    if rule == 4:
+        return max(p, q)
+    return p * q

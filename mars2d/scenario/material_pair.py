@@ -1,0 +1,72 @@
+"""What two materials do to each other, where their product is not what tables say."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+from mars2d.core.description import Description, entry, number, wrong
+from mars2d.core.errors import InputError
+from mars2d.core.materials import check_static, material
+
+__all__ = ["MaterialPair", "check_once"]
+
+
+def _material(name: str, value: object) -> str:
+    """Check a material's name."""
+    found = material(name, value)
+    if found is None:
+        raise wrong(name, value, "a material's name, as 'steel'")
+    return found
+
+
+class MaterialPair(Description):
+    """Friction and restitution between two materials, in place of what the rule makes of both.
+
+    It counts where both surfaces were given by these names: `friction` of the pair where their
+    friction was, `restitution` where their restitution was.
+
+    >>> MaterialPair("steel", "ice", friction=0.03).friction
+    0.03
+    """
+
+    a: str = entry(check=_material, kw_only=False, doc="a material's name")
+    b: str = entry(check=_material, kw_only=False, doc="the other's, or the same")
+    friction: float | None = number(
+        default=None, low=0, high=1e3, optional=True,
+        doc="coefficient of friction of the contact; None: by the rule",
+    )  # fmt: skip
+    static_friction: float | None = number(
+        default=None, low=0, high=1e3, optional=True,
+        doc="holds for as long as nothing slips; None: as friction",
+    )  # fmt: skip
+    restitution: float | None = number(
+        default=None, low=0, high=1, optional=True,
+        doc="restitution of the contact; None: by the rule",
+    )  # fmt: skip
+
+    def _validate(self) -> None:
+        where = f"MaterialPair({self.a!r}, {self.b!r})"
+        if self.friction is None and self.restitution is None:
+            raise InputError(f"{where}: expected a friction or a restitution, as friction=0.1")
+        if self.friction is None and self.static_friction is not None:
+            raise wrong(
+                "MaterialPair.static_friction", self.static_friction,
+                "None, or the kinetic friction as well",
+            )  # fmt: skip
+        check_static("MaterialPair.static_friction", self.static_friction, self.friction or 0.0)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Both materials, in no order."""
+        return frozenset((self.a, self.b))
+
+
+def check_once(field: str, pairs: Sequence[MaterialPair]) -> None:
+    """Refuse two pairs of the same materials."""
+    for (i, one), (k, other) in combinations(enumerate(pairs), 2):
+        if one.names == other.names:
+            raise InputError(
+                f"{field}[{k}]: {other.a!r} and {other.b!r} are also {field}[{i}]; expected each "
+                "pair once"
+            )
