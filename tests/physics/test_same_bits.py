@@ -11,11 +11,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import mars2d
-from mars2d import Holonomic, Record, Robot, Scenario, Unicycle, World
+from mars2d import Holonomic, MaterialPair, Record, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies import Car, Differential, Drive
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Puck, Solid
+from mars2d.core.materials import RULES
 from mars2d.geometry.shapes import Polygon
 from mars2d.physics import islands
 from mars2d.physics.islands.mover import Mover
@@ -295,6 +296,32 @@ def test_so_does_a_crowd_of_many_shapes(mix, ties):
 def test_so_do_wild_crowds(seed):
     scenario = fuzz.wild(seed)
     run_both(scenario, restless(seed, scenario), 4)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_so_does_one_of_many_surfaces(rule):
+    """Rules, pairs of materials, and static friction of bodies, obstacles and the floor."""
+    scenario = crowd(RULES.index(rule), 24, gap=0.0, things=True)
+    names = ["rubber", "ice", 0.4, "steel"]
+    robots = [
+        robot.replace(friction=names[i % 4], static_friction=None if i % 3 else 1.1 + 0.1 * i)
+        for i, robot in enumerate(scenario.robots)
+    ]
+    props = [
+        prop.replace(friction=names[i % 4], restitution=names[i % 4], static_ground_friction=0.9)
+        for i, prop in enumerate(scenario.props)
+    ]
+    pairs = [
+        MaterialPair("rubber", "ice", friction=0.05, static_friction=0.2),
+        MaterialPair("steel", "steel", friction=0.57, static_friction=0.74, restitution=0.9),
+    ]
+    chart = scenario.addons[0].replace(friction="ice", static_friction=0.6)
+    mixed = scenario.replace(
+        robots=robots, props=props, addons=[chart], material_pairs=pairs, friction_rule=rule,
+        restitution_rule=RULES[(RULES.index(rule) + 2) % 5],
+    )  # fmt: skip
+    record = run_both(mixed, restless(3, mixed), 25)
+    assert len(record.contacts) > 50
 
 
 @pytest.mark.parametrize("physics", ["stop", "ideal"])

@@ -55,7 +55,7 @@ def test_all_kinds_of_parts_come_back(tmp_path):
     assert missing == ()
     assert again == scenario
     assert saved(again, tmp_path)[0] == text
-    for place in ("robots", "props", "joints", "addons"):
+    for place in ("robots", "props", "joints", "material_pairs", "addons"):
         assert len(getattr(scenario, place)) == EVERYTHING.count(f"\n[[{place}]]\n") > 1
 
 

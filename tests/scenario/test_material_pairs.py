@@ -1,0 +1,232 @@
+"""Pairs of materials, rules and static friction in a scenario: checked, kept, and read again."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+
+import pytest
+
+import mars2d
+from mars2d import InputError, MaterialPair, Record, Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.bodies import Box, Puck
+from mars2d.bodies.rigid import Surface
+from mars2d.core.materials import MATERIALS, Coefficient, material_of
+from mars2d.output import formats
+from mars2d.scenario.changes import check_same
+from mars2d.scenario.options import override
+from mars2d.scenario.serialize import from_description, to_scenario
+from mars2d.window.editor.draft import Draft
+from mars2d.world.verify import rerun
+
+
+class Sled(Box):
+    """A prop of the user's own, with a surface of its own."""
+
+    @property
+    def surface(self) -> Surface:
+        return Surface(Coefficient(MATERIALS["ice"].friction, "ice"), 0.25, 0.375)
+
+
+def rich() -> Scenario:
+    """A scenario with all of it."""
+    return Scenario(
+        robots=[Robot(pose=(-0.3, 0.03, 0), friction="rubber", static_friction=1.25)],
+        props=[
+            Box(
+                pose=(0.3, 0, 0),
+                material="wood",
+                friction=0.3,
+                mass=1.5,
+                static_ground_friction=0.625,
+            ),
+            Puck(pose=(0, 1, 0), material="steel", mass=2.0),
+            Sled(pose=(0, -1, 0)),
+        ],
+        addons=[Map([[(1, -2), (1, 2)]], friction="ice", restitution="ice", static_friction=0.5)],
+        friction_rule="geometric",
+        restitution_rule="maximum",
+        material_pairs=[
+            MaterialPair("rubber", "ice", friction=0.125, static_friction=0.1875),
+            MaterialPair("wood", "wood", restitution=0.4375),
+        ],
+        stop_time=4.0,
+    )
+
+
+def surfaces_of(scenario: Scenario) -> list[tuple[object, ...]]:
+    """All coefficients, with the names of their materials."""
+    surfaces = [body.surface for body in scenario.bodies] + [*scenario.surfaces]
+    return [
+        (s.friction, material_of(s.friction), s.restitution, material_of(s.restitution),
+         s.static_friction)
+        for s in surfaces
+    ]  # fmt: skip
+
+
+def run(scenario: Scenario) -> Record:
+    world = World(scenario)
+    while not world.over:
+        world.step([[0.3], [0.1]])
+    return world.record
+
+
+# -- checks -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: MaterialPair("steal", "ice", friction=0.1), r"MaterialPair\.a.*mean 'steel'"),
+        (lambda: MaterialPair("steel", None, friction=0.1), r"MaterialPair\.b = None: expected"),
+        (lambda: MaterialPair("steel", "ice"), r"'steel', 'ice'\): expected a friction or a"),
+        (lambda: MaterialPair("steel", "ice", friction=-0.1), r"MaterialPair\.friction = -0\.1"),
+        (lambda: MaterialPair("steel", "ice", restitution=1.1), r"restitution = 1\.1: expected"),
+        (
+            lambda: MaterialPair("steel", "ice", friction=0.2, static_friction=0.1),
+            r"MaterialPair\.static_friction = 0\.1: expected at least the kinetic .* 0\.2",
+        ),
+        (
+            lambda: MaterialPair("steel", "ice", restitution=0.2, static_friction=0.1),
+            r"static_friction = 0\.1: expected None, or the kinetic",
+        ),
+        (
+            lambda: Scenario(
+                material_pairs=[
+                    MaterialPair("wood", "ice", friction=0.1),
+                    MaterialPair("ice", "wood", restitution=0.1),
+                ]
+            ),
+            r"material_pairs\[1\]: 'ice' and 'wood' are also Scenario\.material_pairs\[0\]",
+        ),
+        (lambda: Scenario(material_pairs=[("a", "b")]), r"material_pairs.*MaterialPair\('steel'"),
+        (lambda: Scenario(friction_rule="produkt"), r"friction_rule.*did you mean 'product'"),
+        (lambda: Scenario(restitution_rule="average"), r"restitution_rule = 'average'.*'mean'"),
+        (lambda: Robot(static_friction=0.4), r"Robot\.static_friction = 0\.4: .* 0\.5, or None"),
+        (lambda: Robot(friction="ice", static_friction=0.1), r"Robot\.static_friction.* 0\.22"),
+        (lambda: Box(static_friction=0.4), r"Box\.static_friction = 0\.4"),
+        (lambda: Box(material="felt", static_friction=0.7), r"Box\.static_friction.* 0\.71"),
+        (lambda: Puck(static_ground_friction=0.09), r"Puck\.static_ground_friction = 0\.09.* 0\.1"),
+        (lambda: Map([[(0, 0), (1, 0)]], static_friction=0.9), r"Map\.static_friction = 0\.9"),
+        (lambda: Robot(static_friction=1001), r"Robot\.static_friction = 1001"),
+    ],
+)
+def test_what_can_not_be_is_refused_in_one_clear_line(make, message):
+    with pytest.raises(InputError, match=message):
+        make()
+
+
+@pytest.mark.parametrize("static", [0.3, float("nan"), 1001.0])
+def test_a_surface_of_ones_own_is_checked_as_well(static):
+    class Odd(Box):
+        @property
+        def surface(self) -> Surface:
+            return Surface(0.4, 0.5, static)
+
+    with pytest.raises(InputError, match=r"Odd\.surface of odd0.*static_friction >= friction"):
+        Scenario(robots=[Robot(pose=(2, 2, 0))], props=[Odd()])
+
+
+# -- names of materials stay ------------------------------------------------------------------
+
+
+def test_a_coefficient_by_name_is_the_number_and_knows_the_name():
+    robot = Robot(friction="rubber", restitution="steel")
+    assert robot.friction == MATERIALS["rubber"].friction
+    assert 2 * robot.friction == pytest.approx(2 * MATERIALS["rubber"].friction)
+    assert f"{robot.friction:.2f} {robot.friction}" == "1.07 1.07"
+    for same in (robot, robot.replace(mass=2.0), copy.deepcopy(robot)):
+        assert material_of(same.friction) == "rubber"
+        assert material_of(same.restitution) == "steel"
+    assert material_of(pickle.loads(pickle.dumps(robot.friction))) == "rubber"
+    assert material_of(robot.replace(friction=1.07).friction) is None
+    assert material_of(Robot(restitution=Robot(friction="wood").friction).restitution) is None
+
+
+def test_materials_of_the_same_value_are_told_apart():
+    wood, glass = Robot(friction="wood"), Robot(friction="glass")
+    assert wood.friction != glass.friction
+    assert not wood.friction == glass.friction  # noqa: SIM201
+    assert wood.friction == 0.63
+    assert hash(wood.friction) == hash(0.63)
+    with pytest.raises(InputError, match="friction of robot0 is another one"):
+        check_same(Scenario(robots=[wood]), Scenario(robots=[glass]))
+
+
+def test_a_prop_has_the_names_of_its_material_where_it_takes_its_values():
+    box = Box(material="wood", restitution=0.5)
+    assert material_of(box.surface.friction) == "wood"
+    assert material_of(box.surface.restitution) is None
+    assert material_of(Box(material="wood", friction="ice").surface.friction) == "ice"
+
+
+# -- kept and read again ----------------------------------------------------------------------
+
+
+def test_a_toml_file_holds_all_of_it(tmp_path):
+    scenario = rich()
+    path = tmp_path / "scene.toml"
+    scenario.save(path)
+    text = path.read_text(encoding="utf-8")
+    for line in ('friction_rule = "geometric"', "[[material_pairs]]", 'friction = "rubber"',
+                 "static_friction = 1.25", "static_ground_friction = 0.625"):  # fmt: skip
+        assert line in text.splitlines()
+    again = Scenario.from_file(path)
+    assert surfaces_of(again) == surfaces_of(scenario)
+    assert again.material_pairs == scenario.material_pairs
+    assert run(again).digest == run(scenario).digest
+    again.save(path)
+    again.replace(title="x").save(tmp_path / "twice.toml")
+    assert Scenario.from_file(tmp_path / "twice.toml") == again.replace(title="x")
+
+
+def test_a_toml_file_says_where_a_pair_is_wrong(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text('format = 1\n[[material_pairs]]\na = "steel"\nb = "icy"\nfriction = 0.1\n')
+    with pytest.raises(InputError, match="did you mean 'ice'") as error:
+        Scenario.from_file(path)
+    assert error.value.where == "scene.toml, line 4, material_pairs[0]"
+
+
+@pytest.mark.parametrize("suffix", formats.SUFFIXES)
+def test_a_record_holds_all_of_it_and_runs_again(suffix, tmp_path):
+    record = run(rich())
+    assert len(record.contacts) > 5
+    again = mars2d.load(record.save(tmp_path / f"run{suffix}"))
+    assert again.digest == record.digest
+    assert surfaces_of(again.scenario) == surfaces_of(record.scenario)
+    assert again.scenario.material_pairs == record.scenario.material_pairs
+    assert rerun(again) is None
+
+
+def test_plain_data_without_these_fields_are_read_as_before():
+    def stripped(value):
+        if isinstance(value, list):
+            return [stripped(item) for item in value]
+        if not isinstance(value, dict):
+            return value
+        new = {"friction_rule", "restitution_rule", "material_pairs", "static_friction",
+               "static_ground_friction"}  # fmt: skip
+        return {key: stripped(item) for key, item in value.items() if key not in new}
+
+    old = Scenario(robots=[Robot(friction=0.3)], props=[Puck(pose=(1, 1, 0))])
+    assert to_scenario(stripped(from_description(old)))[0] == old
+
+
+def test_the_editor_keeps_it():
+    scenario = rich()
+    edited = Draft.of(scenario).scenario()
+    assert surfaces_of(edited) == surfaces_of(scenario)
+    assert edited.material_pairs == scenario.material_pairs
+    assert edited.friction_rule == "geometric"
+
+
+def test_an_option_sets_it():
+    changed = override(
+        rich(), {"material_pairs.0.friction": 0.0625, "robots.*.friction": "steel",
+                 "friction_rule": "mean", "props.0.static_ground_friction": None},
+    )  # fmt: skip
+    assert changed.material_pairs[0].friction == 0.0625
+    assert material_of(changed.robots[0].friction) == "steel"
+    assert changed.props[0].resting_friction == 0.5
