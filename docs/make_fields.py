@@ -75,8 +75,8 @@ TABLE_HEAD = """\
 MATERIALS_HEAD = """
 ## Materials
 
-What a surface of a material brings into a contact, which has the product of both. The last two
-columns are those products for two things of the same material.
+What a surface of a material brings into a contact, which has the product of both by default. The
+last two columns are those products for two things of the same material.
 
 | material | density | friction | restitution | friction of two | restitution of two |
 |---|---|---|---|---|---|

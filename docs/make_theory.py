@@ -48,12 +48,14 @@ def run(
     joints: Sequence[Joint] = (),
     walls: Sequence[Sequence[tuple[float, float]]] = (),
     friction: float = 1.0,
+    friction_rule: str = "product",
     sampling_time: float = 0.1,
 ) -> Record:
     """Run robots under a constant command, in a plane without limits."""
     scenario = Scenario(
         robots=robots, props=props, joints=joints, workspace=None, stop_time=seconds,
         addons=[Map(walls, friction=friction)], sampling_time=sampling_time,
+        friction_rule=friction_rule,
     )  # fmt: skip
     world = World(scenario)
     while not world.over:
@@ -237,6 +239,35 @@ def impulse() -> Iterator[Prediction]:
     yield Prediction("robot against a wall: its drive's force", 5.0, force, 0.05, "N")
 
 
+def surfaces() -> Iterator[Prediction]:
+    """Let a wall drag a robot by each rule for two surfaces, and hold one that rests."""
+    p, q = 0.4, 0.9
+    made = {
+        "product": p * q,
+        "minimum": p,
+        "mean": (p + q) / 2,
+        "geometric": sqrt(p * q),
+        "maximum": q,
+    }
+    for rule, mu in made.items():
+        slider = Robot(pose=(0, 0.15, -0.7), drive=Unicycle(max_torque=1000), friction=p)
+        row = run(
+            [slider], [[0.2], [0]], 5, walls=[[(-5, 0), (9, 0)]], friction=q, friction_rule=rule
+        ).contacts[-1]
+        found = row["tangential_impulse"] / row["normal_impulse"]
+        yield Prediction(f"wall, rule {rule}: drag / press", mu, found, 0.001 * mu)
+    mu, static, mass = 0.3, 0.5, 1.2
+    for share, acceleration in ((0.98, 0.0), (1.02, (1.02 * static - mu) * mass * GRAVITY)):
+        force = share * static * mass * GRAVITY
+        robot = Robot(mass=0.8, drive=Unicycle(max_force=force, max_linear_speed=50.0))
+        box = Box(pose=(0.3499, 0, 0), mass=mass, ground_friction=mu, static_ground_friction=static)
+        v = velocity(run([robot], [[50.0], [0]], 2, props=[box]))[:, 0, 0]
+        yield Prediction(
+            f"box pushed with {share:g} mus m g: acceleration", acceleration / 2, v[-1] - v[-11],
+            0.01, "m/s^2",
+        )  # fmt: skip
+
+
 def crowds() -> Iterator[Prediction]:
     """Let ten robots push each other about in a box, and look how deep they overlap."""
     deepest = out = 0.0
@@ -267,7 +298,7 @@ def crowds() -> Iterator[Prediction]:
 
 FACTS: tuple[Callable[[], Iterator[Prediction]], ...] = (
     free_arcs, stalemate, acceleration, friction_threshold, wall_slide, momentum_and_energy,
-    restitution, sliding, joints, impulse, crowds,
+    restitution, sliding, joints, impulse, surfaces, crowds,
 )  # fmt: skip
 
 

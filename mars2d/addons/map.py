@@ -30,8 +30,8 @@ class Map(Addon):
 
     `Map.from_file` reads them from drawings, occupancy grids and images.
 
-    Concave outlines stay concave. A contact has the product of both surfaces' friction and
-    restitution: with 1 and 1 here, those of the robot decide.
+    Concave outlines stay concave. By default a contact has the product of both surfaces' friction
+    and restitution: with 1 and 1 here, those of the robot decide.
     """
 
     outlines: Sequence[Outline] = entry(

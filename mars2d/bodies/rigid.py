@@ -21,7 +21,7 @@ class Inertia(NamedTuple):
 
 
 class Surface(NamedTuple):
-    """Coefficients of friction and restitution; a contact has the product of both bodies'.
+    """Coefficients of friction and restitution; by default a contact has both bodies' product.
 
     static_friction: holds while nothing slips; None: as friction.
     """

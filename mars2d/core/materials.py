@@ -1,9 +1,9 @@
 """Materials: density, friction and restitution by name.
 
-The engine multiplies the values of the two surfaces in a contact. So each surface has the square
-root of the value for a pair of the same material: steel on steel gets 0.76 * 0.76 = 0.58. Pairs of
-different materials come out near the tables in most cases, but too high with ice; a table of pairs
-states these. In contact with a surface of friction 1 and restitution 1, the default of obstacles, a
+By default the engine multiplies the values of both surfaces in a contact. So each surface has the
+square root of the value for a pair of the same material: steel on steel gets 0.76 * 0.76 = 0.58.
+Pairs of different materials come out near the tables in most cases, but too high with ice; a table
+of pairs states these. In contact with a surface of friction 1 and restitution 1, the default of obstacles, a
 body's own values apply. Other rules than the product are those of other engines and textbooks; the
 values of materials are made for the product.
 
@@ -45,7 +45,7 @@ GRAVITY = 9.81
 class Material(NamedTuple):
     """Density [kg/m^3], and the friction and restitution of a surface.
 
-    A contact has the product of both surfaces' friction, and of their restitution.
+    By default a contact has the product of both surfaces' friction, and of their restitution.
     """
 
     density: float

@@ -6,18 +6,18 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from mars2d.core.description import Description, entry, number, wrong
-from mars2d.core.errors import InputError
-from mars2d.core.materials import check_static, material
+from mars2d.core.errors import InputError, nearest
+from mars2d.core.materials import MATERIALS, check_static
 
 __all__ = ["MaterialPair", "check_once"]
 
 
 def _material(name: str, value: object) -> str:
     """Check a material's name."""
-    found = material(name, value)
-    if found is None:
-        raise wrong(name, value, "a material's name, as 'steel'")
-    return found
+    if not isinstance(value, str) or value not in MATERIALS:
+        hint = nearest(value.lower(), MATERIALS) if isinstance(value, str) else ""
+        raise wrong(name, value, f"a material's name, as 'steel'{hint}")
+    return value
 
 
 class MaterialPair(Description):
