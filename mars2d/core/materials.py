@@ -3,8 +3,8 @@
 By default the engine multiplies the values of both surfaces in a contact. So each surface has the
 square root of the value for a pair of the same material: steel on steel gets 0.76 * 0.76 = 0.58.
 Pairs of different materials come out near the tables in most cases, but too high with ice; a table
-of pairs states these. In contact with a surface of friction 1 and restitution 1, the default of obstacles, a
-body's own values apply. Other rules than the product are those of other engines and textbooks; the
+of pairs states these. In contact with a surface of friction 1 and restitution 1, the default of
+obstacles, a body's own values apply. Other rules than the product are those of other engines; the
 values of materials are made for the product.
 
 The figures are typical of clean, dry, solid bodies. Real values scatter by a third or more, with
