@@ -23,7 +23,7 @@ pytestmark = [
 COMPILER = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "").split()
 
 SCENE = """
-from mars2d import Robot, Scenario, World
+from mars2d import MaterialPair, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Box, Gate
@@ -32,7 +32,11 @@ from mars2d.geometry.shapes import Polygon
 wedge = Polygon([(-0.15, -0.12), (0.2, 0), (-0.15, 0.12)])
 shapes = [None, wedge, wedge]
 robots = [
-    Robot(pose=(0.45 * (i % 5), 0.45 * (i // 5), i), shape=shapes[i % 3]) for i in range(20)
+    Robot(
+        pose=(0.45 * (i % 5), 0.45 * (i // 5), i), shape=shapes[i % 3],
+        friction=("steel", "ice", 0.5)[i % 3], static_friction=0.9,
+    )
+    for i in range(20)
 ]
 props = [Ball(pose=(0.3 * k, -1, 0)) if k % 2 else Box(pose=(0.7 * k, -1.6, k)) for k in range(6)]
 joints = [
@@ -45,9 +49,10 @@ def scenario(physics):
         robots=robots, props=[*props, Gate(pose=(3.5, 0, 0))], joints=joints, physics=physics,
         max_overlap=0.01, addons=[Map([[(-0.5, -0.5), (3, -0.5)], [(-0.5, -0.5), (-0.5, 3)]])],
         workspace=[(-3, -3), (6, -3), (6, 5), (-3, 5)], on_exit="wall", stop_time=100,
+        material_pairs=[MaterialPair("ice", "steel", friction=0.03, restitution=0.5)],
     )
 """
-"""Robots, props and joints of many kinds, close to each other and to walls."""
+"""Robots, props and joints of many kinds and surfaces, close to each other and to walls."""
 
 MANY = """
 import gc
