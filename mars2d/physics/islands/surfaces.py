@@ -13,12 +13,15 @@ from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.chipmunk import (
     Handle,
     Vector,
+    count_of,
     first_of,
     normal_of,
     point_of,
     position_of,
     second_of,
     set_surface,
+    spin_of,
+    velocity_of,
 )
 
 __all__ = ["Surface", "Surfaces"]
@@ -81,6 +84,8 @@ class Surfaces:
     @cython.cfunc
     def settle(self, arbiter: Handle) -> cython.void:
         """Set friction and restitution of a contact, as the solver is to use them now."""
+        if count_of(arbiter) == 0:
+            return
         first: cython.int = first_of(arbiter)
         second: cython.int = second_of(arbiter)
         a: Surface = self.of_bodies[first] if first >= 0 else self.of_obstacles[-1 - first]
@@ -110,16 +115,19 @@ class Surfaces:
         body: Body
         place: Vector
         point: Vector
+        fast: Vector
         if second >= 0:
             body = self.bodies[second]
             place, point = position_of(body.handle), point_of(arbiter, 0, True)
-            vx = body.aim_x - body.aim_spin * (point.y - place.y)
-            vy = body.aim_y + body.aim_spin * (point.x - place.x)
+            fast = velocity_of(body.handle)
+            vx = fast.x - spin_of(body.handle) * (point.y - place.y)
+            vy = fast.y + spin_of(body.handle) * (point.x - place.x)
         if first >= 0:
             body = self.bodies[first]
             place, point = position_of(body.handle), point_of(arbiter, 0, False)
-            vx = vx - (body.aim_x - body.aim_spin * (point.y - place.y))
-            vy = vy - (body.aim_y + body.aim_spin * (point.x - place.x))
+            fast = velocity_of(body.handle)
+            vx = vx - (fast.x - spin_of(body.handle) * (point.y - place.y))
+            vy = vy - (fast.y + spin_of(body.handle) * (point.x - place.x))
         normal: Vector = normal_of(arbiter)
         along: cython.double = vy * normal.x - vx * normal.y
         return abs(along)
