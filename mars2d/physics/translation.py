@@ -22,9 +22,9 @@ from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.materials import GRAVITY
-from mars2d.core.plane import edges_of
 from mars2d.physics import settings
 from mars2d.physics.islands import chipmunk, islands
+from mars2d.physics.walls import walls_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
@@ -42,7 +42,7 @@ def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) ->
     module = islands()
     parts: tuple[Robot | Prop, ...] = (*scenario.robots, *scenario.props)
     bodies = [
-        _body(module, i, rigid, part)
+        _body(module, i, rigid, part, scenario.physics == "contact")
         for i, (rigid, part) in enumerate(zip(scenario.bodies, parts, strict=True))
     ]
     if states is not None:
@@ -58,7 +58,7 @@ def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) ->
     )
 
 
-def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
+def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bool) -> Any:
     shape, inertia = rigid.shape, rigid.inertia
     (x, y), radius = shape.bound
     pieces = [
@@ -70,8 +70,8 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
     ]  # fmt: skip
     surface = float(rigid.surface.friction), float(rigid.surface.restitution)
     body = module.Body(number, isinstance(part, Robot), pieces, surface)
-    what = {
-        "mass": inertia.mass, "moment": inertia.moment, "radius": radius,
+    what: dict[str, Any] = {
+        "mass": inertia.mass, "moment": inertia.moment, "lead": rigid.lead, "radius": radius,
         "offset_x": x, "offset_y": y, "is_disc": rigid.is_disc and not (x or y),
     }  # fmt: skip
     if isinstance(part, Prop):
@@ -80,7 +80,11 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
         drive = part.drive
         what |= {
             "force": drive.max_force, "torque": drive.max_torque, "rim": radius,
-            "in_robot_frame": drive.frame == "robot",
+            "in_robot_frame": drive.frame == "robot", "limited": drive.force_limited and forces,
+            "no_load_speed": 1e300 if drive.no_load_speed is None else drive.no_load_speed,
+            "grips": [
+                1e300 if grip is None else grip * inertia.mass * GRAVITY for grip in drive.grips
+            ],
         }  # fmt: skip
     body.describe(what)
     body.move([float(number) for number in (*rigid.pose, *rigid.velocity)], False)
@@ -88,18 +92,19 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
 
 
 def _walls(module: Any, scenario: Scenario) -> list[Any]:
-    edges = [
-        (-1 - k, (*a, *b), surface)
-        for k, surface in enumerate(scenario.surfaces)
-        for a, b in edges_of(surface.outline)
-    ]
     return [
         module.Wall(
-            number, obstacle, list(map(float, ends)),
-            (float(surface.friction), float(surface.restitution)),
+            number, [(-1 - span.obstacle, span.start, span.end) for span in wall.spans],
+            [*wall.a, *wall.b], wall.surface, [*wall.before, *wall.after],
         )
-        for number, (obstacle, ends, surface) in enumerate(edges)
+        for number, wall in enumerate(walls_of(scenario.surfaces, _gap(scenario)))
     ]  # fmt: skip
+
+
+def _gap(scenario: Scenario) -> float:
+    """Return how far bodies may overlap a wall, or a little more, but none comes through that."""
+    thinnest = min(body.shape.thickness for body in scenario.bodies)
+    return float(min(scenario.max_overlap, thinnest / 4))
 
 
 def _tie(module: Any, attached: AttachedJoint, bodies: Sequence[Any]) -> Any:
@@ -112,11 +117,24 @@ def _tie(module: Any, attached: AttachedJoint, bodies: Sequence[Any]) -> Any:
         "always": any(kind is not MaxDistance for kind in kinds),
         "rigid": any(kind in (MaxDistance, FixedDistance, Pin) for kind in kinds),
         "pinned": attached.pinned,
+        "springy": any(
+            isinstance(each, SpringDamper | TurningSpring) and each.stiffness > 0
+            for each in attached.constraints
+        ),
     }
     return module.Tie(
-        a, b, list(map(float, anchors)), float(attached.length), is_what,
+        a, b, list(map(float, anchors)), float(attached.length), is_what, _limits(attached),
         [_translated(attached, each) for each in attached.constraints],
     )  # fmt: skip
+
+
+def _limits(attached: AttachedJoint) -> list[float]:
+    """Return the least and largest angle of a joint as the islands measure it, and restitution."""
+    turned = attached.turned if attached.b >= 0 else -attached.turned
+    for each in attached.constraints:
+        if isinstance(each, TurningRange):
+            return [turned + each.least, turned + each.largest, float(each.restitution)]
+    return [-1e300, 1e300, 0.0]
 
 
 def _accuracy(scenario: Scenario) -> dict[str, float]:
@@ -131,7 +149,10 @@ def _accuracy(scenario: Scenario) -> dict[str, float]:
         "max_overlap": float(overlap),
         "entry": entry,
         "slop": slop,
+        "swaying": settings.SWAYING,
         "pressed": settings.PRESSED * slop,
+        "closed": min(settings.CLOSED, settings.MEETING * slop),
+        "touch": settings.MEETING * slop,
         "turned": settings.TURNED * overlap * max(1.0, overlap / settings.DEFAULT_OVERLAP),
         "growth": settings.GROWTH,
         "linger": settings.LINGER,

@@ -26,6 +26,7 @@ cdef extern from *:
         void *(*cpBodyGetUserData)(void *);
         void *(*cpCircleShapeNew)(void *, double, Vector);
         void *(*cpSegmentShapeNew)(void *, Vector, Vector, double);
+        void (*cpSegmentShapeSetNeighbors)(void *, Vector, Vector);
         void *(*cpPolyShapeNewRaw)(void *, int, Vector *, double);
         void (*cpShapeSetFriction)(void *, double);
         void (*cpShapeSetElasticity)(void *, double);
@@ -37,6 +38,7 @@ cdef extern from *:
         void *(*cpSpaceAddConstraint)(void *, void *);
         void (*cpSpaceRemoveConstraint)(void *, void *);
         void (*cpConstraintFree)(void *);
+        void (*cpBodySetCenterOfGravity)(void *, Vector);
         void (*cpBodySetPosition)(void *, Vector);
         void (*cpBodySetAngle)(void *, double);
         void (*cpBodySetVelocity)(void *, Vector);
@@ -56,6 +58,8 @@ cdef extern from *:
         void *(*cpPinJointAlloc)(void);
         void *(*cpPinJointInit)(void *, void *, void *, Vector, Vector);
         void (*cpPinJointSetDist)(void *, double);
+        void (*cpRotaryLimitJointSetMin)(void *, double);
+        void (*cpRotaryLimitJointSetMax)(void *, double);
         void *(*cpDampedSpringAlloc)(void);
         void *(*cpDampedSpringInit)(void *, void *, void *, Vector, Vector, double, double, double);
         void *(*cpRotaryLimitJointAlloc)(void);
@@ -67,8 +71,7 @@ cdef extern from *:
         void (*cpConstraintSetErrorBias)(void *, double);
         void (*cpConstraintSetCollideBodies)(void *, unsigned char);
         double (*cpConstraintGetImpulse)(void *);
-        void (*cpSpaceEachCachedArbiter)(void *, void (*)(void *, void *), void *);
-        void (*cpArbiterGetBodies)(void *, void **, void **);
+        void (*cpBodyEachArbiter)(void *, void (*)(void *, void *, void *), void *);
         Vector (*cpArbiterTotalImpulse)(void *);
         Vector (*cpArbiterGetNormal)(void *);
         int (*cpArbiterGetCount)(void *);
@@ -102,10 +105,21 @@ cdef extern from *:
             itself->contacts[k].tangent_impulse *= ratio;
         }
     }
+    static void *first_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_a; }
+    static void *second_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_b; }
+    static Vector drag(void *joint) { return vector(((double *)joint)[25], ((double *)joint)[26]); }
+    static double twist(void *joint) { return ((double *)joint)[18]; }
+    static Contact_ *contact_at(void *arbiter, int k) { return ((Arbiter_ *)arbiter)->contacts + k; }
     """
     ctypedef struct Vector:
         double x
         double y
+    ctypedef struct Contact_:
+        Vector r1
+        Vector r2
+        double bounce
+        double normal_impulse
+        double tangent_impulse
     ctypedef void *Handle
     ctypedef struct Engine_:
         void *(*cpSpaceNew)() noexcept
@@ -124,6 +138,7 @@ cdef extern from *:
         void *(*cpBodyGetUserData)(void *) noexcept
         void *(*cpCircleShapeNew)(void *, double, Vector) noexcept
         void *(*cpSegmentShapeNew)(void *, Vector, Vector, double) noexcept
+        void (*cpSegmentShapeSetNeighbors)(void *, Vector, Vector) noexcept
         void *(*cpPolyShapeNewRaw)(void *, int, Vector *, double) noexcept
         void (*cpShapeSetFriction)(void *, double) noexcept
         void (*cpShapeSetElasticity)(void *, double) noexcept
@@ -135,6 +150,7 @@ cdef extern from *:
         void *(*cpSpaceAddConstraint)(void *, void *) noexcept
         void (*cpSpaceRemoveConstraint)(void *, void *) noexcept
         void (*cpConstraintFree)(void *) noexcept
+        void (*cpBodySetCenterOfGravity)(void *, Vector) noexcept
         void (*cpBodySetPosition)(void *, Vector) noexcept
         void (*cpBodySetAngle)(void *, double) noexcept
         void (*cpBodySetVelocity)(void *, Vector) noexcept
@@ -154,6 +170,8 @@ cdef extern from *:
         void *(*cpPinJointAlloc)() noexcept
         void *(*cpPinJointInit)(void *, void *, void *, Vector, Vector) noexcept
         void (*cpPinJointSetDist)(void *, double) noexcept
+        void (*cpRotaryLimitJointSetMin)(void *, double) noexcept
+        void (*cpRotaryLimitJointSetMax)(void *, double) noexcept
         void *(*cpDampedSpringAlloc)() noexcept
         void *(*cpDampedSpringInit)(
             void *, void *, void *, Vector, Vector, double, double, double) noexcept
@@ -166,9 +184,8 @@ cdef extern from *:
         void (*cpConstraintSetErrorBias)(void *, double) noexcept
         void (*cpConstraintSetCollideBodies)(void *, unsigned char) noexcept
         double (*cpConstraintGetImpulse)(void *) noexcept
-        void (*cpSpaceEachCachedArbiter)(
-            void *, void (*)(void *, void *) noexcept, void *) noexcept
-        void (*cpArbiterGetBodies)(void *, void **, void **) noexcept
+        void (*cpBodyEachArbiter)(
+            void *, void (*)(void *, void *, void *) noexcept, void *) noexcept
         Vector (*cpArbiterTotalImpulse)(void *) noexcept
         Vector (*cpArbiterGetNormal)(void *) noexcept
         int (*cpArbiterGetCount)(void *) noexcept
@@ -179,6 +196,11 @@ cdef extern from *:
     size_t count_functions() noexcept
     Vector vector(double, double) noexcept
     void scale_contacts(void *, double) noexcept
+    Contact_ *contact_at(void *, int) noexcept
+    void *first_body(void *) noexcept
+    void *second_body(void *) noexcept
+    Vector drag(void *) noexcept
+    double twist(void *) noexcept
 
 
 def connect(addresses):
@@ -257,10 +279,13 @@ cdef Handle new_polygon(Handle body, points, surface) except NULL:
         vertices[k] = vector(points[k][0], points[k][1])
     return surfaced(engine.cpPolyShapeNewRaw(body, count, vertices, 0.0), surface)
 
-cdef Handle new_segment(Handle body, ends, surface) except NULL:
+cdef Handle new_segment(Handle body, ends, surface, beyond) except NULL:
     a, b = ends
-    return surfaced(
+    cdef Handle segment = surfaced(
         engine.cpSegmentShapeNew(body, vector(a[0], a[1]), vector(b[0], b[1]), 0.0), surface)
+    engine.cpSegmentShapeSetNeighbors(
+        segment, vector(beyond[0], beyond[1]), vector(beyond[2], beyond[3]))
+    return segment
 
 cdef inline void add_body(Handle space, Handle body) noexcept:
     engine.cpSpaceAddBody(space, body)
@@ -280,9 +305,12 @@ cdef inline void remove_shape(Handle space, Handle shape) noexcept:
 cdef inline void free_shape(Handle shape) noexcept:
     engine.cpShapeFree(shape)
 
+cdef inline void weight_at(Handle body, double ahead) noexcept:
+    engine.cpBodySetCenterOfGravity(body, vector(ahead, 0.0))
+
 cdef inline void put(Handle body, double x, double y, double angle) noexcept:
-    engine.cpBodySetPosition(body, vector(x, y))
     engine.cpBodySetAngle(body, angle)
+    engine.cpBodySetPosition(body, vector(x, y))
 
 cdef inline void aim(Handle body, double vx, double vy, double spin) noexcept:
     engine.cpBodySetVelocity(body, vector(vx, vy))
@@ -353,6 +381,10 @@ cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
 cdef inline void set_max_force(Handle joint, double force) noexcept:
     engine.cpConstraintSetMaxForce(joint, force)
 
+cdef inline void set_limits(Handle joint, double least, double largest) noexcept:
+    engine.cpRotaryLimitJointSetMin(joint, least)
+    engine.cpRotaryLimitJointSetMax(joint, largest)
+
 cdef inline void set_max_bias(Handle joint, double bias) noexcept:
     engine.cpConstraintSetMaxBias(joint, bias)
 
@@ -365,6 +397,12 @@ cdef inline void remove_joint(Handle space, Handle joint) noexcept:
 cdef inline void free_joint(Handle joint) noexcept:
     engine.cpConstraintFree(joint)
 
+cdef inline Vector drag_of(Handle joint) noexcept:
+    return drag(joint)
+
+cdef inline double twist_of(Handle joint) noexcept:
+    return twist(joint)
+
 cdef inline double used_of(Handle joint) noexcept:
     return engine.cpConstraintGetImpulse(joint)
 
@@ -374,14 +412,21 @@ cdef struct Found:
     Handle *arbiters
     int count
     int room
+    bint lost
 
-cdef void note_arbiter(void *arbiter, void *data) noexcept:
+cdef int number_of(Handle body) noexcept:
+    return <int><intptr_t>engine.cpBodyGetUserData(body)
+
+cdef void note_arbiter(void *body, void *arbiter, void *data) noexcept:
     cdef Found *found = <Found *>data
+    cdef Handle first = first_body(arbiter)
     cdef Handle *more
+    if first != body and number_of(first) >= 0:
+        return
     if found.count >= found.room:
         more = <Handle *>realloc(found.arbiters, (2 * found.room + 16) * sizeof(Handle))
         if more == NULL:
-            found.room = -1
+            found.lost = True
             return
         found.arbiters = more
         found.room = 2 * found.room + 16
@@ -394,28 +439,27 @@ cdef class Arbiters:
     def __dealloc__(self):
         free_memory(self.found.arbiters)
 
-    cdef int find(self, Handle space) except -1:
+    cdef void clear(self) noexcept:
         self.found.count = 0
-        engine.cpSpaceEachCachedArbiter(space, note_arbiter, &self.found)
-        if self.found.room < 0:
+
+    cdef int add_those_of(self, Handle body) except -1:
+        engine.cpBodyEachArbiter(body, note_arbiter, &self.found)
+        if self.found.lost:
+            self.found.lost = False
             raise MemoryError
+        return 0
+
+    cdef inline int count(self) noexcept:
         return self.found.count
 
     cdef inline Handle at(self, int k) noexcept:
         return self.found.arbiters[k]
 
-cdef int number_of(Handle body) noexcept:
-    return <int><intptr_t>engine.cpBodyGetUserData(body)
-
 cdef int first_of(Handle arbiter) noexcept:
-    cdef Handle a, b
-    engine.cpArbiterGetBodies(arbiter, &a, &b)
-    return number_of(a)
+    return number_of(first_body(arbiter))
 
 cdef int second_of(Handle arbiter) noexcept:
-    cdef Handle a, b
-    engine.cpArbiterGetBodies(arbiter, &a, &b)
-    return number_of(b)
+    return number_of(second_body(arbiter))
 
 cdef inline void scale(Handle arbiter, double ratio) noexcept:
     scale_contacts(arbiter, ratio)
@@ -433,6 +477,18 @@ cdef inline Vector point_of(Handle arbiter, int k, bint second) noexcept:
     if second:
         return engine.cpArbiterGetPointB(arbiter, k)
     return engine.cpArbiterGetPointA(arbiter, k)
+
+cdef inline Vector arm_of(Handle arbiter, int k, bint second) noexcept:
+    return contact_at(arbiter, k).r2 if second else contact_at(arbiter, k).r1
+
+cdef inline double push_of(Handle arbiter, int k) noexcept:
+    return contact_at(arbiter, k).normal_impulse
+
+cdef inline double rub_of(Handle arbiter, int k) noexcept:
+    return contact_at(arbiter, k).tangent_impulse
+
+cdef inline double bounce_of(Handle arbiter, int k) noexcept:
+    return contact_at(arbiter, k).bounce
 
 cdef inline int check_signals() except -1:
     return PyErr_CheckSignals()

@@ -6,6 +6,8 @@ addresses: ``chipmunk.pxi`` is this module in C. No other module here knows the 
 
 from __future__ import annotations
 
+from functools import cache
+from math import sqrt
 from typing import Any, TypeAlias
 
 from pymunk._chipmunk_cffi import ffi, lib
@@ -13,11 +15,13 @@ from pymunk._chipmunk_cffi import ffi, lib
 __all__ = [
     "DAMPED_SPRING", "GEAR", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
     "Arbiters", "Handle", "Vector", "add_body", "add_joint", "add_shape", "aim", "angle_of",
-    "check_signals", "count_of", "first_of", "free_body", "free_joint", "free_shape", "free_space",
-    "ground_of", "impulse_of", "make_joint", "new_body", "new_control", "new_disc", "new_ground",
-    "new_polygon", "new_segment", "new_space", "normal_of", "point_of", "position_of", "push",
-    "put", "remove_body", "remove_joint", "remove_shape", "scale", "second_of", "set_iterations",
-    "set_joint", "set_max_bias", "set_max_force", "spin_of", "step", "used_of", "velocity_of",
+    "arm_of", "bounce_of", "check_signals", "count_of", "drag_of", "first_of", "free_body",
+    "free_joint", "free_shape", "free_space", "ground_of", "impulse_of", "make_joint", "new_body",
+    "new_control", "new_disc", "new_ground", "new_polygon", "new_segment", "new_space",
+    "normal_of", "point_of", "position_of", "push", "push_of", "put", "remove_body",
+    "remove_joint", "remove_shape", "rub_of", "scale", "second_of", "set_iterations", "set_joint",
+    "set_limits", "set_max_bias", "set_max_force", "spin_of", "step", "twist_of", "used_of",
+    "velocity_of", "weight_at",
 ]  # fmt: skip
 
 Handle: TypeAlias = Any
@@ -38,6 +42,9 @@ _KINDS = (
 _ALLOC = [getattr(lib, f"cp{a}{b}Alloc") for a, b in _KINDS]
 _INIT = [getattr(lib, f"cp{a}{b}Init") for a, b in _KINDS]
 _OWN = [ffi.typeof(f"cp{a}{b} *") for a, b in _KINDS]
+PIVOT_IMPULSE, GEAR_IMPULSE = 25, 18
+"""Where the engine's structs of these joints have their impulses, in numbers of eight bytes."""
+
 _BASE = ffi.typeof("cpConstraint *")
 
 # -- spaces -----------------------------------------------------------------------------------
@@ -100,9 +107,14 @@ def new_polygon(body: Handle, points: Any, surface: Any) -> Handle:
     return _surfaced(lib.cpPolyShapeNewRaw(body, len(points), list(points), 0.0), surface)
 
 
-def new_segment(body: Handle, ends: Any, surface: Any) -> Handle:
-    """Return a wall without thickness between two points."""
-    return _surfaced(lib.cpSegmentShapeNew(body, ends[0], ends[1], 0.0), surface)
+def new_segment(body: Handle, ends: Any, surface: Any, beyond: Any) -> Handle:
+    """Return a wall without thickness between two points.
+
+    beyond: four coordinates of points towards which others go on at its ends.
+    """
+    segment = _surfaced(lib.cpSegmentShapeNew(body, ends[0], ends[1], 0.0), surface)
+    lib.cpSegmentShapeSetNeighbors(segment, beyond[:2], beyond[2:])
+    return segment
 
 
 def _surfaced(shape: Handle, surface: Any) -> Handle:
@@ -116,10 +128,15 @@ add_body, remove_body, free_body = lib.cpSpaceAddBody, lib.cpSpaceRemoveBody, li
 add_shape, remove_shape, free_shape = lib.cpSpaceAddShape, lib.cpSpaceRemoveShape, lib.cpShapeFree
 
 
+def weight_at(body: Handle, ahead: float) -> None:
+    """Put a body's centre of mass ahead of its pose, metres; velocities are those of the centre."""
+    lib.cpBodySetCenterOfGravity(body, (ahead, 0.0))
+
+
 def put(body: Handle, x: float, y: float, angle: float) -> None:
-    """Put a body somewhere."""
-    lib.cpBodySetPosition(body, (x, y))
+    """Put a body somewhere. The angle first: it turns a body about its centre of mass."""
     lib.cpBodySetAngle(body, angle)
+    lib.cpBodySetPosition(body, (x, y))
 
 
 def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
@@ -173,6 +190,55 @@ def set_joint(joint: Handle, bias: float, collide: bool) -> None:
     lib.cpConstraintSetCollideBodies(joint, collide)
 
 
+def set_limits(joint: Handle, least: float, largest: float) -> None:
+    """Set the limits of a joint of the kind ROTARY_LIMIT."""
+    lib.cpRotaryLimitJointSetMin(joint, least)
+    lib.cpRotaryLimitJointSetMax(joint, largest)
+
+
+@cache
+def impulses_are_where_thought() -> bool:
+    """Whether drives' impulses are found where they are read: a body is stopped to find out."""
+    space, body = new_space(0.0), new_body(2.0, 3.0, 0)
+    ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
+    pivot = make_joint(PIVOT, NOTHING, ground, body, ends, 0.0, 0.0, 0.0)
+    gear = make_joint(GEAR, NOTHING, ground, body, ends, 0.0, 1.0, 0.0)
+    add_body(space, body)
+    add_joint(space, pivot)
+    add_joint(space, gear)
+    aim(body, 1.5, -2.0, 4.0)
+    step(space, 0.0625)
+    x, y, turn = *_numbers(pivot, PIVOT_IMPULSE, 2), *_numbers(gear, GEAR_IMPULSE, 1)
+    known = used_of(pivot) == sqrt(x * x + y * y) and used_of(gear) == abs(turn)
+    for joint in (pivot, gear):
+        remove_joint(space, joint)
+        free_joint(joint)
+    remove_body(space, body)
+    free_body(body)
+    free_space(space)
+    return bool(known and x < 0 < y and turn < 0)
+
+
+def _numbers(joint: Handle, place: int, count: int) -> list[float]:
+    numbers = ffi.cast("double *", joint)
+    return [float(numbers[place + k]) for k in range(count)]
+
+
+def drag_of(joint: Handle) -> Vector:
+    """Return the impulse of a joint of the kind PIVOT on its second body in the last step.
+
+    It is zero with an engine that has it elsewhere: then a joint's work has that of drives in it.
+    """
+    if not impulses_are_where_thought():
+        return ffi.new("cpVect *")[0]
+    return ffi.new("cpVect *", _numbers(joint, PIVOT_IMPULSE, 2))[0]
+
+
+def twist_of(joint: Handle) -> float:
+    """Return the turning impulse of a joint of the kind GEAR on its second body."""
+    return _numbers(joint, GEAR_IMPULSE, 1)[0] if impulses_are_where_thought() else 0.0
+
+
 set_max_force, set_max_bias = lib.cpConstraintSetMaxForce, lib.cpConstraintSetMaxBias
 add_joint, remove_joint = lib.cpSpaceAddConstraint, lib.cpSpaceRemoveConstraint
 free_joint, used_of = lib.cpConstraintFree, lib.cpConstraintGetImpulse
@@ -188,29 +254,39 @@ def _catch(_kind: object, error: BaseException, _trace: object) -> None:
     _caught.append(error)
 
 
-@ffi.callback("void(cpArbiter *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _NOTE(arbiter: Handle, data: Handle) -> None:  # noqa: N802
-    ffi.from_handle(data).append(arbiter)
+@ffi.callback(  # type: ignore[untyped-decorator]
+    "void(cpBody *, cpArbiter *, void *)", onerror=_catch
+)
+def _NOTE(body: Handle, arbiter: Handle, data: Handle) -> None:  # noqa: N802
+    first = arbiter.body_a  # its function would tell `body` first
+    if first == body or _number_of(first) < 0:
+        ffi.from_handle(data).append(arbiter)
 
 
 class Arbiters:
-    """The contacts that the solver of a space knows."""
+    """Contacts that the solver of a space knows, in an order that depends on no address."""
 
     def __init__(self) -> None:
         """Start without any."""
         self._found: list[Handle] = []
 
-    def find(self, space: Handle) -> int:
-        """Find those of a space, and return how many there are."""
+    def clear(self) -> None:
+        """Forget all that were found."""
         self._found = []
+
+    def add_those_of(self, body: Handle) -> None:
+        """Find those of a body; one of two bodies is found at its first."""
         data = ffi.new_handle(self._found)
-        lib.cpSpaceEachCachedArbiter(space, _NOTE, data)
+        lib.cpBodyEachArbiter(body, _NOTE, data)
         if _caught:
             raise _caught.pop()
+
+    def count(self) -> int:
+        """Return how many were found."""
         return len(self._found)
 
     def at(self, k: int) -> Handle:
-        """Return one of those found last."""
+        """Return one of those found."""
         return self._found[k]
 
 
@@ -220,18 +296,12 @@ def _number_of(body: Handle) -> int:
 
 def first_of(arbiter: Handle) -> int:
     """Return the number of a contact's first body."""
-    return _number_of(_bodies_of(arbiter)[0])
+    return _number_of(arbiter.body_a)
 
 
 def second_of(arbiter: Handle) -> int:
     """Return the number of a contact's second body."""
-    return _number_of(_bodies_of(arbiter)[1])
-
-
-def _bodies_of(arbiter: Handle) -> tuple[Handle, Handle]:
-    first, second = ffi.new("cpBody **"), ffi.new("cpBody **")
-    lib.cpArbiterGetBodies(arbiter, first, second)
-    return first[0], second[0]
+    return _number_of(arbiter.body_b)
 
 
 def scale(arbiter: Handle, ratio: float) -> None:
@@ -249,6 +319,27 @@ normal_of = lib.cpArbiterGetNormal
 def point_of(arbiter: Handle, k: int, second: bool) -> Vector:
     """Return one of its points, on the surface of its first or second body."""
     return (lib.cpArbiterGetPointB if second else lib.cpArbiterGetPointA)(arbiter, k)
+
+
+def arm_of(arbiter: Handle, k: int, second: bool) -> Vector:
+    """Return the way to one of its points from the centre of mass of its first or second body."""
+    contact = arbiter.contacts[k]
+    return contact.r2 if second else contact.r1
+
+
+def push_of(arbiter: Handle, k: int) -> float:
+    """Return the impulse along the normal in one of its points, on its second body, N s."""
+    return float(arbiter.contacts[k].jnAcc)
+
+
+def rub_of(arbiter: Handle, k: int) -> float:
+    """Return the impulse across the normal, a quarter turn to its left, N s."""
+    return float(arbiter.contacts[k].jtAcc)
+
+
+def bounce_of(arbiter: Handle, k: int) -> float:
+    """Return the restitution times the speed at which bodies parted before the step, m/s."""
+    return float(arbiter.contacts[k].bounce)
 
 
 def check_signals() -> None:

@@ -7,6 +7,7 @@ second; gaps of what overlaps are negative: how far one has to be moved to part 
 from __future__ import annotations
 
 from math import sqrt
+from typing import Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
@@ -18,10 +19,16 @@ __all__ = ["DiscPair", "DiscWall", "Pair", "PiecePair", "Wall"]
 @cython.final
 @cython.cclass
 class Wall:
-    """A straight edge of an obstacle. obstacle: its number, -1, -2, ..."""
+    """A straight wall, of one obstacle or of several in turn.
+
+    obstacle: the number of the first, -1, -2, ... parts: that of each, and from where to where on
+    the way from the first end, shares of its length.
+    """
 
     number: cython.int
     obstacle: cython.int
+    parts: list[Any]
+    beyond: object  # the far ends of the walls that go on at its ends
     surface: object
     x: cython.double
     y: cython.double
@@ -32,18 +39,41 @@ class Wall:
     piece: Piece
 
     def __init__(
-        self, number: int, obstacle: int, ends: list[float], surface: tuple[float, float]
+        self,
+        number: int,
+        parts: list[tuple[int, float, float]],
+        ends: list[float],
+        surface: tuple[float, float],
+        beyond: list[float],
     ) -> None:
-        """Take its ends x1, y1, x2, y2 [m], and its friction and restitution."""
+        """Take its parts, its ends x1, y1, x2, y2 [m], its friction and restitution.
+
+        beyond: where walls end that go on at its ends, in the same order; its own ends if none do.
+        """
         x1, y1, x2, y2 = ends
         dx, dy = x2 - x1, y2 - y1
         far = sqrt(dx * dx + dy * dy)
         u, v = dx / far, dy / far
-        self.number, self.obstacle, self.surface = number, obstacle, surface
+        self.number, self.obstacle, self.surface = number, parts[0][0], surface
+        self.parts, self.beyond = parts, beyond
         self.x, self.y, self.edge_x, self.edge_y = x1, y1, dx, dy
         self.share_x, self.share_y = dx / (far * far), dy / (far * far)
         sides = [(v, -u), (-v, u), (u, v), (-u, -v)]
         self.piece = Piece([(x1, y1), (x2, y2)], sides, 0.0)
+
+    @cython.cfunc
+    def obstacle_at(self, x: cython.double, y: cython.double) -> cython.int:
+        """Return the number of the obstacle that is touched at a point."""
+        if len(self.parts) == 1:
+            return self.obstacle
+        along: cython.double = (x - self.x) * self.share_x + (y - self.y) * self.share_y
+        nearest: cython.double = 1e300
+        found: cython.int = self.obstacle
+        for obstacle, start, end in self.parts:
+            off: cython.double = max(start - along, along - end, 0.0)
+            if off < nearest:
+                nearest, found = off, obstacle
+        return found
 
     @cython.cfunc
     def gap(self, x: cython.double, y: cython.double) -> cython.double:
@@ -63,7 +93,7 @@ class Pair:
     b: Body
     is_wall: cython.bint
     wall: Wall
-    other: cython.int  # the number of what the second is
+    other: cython.int  # the number of what the second is; of a wall, -1 and less
     radii: cython.double  # of the circles round both
     gap: cython.double
     normal_x: cython.double
@@ -87,7 +117,7 @@ class Pair:
         if wall is None:
             self.other, self.radii = b.number, a.radius + b.radius
         else:
-            self.wall, self.other, self.radii = wall, wall.obstacle, a.radius
+            self.wall, self.other, self.radii = wall, -1 - wall.number, a.radius
 
     @cython.cfunc
     def apart(self) -> cython.double:
