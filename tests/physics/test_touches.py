@@ -19,7 +19,7 @@ from mars2d.physics.islands.contacts import (
 )
 from mars2d.physics.motion import WIDE
 from mars2d.record.contact import CONTACT
-from tests.islands import DISC, body_of, piece_of, place
+from tests.islands import DISC, body_of, piece_of, place, wall_of
 
 
 def log_of(*numbers: int) -> list:
@@ -204,7 +204,8 @@ def told(monkeypatch):
     bodies = log_of(0, 1, 2)
     for k, body in enumerate(bodies):
         place(body, complex(k, 0))
-    island = islands.Island(SimpleNamespace(iterations=1), None, bodies, [], [])
+    walls = [wall_of(0j, 1 + 0j, number) for number in range(3)]
+    island = islands.Island(SimpleNamespace(iterations=1), None, bodies, walls, [], [])
     island.bodies = bodies
     return island
 
