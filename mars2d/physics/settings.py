@@ -81,6 +81,13 @@ BENT = 0.75
 SWING = 0.05
 """The longest substep, in periods of a spring over 2 pi."""
 
+MEND = 2.0
+"""How deep in a wall, in parts of the overlap allowed, a corner may be that a seam lets in.
+
+At the seam of two walls the engine's contact may point along one of them. It is then that of the
+wall's face and the body's corners in it, up to this depth.
+"""
+
 # -- drives -------------------------------------------------------------------------------------
 
 SWAYING = 1e-3

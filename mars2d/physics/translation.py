@@ -24,7 +24,7 @@ from mars2d.bodies.rigid import Rigid
 from mars2d.core.materials import GRAVITY
 from mars2d.physics import settings
 from mars2d.physics.islands import chipmunk, islands
-from mars2d.physics.walls import walls_of
+from mars2d.physics.walls import Wall, walls_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
@@ -48,11 +48,12 @@ def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) ->
     if states is not None:
         for body, state, one in zip(bodies, states.tolist(), slips, strict=True):
             body.move(state, bool(one))
+    accuracy = _accuracy(scenario)
     return module.Mover(
-        module.Accuracy(_accuracy(scenario)),
+        module.Accuracy(accuracy),
         module.Glide(*(part.tolist() for part in _quadrature(20))),
         bodies,
-        _walls(module, scenario),
+        _walls(module, scenario, accuracy["mend"]),
         [_tie(module, tie, bodies) for tie in scenario.ties],
         set(scenario.joined),
     )
@@ -91,20 +92,34 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bo
     return body
 
 
-def _walls(module: Any, scenario: Scenario) -> list[Any]:
+def _walls(module: Any, scenario: Scenario, reach: float) -> list[Any]:
+    """Return the walls. reach: how deep in one a corner may be that is put back out of it."""
+    surfaces = scenario.surfaces
+    solid = len(scenario.obstacles)  # the workspace, which has its room inside, comes after these
+    parts = tuple(
+        (surface.outline, (float(surface.friction), float(surface.restitution)), k < solid)
+        for k, surface in enumerate(surfaces)
+    )
     return [
         module.Wall(
-            number, [(-1 - span.obstacle, span.start, span.end) for span in wall.spans],
-            [*wall.a, *wall.b], wall.surface, [*wall.before, *wall.after],
+            number, [(float(far), -1 - k) for far, k in wall.owners], -1 - len(surfaces) - number,
+            list(map(float, (*wall.start, *wall.end))), wall.surface, _seams(module, wall, reach),
+            [tuple(map(float, (*end, *away, far))) for end, away, far in wall.shades],
         )
-        for number, wall in enumerate(walls_of(scenario.surfaces, _gap(scenario)))
+        for number, wall in enumerate(walls_of(parts))
     ]  # fmt: skip
 
 
-def _gap(scenario: Scenario) -> float:
-    """Return how far bodies may overlap a wall, or a little more, but none comes through that."""
-    thinnest = min(body.shape.thickness for body in scenario.bodies)
-    return float(min(scenario.max_overlap, thinnest / 4))
+def _seams(module: Any, wall: Wall, reach: float) -> Any:
+    """Return what contacts with a wall must know of its ends; None if nothing meets it there."""
+    if not any(wall.seams):
+        return None
+    (x, y), (to_x, to_y) = wall.start, wall.end
+    far = sqrt((to_x - x) ** 2 + (to_y - y) ** 2)
+    numbers = [x, y, (to_x - x) / far, (to_y - y) / far, far, reach]
+    for seam in wall.seams:
+        numbers += (0.0, 0.0, 0.0) if seam is None else (1.0 + (not seam.bulges), *seam.way)
+    return module.Seams(list(map(float, numbers)))
 
 
 def _tie(module: Any, attached: AttachedJoint, bodies: Sequence[Any]) -> Any:
@@ -171,6 +186,7 @@ def _accuracy(scenario: Scenario) -> dict[str, float]:
         "iterations_unequal": settings.ITERATIONS_UNEQUAL,
         "iterations_ties": settings.ITERATIONS_JOINTS,
         "graze": min(settings.SLOP, thinnest / 32),
+        "mend": min(settings.MEND * overlap, thinnest / 2),
     }
 
 

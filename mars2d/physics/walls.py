@@ -1,288 +1,351 @@
-"""Walls: what bodies feel of obstacles, so that they trip over no seam.
+"""Walls: the edges of obstacles as the engine gets them, joined where they go straight on.
 
-A body that slides along a wall overlaps it a little. Where the next wall begins, or one ends at
-the back of this, it would hit that one's end. So edges that go on in one line are one wall, common
-edges of blocks that stand side by side are none, and a wall that ends at another ends a little
-before it. Of walls that go on round a bend, the engine is told.
+A body that slides along a wall enters it by a tenth of a millimetre or so. With that it would trip
+over the end of each piece that begins there. So pieces in one line become one, what two solids that
+adjoin have in common is left out, and each wall knows what it meets at its ends.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
-from math import hypot
+from math import atan2, hypot, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.plane import Point, edges_of
-from mars2d.scenario.scenario import Obstacle
+from mars2d.core.plane import Outline, Point, edges_of
 
-__all__ = ["Span", "Straight", "walls_of"]
+__all__ = ["MEET", "Seam", "Shade", "Surface", "Wall", "walls_of"]
+
+MEET = 1e-6
+"""How near to each other walls meet, or lie in one line, metres: much less than bodies overlap."""
+
+FEW = 48
+"""Up to this number of walls, all pairs are looked at."""
+
+MOST_CELLS = 1e6
+"""About the most cells in which walls are looked for."""
 
 Float = NDArray[np.float64]
-
-FEW = 200
-"""Up to how many ends of edges all are looked at."""
-
-MEETS = 1e-6
-"""How far edges may lie apart that are taken for one line, or for meeting, metres."""
+Whole = NDArray[np.int64]
+Surface = tuple[float, float]
+"""Coefficients of friction and restitution."""
 
 
-class Span(NamedTuple):
-    """Which obstacle a wall is of, in a part of its length: an index, and two shares of it."""
+class Seam(NamedTuple):
+    """The wall that is met first when one turns about an end, on one side of a wall.
 
-    obstacle: int
-    start: float
-    end: float
-
-
-class Straight(NamedTuple):
-    """A straight wall from a to b, its friction and restitution, and whose it is where.
-
-    before, after: the other ends of walls that go on at a and at b, a and b where none do.
+    way: its direction from there, a unit vector. bulges: whether the corner between both is more
+    than half a turn wide, as round the corner of a box.
     """
 
-    a: Point
-    b: Point
-    surface: tuple[float, float]
-    spans: tuple[Span, ...]
-    before: Point
-    after: Point
+    way: Point
+    bulges: bool
 
 
-class _Edge(NamedTuple):
-    """An edge of an obstacle. solid: on which side that lies, 1 on the left; 0 if it is a wall."""
+Seams = tuple[Seam | None, ...]
+"""Those at the start of a wall, to its left and right, and at its end, to its left and right."""
 
-    a: Point
-    b: Point
-    surface: tuple[float, float]
+
+class Shade(NamedTuple):
+    """A wall behind which another one ends.
+
+    end: of that one. away: the direction off both, a unit vector. far: metres to the nearer end of
+    what it ends at: what is as near to there and on the other side is hidden from it.
+    """
+
+    end: Point
+    away: Point
+    far: float
+
+
+class Wall(NamedTuple):
+    """A straight wall: its ends [m], its surface, and whose it is.
+
+    owners: pairs of metres from its start and the obstacle that it belongs to from there on.
+    """
+
+    start: Point
+    end: Point
+    surface: Surface
+    owners: tuple[tuple[float, int], ...]
+    seams: Seams
+    shades: tuple[Shade, ...]
+
+
+class Edge(NamedTuple):
+    """An edge of an obstacle. solid: 1 if the obstacle lies to its left, -1 to its right, or 0."""
+
+    start: Point
+    end: Point
     obstacle: int
+    surface: Surface
     solid: int
 
 
-@lru_cache(maxsize=16)
-def walls_of(obstacles: tuple[Obstacle, ...], gap: float) -> tuple[Straight, ...]:
-    """Return the walls of obstacles.
+class Line(NamedTuple):
+    """The straight line from a start in a direction, a unit vector."""
 
-    gap: how far from another one a wall ends that meets its side, metres. Those of the last
-    obstacles are kept: each new world of a study, and each change of a running one, asks for them.
-    """
-    edges = [edge for k, obstacle in enumerate(obstacles) for edge in _edges(obstacle, k)]
-    if not edges:
-        return ()
-    return _linked(_cut_short(_joined(_without_common(edges)), gap))
+    start: Point
+    way: Point
 
+    def along(self, point: Point) -> float:
+        """Return how far along it a point is, metres."""
+        return _dot(_to(self.start, point), self.way)
 
-def _edges(obstacle: Obstacle, number: int) -> Iterator[_Edge]:
-    outline = obstacle.outline
-    looks = float(obstacle.friction), float(obstacle.restitution)
-    x, y = np.array(outline, dtype=float).T
-    area = float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
-    solid = 0 if len(outline) == 2 else 1 if area > 0 else -1
-    for (ax, ay), (bx, by) in edges_of(outline):
-        yield _Edge((float(ax), float(ay)), (float(bx), float(by)), looks, number, solid)
+    def off(self, point: Point) -> float:
+        """Return how far a point is from it, metres."""
+        return abs(_cross(_to(self.start, point), self.way))
 
 
-# -- blocks side by side ----------------------------------------------------------------------
-
-
-def _without_common(edges: list[_Edge]) -> list[_Edge]:
-    """Return edges without those parts in which two solids touch each other from both sides."""
-    hidden: dict[int, list[tuple[float, float]]] = {}
-    for i, j in _meeting(edges):
-        first, second = edges[i], edges[j]
-        if first.solid and second.solid and _in_line(first, second):
-            (start, end), backwards = _overlap(first, second)
-            apart = backwards == (first.solid == second.solid)  # on both sides of the line
-            if apart and end - start > MEETS:
-                hidden.setdefault(i, []).append((start, end))
-    return [
-        part
-        for i, edge in enumerate(edges)
-        for part in ([edge] if i not in hidden else _left_of(edge, hidden[i]))
+@lru_cache(maxsize=4)
+def walls_of(obstacles: tuple[tuple[Outline, Surface, bool], ...]) -> tuple[Wall, ...]:
+    """Return the walls of obstacles: outlines, surfaces, and whether they are solid if closed."""
+    sides = [_solid_side(outline) if solid else 0 for outline, _, solid in obstacles]
+    edges = [
+        Edge(*ends, k, surface, sides[k])
+        for k, (outline, surface, _) in enumerate(obstacles)
+        for ends in edges_of(outline)
     ]
+    straight = [wall for group in _in_line(edges) for wall in _joined(edges, group)]
+    meetings = _meetings([(wall.start, wall.end) for wall in straight])
+    return tuple(_met(wall, straight, meetings[k]) for k, wall in enumerate(straight))
 
 
-def _left_of(edge: _Edge, hidden: list[tuple[float, float]]) -> Iterator[_Edge]:
-    """Yield the parts of an edge outside of some intervals of its length, metres."""
-    at = 0.0
-    far = _length(edge)
-    for start, end in [*sorted(hidden), (far, far)]:
-        if start - at > MEETS:
-            yield edge._replace(a=_along(edge, at), b=_along(edge, start))
-        at = max(at, end)
-
-
-# -- edges in one line ------------------------------------------------------------------------
-
-
-def _joined(edges: list[_Edge]) -> list[Straight]:
-    """Return walls, each of the edges with one surface that go on in one line."""
-    first = list(range(len(edges)))
-
-    def root(i: int) -> int:
-        while first[i] != i:
-            first[i] = first[first[i]]
-            i = first[i]
-        return i
-
-    for i, j in _meeting(edges):
-        if edges[i].surface == edges[j].surface and _in_line(edges[i], edges[j]):
-            low, high = sorted((root(i), root(j)))
-            first[high] = low
-    groups: dict[int, list[_Edge]] = {}
-    for i, edge in enumerate(edges):
-        groups.setdefault(root(i), []).append(edge)
-    return [wall for group in groups.values() for wall in _as_walls(group)]
-
-
-def _as_walls(group: list[_Edge]) -> list[Straight]:
-    """Return one wall for edges in one line; one for each if they bend in the end after all."""
-    if len(group) > 1:
-        ends = np.array([point for edge in group for point in (edge.a, edge.b)])
-        longest = max(group, key=_length)
-        way = np.subtract(longest.b, longest.a)
-        along = (ends - longest.a) @ way
-        a, b = ends[along.argmin()], ends[along.argmax()]
-        way = (b - a) / hypot(*(b - a))
-        off = np.abs((ends[:, 0] - a[0]) * way[1] - (ends[:, 1] - a[1]) * way[0])
-        if off.max() <= 2 * MEETS:
-            shares = ((ends - a) @ way / hypot(*(b - a))).reshape(-1, 2)
-            shares.sort(axis=1)
-            spans = [
-                Span(edge.obstacle, *share)
-                for edge, share in zip(group, shares.tolist(), strict=True)
-            ]
-            spans.sort(key=lambda span: (span.start, span.obstacle))
-            start, end = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
-            return [Straight(start, end, group[0].surface, tuple(spans), start, end)]
-    return [
-        Straight(edge.a, edge.b, edge.surface, (Span(edge.obstacle, 0, 1),), edge.a, edge.b)
-        for edge in group
-    ]
-
-
-# -- walls that end at others -----------------------------------------------------------------
-
-
-def _cut_short(walls: list[Straight], gap: float) -> list[Straight]:
-    """Return walls that end a little before others which they meet from one side."""
-    cut = {i: [0.0, 0.0] for i in range(len(walls))}
-    for i, j in _meeting(walls):
-        if _in_line(walls[i], walls[j]):
-            continue
-        far = _length(walls[i])
-        for k, end in enumerate((walls[j].a, walls[j].b)):
-            along, off = _seen_from(walls[i], end)
-            if off <= MEETS and gap < along < far - gap:
-                away = _seen_from(walls[i], (walls[j].b, walls[j].a)[k])[1]
-                cut[j][k] = max(cut[j][k], gap / away)
-    return [_shorter(wall, *cut[i]) for i, wall in enumerate(walls)]
-
-
-def _shorter(wall: Straight, at_a: float, at_b: float) -> Straight:
-    """Return a wall without shares of its length at both ends, of each at most a third."""
-    if not (at_a or at_b):
-        return wall
-    far = _length(wall)
-    start, end = far * min(at_a, 1 / 3), far * (1 - min(at_b, 1 / 3))
-    spans = [
-        Span(k, *(float(np.clip((s * far - start) / (end - start), 0, 1)) for s in (low, high)))
-        for k, low, high in wall.spans
-    ]
-    return wall._replace(a=_along(wall, start), b=_along(wall, end), spans=tuple(spans))
-
-
-# -- walls that go on in another direction ----------------------------------------------------
-
-
-def _linked(walls: list[Straight]) -> tuple[Straight, ...]:
-    """Return walls that know which ones go on at their ends, the straightest where several do."""
-    best: dict[tuple[int, bool], tuple[float, Point]] = {}
-    for i, j in _meeting(walls):
-        wall, other = walls[i], walls[j]
-        for at_b, end, far in ((False, wall.a, wall.b), (True, wall.b, wall.a)):
-            for near, next_ in ((other.a, other.b), (other.b, other.a)):
-                if hypot(near[0] - end[0], near[1] - end[1]) > MEETS:
-                    continue
-                x, y = end[0] - far[0], end[1] - far[1]
-                u, v = next_[0] - near[0], next_[1] - near[1]
-                straight = (x * u + y * v) / (hypot(x, y) * hypot(u, v))
-                if straight > best.get((i, at_b), (0.0, end))[0]:
-                    best[i, at_b] = straight, next_
-    return tuple(
-        wall._replace(
-            before=best.get((i, False), (0.0, wall.a))[1],
-            after=best.get((i, True), (0.0, wall.b))[1],
-        )
-        for i, wall in enumerate(walls)
+def _solid_side(outline: Outline) -> int:
+    """Return on which side of its edges a closed outline is solid: 1 left, -1 right, or 0."""
+    if len(outline) == 2:
+        return 0
+    middle = outline[0]
+    return (
+        1 if sum(_cross(_to(middle, a), _to(middle, b)) for a, b in edges_of(outline)) > 0 else -1
     )
 
 
-# -- lines ------------------------------------------------------------------------------------
+# -- what meets at an end ---------------------------------------------------------------------
 
 
-def _meeting(edges: Sequence[_Edge | Straight]) -> Iterator[tuple[int, int]]:
-    """Yield i and j for each end of an edge j that lies on another edge i."""
-    ends = np.array([point for edge in edges for point in (edge.a, edge.b)])
-    for i, near in enumerate(_near(ends)):
-        others = np.unique(near[_distances(edges[i], ends[near]) <= MEETS] // 2)
-        for j in others.tolist():
-            if i != j:
-                yield i, j
+def _meetings(lines: Sequence[tuple[Point, Point]]) -> list[tuple[list[int], list[int]]]:
+    """Return for each line the others on which its start lies, and those on which its end does."""
+    found: list[tuple[list[int], list[int]]] = [([], []) for _ in lines]
+    if not lines:
+        return found
+    starts, ends = np.array(lines, dtype=float).transpose(1, 0, 2)
+    points = np.concatenate([starts, ends])
+    which, line = _near(points, starts, ends)
+    others = which % len(lines) != line
+    which, line = which[others], line[others]
+    way = ends - starts
+    far = np.sqrt((way * way).sum(axis=1))
+    way /= far[:, None]
+    to_x, to_y = (points[which] - starts[line]).T
+    x, y = way[line].T
+    along = to_x * x + to_y * y
+    on = (abs(to_x * y - to_y * x) <= MEET) & (along >= -MEET) & (along <= far[line] + MEET)
+    for k, other in sorted(zip(which[on].tolist(), line[on].tolist(), strict=True)):
+        found[k % len(lines)][k // len(lines)].append(other)
+    return found
 
 
-def _near(ends: Float) -> Iterator[NDArray[np.intp]]:
-    """Yield for each edge the ends that may lie on it, sorted; ends: of all edges, in pairs."""
-    if len(ends) <= FEW:
-        for _ in range(len(ends) // 2):
-            yield np.arange(len(ends))
+def _near(points: Float, starts: Float, ends: Float) -> tuple[Whole, Whole]:
+    """Return pairs of a point (m, 2) and a line (n, 2) to (n, 2), all that are near among them."""
+    m, n = len(points), len(starts)
+    if n <= FEW:
+        return np.repeat(np.arange(m), n), np.tile(np.arange(n), m)
+    low = np.minimum(starts.min(axis=0), ends.min(axis=0))
+    wide, high = np.maximum(starts.max(axis=0), ends.max(axis=0)) - low
+    far = np.hypot(*(ends - starts).T)
+    size = min(max((wide * high / n) ** 0.5, (wide + high) / n), 4 * float(np.median(far)))
+    size = max(size, far.sum() / MOST_CELLS, 1e3 * MEET)
+    rows = int(high / size) + 4
+
+    def cells(xy: Float) -> Whole:
+        column, row = np.floor((xy - low) / size).astype(np.int64).T + 1
+        return np.asarray(column * rows + row)
+
+    where = cells(points)
+    order = np.argsort(where, kind="stable")
+    known = where[order]
+    # pieces of lines shorter than a cell lie in those in which the corners of their boxes do
+    parts = 1 + (far / (0.9 * size)).astype(np.int64)
+    line = np.repeat(np.arange(n), parts)
+    share = (np.arange(len(line)) - np.repeat(np.cumsum(parts) - parts, parts))[:, None]
+    step = ((ends - starts) / parts[:, None])[line]
+    first, last = starts[line] + share * step, starts[line] + (share + 1) * step
+    least, most = np.minimum(first, last) - 2 * MEET, np.maximum(first, last) + 2 * MEET
+    boxes = [np.column_stack([x[:, 0], y[:, 1]]) for x in (least, most) for y in (least, most)]
+    passed = np.concatenate([cells(box) for box in boxes])
+    begin, end = (np.searchsorted(known, passed, side) for side in ("left", "right"))
+    some = end > begin
+    key, at = np.unique((passed * n + np.tile(line, 4))[some], return_index=True)
+    begin, count = begin[some][at], (end - begin)[some][at]
+    chosen = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count - begin, count)
+    return order[chosen], np.repeat(key % n, count)
+
+
+def _met(wall: Wall, walls: Sequence[Wall], meetings: tuple[list[int], list[int]]) -> Wall:
+    """Return a wall that knows what meets it at its ends."""
+    seams: list[Seam | None] = []
+    shades: list[Shade] = []
+    sides = (wall.start, wall.end, 1), (wall.end, wall.start, -1)
+    for (here, there, left), met in zip(sides, meetings, strict=True):
+        others = [walls[j] for j in met]
+        ways = [way for other in others for way in _ways(other, here)]
+        own = _line(here, there).way
+        seams += [_first(own, ways, left), _first(own, ways, -left)]
+        shades += [_shade(here, own, other) for other in others if len(_ways(other, here)) == 2]
+    return wall._replace(seams=tuple(seams), shades=tuple(shades))
+
+
+def _shade(end: Point, own: Point, other: Wall) -> Shade:
+    """Return the shade of a wall at which one ends that leads from there in its own direction."""
+    x, y = _line(other.start, other.end).way
+    away = (y, -x) if _dot((y, -x), own) < 0 else (-y, x)
+    return Shade(end, away, min(hypot(*_to(end, other.start)), hypot(*_to(end, other.end))))
+
+
+def _ways(wall: Wall, point: Point) -> list[Point]:
+    """Return the directions in which a wall leads away from a point on it."""
+    ahead = _line(wall.start, wall.end).way
+    back = -ahead[0], -ahead[1]
+    if hypot(*_to(wall.start, point)) <= MEET:
+        return [ahead]
+    return [back] if hypot(*_to(wall.end, point)) <= MEET else [ahead, back]
+
+
+def _first(own: Point, ways: Iterable[Point], turn: int) -> Seam | None:
+    """Return the first of some directions that one meets who turns from another, or None.
+
+    turn: 1 for counter-clockwise, -1 for clockwise. What leads in that direction itself is left
+    out: it overlaps it.
+    """
+    met = [(turn * atan2(_cross(own, way), _dot(own, way)) % (2 * pi), way) for way in ways]
+    angle, way = min((each for each in met if 1e-9 < each[0] < 2 * pi - 1e-9), default=(0.0, own))
+    return Seam(way, angle > pi + 1e-9) if angle else None
+
+
+# -- pieces in one line -----------------------------------------------------------------------
+
+
+def _in_line(edges: Sequence[Edge]) -> list[list[int]]:
+    """Return groups of edges that meet and lie in one line, each in order, by their first."""
+    lines = [_line(edge.start, edge.end) for edge in edges]
+    root = list(range(len(edges)))
+    for k, (at_start, at_end) in enumerate(_meetings([(edge.start, edge.end) for edge in edges])):
+        for other in (*at_start, *at_end):
+            first, second = sorted((_root(root, k), _root(root, other)))
+            if first != second and _parallel(lines[k], lines[other], edges[k], edges[other]):
+                root[second] = first
+    groups: dict[int, list[int]] = defaultdict(list)
+    for k in range(len(edges)):
+        groups[_root(root, k)].append(k)
+    return [part for group in groups.values() for part in _kept_straight(edges, group)]
+
+
+def _root(root: list[int], k: int) -> int:
+    while root[k] != k:
+        root[k] = root[root[k]]
+        k = root[k]
+    return k
+
+
+def _parallel(line: Line, other: Line, edge: Edge, second: Edge) -> bool:
+    """Return whether two edges lie in one line: that of the longer one."""
+    if abs(_cross(line.way, other.way)) > 0.1:
+        return False
+    if line.along(edge.end) < other.along(second.end):
+        line, second = other, edge
+    return max(line.off(second.start), line.off(second.end)) <= MEET
+
+
+def _kept_straight(edges: Sequence[Edge], group: list[int]) -> list[list[int]]:
+    """Return a group, or its edges one by one if all together they bend."""
+    if len(group) == 1:
+        return [group]
+    start, end = _extent(edges, group)
+    line = _line(start, end)
+    points = (point for k in group for point in (edges[k].start, edges[k].end))
+    return [group] if all(line.off(p) <= MEET for p in points) else [[k] for k in group]
+
+
+def _extent(edges: Sequence[Edge], group: list[int]) -> tuple[Point, Point]:
+    """Return the outermost ends of edges in one line, in the direction of the first."""
+    line = _line(edges[group[0]].start, edges[group[0]].end)
+    points = [point for k in group for point in (edges[k].start, edges[k].end)]
+    return min(points, key=line.along), max(points, key=line.along)
+
+
+def _joined(edges: Sequence[Edge], group: list[int]) -> Iterator[Wall]:
+    """Yield the walls of edges in one line: where these are, but for what lies inside of solids."""
+    if len(group) == 1:
+        [only] = (edges[k] for k in group)
+        yield Wall(only.start, only.end, only.surface, ((0.0, only.obstacle),), (), ())
         return
-    from scipy.spatial import cKDTree  # it takes longer to import than a small world to build
-
-    starts, stops = ends[::2], ends[1::2]
-    reach = np.hypot(*(stops - starts).T) / 2 + MEETS
-    for near in cKDTree(ends).query_ball_point((starts + stops) / 2, reach, return_sorted=True):
-        yield np.array(near)
-
-
-def _distances(edge: _Edge | Straight, points: Float) -> Float:
-    way = np.subtract(edge.b, edge.a)
-    x, y = (points - edge.a).T
-    share = np.clip((x * way[0] + y * way[1]) / (way @ way), 0, 1)
-    off: Float = np.hypot(x - share * way[0], y - share * way[1])
-    return off
+    start, end = _extent(edges, group)
+    line = _line(start, end)
+    run: list[tuple[Point, Point, Edge]] = []
+    for low, high, owner in _stretches(edges, group, line):
+        if run and (run[-1][2].surface != owner.surface or run[-1][1] != low):
+            yield _wall(run)
+            run = []
+        run.append((low, high, owner))
+    if run:
+        yield _wall(run)
 
 
-def _in_line(one: _Edge | Straight, other: _Edge | Straight) -> bool:
-    """Whether two edges lie on one line, as the longer of them says."""
-    long, short = (one, other) if _length(one) >= _length(other) else (other, one)
-    return all(abs(_seen_from(long, end)[1]) <= MEETS for end in (short.a, short.b))
+def _stretches(
+    edges: Sequence[Edge], group: list[int], line: Line
+) -> Iterator[tuple[Point, Point, Edge]]:
+    """Yield from where to where a line is whose, from its start on; the first in order counts."""
+    ends = []
+    for k in group:
+        ends += [(line.along(point), point, k) for point in (edges[k].start, edges[k].end)]
+    ends.sort(key=lambda end: (end[0], end[2]))
+    begun: set[int] = set()
+    at, place = ends[0][:2]
+    for along, point, edge in ends:
+        if along > at + MEET:
+            if begun and not _within(edges, begun, line):
+                yield place, point, edges[min(begun)]
+            at, place = along, point
+        begun ^= {edge}
 
 
-def _overlap(one: _Edge, other: _Edge) -> tuple[tuple[float, float], bool]:
-    """Return from where to where on one edge another in its line lies, and if it runs back."""
-    start, end = (_seen_from(one, point)[0] for point in (other.a, other.b))
-    low, high = sorted((start, end))
-    return (max(low, 0.0), min(high, _length(one))), end < start
+def _within(edges: Sequence[Edge], begun: Iterable[int], line: Line) -> bool:
+    """Return whether there are solids on both sides of edges in one line."""
+    sides = set()
+    for k in begun:
+        same = line.along(edges[k].end) > line.along(edges[k].start)
+        sides.add(edges[k].solid if same else -edges[k].solid)
+    return {1, -1} <= sides
 
 
-def _seen_from(edge: _Edge | Straight, point: Point) -> tuple[float, float]:
-    """Return how far along an edge's line a point is, and how far beside it, metres."""
-    far = _length(edge)
-    ux, uy = (edge.b[0] - edge.a[0]) / far, (edge.b[1] - edge.a[1]) / far
-    x, y = point[0] - edge.a[0], point[1] - edge.a[1]
-    return x * ux + y * uy, abs(x * uy - y * ux)
+def _wall(run: Sequence[tuple[Point, Point, Edge]]) -> Wall:
+    """Return the wall of stretches that follow each other."""
+    start, end = run[0][0], run[-1][1]
+    owners: list[tuple[float, int]] = []
+    for low, _, owner in run:
+        if not owners or owners[-1][1] != owner.obstacle:
+            owners.append((hypot(*_to(start, low)), owner.obstacle))
+    return Wall(start, end, run[0][2].surface, tuple(owners), (), ())
 
 
-def _length(edge: _Edge | Straight) -> float:
-    return hypot(edge.b[0] - edge.a[0], edge.b[1] - edge.a[1])
+def _line(start: Point, end: Point) -> Line:
+    dx, dy = _to(start, end)
+    far = sqrt(dx * dx + dy * dy)
+    return Line(start, (dx / far, dy / far))
 
 
-def _along(edge: _Edge | Straight, way: float) -> Point:
-    """Return the point that many metres along an edge."""
-    share = way / _length(edge)
-    (ax, ay), (bx, by) = edge.a, edge.b
-    return ax + share * (bx - ax), ay + share * (by - ay)
+def _to(a: Point, b: Point) -> Point:
+    return b[0] - a[0], b[1] - a[1]
+
+
+def _dot(a: Point, b: Point) -> float:
+    return a[0] * b[0] + a[1] * b[1]
+
+
+def _cross(a: Point, b: Point) -> float:
+    return a[0] * b[1] - a[1] * b[0]

@@ -64,16 +64,27 @@ def difference() -> str:
     return next(found, "") or elsewhere
 
 
-FIELDS = {
+FIELDS: dict[str, dict[str, tuple[int, str]]] = {
     "struct cpArbiter": {
-        "body_a": (56, "struct cpBody *"), "body_b": (64, "struct cpBody *"), "count": (104, "int"),
+        "a": (40, "struct cpShape *"),
+        "b": (48, "struct cpShape *"),
+        "body_a": (56, "struct cpBody *"),
+        "body_b": (64, "struct cpBody *"),
+        "count": (104, "int"),
         "contacts": (112, "struct cpContact *"),
+        "n": (120, "struct cpVect"),
     },
     "struct cpContact": {
-        "r1": (0, "struct cpVect"), "r2": (16, "struct cpVect"), "bounce": (48, "double"),
-        "jnAcc": (56, "double"), "jtAcc": (64, "double"),
+        "r1": (0, "struct cpVect"),
+        "r2": (16, "struct cpVect"),
+        "bounce": (48, "double"),
+        "jnAcc": (56, "double"),
+        "jtAcc": (64, "double"),
     },
-}  # fmt: skip
+    "struct cpCollisionHandler": {
+        "preSolveFunc": (24, "void(*)(struct cpArbiter *, struct cpSpace *, void *)"),
+    },
+}
 """Fields of the engine's structs that are used directly: where they are, and their types."""
 
 CONTACT_SIZE = 96

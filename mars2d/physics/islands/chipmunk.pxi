@@ -26,7 +26,6 @@ cdef extern from *:
         void *(*cpBodyGetUserData)(void *);
         void *(*cpCircleShapeNew)(void *, double, Vector);
         void *(*cpSegmentShapeNew)(void *, Vector, Vector, double);
-        void (*cpSegmentShapeSetNeighbors)(void *, Vector, Vector);
         void *(*cpPolyShapeNewRaw)(void *, int, Vector *, double);
         void (*cpShapeSetFriction)(void *, double);
         void (*cpShapeSetElasticity)(void *, double);
@@ -77,7 +76,17 @@ cdef extern from *:
         int (*cpArbiterGetCount)(void *);
         Vector (*cpArbiterGetPointA)(void *, int);
         Vector (*cpArbiterGetPointB)(void *, int);
+        void *(*cpSpaceAddWildcardHandler)(void *, uintptr_t);
+        void (*cpShapeSetCollisionType)(void *, uintptr_t);
+        void (*cpShapeSetUserData)(void *, void *);
+        void *(*cpShapeGetUserData)(void *);
+        void *(*cpShapeGetBody)(void *);
+        int (*cpPolyShapeGetCount)(void *);
+        Vector (*cpPolyShapeGetVert)(void *, int);
+        Vector (*cpBodyLocalToWorld)(void *, Vector);
     } engine;
+
+    static Vector vector(double x, double y) { Vector v = {x, y}; return v; }
 
     /* The first fields of the engine's structs, as far as they are used. */
     typedef struct {
@@ -91,13 +100,126 @@ cdef extern from *:
         void *data, *a, *b, *body_a, *body_b, *thread_a[2], *thread_b[2];
         int count;
         Contact_ *contacts;
+        Vector n;
     } Arbiter_;
+    typedef struct {
+        uintptr_t type_a, type_b;
+        void *begin;
+        void (*pre_solve)(void *, void *, void *);
+    } Handler_;
+
+    /* See Seams in chipmunk.py. Sums and products stand in the same order there. */
+    enum { SEWN = 1, FREE = 0, BULGES = 1, MOST_CORNERS = 64 };
+    static const double STRAIGHT = 1e-9, NEARLY = 0.999;
+    typedef struct { double x, y, ux, uy, far, reach, met[12]; } Seams_;
+
+    static int holds(const double *met, double turn, Vector own, Vector d) {
+        int past_own = turn * (own.x * d.y - own.y * d.x) >= 0.0;
+        int before_other = turn * (d.x * met[2] - d.y * met[1]) >= 0.0;
+        return met[0] == BULGES ? past_own || before_other : past_own && before_other;
+    }
+    static int corners_of(void *shape, Vector *corners) {
+        void *body = engine.cpShapeGetBody(shape);
+        int count = engine.cpPolyShapeGetCount(shape);
+        for (int k = 0; k < count && k < MOST_CORNERS; k++)
+            corners[k] = engine.cpBodyLocalToWorld(body, engine.cpPolyShapeGetVert(shape, k));
+        return count < MOST_CORNERS ? count : MOST_CORNERS;
+    }
+    static void mend_contact(Arbiter_ *arbiter, const Seams_ *s, int is_first) {
+        Vector n = arbiter->n, corners[MOST_CORNERS];
+        int count = is_first ? corners_of(arbiter->b, corners) : 0;
+        if (!is_first) n = vector(-n.x, -n.y);
+        double along = n.x * s->ux + n.y * s->uy;
+        Vector d = n;
+        double low = 1e300, high = -1e300;
+        if (count) {
+            d = vector(0.0, 0.0);
+            Vector last = corners[count - 1];
+            double above = (last.y - s->y) * s->ux - (last.x - s->x) * s->uy;
+            double at = (last.x - s->x) * s->ux + (last.y - s->y) * s->uy;
+            for (int k = 0; k < count; k++) {
+                Vector corner = corners[k];
+                double before = above, last_at = at;
+                d.x += (corner.x - s->x) / count;
+                d.y += (corner.y - s->y) / count;
+                above = (corner.y - s->y) * s->ux - (corner.x - s->x) * s->uy;
+                at = (corner.x - s->x) * s->ux + (corner.y - s->y) * s->uy;
+                if ((before < 0.0) != (above < 0.0)) {
+                    double crossed = last_at + before / (before - above) * (at - last_at);
+                    low = crossed < low ? crossed : low;
+                    high = crossed > high ? crossed : high;
+                }
+            }
+        }
+        int upright = -STRAIGHT <= along && along <= STRAIGHT;
+        int at_start = low < high && high < s->reach;
+        int at_end = s->far - s->reach < low && low < high;
+        if (at_start && at_end && upright) {
+            at_end = d.x * s->ux + d.y * s->uy > s->far / 2;
+        } else if (at_start == at_end) {
+            if (upright) return;
+            at_end = along > 0.0;
+        }
+        if (count && at_end) d = vector(d.x - s->far * s->ux, d.y - s->far * s->uy);
+        const double *met = s->met + (at_end ? 6 : 0);
+        if (met[0] == FREE) return;
+        Vector own = at_end ? vector(-s->ux, -s->uy) : vector(s->ux, s->uy);
+        double turn = at_end ? -1.0 : 1.0;
+        int right = !holds(met, turn, own, d);
+        if (right && !holds(met + 3, -turn, own, d)) {
+            arbiter->count = 0;
+            return;
+        }
+        met += right ? 3 : 0;
+        Vector f = right ? vector(s->uy, -s->ux) : vector(-s->uy, s->ux);
+        if (upright) {
+            if (n.x * f.x + n.y * f.y > 0.0) return;
+        } else if (met[0] == BULGES && n.x * met[1] + n.y * met[2] <= STRAIGHT) {
+            return;
+        } else if (met[0] != BULGES && n.x * f.x + n.y * f.y > NEARLY && count) {
+            arbiter->n = f;
+            return;
+        }
+        double least = s->met[right ? 3 : 0] > BULGES ? -s->reach : 0.0;
+        double most = s->met[right ? 9 : 6] > BULGES ? s->far + s->reach : s->far;
+        double deepest = -1.0;
+        Vector p = {0.0, 0.0};
+        for (int k = 0; k < count; k++) {
+            double at = (corners[k].x - s->x) * s->ux + (corners[k].y - s->y) * s->uy;
+            double depth = (s->x - corners[k].x) * f.x + (s->y - corners[k].y) * f.y;
+            if (least <= at && at <= most && deepest < depth && depth <= s->reach && depth >= 0.0) {
+                deepest = depth;
+                p = corners[k];
+            }
+        }
+        if (deepest < 0.0) {
+            arbiter->count = 0;
+            return;
+        }
+        Contact_ *contact = arbiter->contacts;
+        arbiter->count = 1;
+        arbiter->n = f;
+        Vector wall = engine.cpBodyGetPosition(arbiter->body_a);
+        Vector body = engine.cpBodyGetPosition(arbiter->body_b);
+        contact->r1 = vector(p.x + deepest * f.x - wall.x, p.y + deepest * f.y - wall.y);
+        contact->r2 = vector(p.x - body.x, p.y - body.y);
+        contact->normal_impulse = contact->tangent_impulse = 0.0;
+    }
+    static void mend(void *arbiter, void *space, void *data) {
+        Arbiter_ *itself = arbiter;
+        Seams_ *first = engine.cpShapeGetUserData(itself->a);
+        mend_contact(itself, first ? first : engine.cpShapeGetUserData(itself->b), first != 0);
+    }
+    static void mend_in(void *space) {
+        Handler_ *handler = engine.cpSpaceAddWildcardHandler(space, SEWN);
+        handler->pre_solve = mend;
+    }
+    static int count_kept(void *arbiter) { return ((Arbiter_ *)arbiter)->count; }
 
     static void connect_function(int k, uintptr_t address) {
         ((void (**)(void))&engine)[k] = (void (*)(void))address;
     }
     static size_t count_functions(void) { return sizeof engine / sizeof(void (*)(void)); }
-    static Vector vector(double x, double y) { Vector v = {x, y}; return v; }
     static void scale_contacts(void *arbiter, double ratio) {
         Arbiter_ *itself = arbiter;
         for (int k = 0; k < itself->count; k++) {
@@ -138,7 +260,6 @@ cdef extern from *:
         void *(*cpBodyGetUserData)(void *) noexcept
         void *(*cpCircleShapeNew)(void *, double, Vector) noexcept
         void *(*cpSegmentShapeNew)(void *, Vector, Vector, double) noexcept
-        void (*cpSegmentShapeSetNeighbors)(void *, Vector, Vector) noexcept
         void *(*cpPolyShapeNewRaw)(void *, int, Vector *, double) noexcept
         void (*cpShapeSetFriction)(void *, double) noexcept
         void (*cpShapeSetElasticity)(void *, double) noexcept
@@ -191,6 +312,16 @@ cdef extern from *:
         int (*cpArbiterGetCount)(void *) noexcept
         Vector (*cpArbiterGetPointA)(void *, int) noexcept
         Vector (*cpArbiterGetPointB)(void *, int) noexcept
+        void *(*cpSpaceAddWildcardHandler)(void *, uintptr_t) noexcept
+        void (*cpShapeSetCollisionType)(void *, uintptr_t) noexcept
+        void (*cpShapeSetUserData)(void *, void *) noexcept
+        void *(*cpShapeGetUserData)(void *) noexcept
+        void *(*cpShapeGetBody)(void *) noexcept
+        int (*cpPolyShapeGetCount)(void *) noexcept
+        Vector (*cpPolyShapeGetVert)(void *, int) noexcept
+        Vector (*cpBodyLocalToWorld)(void *, Vector) noexcept
+    ctypedef struct Seams_:
+        pass
     Engine_ engine
     void connect_function(int, uintptr_t) noexcept
     size_t count_functions() noexcept
@@ -201,6 +332,8 @@ cdef extern from *:
     void *second_body(void *) noexcept
     Vector drag(void *) noexcept
     double twist(void *) noexcept
+    void mend_in(void *) noexcept
+    int count_kept(void *) noexcept
 
 
 def connect(addresses):
@@ -223,6 +356,7 @@ cdef Handle new_space(double slop) except NULL:
         raise MemoryError
     engine.cpSpaceSetCollisionSlop(space, slop)
     engine.cpSpaceSetCollisionPersistence(space, 1)
+    mend_in(space)
     return space
 
 cdef inline void set_iterations(Handle space, int count) noexcept:
@@ -279,13 +413,10 @@ cdef Handle new_polygon(Handle body, points, surface) except NULL:
         vertices[k] = vector(points[k][0], points[k][1])
     return surfaced(engine.cpPolyShapeNewRaw(body, count, vertices, 0.0), surface)
 
-cdef Handle new_segment(Handle body, ends, surface, beyond) except NULL:
+cdef Handle new_segment(Handle body, ends, surface) except NULL:
     a, b = ends
-    cdef Handle segment = surfaced(
+    return surfaced(
         engine.cpSegmentShapeNew(body, vector(a[0], a[1]), vector(b[0], b[1]), 0.0), surface)
-    engine.cpSegmentShapeSetNeighbors(
-        segment, vector(beyond[0], beyond[1]), vector(beyond[2], beyond[3]))
-    return segment
 
 cdef inline void add_body(Handle space, Handle body) noexcept:
     engine.cpSpaceAddBody(space, body)
@@ -490,5 +621,24 @@ cdef inline double rub_of(Handle arbiter, int k) noexcept:
 cdef inline double bounce_of(Handle arbiter, int k) noexcept:
     return contact_at(arbiter, k).bounce
 
+cdef inline bint is_void(Handle arbiter) noexcept:
+    return count_kept(arbiter) == 0
+
 cdef inline int check_signals() except -1:
     return PyErr_CheckSignals()
+
+# -- seams ------------------------------------------------------------------------------------
+
+cdef class Seams:
+    cdef Seams_ numbers
+
+    def __init__(self, numbers):
+        cdef double *to = <double *>&self.numbers
+        if len(numbers) != 18:
+            raise ValueError(f"{len(numbers)} numbers, expected 18")
+        for k, number in enumerate(numbers):
+            to[k] = number
+
+cdef inline void sew(Handle segment, Seams seams) noexcept:
+    engine.cpShapeSetUserData(segment, &seams.numbers)
+    engine.cpShapeSetCollisionType(segment, 1)

@@ -37,6 +37,9 @@ bodies at several times their speed.
 DRIVEN = 0.3
 """The part of their energy that impulses may add in a substep where robots are told to move."""
 
+DRIVEN_BODIES = 5
+"""Of how many bodies that touch at most this is asked where robots are told to move."""
+
 FEW_BODIES = 2
 """Of how many bodies that touch at most this is asked: in a heap some contacts would give way."""
 
@@ -319,7 +322,9 @@ def spare(group: Body) -> cython.double:
 
     Where drives push, the solver leaves some of either sign, and bodies would sink into each other.
     """
-    return DRIVEN if group.driven else 0.0
+    if not group.driven:
+        return 0.0
+    return DRIVEN if group.crowd <= DRIVEN_BODIES else 1e300
 
 
 @cython.cfunc

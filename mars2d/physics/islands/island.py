@@ -20,6 +20,7 @@ from mars2d.physics.islands.chipmunk import (
     count_of,
     first_of,
     impulse_of,
+    is_void,
     normal_of,
     point_of,
     second_of,
@@ -28,7 +29,7 @@ from mars2d.physics.islands.chipmunk import (
 from mars2d.physics.islands.contacts import Row, Touch, touch_between
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
-from mars2d.physics.islands.pair import Pair, Wall
+from mars2d.physics.islands.pair import Pair
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust
 from mars2d.physics.islands.tie import Tie
@@ -97,7 +98,6 @@ class Island:
     glide: Glide
     thrust: Thrust
     numbers: list[Body]  # all bodies by their numbers
-    walls: list[Wall]
     bodies: list[Body]
     pairs: list[Pair]
     ties: list[Tie]
@@ -123,12 +123,11 @@ class Island:
         accuracy: Accuracy,
         glide: Glide,
         numbers: list[Body],
-        walls: list[Wall],
         solvers: list[Solver],
         spare: list[Solver],
     ) -> None:
-        """Take what all islands share: bodies, walls, all solvers, and those in no use."""
-        self.accuracy, self.glide, self.numbers, self.walls = accuracy, glide, numbers, walls
+        """Take what all islands share: bodies by number, all solvers, and those in no use."""
+        self.accuracy, self.glide, self.numbers = accuracy, glide, numbers
         self.solvers, self.spare = solvers, spare
         self.thrust = Thrust()
         self.bodies, self.pairs, self.ties = [], [], []
@@ -564,7 +563,6 @@ class Island:
         pair: Pair
         body: Body
         touch: Touch
-        other: cython.int
         if self.any_touch:
             for body in self.bodies:
                 body.look()
@@ -573,9 +571,9 @@ class Island:
             if pair.gap > 0:
                 continue
             pair.meet()
-            other = pair.other
+            other: cython.int = pair.other
             if pair.is_wall:
-                other = pair.wall.obstacle_at(pair.point_x, pair.point_y)
+                other = pair.wall.owner(pair.point_x, pair.point_y)
             touch = touch_between(pair.a, other)
             row = touch.fresh()
             row.impulse_x = row.impulse_y = row.vx = row.vy = 0.0
@@ -615,9 +613,10 @@ class Island:
         swap: cython.bint = first < 0 or (second >= 0 and second < first)
         a: Body = self.numbers[second if swap else first]
         b: cython.int = first if swap else second
-        if not still_touch(a, b):
+        found: Pair | None = touching(a, b)
+        if found is None or is_void(arbiter):
             return
-        touch: Touch = touch_between(a, b if b >= 0 else self.obstacle_of(arbiter, -1 - b, swap))
+        touch: Touch = touch_between(a, owner_of(found, arbiter, not swap))
         row: Row = touch.fresh()
         row.x = row.y = row.vx = row.vy = 0.0
         impulse: Vector = impulse_of(arbiter)
@@ -636,16 +635,6 @@ class Island:
         row.push_apart()
 
     @cython.cfunc
-    def obstacle_of(self, arbiter: Handle, wall: cython.int, first: cython.bint) -> cython.int:
-        """Return the number of the obstacle that touches at a wall, the first or second of both."""
-        touched: Wall = self.walls[wall]
-        if len(touched.parts) == 1:
-            return touched.obstacle
-        row: Row = Row()
-        self.stand(row, arbiter, count_of(arbiter), not first)
-        return touched.obstacle_at(row.x, row.y)
-
-    @cython.cfunc
     def stand(
         self, row: Row, arbiter: Handle, count: cython.int, second: cython.bint
     ) -> cython.void:
@@ -660,16 +649,38 @@ class Island:
 
 
 @cython.cfunc
-def still_touch(a: Body, b: cython.int) -> cython.bint:
-    """Return whether a body touches another or an obstacle now, by the measured gaps."""
+def touching(a: Body, b: cython.int) -> Pair | None:
+    """Return a pair in which a body touches another or a wall now, by its measured gap."""
     pair: Pair
     found: object = a.first_touch
     while found is not None:
         pair = found
         if pair.other == b:
-            return True
+            return pair
         found = pair.next_touch
-    return False
+    return None
+
+
+@cython.cfunc
+def owner_of(pair: Pair, arbiter: Handle, second: cython.bint) -> cython.int:
+    """Return the number of the body or obstacle that the first body of a pair touches.
+
+    second: whether it is also the second in the solver's contact. A wall may be of several
+    obstacles: it is that in the middle of the contact's points which counts.
+    """
+    if not pair.is_wall:
+        return pair.other
+    count: cython.int = count_of(arbiter)
+    x: cython.double = pair.a.x
+    y: cython.double = pair.a.y
+    point: Vector
+    if count > 0:
+        point = point_of(arbiter, 0, second)
+        x, y = point.x, point.y
+    if count > 1:
+        point = point_of(arbiter, 1, second)
+        x, y = (x + point.x) / 2, (y + point.y) / 2
+    return pair.wall.owner(x, y)
 
 
 @cython.cfunc

@@ -304,14 +304,7 @@ class Mover:
         island: Island
         if self.found == len(self.islands):
             self.islands.append(
-                Island(
-                    self.accuracy,
-                    self.glide,
-                    self.bodies,
-                    self.neighbours.walls,
-                    self.solvers,
-                    self.spare,
-                )
+                Island(self.accuracy, self.glide, self.bodies, self.solvers, self.spare)
             )
         island = self.islands[self.found]
         island.clear()
@@ -323,7 +316,7 @@ class Mover:
         """Add those pairs of a body and walls that may touch."""
         pair: Pair
         for pair in pairs:
-            if pair.apart() <= pair.a.way:
+            if pair.apart() <= pair.a.way and not pair.hidden():
                 island.pairs.append(pair)
 
     @cython.cfunc

@@ -1,10 +1,11 @@
 """The islands in Python, where there is no compiler."""
 
 from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.chipmunk import Seams
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.island import Accuracy
 from mars2d.physics.islands.mover import Mover
 from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.tie import Tie
 
-__all__ = ["Accuracy", "Body", "Glide", "Mover", "Piece", "Tie", "Wall"]
+__all__ = ["Accuracy", "Body", "Glide", "Mover", "Piece", "Seams", "Tie", "Wall"]

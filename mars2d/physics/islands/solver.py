@@ -43,6 +43,7 @@ from mars2d.physics.islands.chipmunk import (
     set_limits,
     set_max_bias,
     set_max_force,
+    sew,
     spin_of,
     step,
     twist_of,
@@ -209,9 +210,11 @@ class Solver:
             return
         held = Held()
         self.walls[wall.number] = held
-        held.ground = new_ground(-1 - wall.number)
+        held.ground = new_ground(wall.other)
         ends = ((wall.x, wall.y), (wall.x + wall.edge_x, wall.y + wall.edge_y))
-        held.handle = new_segment(held.ground, ends, wall.surface, wall.beyond)
+        held.handle = new_segment(held.ground, ends, wall.surface)
+        if wall.seams is not None:
+            sew(held.handle, wall.seams)
         add_body(self.space, held.ground)
         add_shape(self.space, held.handle)
 
