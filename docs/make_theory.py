@@ -6,6 +6,7 @@ python docs/make_theory.py
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from math import cos, inf, pi, sin, sqrt, tan
 from pathlib import Path
 
@@ -153,6 +154,35 @@ def wall_slide() -> Iterator[Prediction]:
             f"frictionless wall at {degrees} degrees: v cos a", predicted, measured,
             0.001 * predicted, "m/s",
         )  # fmt: skip
+
+
+def wall_seams() -> Iterator[Prediction]:
+    """Throw boxes along a wall of forty pieces, and discs up a bend."""
+    still, command = Robot(pose=(0, 40, 0)), [[0], [0]]
+    pieces = [(-9 + 0.45 * k, 0.0) for k in range(41)]
+    walls = list(pairwise(pieces))
+    lost = 0.0
+    for k in range(60):
+        fast, down = 0.5 + 3 * (k * 0.618 % 1), -0.1 - 0.4 * (k * 0.414 % 1)
+        box = Box(
+            pose=(-3, 0.2, 0), length=0.3, width=0.3, velocity=(fast, down, 0), friction=0.0,
+            ground_friction=0.0,
+        )  # fmt: skip
+        v = velocity(run([still], command, 3, props=[box], walls=walls, sampling_time=0.03))
+        lost = max(lost, 1 - float(v[-1, 0, 0]) / fast)
+    yield Prediction("frictionless wall of 40 pieces: speed lost, relative", 0.0, lost, 1e-6)
+    for degrees in (1, 10):
+        a = degrees * pi / 180
+        puck = Puck(
+            pose=(-1, 0.0751, 0), diameter=0.15, velocity=(1, -1e-3, 0), friction=0.0,
+            ground_friction=0.0, restitution=0.0,
+        )  # fmt: skip
+        bent = [[(-9, 0), (0, 0)], [(0, 0), (9 * cos(a), 9 * sin(a))]]
+        v = velocity(run([still], command, 2, props=[puck], walls=bent))
+        speed = float(np.hypot(*v[-1, :2, 0]))
+        yield Prediction(
+            f"frictionless bend of {degrees} degrees: v cos a", cos(a), speed, 1e-4, "m/s"
+        )
 
 
 def billiard_table(seed: int, restitution: float, friction: float) -> Record:
@@ -327,8 +357,8 @@ def straying() -> Iterator[Prediction]:
 
 
 FACTS: tuple[Callable[[], Iterator[Prediction]], ...] = (
-    free_arcs, stalemate, acceleration, run_up, friction_threshold, wall_slide, momentum_and_energy,
-    restitution, limits, wedge, sliding, joints, impulse, crowds, straying,
+    free_arcs, stalemate, acceleration, run_up, friction_threshold, wall_slide, wall_seams,
+    momentum_and_energy, restitution, limits, wedge, sliding, joints, impulse, crowds, straying,
 )  # fmt: skip
 
 
