@@ -21,7 +21,7 @@ DRIVES, FLOOR, FRICTION, IMPACTS, JOINTS, HANDS = range(6)
 
 def work(world: World) -> np.ndarray:
     """The work since the start, J."""
-    return world.simulation.engine.work
+    return world.energy.work
 
 
 def kinetic(world: World) -> float:
@@ -183,6 +183,60 @@ def test_a_tangle_of_all_of_it_adds_up(seed):
     world = endless(robots, props, joints=joints, addons=[walls], sampling_time=0.05)
     for _ in range(20):
         balanced(world, np.array([rng.uniform(-0.5, 0.5, 6), rng.uniform(-0.5, 0.5, 6)]), 0.3)
+
+
+def test_the_energy_of_a_world_has_that_of_each_body():
+    robot = Robot(mass=2.0, drive=Car(), mass_offset=0.1)
+    puck = Puck(pose=(3, 0, 0), velocity=(0.5, 0, 3), mass=0.4, ground_friction=0.0)
+    world = endless([robot], [puck])
+    balanced(world, [[0.3], [0.4]], 1)
+    spin = world.velocity[2, 0]
+    moment = world.scenario.bodies[0].inertia.moment
+    first = (2.0 * (0.3**2 + (0.1 * spin) ** 2) + moment * spin**2) / 2
+    second = (0.4 * 0.5**2 + puck.inertia.moment * 3**2) / 2
+    assert world.energy.kinetic == pytest.approx([first, second])
+    assert world.energy.total == pytest.approx(kinetic(world))
+    assert world.energy.by("drives") == pytest.approx(first)
+
+
+def test_momentum_is_that_of_the_centres_of_mass():
+    look = {"ground_friction": 0.0, "friction": 0.6, "restitution": 0.8}
+    boxes = [
+        Box(pose=(0.6 * k, 0.1 * k, k), velocity=(1.0 - k, 0.2, 2.0), mass=1.0 + k, **look)
+        for k in range(4)
+    ]  # fmt: skip
+    world = endless([FAR], boxes)
+    linear, angular = world.momentum.total, world.momentum.angular
+    assert linear == pytest.approx([sum((1 + k) * (1.0 - k) for k in range(4)), 0.2 * 10])
+    by_hand = sum(
+        (1 + k) * (0.6 * k * 0.2 - 0.1 * k * (1.0 - k)) + box.inertia.moment * 2.0
+        for k, box in enumerate(boxes)
+    )
+    assert angular == pytest.approx(by_hand)
+    for _ in range(40):
+        world.step([[0], [0]])
+    assert world.energy.by("impacts") < -0.1  # they have met
+    assert world.momentum.total == pytest.approx(linear, abs=1e-9)
+    assert world.momentum.angular == pytest.approx(angular, abs=2e-3 * abs(angular))
+
+
+def test_what_is_put_elsewhere_has_lost_its_energy_to_hands():
+    puck = Puck(name="puck", velocity=(1, 0, 0), mass=2.0, ground_friction=0.0)
+    world = endless([FAR], [puck])
+    balanced(world, [[0], [0]], 0.5)
+    world.operator.place("puck", (2.0, 2.0, 0.0))
+    assert world.energy.by("hands") == pytest.approx(-1.0)
+    balanced(world, [[0], [0]], 0.5)
+    assert world.energy.total == 0.0
+
+
+@pytest.mark.parametrize("physics", ["stop", "ideal"])
+def test_without_forces_drives_do_all_and_what_stops_has_lost_it_in_the_impact(physics):
+    puck = Puck(pose=(1, 0, 0), velocity=(-0.5, 0, 0), mass=2.0, ground_friction=0.0)
+    world = endless([Robot(mass=3.0)], [puck], physics=physics)
+    balanced(world, [[0.4], [0]], 2)
+    lost = -2.0 * 0.5**2 / 2 if physics == "stop" else 0.0
+    assert world.energy.by("impacts") == pytest.approx(lost)
 
 
 @pytest.mark.parametrize("angle", [0.0, 30.0])
