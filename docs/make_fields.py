@@ -103,14 +103,19 @@ def base_of(kind: type[Description]) -> type[Description] | None:
 
 
 def fields_of(kind: type[Description]) -> list[dataclasses.Field[Any]]:
-    """Return the fields of a class that its base has not, or not with the same default."""
+    """Return the fields of a class that its base has not, or not with this default and unit."""
     base = base_of(kind)
     known = {} if base is None else {field.name: field for field in dataclasses.fields(base)}
     return [
         field
         for field in dataclasses.fields(kind)
-        if field.name not in known or default(known[field.name]) != default(field)
+        if field.name not in known or said(known[field.name]) != said(field)
     ]
+
+
+def said(field: dataclasses.Field[Any]) -> tuple[str, str]:
+    """Return a field's default and unit."""
+    return default(field), field.metadata.get("unit", "")
 
 
 def title(kind: type[Description]) -> str:

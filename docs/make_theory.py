@@ -6,6 +6,7 @@ python docs/make_theory.py
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from math import cos, inf, pi, sin, sqrt, tan
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from mars2d import Car, Differential, Holonomic, Prediction, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
-from mars2d.bodies import Ball, Box, Joint, Prop, Puck, Rope, Spring
+from mars2d.bodies import Ball, Box, Gate, Joint, Prop, Puck, Rope, Spring
 from mars2d.core.materials import GRAVITY
 from mars2d.record import episodes
 from mars2d.record.record import Record
@@ -111,6 +112,24 @@ def acceleration() -> Iterator[Prediction]:
     )
 
 
+def run_up() -> Iterator[Prediction]:
+    """Let a robot gather speed alone, and files of robots push what they can't move."""
+    force, mass = 0.7, 1.9
+    cart = Robot(mass=mass, drive=Unicycle(max_force=force, force_limited=True))
+    x = run([cart], [[0.5], [0]], 1.2).pose[-1, 0, 0]
+    way = force * 1.2**2 / (2 * mass)
+    yield Prediction("force_limited: way F t^2 / (2 m)", way, x, 1e-9, "m")
+    most = 0.0
+    for n in (1, 3, 8):
+        for gap in (0.0, 1e-12, 1e-6):
+            robot = Robot(drive=Unicycle(max_force=2.0, force_limited=True))
+            team = [robot.at(-0.35 - gap - i * (0.3 + gap), 0) for i in range(n)]
+            box = Box(mass=4.0, ground_friction=1.05 * 2 * n / (4 * GRAVITY))
+            record = run(team, [[0.2] * n, [0.0] * n], 3, props=[box])
+            most = max(most, float(np.abs(record.prop_pose[:, 0]).max()))
+    yield Prediction("files of 1 to 8 against a box 5 % too heavy: its way", 0.0, most, 1e-3, "m")
+
+
 def friction_threshold() -> Iterator[Prediction]:
     """Find the largest coefficient of friction at which a robot still moves a box."""
     force, mass = 5.0, 1.5
@@ -139,6 +158,35 @@ def wall_slide() -> Iterator[Prediction]:
         )  # fmt: skip
 
 
+def wall_seams() -> Iterator[Prediction]:
+    """Throw boxes along a wall of forty pieces, and discs up a bend."""
+    still, command = Robot(pose=(0, 40, 0)), [[0], [0]]
+    pieces = [(-9 + 0.45 * k, 0.0) for k in range(41)]
+    walls = list(pairwise(pieces))
+    lost = 0.0
+    for k in range(60):
+        fast, down = 0.5 + 3 * (k * 0.618 % 1), -0.1 - 0.4 * (k * 0.414 % 1)
+        box = Box(
+            pose=(-3, 0.2, 0), length=0.3, width=0.3, velocity=(fast, down, 0), friction=0.0,
+            ground_friction=0.0,
+        )  # fmt: skip
+        v = velocity(run([still], command, 3, props=[box], walls=walls, sampling_time=0.03))
+        lost = max(lost, 1 - float(v[-1, 0, 0]) / fast)
+    yield Prediction("frictionless wall of 40 pieces: speed lost, relative", 0.0, lost, 1e-6)
+    for degrees in (1, 10):
+        a = degrees * pi / 180
+        puck = Puck(
+            pose=(-1, 0.0751, 0), diameter=0.15, velocity=(1, -1e-3, 0), friction=0.0,
+            ground_friction=0.0, restitution=0.0,
+        )  # fmt: skip
+        bent = [[(-9, 0), (0, 0)], [(0, 0), (9 * cos(a), 9 * sin(a))]]
+        v = velocity(run([still], command, 2, props=[puck], walls=bent))
+        speed = float(np.hypot(*v[-1, :2, 0]))
+        yield Prediction(
+            f"frictionless bend of {degrees} degrees: v cos a", cos(a), speed, 1e-4, "m/s"
+        )
+
+
 def billiard_table(seed: int, restitution: float, friction: float) -> Record:
     """Let balls and boxes that the floor does not hold meet each other at random."""
     rng = np.random.default_rng(seed)
@@ -158,7 +206,7 @@ def billiard_table(seed: int, restitution: float, friction: float) -> Record:
 def momentum_and_energy() -> Iterator[Prediction]:
     """Add up the momentum and the energy of what collides with motors off."""
     most_momentum = most_energy = 0.0
-    for restitution, friction in ((0.0, 0.3), (0.5, 0.3), (0.8, 0.3), (1.0, 0.0)):
+    for restitution, friction in ((0.0, 0.3), (0.5, 0.3), (0.8, 0.3), (1.0, 0.0), (1.0, 1.0)):
         for seed in range(3):
             record = billiard_table(seed, restitution, friction)
             inertia = [prop.inertia for prop in record.scenario.props]
@@ -224,6 +272,26 @@ def joints() -> Iterator[Prediction]:
     period = 2 * pi * sqrt(m / k)
     measured = float(np.diff(times).mean())
     yield Prediction("spring: period 2 pi sqrt(m / k)", period, measured, 0.01 * period, "s")
+
+
+def limits() -> Iterator[Prediction]:
+    """Let gates swing against their limits."""
+    for e in (0.0, 0.5, 1.0):
+        gate = Gate(pose=(0.5, 0, 0), velocity=(0, 1, 2), damping=0.0, limit_restitution=e)
+        record = run([Robot(pose=(-50, 0, 0))], [[0], [0]], 1.2, props=[gate])
+        spin = float(record.prop_pose[-1, 2, 0] - record.prop_pose[-2, 2, 0]) / 0.1
+        yield Prediction(f"gate at its limit, {e:g}: spin after / before", e, -spin / 2, 2e-3)
+
+
+def wedge() -> Iterator[Prediction]:
+    """Drive a robot between two walls that meet at two degrees, without friction."""
+    tip = 0.15 / sin(pi / 180) + 1
+    walls = [[(-4, side * (tip + 4) * tan(pi / 180)), (tip, 0.0)] for side in (1, -1)]
+    record = run([Robot(friction=0)], [[0.5], [0]], 6, walls=walls)
+    speeds = np.diff(record.pose[:, 0, 0]) / 0.1
+    yield Prediction(
+        "wedge of 2 degrees: speed back", 0.0, max(float(-speeds.min()), 0), 0.01, "m/s"
+    )
 
 
 def impulse() -> Iterator[Prediction]:
@@ -296,9 +364,33 @@ def crowds() -> Iterator[Prediction]:
     yield Prediction(f"{runs}: robots that left the box", 0.0, out, 0.0)
 
 
+STRAYING = 500
+"""How many robots drive straight ahead: of a sample of them a deviation is right to 3 %."""
+
+
+def straying() -> Iterator[Prediction]:
+    """Let noisy robots drive straight ahead for ten seconds, in control steps short and long."""
+    v, b, noise, seconds = 0.3, 0.1, 0.0158, 10.0
+    deviation = v * noise * sqrt(seconds / 2) / b
+    for period in (0.4, 0.1, 0.025):
+        team = [Robot(pose=(0, k, 0), drive=Unicycle(noise=noise)) for k in range(STRAYING)]
+        world = World(
+            Scenario(
+                robots=team, workspace=None, physics="ideal", sampling_time=period,
+                stop_time=seconds,
+            ), seed=1,
+        )  # fmt: skip
+        while not world.over:
+            world.step([[v] * STRAYING, [0] * STRAYING])
+        name = f"noise of wheels: spread of headings after 10 s at T = {period:g} s"
+        tolerance = 4 * deviation / sqrt(2 * STRAYING)
+        yield Prediction(name, deviation, float(world.pose[2].std()), tolerance, "rad")
+
+
 FACTS: tuple[Callable[[], Iterator[Prediction]], ...] = (
-    free_arcs, stalemate, acceleration, friction_threshold, wall_slide, momentum_and_energy,
-    restitution, sliding, joints, impulse, surfaces, crowds,
+    free_arcs, stalemate, acceleration, run_up, friction_threshold, wall_slide, wall_seams,
+    momentum_and_energy, restitution, limits, wedge, sliding, joints, impulse, surfaces, crowds,
+    straying,
 )  # fmt: skip
 
 

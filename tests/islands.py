@@ -82,7 +82,7 @@ def body_of(*pieces: Piece, number: int = 0, **what: float) -> Body:
 def wall_of(start: complex, end: complex, number: int = 0) -> Wall:
     """Return a wall: the obstacle -1 - number."""
     ends = [start.real, start.imag, end.real, end.imag]
-    return Wall(number, -1 - number, ends, (0.0, 0.0))
+    return Wall(number, [(0.0, -1 - number)], -1 - number, ends, (0.0, 0.0), None, [])
 
 
 def place(body: Body, position: complex, angle: float = 0.0) -> None:

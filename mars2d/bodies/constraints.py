@@ -69,6 +69,9 @@ class TurningRange(Constraint):
 
     least: float = number(low=-MAX_TURN, high=0, unit="rad", kw_only=False, doc="clockwise")
     largest: float = number(low=0, high=MAX_TURN, unit="rad", kw_only=False, doc="the other way")
+    restitution: float = number(
+        default=0.0, low=0, high=1, doc="at the ends: 0 stops, 1 turns back as fast"
+    )
 
 
 class TurningSpring(Constraint):

@@ -14,7 +14,7 @@ Triple = tuple[float, float, float]
 
 
 class Inertia(NamedTuple):
-    """A mass [kg] and a moment of inertia about the body's origin [kg m^2]."""
+    """A mass [kg] and a moment of inertia about the centre of mass [kg m^2]."""
 
     mass: float
     moment: float
@@ -35,8 +35,8 @@ class Rigid(NamedTuple):
     """One body at the start.
 
     kind: the class that describes it, such as "Robot" or "Box". pose: x, y [m], theta [rad].
-    velocity: x', y' [m/s], theta' [rad/s]. shape: about the pose, which is that of the centre of
-    mass.
+    velocity: x', y' [m/s], theta' [rad/s]. shape: about the pose. lead: how far ahead of the pose
+    the centre of mass lies, metres.
     """
 
     kind: str
@@ -46,6 +46,7 @@ class Rigid(NamedTuple):
     shape: Shape
     inertia: Inertia
     surface: Surface
+    lead: float = 0.0
 
     @property
     def is_disc(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,9 @@ LARGEST = sys.float_info.max
 MAX_DEAD_TIME = 1e6
 """The longest dead time, in sampling times: all commands under way are kept."""
 
+PARTS = 8
+"""The parts of a control step in which commands change that follow a ramp as stairs."""
+
 BLOCK = 256
 """The number of control steps for which random numbers are drawn at once."""
 
@@ -45,6 +49,7 @@ class _Team:
         name = f"drive {type(drive).__name__}"
         self.saturating = called(name, drive.saturate)
         self.accelerating = called(name, drive.accelerate)
+        self.ramping = called(name, drive.ramp)
         self.moving = called(name, drive.twist)
 
     def part(self, command: Float) -> Float:
@@ -72,10 +77,12 @@ class Drives:
         self._teams = []
         for drive, names in _grouped(drives):
             columns = np.array([column[name] for name in names])
-            noise = _normal([stream(f"drive {name}") for name in names]) if drive.noise else None
+            streams = [stream(f"drive {name}") for name in names] if drive.noise else []
+            noise = _white(streams, sampling_time) if streams else None
             everybody = len(names) == len(drives)
             self._teams.append(_Team(drive, None if everybody else columns, noise))
         self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
+        self._reached = np.zeros((2, len(drives)))  # the commands that actuators have got to
         self._noisy = [team for team in self._teams if team.noise is not None]
 
     def limit(self, command: Float, last: Float) -> Float:
@@ -103,6 +110,37 @@ class Drives:
             assert team.noise is not None
             team.normal = next(team.noise)
 
+    def drive(self, command: Float, duration: float) -> Iterator[tuple[float, Float]]:
+        """Yield twists (3, n) that lead to commands (2, n), each with the seconds that it holds.
+
+        Where actuators change at a bound, the time is cut into parts, with the mean of each. Raises
+        LawError if a drive of the user's fails.
+        """
+        last = self._reached
+        if not any(_differ(team.part(command), team.part(last)) for team in self._rated):
+            self._reached = command
+            yield duration, self.twist(command)
+            return
+        h = duration / PARTS
+        for k in range(PARTS):
+            mean = command.copy()
+            for team in self._rated:
+                with team.ramping:
+                    mean[:, team.columns] = team.drive.ramp(
+                        team.part(command), team.part(last), k * h, (k + 1) * h
+                    )
+            yield h, self.twist(mean)
+        self._reached = command.copy()
+        for team in self._rated:
+            with team.accelerating:
+                self._reached[:, team.columns] = team.drive.accelerate(
+                    team.part(command), team.part(last), duration
+                )
+
+    def reached(self) -> Float | None:
+        """Return the twists (3, n) at the end of that time; None if no drive has ramps."""
+        return self.twist(self._reached) if self._rated else None
+
     def twist(self, command: Float) -> Float:
         """Return the twists (3, n) for commands (2, n), with the drives' noise.
 
@@ -112,9 +150,11 @@ class Drives:
         for team in self._teams:
             mine = team.part(command)
             try:
-                if team.normal is not None:
-                    mine = team.drive.disturb(mine, team.normal)
-                twist[:, team.columns] = team.drive.twist(mine)
+                twist[:, team.columns] = (
+                    team.drive.twist(mine)
+                    if team.normal is None
+                    else team.drive.noisy_twist(mine, team.normal)
+                )
             except BaseException as error:
                 team.moving.blame(error)
                 raise
@@ -134,6 +174,10 @@ def _saturate(teams: list[_Team], command: Float) -> None:
             raise
 
 
+def _differ(a: Float, b: Float) -> bool:
+    return bool((a != b).any())
+
+
 def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:
     """Return each distinct drive with the names of its robots."""
     groups: list[tuple[Drive, list[str]]] = []
@@ -147,8 +191,11 @@ def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:
     return groups
 
 
-def _normal(streams: list[np.random.Generator]) -> Iterator[Float]:
-    """Yield standard normal numbers (2, n); each robot has a random stream of its own."""
+def _white(streams: list[np.random.Generator], duration: float) -> Iterator[Float]:
+    """Yield the means (2, n) of white noise of density 1 over `duration` seconds, in turn.
+
+    They are normal numbers with variance 1 / duration; each robot has a random stream of its own.
+    """
     while True:
         blocks = [stream.standard_normal((BLOCK, 2)) for stream in streams]
-        yield from np.stack(blocks, axis=-1)
+        yield from np.stack(blocks, axis=-1) / sqrt(duration)

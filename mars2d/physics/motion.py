@@ -88,11 +88,26 @@ class Motion:
         state[:, 3:] = self.velocity.T
         return Start(state, np.array(self._mover.slipping(), dtype=bool), self._twist)
 
+    def ask(self, twist: Float) -> None:
+        """Take what the robots are asked for at this instant, (3, n), for their velocities.
+
+        Those that stand still since they were stopped go on to do so.
+        """
+        self._twist = twist
+        self._mover.ask(array("d", twist.tobytes()))
+
     def take_effort(self) -> Float:
         """Return the largest share of its bounds that each drive used since the last call, (n,)."""
         effort = array("d", bytes(8 * self.n))
         self._mover.take_effort(effort)
         return np.frombuffer(effort)
+
+    @property
+    def work(self) -> Float:
+        """The work on all bodies since the start (6,), joules; see `mars2d.record.energy.WORK`."""
+        work = array("d", bytes(48))
+        self._mover.write_work(work)
+        return np.frombuffer(work)
 
     def take_contacts(self) -> NDArray[np.void]:
         """Return the contacts since the last call by time, one row (dtype CONTACT) per pair."""

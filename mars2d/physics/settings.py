@@ -54,6 +54,15 @@ PUSH_DEPTH = 0.15
 PUSH_ROOM = 0.85
 """How deep the pushes of many may, together with the overlap that there is, in the same parts."""
 
+CLOSED = 1e-9
+"""A gap that counts as touching, metres: bodies that are put side by side have one by rounding."""
+
+MEETING = 1 / 256
+"""How deep what gathers speed may be in another body when they meet, in parts of the slop.
+
+It has gathered speed over this way too: as small a part of it as substeps allow.
+"""
+
 STRAINED = 1.05
 """How deep it is, in parts of how deep bodies may enter, where more pushes add up than thought."""
 
@@ -72,6 +81,13 @@ BENT = 0.75
 SWING = 0.05
 """The longest substep, in periods of a spring over 2 pi."""
 
+MEND = 2.0
+"""How deep in a wall, in parts of the overlap allowed, a corner may be that a seam lets in.
+
+At the seam of two walls the engine's contact may point along one of them. It is then that of the
+wall's face and the body's corners in it, up to this depth.
+"""
+
 # -- surfaces -----------------------------------------------------------------------------------
 
 STICKS = 1e-3
@@ -82,6 +98,9 @@ Karnopp, J. Dyn. Syst. Meas. Control 107, 100 (1985).
 """
 
 # -- drives -------------------------------------------------------------------------------------
+
+SWAYING = 1e-3
+"""The longest substep of a robot with `force_limited` and `mass_offset` in the open, seconds."""
 
 LINGER = 3
 """For how many substeps a drive stays engaged after its robot has followed its command again."""

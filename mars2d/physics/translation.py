@@ -22,9 +22,9 @@ from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid, Surface
 from mars2d.core.materials import GRAVITY, MATERIALS, RULES, material_of
-from mars2d.core.plane import edges_of
 from mars2d.physics import settings
 from mars2d.physics.islands import chipmunk, islands
+from mars2d.physics.walls import Wall, walls_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Obstacle, Scenario
 
@@ -42,24 +42,25 @@ def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) ->
     module = islands()
     parts: tuple[Robot | Prop, ...] = (*scenario.robots, *scenario.props)
     bodies = [
-        _body(module, i, rigid, part)
+        _body(module, i, rigid, part, scenario.physics == "contact")
         for i, (rigid, part) in enumerate(zip(scenario.bodies, parts, strict=True))
     ]
     if states is not None:
         for body, state, one in zip(bodies, states.tolist(), slips, strict=True):
             body.move(state, bool(one))
+    accuracy = _accuracy(scenario)
     return module.Mover(
-        module.Accuracy(_accuracy(scenario)),
+        module.Accuracy(accuracy),
         module.Glide(*(part.tolist() for part in _quadrature(20))),
         bodies,
-        _walls(module, scenario),
+        _walls(module, scenario, accuracy["mend"]),
         [_tie(module, tie, bodies) for tie in scenario.ties],
         set(scenario.joined),
         _surfaces(module, scenario, bodies),
     )
 
 
-def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
+def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bool) -> Any:
     shape, inertia = rigid.shape, rigid.inertia
     (x, y), radius = shape.bound
     pieces = [
@@ -69,10 +70,9 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
         )
         for piece in shape.pieces
     ]  # fmt: skip
-    surface = float(rigid.surface.friction), float(rigid.surface.restitution)
-    body = module.Body(number, isinstance(part, Robot), pieces, surface)
-    what = {
-        "mass": inertia.mass, "moment": inertia.moment, "radius": radius,
+    body = module.Body(number, isinstance(part, Robot), pieces, _values(rigid.surface))
+    what: dict[str, Any] = {
+        "mass": inertia.mass, "moment": inertia.moment, "lead": rigid.lead, "radius": radius,
         "offset_x": x, "offset_y": y, "is_disc": rigid.is_disc and not (x or y),
     }  # fmt: skip
     if isinstance(part, Prop):
@@ -85,52 +85,78 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop) -> Any:
         drive = part.drive
         what |= {
             "force": drive.max_force, "torque": drive.max_torque, "rim": radius,
-            "in_robot_frame": drive.frame == "robot",
+            "in_robot_frame": drive.frame == "robot", "limited": drive.force_limited and forces,
+            "no_load_speed": 1e300 if drive.no_load_speed is None else drive.no_load_speed,
+            "grips": [
+                1e300 if grip is None else grip * inertia.mass * GRAVITY for grip in drive.grips
+            ],
         }  # fmt: skip
     body.describe(what)
     body.move([float(number) for number in (*rigid.pose, *rigid.velocity)], False)
     return body
 
 
-def _walls(module: Any, scenario: Scenario) -> list[Any]:
-    edges = [
-        (-1 - k, (*a, *b), surface)
-        for k, surface in enumerate(scenario.surfaces)
-        for a, b in edges_of(surface.outline)
-    ]
+def _walls(module: Any, scenario: Scenario, reach: float) -> list[Any]:
+    """Return the walls. reach: how deep in one a corner may be that is put back out of it."""
+    surfaces = scenario.surfaces
     return [
         module.Wall(
-            number, obstacle, list(map(float, ends)),
-            (float(surface.friction), float(surface.restitution)),
+            number, [(float(far), -1 - k) for far, k in wall.owners], -1 - len(surfaces) - number,
+            list(map(float, (*wall.start, *wall.end))), wall.surface, _seams(module, wall, reach),
+            [tuple(map(float, (*end, *away, far))) for end, away, far in wall.shades],
         )
-        for number, (obstacle, ends, surface) in enumerate(edges)
+        for number, wall in enumerate(_walls_in(scenario))
     ]  # fmt: skip
+
+
+def _walls_in(scenario: Scenario) -> tuple[Wall, ...]:
+    """Return the walls of obstacles and workspace; pieces of different surfaces stay apart."""
+    solid = len(scenario.obstacles)  # the workspace, which has its room inside, comes after these
+    skin = _skin if _settles(scenario) else _values
+    return walls_of(
+        tuple(
+            (surface.outline, skin(surface), k < solid)
+            for k, surface in enumerate(scenario.surfaces)
+        )
+    )
+
+
+def _settles(scenario: Scenario) -> bool:
+    """Return whether friction or restitution of a contact may be no mere product."""
+    rules = {scenario.friction_rule, scenario.restitution_rule}
+    static = [body.surface.static_friction for body in scenario.bodies]
+    static += [surface.static_friction for surface in scenario.surfaces]
+    asked = any(each is not None for each in static)
+    return rules != {"product"} or bool(scenario.material_pairs) or asked
+
+
+def _values(surface: Surface | Obstacle) -> tuple[float, ...]:
+    """Return what the engine multiplies: friction and restitution."""
+    return float(surface.friction), float(surface.restitution)
+
+
+def _skin(surface: Surface | Obstacle) -> tuple[float, ...]:
+    """Return these, static friction, and the numbers of the materials by whose names they were."""
+    friction, restitution, static = surface.friction, surface.restitution, surface.static_friction
+    names = [material_of(friction), material_of(restitution)]
+    numbers = [-1 if name is None else [*MATERIALS].index(name) for name in names]
+    return *_values(surface), float(friction if static is None else static), *numbers
 
 
 def _surfaces(module: Any, scenario: Scenario, bodies: Sequence[Any]) -> Any:
     """Return what settles friction and restitution; None where both are products."""
-    of_bodies = [body.surface for body in scenario.bodies]
-    of_obstacles = scenario.surfaces
-    rules = RULES.index(scenario.friction_rule), RULES.index(scenario.restitution_rule)
-    static = [each.static_friction for each in of_bodies]
-    static += [each.static_friction for each in of_obstacles]
-    asks = any(rules) or scenario.material_pairs or any(each is not None for each in static)
-    if not asks:
+    if not _settles(scenario):
         return None
+    of_walls = [_skin(surface) for surface in scenario.surfaces]
+    of_walls += [wall.surface for wall in _walls_in(scenario)]  # in the order of their numbers
     return module.Surfaces(
-        list(bodies), [_surface(module, each) for each in of_bodies],
-        [_surface(module, each) for each in of_obstacles], rules, settings.STICKS,
+        list(bodies),
+        [module.Surface(*_skin(body.surface)) for body in scenario.bodies],
+        [module.Surface(*skin) for skin in of_walls],
+        (RULES.index(scenario.friction_rule), RULES.index(scenario.restitution_rule)),
+        settings.STICKS,
         _pairs(scenario),
-    )  # fmt: skip
-
-
-def _surface(module: Any, surface: Surface | Obstacle) -> Any:
-    """Return a surface, with the numbers of the materials by whose names it was given."""
-    friction, restitution, static = surface.friction, surface.restitution, surface.static_friction
-    names = (material_of(friction), material_of(restitution))
-    rubs, bounces = (-1 if name is None else [*MATERIALS].index(name) for name in names)
-    held = friction if static is None else static
-    return module.Surface(float(friction), float(held), float(restitution), rubs, bounces)
+    )
 
 
 def _pairs(scenario: Scenario) -> tuple[list[float], list[float], list[float]]:
@@ -147,6 +173,18 @@ def _pairs(scenario: Scenario) -> tuple[list[float], list[float], list[float]]:
     return friction, static_friction, restitution
 
 
+def _seams(module: Any, wall: Wall, reach: float) -> Any:
+    """Return what contacts with a wall must know of its ends; None if nothing meets it there."""
+    if not any(wall.seams):
+        return None
+    (x, y), (to_x, to_y) = wall.start, wall.end
+    far = sqrt((to_x - x) ** 2 + (to_y - y) ** 2)
+    numbers = [x, y, (to_x - x) / far, (to_y - y) / far, far, reach]
+    for seam in wall.seams:
+        numbers += (0.0, 0.0, 0.0) if seam is None else (1.0 + (not seam.bulges), *seam.way)
+    return module.Seams(list(map(float, numbers)))
+
+
 def _tie(module: Any, attached: AttachedJoint, bodies: Sequence[Any]) -> Any:
     a = bodies[attached.a]
     b = bodies[attached.b] if attached.b >= 0 else None
@@ -157,11 +195,24 @@ def _tie(module: Any, attached: AttachedJoint, bodies: Sequence[Any]) -> Any:
         "always": any(kind is not MaxDistance for kind in kinds),
         "rigid": any(kind in (MaxDistance, FixedDistance, Pin) for kind in kinds),
         "pinned": attached.pinned,
+        "springy": any(
+            isinstance(each, SpringDamper | TurningSpring) and each.stiffness > 0
+            for each in attached.constraints
+        ),
     }
     return module.Tie(
-        a, b, list(map(float, anchors)), float(attached.length), is_what,
+        a, b, list(map(float, anchors)), float(attached.length), is_what, _limits(attached),
         [_translated(attached, each) for each in attached.constraints],
     )  # fmt: skip
+
+
+def _limits(attached: AttachedJoint) -> list[float]:
+    """Return the least and largest angle of a joint as the islands measure it, and restitution."""
+    turned = attached.turned if attached.b >= 0 else -attached.turned
+    for each in attached.constraints:
+        if isinstance(each, TurningRange):
+            return [turned + each.least, turned + each.largest, float(each.restitution)]
+    return [-1e300, 1e300, 0.0]
 
 
 def _accuracy(scenario: Scenario) -> dict[str, float]:
@@ -176,7 +227,10 @@ def _accuracy(scenario: Scenario) -> dict[str, float]:
         "max_overlap": float(overlap),
         "entry": entry,
         "slop": slop,
+        "swaying": settings.SWAYING,
         "pressed": settings.PRESSED * slop,
+        "closed": min(settings.CLOSED, settings.MEETING * slop),
+        "touch": settings.MEETING * slop,
         "turned": settings.TURNED * overlap * max(1.0, overlap / settings.DEFAULT_OVERLAP),
         "growth": settings.GROWTH,
         "linger": settings.LINGER,
@@ -195,6 +249,7 @@ def _accuracy(scenario: Scenario) -> dict[str, float]:
         "iterations_unequal": settings.ITERATIONS_UNEQUAL,
         "iterations_ties": settings.ITERATIONS_JOINTS,
         "graze": min(settings.SLOP, thinnest / 32),
+        "mend": min(settings.MEND * overlap, thinnest / 2),
     }
 
 

@@ -109,7 +109,8 @@ def _check_mass(body: Rigid, material: Mapping[str, str]) -> None:
             f"{body.kind}.mass of {body.name}", mass,
             f"a mass >= {MIN_MASS:g} and <= {MAX_MASS:g} [kg]{hint}",
         )  # fmt: skip
-    most = mass * body.shape.reach**2
+    shape = body.shape.moved(-body.lead, 0.0) if body.lead else body.shape
+    most = mass * shape.reach**2
     if not 1e-3 * most <= moment <= most * (1 + 1e-9):
         raise wrong(
             f"{body.kind}.moment of {body.name}", moment,

@@ -56,7 +56,7 @@ class Robot(Description):
     mass: float = number(default=1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
     moment: float | None = number(
         default=None, above=0, high=1e12, unit="kg m^2", optional=True,
-        doc="moment of inertia about the centre of rotation; None: that of a plate",
+        doc="moment of inertia about the centre of mass; None: that of a plate about this point",
     )  # fmt: skip
     friction: float = entry(
         default=0.5, check=surface_friction,
@@ -75,6 +75,10 @@ class Robot(Description):
     center_offset: float = number(
         default=0.0, low=-1e3, high=1e3, unit="m",
         doc="how far the centre of rotation lies ahead of the geometric centre",
+    )  # fmt: skip
+    mass_offset: float = number(
+        default=0.0, low=-1e3, high=1e3, unit="m",
+        doc="how far the centre of mass lies ahead of the centre of rotation",
     )  # fmt: skip
     sensors: Sequence[Sensor] = entry(
         default=(),
@@ -117,14 +121,15 @@ class Robot(Description):
 
     @cached_property
     def chassis(self) -> Shape:
-        """Its shape about the centre of rotation, which is also its centre of mass."""
+        """Its shape about the centre of rotation."""
         shape = Disc(self.diameter) if self.shape is None else self.shape
         return shape.moved(-self.center_offset, 0.0) if self.center_offset else shape
 
     @property
     def inertia(self) -> Inertia:
-        """Its mass [kg], and its moment of inertia about the centre of rotation [kg m^2]."""
-        return inertia_of(self.chassis, self.mass, self.moment)
+        """Its mass [kg], and its moment of inertia about the centre of mass [kg m^2]."""
+        about = self.chassis.moved(-self.mass_offset, 0.0) if self.mass_offset else self.chassis
+        return inertia_of(about, self.mass, self.moment)
 
     @property
     def surface(self) -> Surface:
@@ -136,7 +141,8 @@ class Robot(Description):
         """Its rigid body at the start."""
         still = (0.0, 0.0, 0.0)
         shape, inertia, surface = self.chassis, self.inertia, self.surface
-        return Rigid("Robot", str(self.name), self.pose, still, shape, inertia, surface)
+        lead = self.mass_offset
+        return Rigid("Robot", str(self.name), self.pose, still, shape, inertia, surface, lead)
 
     def _validate(self) -> None:
         check_static("Robot.static_friction", self.static_friction, self.friction)
@@ -152,4 +158,9 @@ class Robot(Description):
             raise wrong(
                 "Robot.center_offset", self.center_offset, f"within the radius, {reach:g} m"
             )
+        if abs(self.mass_offset) > self.chassis.reach:
+            raise wrong(
+                "Robot.mass_offset", self.mass_offset,
+                f"within its shape, {self.chassis.reach:g} m of the centre of rotation",
+            )  # fmt: skip
         checks.unique("Robot.sensors", [sensor.key for sensor in self.sensors])

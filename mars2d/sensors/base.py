@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from math import inf, pi
-from typing import Any, ClassVar, NamedTuple, Protocol
+from math import inf, pi, sqrt
+from typing import Any, ClassVar, NamedTuple, Protocol, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -190,7 +190,7 @@ def sight_angle(*, default: float, doc: str) -> Any:
     return entry(default=default, check=check, unit="rad", doc=doc)
 
 
-def _spread(what: str) -> Check:
+def spread(what: str) -> Check:
     """Return a check for 0 or a number from 1e-12 to 1e6, or one for each quantity."""
     expected = f"{what}: 0, or from 1e-12 to 1e6"
     or_several = f"{expected}; one number, or one for each quantity"
@@ -236,6 +236,15 @@ class Sensor(Stateful):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (NUMBER,)
 
+    averages: ClassVar[bool] = False
+    """Whether a reading is the mean over the time since the one before, as a gyroscope's is.
+
+    Then `noise` is a density, in the reading's unit / sqrt(Hz): the mean over t seconds is off by
+    the deviation noise / sqrt(t). So the sum over time does not depend on how often it is read.
+    """
+
+    _interval: ClassVar[float] = 1.0  # of one at work, seconds from one measurement to the next
+
     stays: ClassVar[bool] = False
     """Whether its drawing shows where things are, such as the points that a laser has hit.
 
@@ -255,15 +264,15 @@ class Sensor(Stateful):
         default=0.0, low=0, high=1e4, unit="s", doc="from a measurement to its arrival"
     )
     noise: float | tuple[float, ...] = entry(
-        default=0.0, check=_spread("a standard deviation"),
-        doc="standard deviation, in the reading's unit; one number, or one for each quantity",
+        default=0.0, check=spread("a standard deviation"),
+        doc="standard deviation of each reading, in its unit; one number, or one for each quantity",
     )  # fmt: skip
     outliers: float = number(
         default=0.0, low=0, high=1, doc="probability that a value is quite another one"
     )
     dropouts: float = number(default=0.0, low=0, high=1, doc="probability that a value is lost")
     resolution: float | tuple[float, ...] = entry(
-        default=0.0, check=_spread("a step"),
+        default=0.0, check=spread("a step"),
         doc="values are rounded to multiples of it; one number, or one for each quantity",
     )  # fmt: skip
     recorded: bool = flag(
@@ -353,6 +362,10 @@ class Sensor(Stateful):
 
     # -- when it measures --------------------------------------------------------------------
 
+    def at_work(self, sampling_time: float) -> Self:
+        """Return a copy that measures in a world of this sampling time, seconds."""
+        return self.live(_interval=self.period(sampling_time) * sampling_time)
+
     def period(self, sampling_time: float) -> int:
         """Return how many control steps lie between two measurements."""
         return 1 if self.rate is None else round(1 / (self.rate * sampling_time))
@@ -409,6 +422,8 @@ class Sensor(Stateful):
     @cached_property
     def _imperfection(self) -> Imperfection:
         noise, resolution = self._spreads
+        if self.averages:
+            noise = tuple(density / sqrt(self._interval) for density in noise)
         top = float(getattr(self, "range", inf))
         return Imperfection(
             self.key, self.quantities, noise, resolution, self.outliers, self.dropouts, top

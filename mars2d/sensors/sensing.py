@@ -72,7 +72,7 @@ class Device:
     ) -> None:
         """Take the sensor, its robot and surroundings; stream: makes a random stream of a name."""
         self.described = sensor
-        self.sensor = sensor.live()
+        self.sensor = sensor.at_work(world.sampling_time)
         self.key, self.robot = sensor.key, robot.index
         self.reading: Any = None
         self._shown: Any = None  # the value that a law finds

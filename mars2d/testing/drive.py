@@ -24,7 +24,9 @@ METHODS = {
     "actuators": (("command",), 2),
     "command_for": (("actuators",), 2),
     "accelerate": (("command", "last", "duration"), 2),
+    "ramp": (("command", "last", "start", "end"), 2),
     "disturb": (("command", "normal"), 2),
+    "noisy_twist": (("command", "normal"), 3),
 }
 """The methods that a drive can define: their arguments, and the rows of the result."""
 
@@ -113,7 +115,11 @@ class _Subject:
 
     def _called(self, method: str, rows: int, commands: Any) -> Any:
         given = commands.copy()
-        more = {"accelerate": (0 * given, 0.1), "disturb": (0 * given,)}.get(method, ())
+        still = (0 * given,)
+        more = {
+            "accelerate": (0 * given, 0.1), "ramp": (0 * given, 0.0, 0.1),
+            "disturb": still, "noisy_twist": still,
+        }.get(method, ())  # fmt: skip
         function = getattr(self.drive, method)
         try:
             with self.notes.calling(method, function, None):

@@ -272,9 +272,11 @@ class Operator:
         vx, vy, spin = velocity.tolist()
         c, s = cos(theta), sin(theta)
         ax, ay = c * pull.grip[0] - s * pull.grip[1], s * pull.grip[0] + c * pull.grip[1]
+        lead = self._world.scenario.bodies[pull.body].lead
+        lx, ly = ax - c * lead, ay - s * lead
         wx, wy = pull.target[0] - x - ax, pull.target[1] - y - ay
         way = max(hypot(wx, wy), TINY)
-        felt = 1.0 / (1.0 / mass + (ax * ax + ay * ay) / moment)  # at the grip, across the arm
+        felt = 1.0 / (1.0 / mass + (lx * lx + ly * ly) / moment)  # at the grip, across the arm
         # No faster than it can brake before the target.
         speed = min(STIFFNESS / 2 * way, pull.speed, sqrt(pull.force / felt * way))
         fx = 2 * STIFFNESS * felt * (speed / way * wx - (vx - spin * ay))

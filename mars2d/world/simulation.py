@@ -295,10 +295,13 @@ class Simulation(State):
         self.driven = []
         start = perf_counter()
         for duration, command in self._delay.send(self.command):
-            twist = self._drives.twist(command)
-            self.driven.append((duration, twist))
-            self.operator.drive(self.engine, twist, duration, time)
-            time += duration
+            for part, twist in self._drives.drive(command, duration):
+                self.driven.append((part, twist))
+                self.operator.drive(self.engine, twist, part, time)
+                time += part
+        reached = self._drives.reached()
+        if reached is not None:
+            self.engine.ask(reached)
         self.engine_seconds += perf_counter() - start
         self.contacts = frozen(self.engine.take_contacts())
         self.recorder.write_contacts(self.contacts)

@@ -21,6 +21,7 @@ from mars2d.physics.motion import Start
 from mars2d.physics.settings import versions
 from mars2d.record.columns import Storage
 from mars2d.record.contact import CONTACT
+from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
 from mars2d.record.recorder import History, Recorder
 from mars2d.scenario.scenario import Scenario
 
@@ -108,11 +109,22 @@ class State:
         self.driven: list[tuple[float, Float]] = []
         self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
         self._robots, self._props = slice(n), slice(n, None)  # columns of all bodies' arrays
-        self.restart_engine(None)
+        self._worked: Float = np.zeros(len(WORK))  # before the engine that is there now
+        self.engine = ENGINES[scenario.physics](scenario, None)
+        self._take_engine()
 
-    def restart_engine(self, start: Start | None) -> None:
-        """Begin with a new engine; start: how everything moves, None for the scenario's start."""
+    def restart_engine(self, start: Start) -> None:
+        """Begin with a new engine; start: how everything moves.
+
+        What that changes in the bodies' energies is the work of hands.
+        """
+        worked, before = self.work, self.energy.total
         self.engine = ENGINES[self.scenario.physics](self.scenario, start)
+        self._worked = worked
+        self._take_engine()
+        self._worked[WORK.index("hands")] += self.energy.total - before
+
+    def _take_engine(self) -> None:
         self.take_poses()
         self._velocity_at = -1, self.pose
 
@@ -152,6 +164,25 @@ class State:
         if self._velocity_at[0] != self.iteration:
             self._velocity_at = self.iteration, locked(self.engine.velocity)
         return self._velocity_at[1]
+
+    @property
+    def work(self) -> Float:
+        """The work on all bodies since the start (6,), J; see `mars2d.record.energy.WORK`."""
+        return np.asarray(self._worked + self.engine.work)
+
+    @property
+    def energy(self) -> Energy:
+        """The kinetic energies of all bodies, and the work that has made them, J."""
+        return energy_of(self.scenario, self._poses, self._velocities, self.work)
+
+    @property
+    def momentum(self) -> Momentum:
+        """The momenta of all bodies."""
+        return momentum_of(self.scenario, self._poses, self._velocities)
+
+    @property
+    def _poses(self) -> Float:
+        return np.hstack([self.pose, self.prop_pose])
 
     @property
     def motion(self) -> Start:

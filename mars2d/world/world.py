@@ -8,6 +8,7 @@ from typing import Any
 from mars2d.core.description import wrong
 from mars2d.core.streams import check_seed
 from mars2d.record.columns import Column, Storage
+from mars2d.record.energy import Energy, Momentum
 from mars2d.record.recorder import Recorder
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.operator import Operator
@@ -75,6 +76,16 @@ class World(WorldView):
     def control(self) -> Callable[[World], Any] | None:
         """The law of the team."""
         return self._simulation.control
+
+    @property
+    def energy(self) -> Energy:
+        """The kinetic energies of robots and props, and the work since the start, J."""
+        return self._simulation.energy
+
+    @property
+    def momentum(self) -> Momentum:
+        """The momenta of robots and props, N s, and the angular one of all, N m s."""
+        return self._simulation.momentum
 
     @property
     def recorder(self) -> Recorder:

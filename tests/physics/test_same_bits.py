@@ -84,7 +84,7 @@ def random_drive(rng: np.random.Generator, *, faults: bool) -> Drive:
     if faults:
         limits |= {
             "noise": rng.uniform(0, 0.3), "dead_time": rng.uniform(0, 0.13),
-            "max_acceleration": rng.uniform(1.0, 20.0),
+            "max_acceleration": rng.uniform(1.0, 20.0), "force_limited": bool(rng.integers(2)),
         }  # fmt: skip
     kind: type[Drive] = rng.choice([Unicycle, Differential, Holonomic, Car])
     return kind(**limits)
@@ -148,7 +148,8 @@ def crowd(
             )
         elif things and i % 3 == 2:
             shape = Polygon([(4 * r * x, 4 * r * y) for x, y in WEDGE])
-            robots.append(Robot(shape=shape, drive=robot.drive, **common))
+            lead = float(rng.uniform(-0.5, 0.5) * r)
+            robots.append(Robot(shape=shape, drive=robot.drive, mass_offset=lead, **common))
         else:
             robots.append(robot)
     joints = []

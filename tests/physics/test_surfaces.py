@@ -341,3 +341,39 @@ def test_an_error_in_the_solvers_question_is_not_swallowed(monkeypatch):
         with pytest.raises(KeyboardInterrupt):
             for _ in range(9):
                 world.simulation.engine.drive(np.array([[0.3, 0.3], [0, 0], [0, 0]]), 0.1, 0.0)
+
+
+def test_walls_in_one_line_keep_their_own_surfaces():
+    """They have the same values, so for the product alone they would be joined."""
+    pairs = [
+        MaterialPair("rubber", "wood", friction=0.3),
+        MaterialPair("rubber", "glass", friction=0.6),
+    ]
+    walls = [
+        Map([[(-3, 0), (0, 0)]], name="left", friction="wood"),
+        Map([[(0, 0), (9, 0)]], name="right", friction="glass"),
+    ]
+    drive = Unicycle(max_torque=1000, max_linear_speed=1)
+    slider = Robot(pose=(-1, 0.15, -0.6), drive=drive, friction="rubber")
+    scenario = Scenario(robots=[slider], addons=walls, workspace=None, material_pairs=pairs)
+    record = run(scenario, [[0.5], [0.0]], 8.0)
+    rows = record.contacts
+    ratio = np.abs(rows["tangential_impulse"]) / rows["normal_impulse"]
+    left, right = rows["point"][:, 0] < -0.2, rows["point"][:, 0] > 0.2
+    assert min(left.sum(), right.sum()) > 9
+    assert ratio[left][2:] == pytest.approx(0.3, rel=1e-6)
+    assert ratio[right] == pytest.approx(0.6, rel=1e-6)
+
+
+def test_a_wall_of_several_obstacles_has_their_surface():
+    """Such a wall is joined, and has a number of its own."""
+    walls = [
+        Map([[(-3, 0), (0, 0)], [(0, 0), (1.5, 0)]], name="left", friction=0.25),
+        Map([[(1.5, 0), (9, 0)]], name="right", friction=0.25),
+    ]
+    slider = Robot(pose=(-1, 0.15, -0.6), drive=Unicycle(max_torque=1000), friction=0.9)
+    scenario = Scenario(robots=[slider], addons=walls, workspace=None, friction_rule="minimum")
+    rows = run(scenario, [[0.5], [0.0]], 8.0).contacts
+    ratio = np.abs(rows["tangential_impulse"]) / rows["normal_impulse"]
+    assert set(rows["b"].tolist()) == {-1, -2, -3}
+    assert ratio[2:] == pytest.approx(0.25, rel=1e-6)

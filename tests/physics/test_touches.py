@@ -196,7 +196,7 @@ def told(monkeypatch):
     ways = {
         "first_of": lambda one: one.bodies[0], "second_of": lambda one: one.bodies[1],
         "impulse_of": lambda one: one.impulse, "normal_of": lambda one: one.normal,
-        "count_of": lambda one: len(one.on_first),
+        "count_of": lambda one: len(one.on_first), "is_void": lambda one: False,
         "point_of": lambda one, k, second: (one.on_second if second else one.on_first)[k],
     }  # fmt: skip
     for name, way in ways.items():
@@ -224,7 +224,7 @@ def contact(bodies, impulse, normal=(1.0, 0.0), first=((0.1, 0.2),), second=((0.
 def let_touch(island, a: int, b: int) -> None:
     """Let the measured gaps say that a body touches another, or an obstacle."""
     body = island.numbers[a]
-    body.first_touch = SimpleNamespace(other=b, next_touch=body.first_touch)
+    body.first_touch = SimpleNamespace(other=b, is_wall=False, next_touch=body.first_touch)
 
 
 @pytest.mark.parametrize("bodies", [(0, 1), (1, 0)])

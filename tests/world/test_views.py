@@ -53,7 +53,8 @@ MORE = {
 """What else there is, which tells more than positions."""
 
 OF_WHO_RUNS_IT = {
-    "break_off", "change", "control", "hands", "operator", "recorder", "simulation", "watch",
+    "break_off", "change", "control", "energy", "hands", "momentum", "operator", "recorder",
+    "simulation", "watch",
 }  # fmt: skip
 """What a World has and no law."""
 

@@ -9,10 +9,10 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.description import Description, number
+from mars2d.core.description import Description, flag, number
 from mars2d.core.quantity import Quantity
 
-__all__ = ["Drive", "Wheeled"]
+__all__ = ["Drive", "Wheeled", "reached"]
 
 Float = NDArray[np.float64]
 
@@ -30,12 +30,21 @@ class Drive(Description):
     method works on the columns of many robots at once. A command takes these steps:
 
     1. `saturate` limits it to what the actuators can do, `accelerate` to what they can reach from
-       the last command; the result is recorded;
+       the last command within a sampling time; the result is recorded;
     2. it waits for `Scenario.command_delay` and for the drive's `dead_time`;
-    3. `disturb` adds the actuators' noise, which is not recorded;
-    4. `twist` returns the velocity that it asks for.
+    3. the actuators change to it as quickly as they can, and `ramp` says how far they are;
+    4. `disturb` adds the actuators' noise, which is neither recorded nor limited;
+    5. `twist` returns the velocity that it asks for; `noisy_twist` does 4 and 5 together.
 
     Two actuators move a robot. By default the command is the speed of each.
+
+    `noise` is the density of white noise, in shares of the speed: in a control step of T seconds a
+    speed u is off by a normal number of deviation u noise / sqrt(T). So an actuator's way is off by
+    a random walk, whose deviation after t seconds is u noise sqrt(t), whatever T. A limit after the
+    noise would cut off the more the shorter T is, and so make the walk depend on it.
+
+    Source of the noise: Maybeck, Stochastic Models, Estimation and Control, volume 1 (1979),
+    section 4.5.
     """
 
     max_linear_speed: float = number(
@@ -47,13 +56,30 @@ class Drive(Description):
     max_torque: float = number(
         default=0.5, above=0, high=1e6, unit="N m", doc="what it can turn with"
     )
+    force_limited: bool = flag(
+        default=False,
+        doc="whether max_force and max_torque bound its acceleration where nothing touches it, too",
+    )
     max_acceleration: float | None = number(
         default=None, low=1e-6, high=1e6, unit="m/s^2", optional=True,
-        doc="bound of how quickly commands change; None: none",
+        doc="bound of how quickly its actuators change; None: none",
+    )  # fmt: skip
+    no_load_speed: float | None = number(
+        default=None, above=0, high=1e6, unit="m/s", optional=True,
+        doc="speed at which its motors' force, max_force at rest, has fallen to 0; None: never",
+    )  # fmt: skip
+    grip: float | None = number(
+        default=None, above=0, high=100, optional=True,
+        doc="friction of its wheels along them: they bear grip m g; None: any force",
+    )  # fmt: skip
+    side_grip: float | None = number(
+        default=None, above=0, high=100, optional=True,
+        doc="friction of its wheels across them; None: as along",
     )  # fmt: skip
     noise: float = number(
-        default=0.0, low=0, high=1,
-        doc="standard deviation of an actuator's speed, in shares of it; anew each control step",
+        default=0.0, low=0, high=1, unit="sqrt(s)",
+        doc="standard deviation of an actuator's way after one second, in shares of that way; "
+        "it grows with the root of the time",
     )  # fmt: skip
     dead_time: float = number(
         default=0.0, low=0, high=1e6, unit="s",
@@ -110,6 +136,11 @@ class Drive(Description):
         """The rates as an array (2, 1), inf for None."""
         return np.array([[inf if rate is None else rate] for rate in self.rates])
 
+    @property
+    def grips(self) -> tuple[float | None, float | None]:
+        """The friction of its wheels along and across them; None: they bear any force."""
+        return self.grip, self.grip if self.side_grip is None else self.side_grip
+
     def accelerate(self, command: Float, last: Float, duration: float) -> Float:
         """Return commands (2, n) with the change of each actuator limited.
 
@@ -123,21 +154,53 @@ class Drive(Description):
             return command
         return np.where(over.any(axis=0), self.command_for(had + change.clip(-most, most)), command)
 
+    def ramp(self, command: Float, last: Float, start: float, end: float) -> Float:
+        """Return the commands (2, n) that the actuators follow in the mean over some time.
+
+        last: (2, n), those that they followed when commands (2, n) came. start, end: of the time
+        since then, seconds. They change as quickly as they can, and stay where they have arrived.
+        """
+        had = self.actuators(last)
+        change = self.actuators(command) - had
+        share = reached(np.abs(change) / self._fastest_change, start, end)
+        return self.command_for(had + share * change)
+
     def disturb(self, command: Float, normal: Float) -> Float:
         """Return commands (2, n) as noisy actuators execute them: each is off by a random share.
 
-        normal: (2, n), numbers of the standard normal distribution, one for each actuator.
+        normal: (2, n), normal numbers with variance 1 / T [1/s], one for each actuator: the means
+        over a control step of T seconds of white noise of density 1.
         """
         return self.command_for(self.actuators(command) * (1.0 + self.noise * normal))
+
+    def noisy_twist(self, command: Float, normal: Float) -> Float:
+        """Return the twists (3, n) of noisy actuators.
+
+        normal: (2, n), as in `disturb`.
+        """
+        return self.twist(self.disturb(command, normal))
+
+
+def reached(takes: Float, start: float, end: float) -> Float:
+    """Return which share of a change is done in the mean from `start` to `end` seconds.
+
+    takes: seconds, how long it takes, at a constant rate; the time counts from its beginning.
+    """
+    done = [
+        np.where(t < takes, t * t / (2 * np.maximum(takes, t)), t - takes / 2) if t else 0.0
+        for t in (start, end)
+    ]
+    return np.asarray((done[1] - done[0]) / (end - start))
 
 
 class Wheeled(Drive):
     """The base of drives of two wheels on one axle, each of them an actuator.
 
     Commands are (v [m/s], omega [rad/s]), and actuators the speeds of the wheels' rims,
-    v -+ wheel_semiaxis * omega [m/s]. With `noise` s and the semiaxis b, v and omega are off by the
-    variances s^2 (v^2 + b^2 omega^2) / 2 and s^2 (v^2 + b^2 omega^2) / (2 b^2): the velocity motion
-    model with alpha_1 = alpha_4 = s^2 / 2, alpha_2 = s^2 b^2 / 2, alpha_3 = s^2 / (2 b^2).
+    v -+ wheel_semiaxis * omega [m/s]. With `noise` s, the semiaxis b and p = s^2 / T, v and omega
+    are in a control step of T seconds off by the variances p (v^2 + b^2 omega^2) / 2 and
+    p (v^2 + b^2 omega^2) / (2 b^2): the velocity motion model with alpha_1 = alpha_4 = p / 2,
+    alpha_2 = p b^2 / 2, alpha_3 = p / (2 b^2).
 
     Source of the model: Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 5.3.
     """

@@ -18,7 +18,7 @@ class Car(Drive):
     pose is that of the middle of the rear axle, v its speed; it turns about a point wheelbase /
     tan(delta) to the left. Speed and steering are limited each by itself, so a car that is told to
     go too fast keeps its curvature. `noise` is that of the speed in shares of the speed, and that
-    of the steering angle in shares of max_steering, which it never exceeds.
+    of tan(delta) in shares of max_steering: straight ahead, that of the steering angle.
 
     Source: K. M. Lynch and F. C. Park, Modern Robotics (2017), section 13.3.1.
     """
@@ -57,14 +57,22 @@ class Car(Drive):
         return np.where(over, command.clip(-limit, limit), command)
 
     def disturb(self, command: Float, normal: Float) -> Float:
-        """Return commands (2, n), the speed off by a share of itself, the angle of its bound.
+        """Return commands (2, n), the speed off by a share of itself.
 
-        normal: (2, n), numbers of the standard normal distribution.
+        normal: (2, n), as in `Drive.disturb`.
         """
-        v, delta = command
-        delta = delta + self.noise * self.max_steering * normal[1]
-        limit = self.max_steering
-        return np.array([v * (1.0 + self.noise * normal[0]), delta.clip(-limit, limit)])
+        return np.array([command[0] * (1.0 + self.noise * normal[0]), command[1]])
+
+    def noisy_twist(self, command: Float, normal: Float) -> Float:
+        """Return (v, 0, omega), v off by a share of itself, omega by that of the steering, too.
+
+        The spin is off by v noise max_steering / wheelbase, with the v of the command: it is linear
+        in the noise, so that turns add up to a random walk that does not depend on how long
+        a control step is. normal: (2, n), as in `Drive.disturb`.
+        """
+        twist = np.array(self.twist(self.disturb(command, normal)), dtype=float)
+        twist[2] += self.noise * self.max_steering / self.wheelbase * command[0] * normal[1]
+        return twist
 
     def twist(self, command: Float) -> Float:
         """Return (v, 0, v tan(delta) / wheelbase)."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import ClassVar, Literal
 
 import numpy as np
 
-from mars2d.bodies.drives.base import ROUNDING, Drive, Float
+from mars2d.bodies.drives.base import ROUNDING, Drive, Float, reached
 from mars2d.core.quantity import Quantity
 
 __all__ = ["Holonomic"]
@@ -51,10 +52,20 @@ class Holonomic(Drive):
             return command
         return np.where(over, last + change * (most / np.where(over, size, 1.0)), command)
 
+    def ramp(self, command: Float, last: Float, start: float, end: float) -> Float:
+        """Return the commands (2, n) that it follows in the mean from `start` to `end` seconds.
+
+        last: (2, n), those that it followed at 0 s. The velocity goes straight to the new one.
+        """
+        change = command - last
+        most = inf if self.max_acceleration is None else self.max_acceleration
+        takes = np.hypot(change[0], change[1]) / most
+        return np.asarray(last + reached(takes, start, end) * change)
+
     def disturb(self, command: Float, normal: Float) -> Float:
         """Return commands (2, n), each component off by a share of the speed.
 
-        normal: (2, n), numbers of the standard normal distribution.
+        normal: (2, n), as in `Drive.disturb`.
         """
         return np.asarray(command + self.noise * np.hypot(command[0], command[1]) * normal)
 

@@ -120,7 +120,7 @@ class AttachedJoint(NamedTuple):
     def frequency(self, spring: SpringDamper | TurningSpring, bodies: Sequence[Rigid]) -> float:
         """Return the angular frequency of its bodies on one of its springs, rad/s."""
         held = ((self.a, self.joint.anchor_a), (self.b, self.joint.anchor_b))
-        ends = [(bodies[i].inertia, anchor) for i, anchor in held if i >= 0]
+        ends = [(bodies[i].inertia, (x - bodies[i].lead, y)) for i, (x, y) in held if i >= 0]
         if isinstance(spring, TurningSpring):
             lightness = sum(1 / inertia.moment for inertia, _ in ends)
         else:  # at the end of a lever a body is lighter

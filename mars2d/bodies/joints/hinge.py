@@ -36,6 +36,9 @@ class Hinge(Joint):
     limits: tuple[float, float] | None = entry(
         default=None, check=turning_limits, unit="rad", doc="how far b, or without b a, may turn"
     )
+    limit_restitution: float = number(
+        default=0.0, low=0, high=1, doc="at the limits: 0 stops, 1 turns back as fast"
+    )
     stiffness: float = number(
         default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that turns it back"
     )
@@ -45,7 +48,7 @@ class Hinge(Joint):
         """Return a pin, and the limits and the spring of its angle."""
         found: list[Constraint] = [Pin()]
         if self.limits is not None:
-            found.append(TurningRange(*self.limits))
+            found.append(TurningRange(*self.limits, restitution=self.limit_restitution))
         if self.stiffness or self.damping:
             found.append(TurningSpring(stiffness=self.stiffness, damping=self.damping))
         return tuple(found)

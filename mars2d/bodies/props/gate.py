@@ -27,6 +27,9 @@ class Gate(Prop):
         default=(-pi / 2, pi / 2), check=turning_limits, unit="rad",
         doc="how far it turns from its start (least, largest); None: all round",
     )  # fmt: skip
+    limit_restitution: float = number(
+        default=0.0, low=0, high=1, doc="at the limits: 0 stops, 1 turns back as fast"
+    )
     stiffness: float = number(
         default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that shuts it"
     )
@@ -47,6 +50,7 @@ class Gate(Prop):
                 anchor_a=(end, 0.0),
                 anchor_b=(x + end * cos(theta), y + end * sin(theta)),
                 limits=self.limits,
+                limit_restitution=self.limit_restitution,
                 stiffness=self.stiffness,
                 damping=self.damping,
             ),

@@ -56,20 +56,37 @@ def difference() -> str:
     """Return how pymunk differs from what the islands can be compiled for; empty if it does not."""
     from pymunk._chipmunk_cffi import ffi, lib
 
+    from mars2d.physics.islands.chipmunk import impulses_are_where_thought
+
     version = importlib.metadata.version("pymunk")
     found = (f"pymunk {version} is not as it was written for: {what}" for what in changes(ffi, lib))
-    return next(found, "")
+    elsewhere = "" if impulses_are_where_thought() else "its joints have their impulses elsewhere"
+    return next(found, "") or elsewhere
 
 
-FIELDS = {
-    "struct cpArbiter": {"count": (104, "int"), "contacts": (112, "struct cpContact *")},
+FIELDS: dict[str, dict[str, tuple[int, str]]] = {
+    "struct cpArbiter": {
+        "a": (40, "struct cpShape *"),
+        "b": (48, "struct cpShape *"),
+        "body_a": (56, "struct cpBody *"),
+        "body_b": (64, "struct cpBody *"),
+        "count": (104, "int"),
+        "contacts": (112, "struct cpContact *"),
+        "n": (120, "struct cpVect"),
+    },
+    "struct cpContact": {
+        "r1": (0, "struct cpVect"),
+        "r2": (16, "struct cpVect"),
+        "bounce": (48, "double"),
+        "jnAcc": (56, "double"),
+        "jtAcc": (64, "double"),
+    },
     "struct cpCollisionHandler": {
         "preSolveFunc": (24, "void(*)(struct cpArbiter *, struct cpSpace *, void *)"),
         "userData": (48, "void *"),
     },
-    "struct cpContact": {"jnAcc": (56, "double"), "jtAcc": (64, "double")},
 }
-"""Fields of the engine's structs that are written directly: where they are, and their types."""
+"""Fields of the engine's structs that are used directly: where they are, and their types."""
 
 CONTACT_SIZE = 96
 """The size of the engine's struct of a contact."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
@@ -88,7 +89,8 @@ class Body:
     is_robot: cython.bint
     is_disc: cython.bint  # a single one, about the pose
     mass: cython.double
-    moment: cython.double
+    moment: cython.double  # about the centre of mass
+    lead: cython.double  # m, from the pose ahead to the centre of mass
     radius: cython.double  # of a circle round it
     offset_x: cython.double  # from the pose to the circle's centre, in its frame
     offset_y: cython.double
@@ -115,6 +117,14 @@ class Body:
     force: cython.double
     torque: cython.double
     rim: cython.double
+    grips: cython.bint  # whether its force has other bounds than that of its motors
+    no_load_speed: cython.double  # m/s, where that has fallen to nothing
+    grip_ahead: cython.double  # N, what its wheels bear
+    grip_across: cython.double
+    strength: cython.double  # N, the largest force in any direction, at any speed
+    bound: cython.double  # N, and in the direction and at the speed of now
+    limited: cython.bint  # whether its force and torque bound its acceleration in the open, too
+    gathers: cython.bint  # whether it has yet to reach its command, and nothing touches it
     since: cython.int  # substeps since it slipped
     holds: cython.bint  # whether the drive is to act in the next substep
     engaged: cython.bint  # whether it does
@@ -136,6 +146,7 @@ class Body:
     pull_x: cython.double
     pull_y: cython.double
     pull_torque: cython.double
+    pull_turn: cython.double  # N m, its torque about the centre of mass
     # what the next substep is worked out from
     touches: cython.bint
     stopped: cython.bint
@@ -146,6 +157,8 @@ class Body:
     aim_x: cython.double  # the velocity that it is told
     aim_y: cython.double
     aim_spin: cython.double
+    lead_x: cython.double  # from its pose to its centre of mass
+    lead_y: cython.double
     end_x: cython.double  # a gliding prop's velocity at the end
     end_y: cython.double
     end_spin: cython.double
@@ -175,6 +188,51 @@ class Body:
     kept_slips: cython.bint
     kept_since: cython.int
     kept_effort: cython.double
+    kept_energy: cython.double
+    kept_by_holder: cython.double
+    kept_by_push: cython.double
+    kept_by_rub: cython.double
+    kept_by_joint: cython.double
+    kept_by_hand: cython.double
+    # work since the beginning, J: of its drive, or of the floor under it; of pushes and of friction
+    # of contacts that are counted for it; of its joints; of pulls from outside
+    energy: cython.double  # J, its kinetic energy as far as it has been accounted for
+    by_holder: cython.double
+    by_push: cython.double
+    by_rub: cython.double
+    by_joint: cython.double
+    by_hand: cython.double
+    # velocities of the centre of mass before and after the solver's step, m/s and rad/s
+    before_x: cython.double
+    before_y: cython.double
+    before_spin: cython.double
+    after_x: cython.double
+    after_y: cython.double
+    # impulses of its drive, or of the floor under it, on the centre of mass
+    drag_x: cython.double
+    drag_y: cython.double
+    drag_turn: cython.double
+    # impulses of contacts in a substep, and for the group of bodies that touch: how they work
+    tied: cython.bint  # whether a joint may have acted on it
+    group: object  # another body on the way to that which stands for the group
+    hit_x: cython.double
+    hit_y: cython.double
+    hit_turn: cython.double
+    push_work: cython.double
+    rub_work: cython.double
+    excess: cython.double
+    push_power: cython.double
+    rub_power: cython.double
+    share: cython.double
+    crowd: cython.int  # how many bodies are in the group
+    driven: cython.bint  # whether a robot in it is told to move
+    # and of all that holds it or touches it
+    springy: cython.bint  # whether a spring is among the group's joints
+    held_x: cython.double
+    held_y: cython.double
+    held_turn: cython.double
+    hold_work: cython.double
+    hold_energy: cython.double
     # since lists of what is near were made
     moved: cython.double
     wall_pairs: list[Any]
@@ -197,14 +255,17 @@ class Body:
     def __init__(self, number: int, is_robot: bool, pieces: list[Piece], surface: Any) -> None:
         """Take its number, its pieces, its friction and restitution; `describe` does the rest."""
         self.number, self.is_robot, self.pieces, self.surface = number, is_robot, pieces, surface
-        self.mass = self.moment = 0.0
+        self.mass = self.moment = self.lead = 0.0
         self.is_disc = self.slips = self.in_robot_frame = self.holds = self.engaged = False
         self.pulled = self.touches = self.near = self.done = self.placed = self.made = False
-        self.stopped = False
+        self.stopped = self.limited = self.gathers = False
         self.radius = self.offset_x = self.offset_y = self.offset = self.reach = 0.0
         self.x = self.y = self.angle = self.vx = self.vy = self.spin = 0.0
         self.center_x = self.center_y = 0.0
         self.forward = self.left = self.turning = self.force = self.torque = self.rim = 0.0
+        self.grips, self.no_load_speed = False, 1e300
+        self.grip_ahead = self.grip_across = 1e300
+        self.strength = self.bound = 0.0
         self.since, self.effort = 1 << 20, 0.0
         self.grip = self.twist_grip = self.lever = self.slows = self.stops = 0.0
         self.rest_grip = self.rest_twist_grip = 0.0
@@ -212,7 +273,7 @@ class Body:
         self.pull_x = self.pull_y = self.pull_torque = 0.0
         self.now_x = self.now_y = self.now_spin = self.bend = 0.0
         self.aim_x = self.aim_y = self.aim_spin = 0.0
-        self.end_x = self.end_y = self.end_spin = 0.0
+        self.end_x = self.end_y = self.end_spin = self.lead_x = self.lead_y = 0.0
         self.back_x = self.back_y = self.back_angle = self.gone = 0.0
         self.speed = self.way = self.fastest = self.start_x = self.start_y = 0.0
         self.slack = self.strain = 1.0
@@ -221,6 +282,17 @@ class Body:
         self.kept_x = self.kept_y = self.kept_angle = self.kept_effort = 0.0
         self.kept_vx = self.kept_vy = self.kept_spin = 0.0
         self.kept_since = 0
+        self.energy = self.by_holder = self.by_push = self.by_rub = 0.0
+        self.by_joint = self.by_hand = 0.0
+        self.kept_energy = self.kept_by_holder = self.kept_by_push = self.kept_by_rub = 0.0
+        self.kept_by_joint = self.kept_by_hand = 0.0
+        self.group, self.tied = None, False
+        self.before_x = self.before_y = self.before_spin = self.after_x = self.after_y = 0.0
+        self.drag_x = self.drag_y = self.drag_turn = self.pull_turn = 0.0
+        self.hit_x = self.hit_y = self.hit_turn = 0.0
+        self.push_work = self.rub_work = self.excess = self.push_power = self.rub_power = 0.0
+        self.share, self.crowd, self.springy, self.driven = 1.0, 1, False, False
+        self.held_x = self.held_y = self.held_turn = self.hold_work = self.hold_energy = 0.0
         self.moved, self.wall_pairs, self.wall_gap, self.wall_skin = 0.0, [], -1.0, -1.0
         self.cell = self.next = -1
         self.contacts, self.first_touch = [], None
@@ -230,6 +302,7 @@ class Body:
     def describe(self, what: dict[str, Any]) -> None:
         """Take what it is, by the names above; what does not hold of it may be left out."""
         self.mass, self.moment = what["mass"], what["moment"]
+        self.lead = what.get("lead", 0.0)
         self.radius, self.is_disc = what["radius"], what["is_disc"]
         self.offset_x, self.offset_y = what["offset_x"], what["offset_y"]
         self.offset = length(self.offset_x, self.offset_y)
@@ -241,11 +314,21 @@ class Body:
         self.slows, self.stops = self.grip / self.mass, self.twist_grip / self.moment
         self.force, self.torque = what.get("force", 0.0), what.get("torque", 0.0)
         self.rim, self.in_robot_frame = what.get("rim", 0.0), what.get("in_robot_frame", False)
+        self.no_load_speed = what.get("no_load_speed", 1e300)
+        self.grip_ahead, self.grip_across = what.get("grips", (1e300, 1e300))
+        self.grips = min(self.no_load_speed, self.grip_ahead, self.grip_across) < 1e300
+        self.strength = self.bound = self.force
+        if self.grip_across < 1e300:
+            self.strength = max(min(self.force, self.grip_ahead), self.grip_across)
+        self.limited = what.get("limited", False)
 
     def move(self, state: list[float], slips: bool) -> None:
         """Take x, y, theta, x', y', theta', and whether it slips."""
         self.x, self.y, self.angle, self.vx, self.vy, self.spin = state
         self.slips = slips
+        self.lean(self.angle)
+        x: cython.double = self.vx - self.spin * self.lead_y
+        self.energy = self.kinetic_at(x, self.vy + self.spin * self.lead_x, self.spin)
 
     # -- where it is --------------------------------------------------------------------------
 
@@ -294,9 +377,13 @@ class Body:
     @cython.cfunc
     def look(self) -> cython.void:
         """Work out how it moves now, and how fast its velocity may change."""
+        self.gathers = False
+        if self.limited and not self.slips:
+            self.look_ahead()
+            return
         if self.slips or not self.is_robot:
             self.now_x, self.now_y, self.now_spin = self.vx, self.vy, self.spin
-            self.bend = 0.0
+            self.bend = self.spin * self.spin * abs(self.lead)  # its pose goes round its centre
             if not self.slips:
                 if self.vx != 0.0 or self.vy != 0.0:
                     self.bend = self.slows
@@ -310,9 +397,47 @@ class Body:
             self.bend = abs(length(self.forward, self.left) * self.turning)
 
     @cython.cfunc
+    def glides(self) -> cython.bint:
+        """Return whether its velocity changes within a substep, but not by the solver."""
+        return not self.slips and (self.limited or not self.is_robot)
+
+    @cython.cfunc
     def top_speed(self) -> cython.double:
         """Return how fast its circle moves at most now."""
-        return length(self.now_x, self.now_y) + self.offset * abs(self.now_spin)
+        arm: cython.double = self.offset
+        if self.slips:
+            arm += 2 * abs(self.lead)
+        return length(self.now_x, self.now_y) + arm * abs(self.now_spin)
+
+    # -- its energy ---------------------------------------------------------------------------
+
+    @cython.cfunc
+    def kinetic_at(
+        self, vx: cython.double, vy: cython.double, spin: cython.double
+    ) -> cython.double:
+        """Return its kinetic energy at a velocity of its centre of mass, J."""
+        return 0.5 * (self.mass * (vx * vx + vy * vy) + self.moment * spin * spin)
+
+    @cython.cfunc
+    def account(self, vx: cython.double, vy: cython.double, spin: cython.double) -> cython.void:
+        """Count what it has gained at a velocity as the work of its drive, or of the floor."""
+        energy: cython.double = self.kinetic_at(vx, vy, spin)
+        self.by_holder += energy - self.energy
+        self.energy = energy
+
+    @cython.cfunc
+    def account_now(self) -> cython.void:
+        """Do the same at its present velocity; an ideal robot that follows has its command's."""
+        x: cython.double = self.vx
+        y: cython.double = self.vy
+        spin: cython.double = self.spin
+        if self.lead != 0.0:
+            self.lean(self.angle)
+        if self.is_robot and not self.slips and not self.limited:
+            x, y, spin = self.forward, self.left, self.turning
+            if self.in_robot_frame:
+                self.lead_x, self.lead_y = self.lead, 0.0
+        self.account(x - spin * self.lead_y, y + spin * self.lead_x, spin)
 
     # -- its drive ----------------------------------------------------------------------------
 
@@ -324,18 +449,149 @@ class Body:
         rim turns no further than by `turned`, too little to be seen.
         """
         spin: cython.double = abs(self.spin - self.turning)
+        moment: cython.double = self.moment + self.mass * self.lead * self.lead
         return max(
-            spin * self.moment / self.torque, turned / max(spin * self.rim, 2.2250738585072014e-308)
+            spin * moment / self.torque, turned / max(spin * self.rim, 2.2250738585072014e-308)
         )
 
     @cython.cfunc
     def out_of_reach(self, h: cython.double) -> cython.bint:
         """Return whether its drive can't bring it back to its command within h seconds."""
         self.follow(self.angle, h)
+        if self.lead != 0.0:
+            return self.takes_more(h)
         off: cython.double = length(self.vx - self.aim_x, self.vy - self.aim_y)
-        if off * self.mass > self.force * h:
+        if self.grips:
+            self.bear(self.aim_x - self.vx, self.aim_y - self.vy, self.angle, self.vx, self.vy)
+        if off * self.mass > self.bound * h:
             return True
         return abs(self.spin - self.turning) * self.moment > self.torque * h
+
+    @cython.cfunc
+    def least_force(self) -> cython.double:
+        """Return the force that its drive can bear at rest in any direction."""
+        return min(self.force, self.grip_ahead, self.grip_across)
+
+    @cython.cfunc
+    def bear(
+        self,
+        x: cython.double,
+        y: cython.double,
+        angle: cython.double,
+        vx: cython.double,
+        vy: cython.double,
+    ) -> cython.void:
+        """Work out how large its drive's force may be in a direction x, y, of any length.
+
+        angle, vx, vy: its heading, and its velocity.
+
+        Its motors bound the part ahead, and less the faster they turn, unless they brake. Its
+        wheels bound both by an ellipse. Wheels without a grip push as hard to the side.
+        """
+        far: cython.double = length(x, y)
+        self.bound = self.strength
+        if far == 0.0:
+            return
+        c: cython.double
+        s: cython.double
+        c, s = cosine_sine(angle)
+        ahead: cython.double = (c * x + s * y) / far
+        across: cython.double = (c * y - s * x) / far
+        speed: cython.double = c * vx + s * vy
+        motors: cython.double = self.force
+        if speed * ahead > 0.0:
+            motors = motors * max(1.0 - abs(speed) / self.no_load_speed, 0.0)
+        if self.grip_across >= 1e300:
+            self.bound = motors
+            return
+        self.bound = 1.0 / length(ahead / self.grip_ahead, across / self.grip_across)
+        if self.bound * abs(ahead) > motors:
+            self.bound = motors / abs(ahead)
+
+    @cython.cfunc
+    def takes_more(self, h: cython.double) -> cython.bint:
+        """Do `out_of_reach` for one whose drive acts beside its centre of mass.
+
+        The impulse J and the angular impulse that its drive has to give change the velocity of the
+        centre by J / m, and the spin by (angular impulse - r x J) / I, with r from pose to centre.
+        """
+        self.lean(self.angle)
+        x: cython.double = self.lead_x
+        y: cython.double = self.lead_y
+        spin: cython.double = self.turning - self.spin
+        push_x: cython.double = self.mass * (self.aim_x - self.vx - spin * y)
+        push_y: cython.double = self.mass * (self.aim_y - self.vy + spin * x)
+        if length(push_x, push_y) > self.bound * h:
+            return True
+        return abs(self.moment * spin + x * push_y - y * push_x) > self.torque * h
+
+    # -- its centre of mass, where that is not its pose ---------------------------------------
+
+    @cython.cfunc
+    def is_slow(self) -> cython.bint:
+        """Return whether the solver brings it back to its command where nothing touches it."""
+        return self.is_robot and (not self.limited or self.lead != 0.0)
+
+    @cython.cfunc
+    def lean(self, angle: cython.double) -> cython.void:
+        """Work out where its centre of mass lies from its pose at a heading."""
+        c: cython.double
+        s: cython.double
+        c, s = cosine_sine(angle)
+        self.lead_x, self.lead_y = self.lead * c, self.lead * s
+
+    @cython.cfunc
+    def lead_control(self, angle: cython.double, h: cython.double) -> cython.void:
+        """Aim its control so that the pose goes along its chord while the centre goes straight on.
+
+        angle: its heading then. h: of the substep, s.
+        """
+        self.lean(angle + self.turning * h)
+        x: cython.double = self.lead_x
+        y: cython.double = self.lead_y
+        self.lean(angle)
+        self.aim_x += (x - self.lead_x) / h + self.turning * self.lead_y
+        self.aim_y += (y - self.lead_y) / h - self.turning * self.lead_x
+
+    # -- where its force bounds its acceleration in the open, too ----------------------------
+
+    @cython.cfunc
+    def look_ahead(self) -> cython.void:
+        """Do `look` for such a robot: it moves as it has come to, whatever it is commanded."""
+        self.follow(self.angle, 0.0)
+        self.now_x, self.now_y, self.now_spin = self.vx, self.vy, self.spin
+        self.gathers = self.vx != self.aim_x or self.vy != self.aim_y or self.lags(self.spin)
+        if not self.gathers:
+            self.bend = self.pull_on_arc(self.turning) / self.mass
+            return
+        self.bend = self.strength / self.mass
+        if self.spin != self.turning:
+            self.bend += self.torque / self.moment * self.reach
+
+    @cython.cfunc
+    def pull_on_arc(self, spin: cython.double) -> cython.double:
+        """Return the force that holds it on its command's arc at a spin, N."""
+        if not self.in_robot_frame:
+            return 0.0
+        return self.mass * abs(length(self.forward, self.left) * spin)
+
+    @cython.cfunc
+    def is_flung(self, spin: cython.double) -> cython.bint:
+        """Return whether its force can't hold it on its command's arc."""
+        most: cython.double = self.force if self.grip_across >= 1e300 else self.grip_across
+        return self.pull_on_arc(max(abs(spin), abs(self.turning))) > most * (1 + 1e-9)
+
+    @cython.cfunc
+    def lags(self, spin: cython.double) -> cython.bint:
+        """Return whether a robot of this spin, and of the speed commanded, can't keep it up."""
+        return spin != self.turning or self.is_flung(spin)
+
+    @cython.cfunc
+    def time_to_turn(self, deep: cython.double) -> cython.double:
+        """Return for how long its corners stay within `deep` metres of its present spin."""
+        if self.is_disc or not self.gathers or self.spin == self.turning:
+            return 1e300
+        return sqrt(2 * deep * self.moment / (self.torque * self.reach))
 
     # -- a control step that is done again ----------------------------------------------------
 
@@ -346,6 +602,9 @@ class Body:
         self.kept_x, self.kept_y, self.kept_angle = self.x, self.y, self.angle
         self.kept_vx, self.kept_vy, self.kept_spin = self.vx, self.vy, self.spin
         self.kept_slips, self.kept_since, self.kept_effort = self.slips, self.since, self.effort
+        self.kept_energy, self.kept_by_holder = self.energy, self.by_holder
+        self.kept_by_push, self.kept_by_rub = self.by_push, self.by_rub
+        self.kept_by_joint, self.kept_by_hand = self.by_joint, self.by_hand
 
     @cython.cfunc
     def begin_again(self) -> cython.void:
@@ -353,4 +612,7 @@ class Body:
         self.x, self.y, self.angle = self.kept_x, self.kept_y, self.kept_angle
         self.vx, self.vy, self.spin = self.kept_vx, self.kept_vy, self.kept_spin
         self.slips, self.since, self.effort = self.kept_slips, self.kept_since, self.kept_effort
+        self.energy, self.by_holder = self.kept_energy, self.kept_by_holder
+        self.by_push, self.by_rub = self.kept_by_push, self.kept_by_rub
+        self.by_joint, self.by_hand = self.kept_by_joint, self.kept_by_hand
         self.done = False

@@ -37,6 +37,7 @@ cdef extern from *:
         void *(*cpSpaceAddConstraint)(void *, void *);
         void (*cpSpaceRemoveConstraint)(void *, void *);
         void (*cpConstraintFree)(void *);
+        void (*cpBodySetCenterOfGravity)(void *, Vector);
         void (*cpBodySetPosition)(void *, Vector);
         void (*cpBodySetAngle)(void *, double);
         void (*cpBodySetVelocity)(void *, Vector);
@@ -56,6 +57,8 @@ cdef extern from *:
         void *(*cpPinJointAlloc)(void);
         void *(*cpPinJointInit)(void *, void *, void *, Vector, Vector);
         void (*cpPinJointSetDist)(void *, double);
+        void (*cpRotaryLimitJointSetMin)(void *, double);
+        void (*cpRotaryLimitJointSetMax)(void *, double);
         void *(*cpDampedSpringAlloc)(void);
         void *(*cpDampedSpringInit)(void *, void *, void *, Vector, Vector, double, double, double);
         void *(*cpRotaryLimitJointAlloc)(void);
@@ -67,8 +70,7 @@ cdef extern from *:
         void (*cpConstraintSetErrorBias)(void *, double);
         void (*cpConstraintSetCollideBodies)(void *, unsigned char);
         double (*cpConstraintGetImpulse)(void *);
-        void (*cpSpaceEachCachedArbiter)(void *, void (*)(void *, void *), void *);
-        void (*cpArbiterGetBodies)(void *, void **, void **);
+        void (*cpBodyEachArbiter)(void *, void (*)(void *, void *, void *), void *);
         Vector (*cpArbiterTotalImpulse)(void *);
         Vector (*cpArbiterGetNormal)(void *);
         int (*cpArbiterGetCount)(void *);
@@ -77,7 +79,17 @@ cdef extern from *:
         void (*cpArbiterSetFriction)(void *, double);
         void (*cpArbiterSetRestitution)(void *, double);
         void *(*cpSpaceAddGlobalCollisionHandler)(void *);
+        void *(*cpSpaceAddWildcardHandler)(void *, uintptr_t);
+        void (*cpShapeSetCollisionType)(void *, uintptr_t);
+        void (*cpShapeSetUserData)(void *, void *);
+        void *(*cpShapeGetUserData)(void *);
+        void *(*cpShapeGetBody)(void *);
+        int (*cpPolyShapeGetCount)(void *);
+        Vector (*cpPolyShapeGetVert)(void *, int);
+        Vector (*cpBodyLocalToWorld)(void *, Vector);
     } engine;
+
+    static Vector vector(double x, double y) { Vector v = {x, y}; return v; }
 
     /* The first fields of the engine's structs, as far as they are used. */
     typedef struct {
@@ -91,21 +103,128 @@ cdef extern from *:
         void *data, *a, *b, *body_a, *body_b, *thread_a[2], *thread_b[2];
         int count;
         Contact_ *contacts;
+        Vector n;
     } Arbiter_;
-
     typedef void (*Before_)(void *, void *, void *);
     typedef struct {
-        uintptr_t kind_a, kind_b;
+        uintptr_t type_a, type_b;
         void *begin;
-        Before_ before;
-        void *after, *parted, *data;
+        Before_ pre_solve;
+        void *post_solve, *separate, *data;
     } Handler_;
+
+    /* See Seams in chipmunk.py. Sums and products stand in the same order there. */
+    enum { SEWN = 1, FREE = 0, BULGES = 1, MOST_CORNERS = 64 };
+    static const double STRAIGHT = 1e-9, NEARLY = 0.999;
+    typedef struct { double x, y, ux, uy, far, reach, met[12]; } Seams_;
+
+    static int holds(const double *met, double turn, Vector own, Vector d) {
+        int past_own = turn * (own.x * d.y - own.y * d.x) >= 0.0;
+        int before_other = turn * (d.x * met[2] - d.y * met[1]) >= 0.0;
+        return met[0] == BULGES ? past_own || before_other : past_own && before_other;
+    }
+    static int corners_of(void *shape, Vector *corners) {
+        void *body = engine.cpShapeGetBody(shape);
+        int count = engine.cpPolyShapeGetCount(shape);
+        for (int k = 0; k < count && k < MOST_CORNERS; k++)
+            corners[k] = engine.cpBodyLocalToWorld(body, engine.cpPolyShapeGetVert(shape, k));
+        return count < MOST_CORNERS ? count : MOST_CORNERS;
+    }
+    static void mend_contact(Arbiter_ *arbiter, const Seams_ *s, int is_first) {
+        Vector n = arbiter->n, corners[MOST_CORNERS];
+        int count = is_first ? corners_of(arbiter->b, corners) : 0;
+        if (!is_first) n = vector(-n.x, -n.y);
+        double along = n.x * s->ux + n.y * s->uy;
+        Vector d = n;
+        double low = 1e300, high = -1e300;
+        if (count) {
+            d = vector(0.0, 0.0);
+            Vector last = corners[count - 1];
+            double above = (last.y - s->y) * s->ux - (last.x - s->x) * s->uy;
+            double at = (last.x - s->x) * s->ux + (last.y - s->y) * s->uy;
+            for (int k = 0; k < count; k++) {
+                Vector corner = corners[k];
+                double before = above, last_at = at;
+                d.x += (corner.x - s->x) / count;
+                d.y += (corner.y - s->y) / count;
+                above = (corner.y - s->y) * s->ux - (corner.x - s->x) * s->uy;
+                at = (corner.x - s->x) * s->ux + (corner.y - s->y) * s->uy;
+                if ((before < 0.0) != (above < 0.0)) {
+                    double crossed = last_at + before / (before - above) * (at - last_at);
+                    low = crossed < low ? crossed : low;
+                    high = crossed > high ? crossed : high;
+                }
+            }
+        }
+        int upright = -STRAIGHT <= along && along <= STRAIGHT;
+        int at_start = low < high && high < s->reach;
+        int at_end = s->far - s->reach < low && low < high;
+        if (at_start && at_end && upright) {
+            at_end = d.x * s->ux + d.y * s->uy > s->far / 2;
+        } else if (at_start == at_end) {
+            if (upright) return;
+            at_end = along > 0.0;
+        }
+        if (count && at_end) d = vector(d.x - s->far * s->ux, d.y - s->far * s->uy);
+        const double *met = s->met + (at_end ? 6 : 0);
+        if (met[0] == FREE) return;
+        Vector own = at_end ? vector(-s->ux, -s->uy) : vector(s->ux, s->uy);
+        double turn = at_end ? -1.0 : 1.0;
+        int right = !holds(met, turn, own, d);
+        if (right && !holds(met + 3, -turn, own, d)) {
+            arbiter->count = 0;
+            return;
+        }
+        met += right ? 3 : 0;
+        Vector f = right ? vector(s->uy, -s->ux) : vector(-s->uy, s->ux);
+        if (upright) {
+            if (n.x * f.x + n.y * f.y > 0.0) return;
+        } else if (met[0] == BULGES && n.x * met[1] + n.y * met[2] <= STRAIGHT) {
+            return;
+        } else if (met[0] != BULGES && n.x * f.x + n.y * f.y > NEARLY && count) {
+            arbiter->n = f;
+            return;
+        }
+        double least = s->met[right ? 3 : 0] > BULGES ? -s->reach : 0.0;
+        double most = s->met[right ? 9 : 6] > BULGES ? s->far + s->reach : s->far;
+        double deepest = -1.0;
+        Vector p = {0.0, 0.0};
+        for (int k = 0; k < count; k++) {
+            double at = (corners[k].x - s->x) * s->ux + (corners[k].y - s->y) * s->uy;
+            double depth = (s->x - corners[k].x) * f.x + (s->y - corners[k].y) * f.y;
+            if (least <= at && at <= most && deepest < depth && depth <= s->reach && depth >= 0.0) {
+                deepest = depth;
+                p = corners[k];
+            }
+        }
+        if (deepest < 0.0) {
+            arbiter->count = 0;
+            return;
+        }
+        Contact_ *contact = arbiter->contacts;
+        arbiter->count = 1;
+        arbiter->n = f;
+        Vector wall = engine.cpBodyGetPosition(arbiter->body_a);
+        Vector body = engine.cpBodyGetPosition(arbiter->body_b);
+        contact->r1 = vector(p.x + deepest * f.x - wall.x, p.y + deepest * f.y - wall.y);
+        contact->r2 = vector(p.x - body.x, p.y - body.y);
+        contact->normal_impulse = contact->tangent_impulse = 0.0;
+    }
+    static void mend(void *arbiter, void *space, void *data) {
+        Arbiter_ *itself = arbiter;
+        Seams_ *first = engine.cpShapeGetUserData(itself->a);
+        mend_contact(itself, first ? first : engine.cpShapeGetUserData(itself->b), first != 0);
+    }
+    static void mend_in(void *space) {
+        Handler_ *handler = engine.cpSpaceAddWildcardHandler(space, SEWN);
+        handler->pre_solve = mend;
+    }
+    static int count_kept(void *arbiter) { return ((Arbiter_ *)arbiter)->count; }
 
     static void connect_function(int k, uintptr_t address) {
         ((void (**)(void))&engine)[k] = (void (*)(void))address;
     }
     static size_t count_functions(void) { return sizeof engine / sizeof(void (*)(void)); }
-    static Vector vector(double x, double y) { Vector v = {x, y}; return v; }
     static void scale_contacts(void *arbiter, double ratio) {
         Arbiter_ *itself = arbiter;
         for (int k = 0; k < itself->count; k++) {
@@ -114,13 +233,24 @@ cdef extern from *:
         }
     }
     static void set_handler(void *handler, Before_ before, void *data) {
-        ((Handler_ *)handler)->before = before;
+        ((Handler_ *)handler)->pre_solve = before;
         ((Handler_ *)handler)->data = data;
     }
+    static void *first_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_a; }
+    static void *second_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_b; }
+    static Vector drag(void *joint) { return vector(((double *)joint)[25], ((double *)joint)[26]); }
+    static double twist(void *joint) { return ((double *)joint)[18]; }
+    static Contact_ *contact_at(void *arbiter, int k) { return ((Arbiter_ *)arbiter)->contacts + k; }
     """
     ctypedef struct Vector:
         double x
         double y
+    ctypedef struct Contact_:
+        Vector r1
+        Vector r2
+        double bounce
+        double normal_impulse
+        double tangent_impulse
     ctypedef void *Handle
     ctypedef struct Engine_:
         void *(*cpSpaceNew)() noexcept
@@ -150,6 +280,7 @@ cdef extern from *:
         void *(*cpSpaceAddConstraint)(void *, void *) noexcept
         void (*cpSpaceRemoveConstraint)(void *, void *) noexcept
         void (*cpConstraintFree)(void *) noexcept
+        void (*cpBodySetCenterOfGravity)(void *, Vector) noexcept
         void (*cpBodySetPosition)(void *, Vector) noexcept
         void (*cpBodySetAngle)(void *, double) noexcept
         void (*cpBodySetVelocity)(void *, Vector) noexcept
@@ -169,6 +300,8 @@ cdef extern from *:
         void *(*cpPinJointAlloc)() noexcept
         void *(*cpPinJointInit)(void *, void *, void *, Vector, Vector) noexcept
         void (*cpPinJointSetDist)(void *, double) noexcept
+        void (*cpRotaryLimitJointSetMin)(void *, double) noexcept
+        void (*cpRotaryLimitJointSetMax)(void *, double) noexcept
         void *(*cpDampedSpringAlloc)() noexcept
         void *(*cpDampedSpringInit)(
             void *, void *, void *, Vector, Vector, double, double, double) noexcept
@@ -181,9 +314,8 @@ cdef extern from *:
         void (*cpConstraintSetErrorBias)(void *, double) noexcept
         void (*cpConstraintSetCollideBodies)(void *, unsigned char) noexcept
         double (*cpConstraintGetImpulse)(void *) noexcept
-        void (*cpSpaceEachCachedArbiter)(
-            void *, void (*)(void *, void *) noexcept, void *) noexcept
-        void (*cpArbiterGetBodies)(void *, void **, void **) noexcept
+        void (*cpBodyEachArbiter)(
+            void *, void (*)(void *, void *, void *) noexcept, void *) noexcept
         Vector (*cpArbiterTotalImpulse)(void *) noexcept
         Vector (*cpArbiterGetNormal)(void *) noexcept
         int (*cpArbiterGetCount)(void *) noexcept
@@ -192,12 +324,29 @@ cdef extern from *:
         void (*cpArbiterSetFriction)(void *, double) noexcept
         void (*cpArbiterSetRestitution)(void *, double) noexcept
         void *(*cpSpaceAddGlobalCollisionHandler)(void *) noexcept
+        void *(*cpSpaceAddWildcardHandler)(void *, uintptr_t) noexcept
+        void (*cpShapeSetCollisionType)(void *, uintptr_t) noexcept
+        void (*cpShapeSetUserData)(void *, void *) noexcept
+        void *(*cpShapeGetUserData)(void *) noexcept
+        void *(*cpShapeGetBody)(void *) noexcept
+        int (*cpPolyShapeGetCount)(void *) noexcept
+        Vector (*cpPolyShapeGetVert)(void *, int) noexcept
+        Vector (*cpBodyLocalToWorld)(void *, Vector) noexcept
+    ctypedef struct Seams_:
+        pass
     Engine_ engine
     void connect_function(int, uintptr_t) noexcept
     size_t count_functions() noexcept
     Vector vector(double, double) noexcept
     void scale_contacts(void *, double) noexcept
     void set_handler(void *, void (*)(void *, void *, void *) noexcept, void *) noexcept
+    Contact_ *contact_at(void *, int) noexcept
+    void *first_body(void *) noexcept
+    void *second_body(void *) noexcept
+    Vector drag(void *) noexcept
+    double twist(void *) noexcept
+    void mend_in(void *) noexcept
+    int count_kept(void *) noexcept
 
 
 def connect(addresses):
@@ -220,6 +369,7 @@ cdef Handle new_space(double slop) except NULL:
         raise MemoryError
     engine.cpSpaceSetCollisionSlop(space, slop)
     engine.cpSpaceSetCollisionPersistence(space, 1)
+    mend_in(space)
     return space
 
 cdef inline void set_iterations(Handle space, int count) noexcept:
@@ -299,9 +449,12 @@ cdef inline void remove_shape(Handle space, Handle shape) noexcept:
 cdef inline void free_shape(Handle shape) noexcept:
     engine.cpShapeFree(shape)
 
+cdef inline void weight_at(Handle body, double ahead) noexcept:
+    engine.cpBodySetCenterOfGravity(body, vector(ahead, 0.0))
+
 cdef inline void put(Handle body, double x, double y, double angle) noexcept:
-    engine.cpBodySetPosition(body, vector(x, y))
     engine.cpBodySetAngle(body, angle)
+    engine.cpBodySetPosition(body, vector(x, y))
 
 cdef inline void aim(Handle body, double vx, double vy, double spin) noexcept:
     engine.cpBodySetVelocity(body, vector(vx, vy))
@@ -372,6 +525,10 @@ cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
 cdef inline void set_max_force(Handle joint, double force) noexcept:
     engine.cpConstraintSetMaxForce(joint, force)
 
+cdef inline void set_limits(Handle joint, double least, double largest) noexcept:
+    engine.cpRotaryLimitJointSetMin(joint, least)
+    engine.cpRotaryLimitJointSetMax(joint, largest)
+
 cdef inline void set_max_bias(Handle joint, double bias) noexcept:
     engine.cpConstraintSetMaxBias(joint, bias)
 
@@ -384,6 +541,12 @@ cdef inline void remove_joint(Handle space, Handle joint) noexcept:
 cdef inline void free_joint(Handle joint) noexcept:
     engine.cpConstraintFree(joint)
 
+cdef inline Vector drag_of(Handle joint) noexcept:
+    return drag(joint)
+
+cdef inline double twist_of(Handle joint) noexcept:
+    return twist(joint)
+
 cdef inline double used_of(Handle joint) noexcept:
     return engine.cpConstraintGetImpulse(joint)
 
@@ -393,14 +556,21 @@ cdef struct Found:
     Handle *arbiters
     int count
     int room
+    bint lost
 
-cdef void note_arbiter(void *arbiter, void *data) noexcept:
+cdef int number_of(Handle body) noexcept:
+    return <int><intptr_t>engine.cpBodyGetUserData(body)
+
+cdef void note_arbiter(void *body, void *arbiter, void *data) noexcept:
     cdef Found *found = <Found *>data
+    cdef Handle first = first_body(arbiter)
     cdef Handle *more
+    if first != body and number_of(first) >= 0:
+        return
     if found.count >= found.room:
         more = <Handle *>realloc(found.arbiters, (2 * found.room + 16) * sizeof(Handle))
         if more == NULL:
-            found.room = -1
+            found.lost = True
             return
         found.arbiters = more
         found.room = 2 * found.room + 16
@@ -413,28 +583,27 @@ cdef class Arbiters:
     def __dealloc__(self):
         free_memory(self.found.arbiters)
 
-    cdef int find(self, Handle space) except -1:
+    cdef void clear(self) noexcept:
         self.found.count = 0
-        engine.cpSpaceEachCachedArbiter(space, note_arbiter, &self.found)
-        if self.found.room < 0:
+
+    cdef int add_those_of(self, Handle body) except -1:
+        engine.cpBodyEachArbiter(body, note_arbiter, &self.found)
+        if self.found.lost:
+            self.found.lost = False
             raise MemoryError
+        return 0
+
+    cdef inline int count(self) noexcept:
         return self.found.count
 
     cdef inline Handle at(self, int k) noexcept:
         return self.found.arbiters[k]
 
-cdef int number_of(Handle body) noexcept:
-    return <int><intptr_t>engine.cpBodyGetUserData(body)
-
 cdef int first_of(Handle arbiter) noexcept:
-    cdef Handle a, b
-    engine.cpArbiterGetBodies(arbiter, &a, &b)
-    return number_of(a)
+    return number_of(first_body(arbiter))
 
 cdef int second_of(Handle arbiter) noexcept:
-    cdef Handle a, b
-    engine.cpArbiterGetBodies(arbiter, &a, &b)
-    return number_of(b)
+    return number_of(second_body(arbiter))
 
 cdef inline void scale(Handle arbiter, double ratio) noexcept:
     scale_contacts(arbiter, ratio)
@@ -463,5 +632,36 @@ cdef inline Vector point_of(Handle arbiter, int k, bint second) noexcept:
         return engine.cpArbiterGetPointB(arbiter, k)
     return engine.cpArbiterGetPointA(arbiter, k)
 
+cdef inline Vector arm_of(Handle arbiter, int k, bint second) noexcept:
+    return contact_at(arbiter, k).r2 if second else contact_at(arbiter, k).r1
+
+cdef inline double push_of(Handle arbiter, int k) noexcept:
+    return contact_at(arbiter, k).normal_impulse
+
+cdef inline double rub_of(Handle arbiter, int k) noexcept:
+    return contact_at(arbiter, k).tangent_impulse
+
+cdef inline double bounce_of(Handle arbiter, int k) noexcept:
+    return contact_at(arbiter, k).bounce
+
+cdef inline bint is_void(Handle arbiter) noexcept:
+    return count_kept(arbiter) == 0
+
 cdef inline int check_signals() except -1:
     return PyErr_CheckSignals()
+
+# -- seams ------------------------------------------------------------------------------------
+
+cdef class Seams:
+    cdef Seams_ numbers
+
+    def __init__(self, numbers):
+        cdef double *to = <double *>&self.numbers
+        if len(numbers) != 18:
+            raise ValueError(f"{len(numbers)} numbers, expected 18")
+        for k, number in enumerate(numbers):
+            to[k] = number
+
+cdef inline void sew(Handle segment, Seams seams) noexcept:
+    engine.cpShapeSetUserData(segment, &seams.numbers)
+    engine.cpShapeSetCollisionType(segment, 1)

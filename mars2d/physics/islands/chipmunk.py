@@ -6,19 +6,22 @@ addresses: ``chipmunk.pxi`` is this module in C. No other module here knows the 
 
 from __future__ import annotations
 
+from functools import cache
+from math import sqrt
 from typing import Any, TypeAlias
 
 from pymunk._chipmunk_cffi import ffi, lib
 
 __all__ = [
     "DAMPED_SPRING", "GEAR", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
-    "Arbiters", "Handle", "Vector", "add_body", "add_joint", "add_shape", "aim", "angle_of",
-    "check_signals", "count_of", "first_of", "free_body", "free_joint", "free_shape", "free_space",
-    "ground_of", "impulse_of", "make_joint", "new_body", "new_control", "new_disc", "new_ground",
-    "new_polygon", "new_segment", "new_space", "normal_of", "point_of", "position_of", "push",
-    "put", "remove_body", "remove_joint", "remove_shape", "scale", "second_of", "set_iterations",
-    "set_joint", "set_max_bias", "set_max_force", "set_surface", "spin_of", "step", "used_of",
-    "velocity_of", "watch",
+    "Arbiters", "Handle", "Seams", "Vector", "add_body", "add_joint", "add_shape", "aim",
+    "angle_of", "arm_of", "bounce_of", "check_signals", "count_of", "drag_of", "first_of",
+    "free_body", "free_joint", "free_shape", "free_space", "ground_of", "impulse_of", "is_void",
+    "make_joint", "new_body", "new_control", "new_disc", "new_ground", "new_polygon",
+    "new_segment", "new_space", "normal_of", "point_of", "position_of", "push", "push_of", "put",
+    "remove_body", "remove_joint", "remove_shape", "rub_of", "scale", "second_of",
+    "set_iterations", "set_joint", "set_limits", "set_max_bias", "set_max_force", "set_surface",
+    "sew", "spin_of", "step", "twist_of", "used_of", "velocity_of", "watch", "weight_at",
 ]  # fmt: skip
 
 Handle: TypeAlias = Any
@@ -39,6 +42,9 @@ _KINDS = (
 _ALLOC = [getattr(lib, f"cp{a}{b}Alloc") for a, b in _KINDS]
 _INIT = [getattr(lib, f"cp{a}{b}Init") for a, b in _KINDS]
 _OWN = [ffi.typeof(f"cp{a}{b} *") for a, b in _KINDS]
+PIVOT_IMPULSE, GEAR_IMPULSE = 25, 18
+"""Where the engine's structs of these joints have their impulses, in numbers of eight bytes."""
+
 _BASE = ffi.typeof("cpConstraint *")
 
 # -- spaces -----------------------------------------------------------------------------------
@@ -53,6 +59,7 @@ def new_space(slop: float) -> Handle:
     space = lib.cpSpaceNew()
     lib.cpSpaceSetCollisionSlop(space, slop)
     lib.cpSpaceSetCollisionPersistence(space, 1)
+    lib.cpSpaceAddWildcardHandler(space, _SEWN).preSolveFunc = _MEND
     return space
 
 
@@ -119,10 +126,15 @@ add_body, remove_body, free_body = lib.cpSpaceAddBody, lib.cpSpaceRemoveBody, li
 add_shape, remove_shape, free_shape = lib.cpSpaceAddShape, lib.cpSpaceRemoveShape, lib.cpShapeFree
 
 
+def weight_at(body: Handle, ahead: float) -> None:
+    """Put a body's centre of mass ahead of its pose, metres; velocities are those of the centre."""
+    lib.cpBodySetCenterOfGravity(body, (ahead, 0.0))
+
+
 def put(body: Handle, x: float, y: float, angle: float) -> None:
-    """Put a body somewhere."""
-    lib.cpBodySetPosition(body, (x, y))
+    """Put a body somewhere. The angle first: it turns a body about its centre of mass."""
     lib.cpBodySetAngle(body, angle)
+    lib.cpBodySetPosition(body, (x, y))
 
 
 def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
@@ -176,6 +188,55 @@ def set_joint(joint: Handle, bias: float, collide: bool) -> None:
     lib.cpConstraintSetCollideBodies(joint, collide)
 
 
+def set_limits(joint: Handle, least: float, largest: float) -> None:
+    """Set the limits of a joint of the kind ROTARY_LIMIT."""
+    lib.cpRotaryLimitJointSetMin(joint, least)
+    lib.cpRotaryLimitJointSetMax(joint, largest)
+
+
+@cache
+def impulses_are_where_thought() -> bool:
+    """Whether drives' impulses are found where they are read: a body is stopped to find out."""
+    space, body = new_space(0.0), new_body(2.0, 3.0, 0)
+    ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
+    pivot = make_joint(PIVOT, NOTHING, ground, body, ends, 0.0, 0.0, 0.0)
+    gear = make_joint(GEAR, NOTHING, ground, body, ends, 0.0, 1.0, 0.0)
+    add_body(space, body)
+    add_joint(space, pivot)
+    add_joint(space, gear)
+    aim(body, 1.5, -2.0, 4.0)
+    step(space, 0.0625)
+    x, y, turn = *_numbers(pivot, PIVOT_IMPULSE, 2), *_numbers(gear, GEAR_IMPULSE, 1)
+    known = used_of(pivot) == sqrt(x * x + y * y) and used_of(gear) == abs(turn)
+    for joint in (pivot, gear):
+        remove_joint(space, joint)
+        free_joint(joint)
+    remove_body(space, body)
+    free_body(body)
+    free_space(space)
+    return bool(known and x < 0 < y and turn < 0)
+
+
+def _numbers(joint: Handle, place: int, count: int) -> list[float]:
+    numbers = ffi.cast("double *", joint)
+    return [float(numbers[place + k]) for k in range(count)]
+
+
+def drag_of(joint: Handle) -> Vector:
+    """Return the impulse of a joint of the kind PIVOT on its second body in the last step.
+
+    It is zero with an engine that has it elsewhere: then a joint's work has that of drives in it.
+    """
+    if not impulses_are_where_thought():
+        return ffi.new("cpVect *")[0]
+    return ffi.new("cpVect *", _numbers(joint, PIVOT_IMPULSE, 2))[0]
+
+
+def twist_of(joint: Handle) -> float:
+    """Return the turning impulse of a joint of the kind GEAR on its second body."""
+    return _numbers(joint, GEAR_IMPULSE, 1)[0] if impulses_are_where_thought() else 0.0
+
+
 set_max_force, set_max_bias = lib.cpConstraintSetMaxForce, lib.cpConstraintSetMaxBias
 add_joint, remove_joint = lib.cpSpaceAddConstraint, lib.cpSpaceRemoveConstraint
 free_joint, used_of = lib.cpConstraintFree, lib.cpConstraintGetImpulse
@@ -191,9 +252,13 @@ def _catch(_kind: object, error: BaseException, _trace: object) -> None:
     _caught.append(error)
 
 
-@ffi.callback("void(cpArbiter *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _NOTE(arbiter: Handle, data: Handle) -> None:  # noqa: N802
-    ffi.from_handle(data).append(arbiter)
+@ffi.callback(  # type: ignore[untyped-decorator]
+    "void(cpBody *, cpArbiter *, void *)", onerror=_catch
+)
+def _NOTE(body: Handle, arbiter: Handle, data: Handle) -> None:  # noqa: N802
+    first = arbiter.body_a  # its function would tell `body` first
+    if first == body or _number_of(first) < 0:
+        ffi.from_handle(data).append(arbiter)
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
@@ -210,23 +275,29 @@ def watch(space: Handle, surfaces: Any) -> None:
 
 
 class Arbiters:
-    """The contacts that the solver of a space knows."""
+    """Contacts that the solver of a space knows, in an order that depends on no address."""
 
     def __init__(self) -> None:
         """Start without any."""
         self._found: list[Handle] = []
 
-    def find(self, space: Handle) -> int:
-        """Find those of a space, and return how many there are."""
+    def clear(self) -> None:
+        """Forget all that were found."""
         self._found = []
+
+    def add_those_of(self, body: Handle) -> None:
+        """Find those of a body; one of two bodies is found at its first."""
         data = ffi.new_handle(self._found)
-        lib.cpSpaceEachCachedArbiter(space, _NOTE, data)
+        lib.cpBodyEachArbiter(body, _NOTE, data)
         if _caught:
             raise _caught.pop()
+
+    def count(self) -> int:
+        """Return how many were found."""
         return len(self._found)
 
     def at(self, k: int) -> Handle:
-        """Return one of those found last."""
+        """Return one of those found."""
         return self._found[k]
 
 
@@ -236,18 +307,12 @@ def _number_of(body: Handle) -> int:
 
 def first_of(arbiter: Handle) -> int:
     """Return the number of a contact's first body."""
-    return _number_of(_bodies_of(arbiter)[0])
+    return _number_of(arbiter.body_a)
 
 
 def second_of(arbiter: Handle) -> int:
     """Return the number of a contact's second body."""
-    return _number_of(_bodies_of(arbiter)[1])
-
-
-def _bodies_of(arbiter: Handle) -> tuple[Handle, Handle]:
-    first, second = ffi.new("cpBody **"), ffi.new("cpBody **")
-    lib.cpArbiterGetBodies(arbiter, first, second)
-    return first[0], second[0]
+    return _number_of(arbiter.body_b)
 
 
 def scale(arbiter: Handle, ratio: float) -> None:
@@ -273,5 +338,198 @@ def point_of(arbiter: Handle, k: int, second: bool) -> Vector:
     return (lib.cpArbiterGetPointB if second else lib.cpArbiterGetPointA)(arbiter, k)
 
 
+def arm_of(arbiter: Handle, k: int, second: bool) -> Vector:
+    """Return the way to one of its points from the centre of mass of its first or second body."""
+    contact = arbiter.contacts[k]
+    return contact.r2 if second else contact.r1
+
+
+def push_of(arbiter: Handle, k: int) -> float:
+    """Return the impulse along the normal in one of its points, on its second body, N s."""
+    return float(arbiter.contacts[k].jnAcc)
+
+
+def rub_of(arbiter: Handle, k: int) -> float:
+    """Return the impulse across the normal, a quarter turn to its left, N s."""
+    return float(arbiter.contacts[k].jtAcc)
+
+
+def bounce_of(arbiter: Handle, k: int) -> float:
+    """Return the restitution times the speed at which bodies parted before the step, m/s."""
+    return float(arbiter.contacts[k].bounce)
+
+
+def is_void(arbiter: Handle) -> bool:
+    """Return whether a contact at a seam is none; see `Seams`."""
+    return bool(arbiter.count == 0)
+
+
 def check_signals() -> None:
     """Let a signal's handler run; Python does so by itself."""
+
+
+# -- seams ------------------------------------------------------------------------------------
+
+_SEWN = 1
+"""The engine's collision type of walls that meet others."""
+
+_STRAIGHT = 1e-9
+"""The sine up to which a contact's normal stands upright on a wall."""
+
+_NEARLY = 0.999
+"""The cosine from which on it counts as that of the wall's face in a corner."""
+
+_FREE, _BULGES = 0.0, 1.0
+"""What there is at an end of a wall on one side: nothing, a corner that bulges; 2 is any other."""
+
+
+class Seams:
+    """What contacts with a wall must know of its ends, so that nothing trips over them.
+
+    A contact at an end is real only if its normal points to where none of the walls that meet there
+    is nearer: it lies between the normals of both if their corner bulges, and else is that of the
+    wall's face. Another one is made that of the face, with the body's corner that is deepest in
+    the wall there. If no corner is, the contact is void: the other wall has one.
+
+    Source of the normals that are real: the Voronoi regions of a polygon's corner and edges, as in
+    C. Ericson, Real-Time Collision Detection, section 9.5.1 (2005).
+    """
+
+    def __init__(self, numbers: list[float]) -> None:
+        """Take numbers: x, y of the start, the direction, the length, how deep a corner may be.
+
+        Then three numbers each for the start, to the left and to the right, and for the end: what
+        is there, 0 for nothing, 1 for a corner that bulges, else 2; and the direction of the wall
+        that is met there.
+        """
+        self._numbers = numbers
+        self._handle = ffi.new_handle(self)
+
+    def _mend(self, arbiter: Handle, is_first: bool) -> None:
+        """Look at a contact before it is solved. is_first: whether the wall is its first shape."""
+        ux, uy, far, reach = self._numbers[2:6]
+        nx, ny = arbiter.n.x, arbiter.n.y
+        if not is_first:
+            nx, ny = -nx, -ny
+        corners = _corners_of(arbiter.b) if is_first else []
+        (dx, dy), low, high = self._passed(corners) if corners else ((nx, ny), 1e300, -1e300)
+        along = nx * ux + ny * uy
+        upright = -_STRAIGHT <= along <= _STRAIGHT
+        at_start = low < high < reach
+        at_end = far - reach < low < high
+        if at_start and at_end and upright:
+            at_end = dx * ux + dy * uy > far / 2
+        elif at_start == at_end:
+            if upright:
+                return
+            at_end = along > 0.0
+        if corners and at_end:  # as seen from the end where they touch
+            dx, dy = dx - far * ux, dy - far * uy
+        side = self._side(at_end, dx, dy)
+        if side < 0:
+            return
+        if side > 1:
+            arbiter.count = 0
+            return
+        kind, tx, ty = self._numbers[6 + 6 * at_end + 3 * side : 9 + 6 * at_end + 3 * side]
+        fx, fy = (uy, -ux) if side else (-uy, ux)
+        if upright:
+            if nx * fx + ny * fy > 0.0:
+                return
+        elif kind == _BULGES and nx * tx + ny * ty <= _STRAIGHT:
+            return
+        elif kind != _BULGES and nx * fx + ny * fy > _NEARLY and corners:
+            arbiter.n.x, arbiter.n.y = fx, fy
+            return
+        self._put_out(arbiter, corners, side, fx, fy)
+
+    def _passed(self, corners: list[Vector]) -> tuple[tuple[float, float], float, float]:
+        """Return the middle of a polygon as seen from the start, and where the line is in it."""
+        x, y, ux, uy = self._numbers[:4]
+        dx = dy = 0.0
+        low, high = 1e300, -1e300
+        last = corners[-1]
+        above = (last.y - y) * ux - (last.x - x) * uy
+        at = (last.x - x) * ux + (last.y - y) * uy
+        for corner in corners:
+            dx += (corner.x - x) / len(corners)
+            dy += (corner.y - y) / len(corners)
+            before, above = above, (corner.y - y) * ux - (corner.x - x) * uy
+            last_at, at = at, (corner.x - x) * ux + (corner.y - y) * uy
+            if (before < 0.0) != (above < 0.0):
+                crossed = last_at + before / (before - above) * (at - last_at)
+                low, high = min(low, crossed), max(high, crossed)
+        return (dx, dy), low, high
+
+    def _side(self, at_end: bool, dx: float, dy: float) -> int:
+        """Return on which side of the wall a body is, as seen from one of its ends.
+
+        0 is left and 1 right, between the wall and what it meets there; 2 is beyond that, and -1
+        says that it meets nothing.
+        """
+        ux, uy = self._numbers[2:4]
+        end = 12 if at_end else 6
+        if self._numbers[end] == _FREE:
+            return -1
+        own_x, own_y = (-ux, -uy) if at_end else (ux, uy)
+        turn = -1.0 if at_end else 1.0
+        if self._holds(end, turn, own_x, own_y, dx, dy):
+            return 0
+        return 1 if self._holds(end + 3, -turn, own_x, own_y, dx, dy) else 2
+
+    def _put_out(
+        self, arbiter: Handle, corners: list[Vector], side: int, fx: float, fy: float
+    ) -> None:
+        """Let the wall's face push the corner that is deepest in it, or nothing.
+
+        In a corner that does not bulge, what is behind the wall that is met there counts as well.
+        """
+        x, y, ux, uy, far, reach = self._numbers[:6]
+        least = -reach if self._numbers[6 + 3 * side] > _BULGES else 0.0
+        most = far + reach if self._numbers[12 + 3 * side] > _BULGES else far
+        deepest, px, py = -1.0, 0.0, 0.0
+        for corner in corners:
+            at = (corner.x - x) * ux + (corner.y - y) * uy
+            depth = (x - corner.x) * fx + (y - corner.y) * fy
+            if least <= at <= most and deepest < depth <= reach and depth >= 0.0:
+                deepest, px, py = depth, corner.x, corner.y
+        if deepest < 0.0:
+            arbiter.count = 0
+            return
+        contact = arbiter.contacts[0]
+        arbiter.count = 1
+        arbiter.n.x, arbiter.n.y = fx, fy
+        wall, body = lib.cpBodyGetPosition(arbiter.body_a), lib.cpBodyGetPosition(arbiter.body_b)
+        contact.r1.x, contact.r1.y = px + deepest * fx - wall.x, py + deepest * fy - wall.y
+        contact.r2.x, contact.r2.y = px - body.x, py - body.y
+        contact.jnAcc = contact.jtAcc = 0.0
+
+    def _holds(
+        self, end: int, turn: float, own_x: float, own_y: float, dx: float, dy: float
+    ) -> bool:
+        """Return whether a direction lies between the wall and what it meets on one side."""
+        kind, tx, ty = self._numbers[end : end + 3]
+        past_own = turn * (own_x * dy - own_y * dx) >= 0.0
+        before_other = turn * (dx * ty - dy * tx) >= 0.0
+        return past_own or before_other if kind == _BULGES else past_own and before_other
+
+
+def _corners_of(shape: Handle) -> list[Vector]:
+    """Return where the corners of a polygon are."""
+    body = lib.cpShapeGetBody(shape)
+    count = lib.cpPolyShapeGetCount(shape)
+    return [lib.cpBodyLocalToWorld(body, lib.cpPolyShapeGetVert(shape, k)) for k in range(count)]
+
+
+@ffi.callback(  # type: ignore[untyped-decorator]
+    "void(cpArbiter *, cpSpace *, void *)", onerror=_catch
+)
+def _MEND(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
+    first, second = (lib.cpShapeGetUserData(shape) for shape in (arbiter.a, arbiter.b))
+    ffi.from_handle(first or second)._mend(arbiter, bool(first))
+
+
+def sew(segment: Handle, seams: Seams) -> None:
+    """Let contacts with a wall be mended at its seams."""
+    lib.cpShapeSetUserData(segment, seams._handle)
+    lib.cpShapeSetCollisionType(segment, _SEWN)

@@ -20,6 +20,7 @@ from mars2d.physics.islands.chipmunk import (
     count_of,
     first_of,
     impulse_of,
+    is_void,
     normal_of,
     point_of,
     second_of,
@@ -27,17 +28,13 @@ from mars2d.physics.islands.chipmunk import (
 )
 from mars2d.physics.islands.contacts import Row, Touch, touch_between
 from mars2d.physics.islands.floor import Glide
+from mars2d.physics.islands.impact import Impact, settle
 from mars2d.physics.islands.pair import Pair
 from mars2d.physics.islands.solver import Solver
+from mars2d.physics.islands.thrust import Thrust
 from mars2d.physics.islands.tie import Tie
 
 __all__ = ["Accuracy", "Island"]
-
-STRAINED = 1.05
-GROW = 2.0
-ROOM = 0.9
-NOTCH = 0.75
-FADE = 0.98
 
 
 @cython.final
@@ -49,6 +46,9 @@ class Accuracy:
     entry: cython.double
     slop: cython.double
     pressed: cython.double
+    closed: cython.double
+    touch: cython.double
+    swaying: cython.double
     turned: cython.double
     growth: cython.double
     linger: cython.int
@@ -77,6 +77,8 @@ class Accuracy:
         self.growth, self.linger, self.slack = (
             numbers["growth"], numbers["linger"], numbers["slack"],
         )  # fmt: skip
+        self.closed, self.touch = numbers["closed"], numbers["touch"]
+        self.swaying = numbers["swaying"]
         self.taut, self.stretch, self.give = numbers["taut"], numbers["stretch"], numbers["give"]
         self.push_depth, self.spring_step = numbers["push_depth"], numbers["spring_step"]
         self.push_room, self.strained = numbers["push_room"], numbers["strained"]
@@ -94,6 +96,7 @@ class Island:
 
     accuracy: Accuracy
     glide: Glide
+    thrust: Thrust
     numbers: list[Body]  # all bodies by their numbers
     bodies: list[Body]
     pairs: list[Pair]
@@ -114,6 +117,7 @@ class Island:
     limit: cython.double  # m, how far a body may go
     any_slips: cython.bint
     any_touch: cython.bint
+    impact: Impact
 
     def __init__(
         self,
@@ -127,12 +131,14 @@ class Island:
         """Take what all islands share: bodies by number, all solvers, and those in no use."""
         self.accuracy, self.glide, self.numbers = accuracy, glide, numbers
         self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
+        self.thrust = Thrust()
         self.bodies, self.pairs, self.ties = [], [], []
         self.solved = self.any_slips = self.any_touch = False
         self.contact_step = self.push_step = 1e300
         self.strain = self.least_strain = self.most_strain = 1.0
         self.iterations, self.tries = accuracy.iterations, 0
         self.deepest = self.limit = 0.0
+        self.impact = Impact(numbers[0])
 
     @cython.cfunc
     def clear(self) -> cython.void:
@@ -161,8 +167,8 @@ class Island:
             self.strain = max(self.strain, body.strain)
             if body.is_robot:
                 robots += 1
-                strongest = max(strongest, body.force)
-                push = max(push, body.force / body.mass)
+                strongest = max(strongest, body.strength)
+                push = max(push, body.strength / body.mass)
         push = max(push, strongest / lightest)
         self.iterations = accuracy.iterations
         if heaviest > 3 * lightest:
@@ -307,6 +313,8 @@ class Island:
                 if not self.solved:
                     self.land()
                 self.solver.go(h, self.accuracy.growth)
+                settle(self.solver, self.numbers, self.impact, h)
+                self.solver.share_out(h)
                 self.measure()
                 self.weigh()
             elapsed = duration if h == left else elapsed + h
@@ -326,7 +334,7 @@ class Island:
             body.locate()
             body.touches, body.first_touch = False, None
         for pair in self.pairs:
-            if pair.measure():
+            if pair.measure() or pair.gap <= self.accuracy.closed:
                 self.deepest = max(self.deepest, -pair.gap)
                 self.any_touch = pair.a.touches = pair.b.touches = True
                 pair.next_touch, pair.a.first_touch = pair.a.first_touch, pair
@@ -335,21 +343,38 @@ class Island:
     def press(self) -> cython.void:
         """Press bodies together that touch by a rounding error only, and would part by another."""
         pressed: cython.double = self.accuracy.pressed
+        any_moved: cython.bint = False
+        body: Body
         pair: Pair
+        for body in self.bodies:
+            body.back_x, body.back_y = body.x, body.y
         for pair in self.pairs:
-            if pair.gap > 0 or pair.gap <= -pressed / 8:
+            if pair.gap > self.accuracy.closed or pair.gap <= -pressed / 8:
                 continue
-            a: Body = pair.a
-            b: Body = pair.b
-            share: cython.double = 1.0  # their common centre of mass stays where it is
-            if not pair.is_wall:
-                share = b.mass / (a.mass + b.mass)
-                b.x += (share - 1) * pressed * pair.normal_x
-                b.y += (share - 1) * pressed * pair.normal_y
-                b.placed = True
-            a.x += share * pressed * pair.normal_x
-            a.y += share * pressed * pair.normal_y
-            a.placed = True
+            draw_together(pair, pressed)
+            any_moved = True
+        count: cython.int = 0
+        while any_moved and count < 32:
+            any_moved = self.press_again()
+            count += 1
+
+    @cython.cfunc
+    def press_again(self) -> cython.bint:
+        """Press those together that others were drawn away from; return whether there were any."""
+        pressed: cython.double = self.accuracy.pressed
+        any_moved: cython.bint = False
+        body: Body
+        pair: Pair
+        for body in self.bodies:
+            found: object = body.first_touch
+            while found is not None:
+                pair = found
+                found = pair.next_touch
+                gap: cython.double = pair.gap + opened(pair)
+                if gap > -pressed / 8:
+                    draw_together(pair, pressed + gap)
+                    any_moved = True
+        return any_moved
 
     @cython.cfunc
     def look_ahead(self, left: cython.double) -> cython.double:
@@ -368,8 +393,12 @@ class Island:
         for body in self.bodies:
             body.look()
         pair: Pair
+        for body in self.bodies:
+            h = min(h, body.time_to_turn(accuracy.entry / 8))
         for pair in self.pairs:
-            h = pair.time_to_touch(h, accuracy.entry)
+            # What gathers speed has at the touch what it has gathered by then, and no more.
+            gathers: cython.bint = pair.a.gathers or (not pair.is_wall and pair.b.gathers)
+            h = pair.time_to_touch(h, accuracy.touch if gathers else accuracy.entry)
         for tie in self.ties:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.give, accuracy.taut))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
@@ -397,13 +426,18 @@ class Island:
         h = min(h, self.contact_step)
         if self.solved:
             h = min(h, accuracy.growth * self.solver.last_step)
+        if self.any_touch and (not self.solved or self.solver.last_step >= 1e300):
+            # A solver that knows no impulses yet does not settle a file that begins to push.
+            h = min(h, self.contact_step / (self.most_strain * self.most_strain))
         for body in self.bodies:
+            if body.slips and body.limited and not body.touches:
+                h = min(h, accuracy.swaying)
             if body.is_robot and body.slips and body.since > 0:
                 h = min(h, body.time_to_brake(accuracy.turned))
         self.any_slips = False
         for body in self.bodies:
             if body.slips and not body.touches:
-                body.slips = body.is_robot and body.out_of_reach(h)
+                body.slips = body.is_slow() and body.out_of_reach(h)
             if body.slips:
                 self.any_slips = True
         return h
@@ -422,6 +456,9 @@ class Island:
             if body.slips:
                 body.aim_x, body.aim_y, body.aim_spin = body.vx, body.vy, body.spin
                 body.since, body.holds = 0, True
+            elif body.limited:
+                self.thrust.over(body, h)
+                body.since, body.holds = min(body.since + 1, 1 << 20), False
             elif body.is_robot:
                 body.follow(body.angle, h)
                 body.since = min(body.since + 1, 1 << 20)
@@ -446,10 +483,11 @@ class Island:
             return False
         for body in self.bodies:
             body.placed = True
-            if body.is_robot:
+            if body.is_robot and not body.limited:
                 body.vx, body.vy, body.spin = body.aim_x, body.aim_y, body.aim_spin
             else:
                 body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
+            body.account_now()
         if self.solved:
             self.solver.stale = True
         return True
@@ -504,7 +542,9 @@ class Island:
             if body.stopped:
                 body.forward = body.left = body.turning = 0.0
                 if not body.is_robot:
-                    body.vx = body.vy = body.spin = 0.0
+                    body.account_now()
+                    body.by_push -= body.energy
+                    body.energy = body.vx = body.vy = body.spin = 0.0
                 body.stopped = False
                 body.look()
 
@@ -533,7 +573,10 @@ class Island:
             if pair.gap > 0:
                 continue
             pair.meet()
-            touch = touch_between(pair.a, pair.other)
+            other: cython.int = pair.other
+            if pair.is_wall:
+                other = pair.wall.owner(pair.point_x, pair.point_y)
+            touch = touch_between(pair.a, other)
             row = touch.fresh()
             row.impulse_x = row.impulse_y = row.vx = row.vy = 0.0
             row.x, row.y = pair.point_x, pair.point_y
@@ -551,7 +594,7 @@ class Island:
         if self.any_touch:
             solver: Solver = self.solver
             k: cython.int
-            for k in range(solver.arbiters.find(solver.space)):
+            for k in range(solver.arbiters.count()):
                 self.note_one(solver.arbiters.at(k))
         self.close(time, h)
 
@@ -572,9 +615,10 @@ class Island:
         swap: cython.bint = first < 0 or (second >= 0 and second < first)
         a: Body = self.numbers[second if swap else first]
         b: cython.int = first if swap else second
-        if not still_touch(a, b):
+        found: Pair | None = touching(a, b)
+        if found is None or is_void(arbiter):
             return
-        touch: Touch = touch_between(a, b)
+        touch: Touch = touch_between(a, owner_of(found, arbiter, not swap))
         row: Row = touch.fresh()
         row.x = row.y = row.vx = row.vy = 0.0
         impulse: Vector = impulse_of(arbiter)
@@ -607,13 +651,62 @@ class Island:
 
 
 @cython.cfunc
-def still_touch(a: Body, b: cython.int) -> cython.bint:
-    """Return whether a body touches another or an obstacle now, by the measured gaps."""
+def touching(a: Body, b: cython.int) -> Pair | None:
+    """Return a pair in which a body touches another or a wall now, by its measured gap."""
     pair: Pair
     found: object = a.first_touch
     while found is not None:
         pair = found
         if pair.other == b:
-            return True
+            return pair
         found = pair.next_touch
-    return False
+    return None
+
+
+@cython.cfunc
+def owner_of(pair: Pair, arbiter: Handle, second: cython.bint) -> cython.int:
+    """Return the number of the body or obstacle that the first body of a pair touches.
+
+    second: whether it is also the second in the solver's contact. A wall may be of several
+    obstacles: it is that in the middle of the contact's points which counts.
+    """
+    if not pair.is_wall:
+        return pair.other
+    count: cython.int = count_of(arbiter)
+    x: cython.double = pair.a.x
+    y: cython.double = pair.a.y
+    point: Vector
+    if count > 0:
+        point = point_of(arbiter, 0, second)
+        x, y = point.x, point.y
+    if count > 1:
+        point = point_of(arbiter, 1, second)
+        x, y = (x + point.x) / 2, (y + point.y) / 2
+    return pair.wall.owner(x, y)
+
+
+@cython.cfunc
+def draw_together(pair: Pair, way: cython.double) -> cython.void:
+    """Move the bodies of a pair towards each other; their common centre of mass stays."""
+    a: Body = pair.a
+    b: Body = pair.b
+    share: cython.double = 1.0
+    if not pair.is_wall:
+        share = b.mass / (a.mass + b.mass)
+        b.x += (share - 1) * way * pair.normal_x
+        b.y += (share - 1) * way * pair.normal_y
+        b.placed = True
+    a.x += share * way * pair.normal_x
+    a.y += share * way * pair.normal_y
+    a.placed = True
+
+
+@cython.cfunc
+def opened(pair: Pair) -> cython.double:
+    """Return by how much the gap of a pair has grown since its bodies' places were kept."""
+    x: cython.double = pair.a.back_x - pair.a.x
+    y: cython.double = pair.a.back_y - pair.a.y
+    if not pair.is_wall:
+        x = x + pair.b.x - pair.b.back_x
+        y = y + pair.b.y - pair.b.back_y
+    return x * pair.normal_x + y * pair.normal_y

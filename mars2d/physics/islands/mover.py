@@ -19,6 +19,7 @@ from mars2d.physics.islands.island import Accuracy, Island
 from mars2d.physics.islands.neighbours import Neighbours
 from mars2d.physics.islands.pair import Pair, Wall
 from mars2d.physics.islands.solver import Solver, free_things_of, free_tie
+from mars2d.physics.islands.thrust import Thrust
 from mars2d.physics.islands.tie import Tie
 
 __all__ = ["Mover"]
@@ -31,6 +32,7 @@ class Mover:
 
     accuracy: Accuracy
     glide: Glide
+    thrust: Thrust
     bodies: list[Body]
     ties: list[Tie]
     neighbours: Neighbours
@@ -57,6 +59,7 @@ class Mover:
         """
         self.surfaces = surfaces
         self.accuracy, self.glide, self.bodies, self.ties = accuracy, glide, bodies, ties
+        self.thrust = Thrust()
         self.neighbours = Neighbours(bodies, walls, passing)
         self.taken = []
         self.spare, self.solvers, self.islands, self.found = [], [], [], 0
@@ -82,6 +85,7 @@ class Mover:
         for body in self.bodies:
             if not body.near:
                 self.carry(body, duration)
+            body.account_now()
         self.clear_up()
 
     def drift(self, twist: cython.Doubles, duration: float, time: float, stops: bool) -> None:
@@ -107,6 +111,7 @@ class Mover:
             if body.is_robot:
                 body.look()
                 body.vx, body.vy, body.spin = body.now_x, body.now_y, body.now_spin
+            body.account_now()
 
     def command(self, twist: cython.Doubles) -> None:
         """Take the twists of all robots."""
@@ -119,6 +124,16 @@ class Mover:
             body.left = twist[n + i]
             body.turning = twist[2 * n + i]
 
+    def ask(self, twist: cython.Doubles) -> None:
+        """Take the twists of all robots at an instant, but of those that were stopped."""
+        n: cython.int = len(twist) // 3
+        i: cython.int
+        body: Body
+        for i in range(n):
+            body = self.bodies[i]
+            if body.forward != 0.0 or body.left != 0.0 or body.turning != 0.0:
+                body.forward, body.left, body.turning = twist[i], twist[n + i], twist[2 * n + i]
+
     @cython.cfunc
     def begin(self, duration: cython.double) -> cython.void:
         """Find out who slips, and how fast each body may be."""
@@ -130,8 +145,12 @@ class Mover:
                 body.locate()
                 body.start_x, body.start_y = body.center_x, body.center_y
             body.speed = 0.0
-            if body.slips or not body.is_robot:
+            if body.limited and body.lead != 0.0:
+                body.look()
+                body.slips = body.slips or body.gathers  # no closed form is known of how it sways
+            if body.slips or body.glides():
                 body.speed = length(body.vx, body.vy) + body.offset * abs(body.spin)
+                body.speed += 2 * abs(body.lead * body.spin)
             asked: cython.double = 0.0
             if body.is_robot:
                 asked = length(body.forward, body.left)
@@ -140,7 +159,8 @@ class Mover:
                 raise FloatingPointError
             if body.pulled:
                 push: cython.double = length(body.pull_x, body.pull_y) / body.mass
-                push += body.offset * abs(body.pull_torque) / body.moment
+                sway: cython.double = abs(body.pull_torque) + abs(body.lead) * push * body.mass
+                push += (body.offset + abs(body.lead)) * sway / body.moment
                 body.speed += push * duration
 
     @cython.cfunc
@@ -304,7 +324,7 @@ class Mover:
         """Add those pairs of a body and walls that may touch."""
         pair: Pair
         for pair in pairs:
-            if pair.apart() <= pair.a.way:
+            if pair.apart() <= pair.a.way and not pair.hidden():
                 island.pairs.append(pair)
 
     @cython.cfunc
@@ -336,6 +356,10 @@ class Mover:
         body.slack, body.strain = self.accuracy.slack, 1.0
         if body.is_robot:
             body.since = 1 << 20
+        if body.limited:
+            self.thrust.over(body, duration)
+            body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
+        elif body.is_robot:
             body.follow(body.angle, duration)
             body.vx, body.vy, body.spin = body.aim_x, body.aim_y, body.aim_spin
         else:
@@ -406,6 +430,19 @@ class Mover:
             efforts[i] = min(body.effort, 1.0)
             body.effort = 0.0
 
+    def write_work(self, work: cython.Doubles) -> None:
+        """Write the work since the beginning, J; see `mars2d.record.energy.WORK`."""
+        k: cython.int
+        for k in range(6):
+            work[k] = 0.0
+        body: Body
+        for body in self.bodies:
+            work[0 if body.is_robot else 1] += body.by_holder
+            work[2] += body.by_rub
+            work[3] += body.by_push
+            work[4] += body.by_joint
+            work[5] += body.by_hand
+
     def slipping(self) -> list[bool]:
         """Return which bodies slip."""
         slips: list[bool] = []
@@ -432,8 +469,12 @@ class Mover:
         body: Body = self.bodies[i]
         if body.slips:
             return False
+        if body.limited:
+            body.look()
+            if body.gathers:
+                return False
         if body.is_robot:
-            share: cython.double = max(force / body.force, torque / body.torque)
+            share: cython.double = max(force / body.least_force(), torque / body.torque)
             if share > 1.0:
                 return False
             body.effort = max(body.effort, share)

@@ -7,10 +7,12 @@ second; gaps of what overlaps are negative: how far one has to be moved to part 
 from __future__ import annotations
 
 from math import sqrt
+from typing import Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body, Corner, Edge, Piece
+from mars2d.physics.islands.chipmunk import Seams
 
 __all__ = ["DiscPair", "DiscWall", "Pair", "PiecePair", "Wall"]
 
@@ -18,11 +20,18 @@ __all__ = ["DiscPair", "DiscWall", "Pair", "PiecePair", "Wall"]
 @cython.final
 @cython.cclass
 class Wall:
-    """A straight edge of an obstacle. obstacle: its number, -1, -2, ..."""
+    """A straight wall: an edge of an obstacle, or edges of several in one line.
+
+    other: what contacts with it are found by: the obstacle's number, -1, -2, ..., or if there are
+    several a number of its own. owners: which obstacle it is from where on, metres from its start.
+    """
 
     number: cython.int
-    obstacle: cython.int
+    other: cython.int
+    owners: list[Any]
     surface: object
+    seams: Seams | None  # what contacts must know of its ends
+    shades: list[Any]
     x: cython.double
     y: cython.double
     edge_x: cython.double
@@ -32,18 +41,54 @@ class Wall:
     piece: Piece
 
     def __init__(
-        self, number: int, obstacle: int, ends: list[float], surface: tuple[float, float]
+        self,
+        number: int,
+        owners: list[Any],
+        shared: int,
+        ends: list[float],
+        surface: tuple[float, ...],
+        seams: Any,
+        shades: list[Any],
     ) -> None:
-        """Take its ends x1, y1, x2, y2 [m], and its friction and restitution."""
+        """Take its ends x1, y1, x2, y2 [m], and its friction and restitution.
+
+        shared: the number that contacts with it have if it is of several obstacles. shades: x, y
+        of an end that lies at another wall [m], the direction off both, metres to that wall's end.
+        """
         x1, y1, x2, y2 = ends
         dx, dy = x2 - x1, y2 - y1
         far = sqrt(dx * dx + dy * dy)
         u, v = dx / far, dy / far
-        self.number, self.obstacle, self.surface = number, obstacle, surface
+        self.number, self.owners, self.surface, self.seams = number, owners, surface, seams
+        self.shades = shades
+        self.other = owners[0][1] if len(owners) == 1 else shared
         self.x, self.y, self.edge_x, self.edge_y = x1, y1, dx, dy
         self.share_x, self.share_y = dx / (far * far), dy / (far * far)
         sides = [(v, -u), (-v, u), (u, v), (-u, -v)]
         self.piece = Piece([(x1, y1), (x2, y2)], sides, 0.0)
+
+    @cython.cfunc
+    def owner(self, x: cython.double, y: cython.double) -> cython.int:
+        """Return the number of the obstacle that it is of at a point."""
+        found: cython.int = self.owners[0][1]
+        if len(self.owners) == 1:
+            return found
+        along: cython.double = (x - self.x) * self.share_x + (y - self.y) * self.share_y
+        along = along * length(self.edge_x, self.edge_y)
+        for far, number in self.owners:
+            if along >= far:
+                found = number
+        return found
+
+    @cython.cfunc
+    def hidden(self, x: cython.double, y: cython.double, room: cython.double) -> cython.bint:
+        """Return whether what moves within a circle is kept from it by a wall that it ends at."""
+        for end_x, end_y, away_x, away_y, far in self.shades:
+            from_x: cython.double = x - end_x
+            from_y: cython.double = y - end_y
+            if from_x * away_x + from_y * away_y > 0.0 and length(from_x, from_y) + room < far:
+                return True
+        return False
 
     @cython.cfunc
     def gap(self, x: cython.double, y: cython.double) -> cython.double:
@@ -87,7 +132,7 @@ class Pair:
         if wall is None:
             self.other, self.radii = b.number, a.radius + b.radius
         else:
-            self.wall, self.other, self.radii = wall, wall.obstacle, a.radius
+            self.wall, self.other, self.radii = wall, wall.other, a.radius
 
     @cython.cfunc
     def apart(self) -> cython.double:
@@ -97,6 +142,15 @@ class Pair:
         x: cython.double = self.b.start_x - self.a.start_x
         y: cython.double = self.b.start_y - self.a.start_y
         return length(x, y) - self.radii
+
+    @cython.cfunc
+    def hidden(self) -> cython.bint:
+        """Return whether another wall keeps the body from this one in the control step."""
+        body: Body = self.a
+        wall: Wall = self.wall
+        if not wall.shades:
+            return False
+        return wall.hidden(body.start_x, body.start_y, body.radius + body.way)
 
     @cython.cfunc
     def measure(self) -> cython.bint:

@@ -1,6 +1,7 @@
 """The islands in Python, where there is no compiler."""
 
 from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.chipmunk import Seams
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.island import Accuracy
 from mars2d.physics.islands.mover import Mover
@@ -8,4 +9,6 @@ from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.surfaces import Surface, Surfaces
 from mars2d.physics.islands.tie import Tie
 
-__all__ = ["Accuracy", "Body", "Glide", "Mover", "Piece", "Surface", "Surfaces", "Tie", "Wall"]
+__all__ = [
+    "Accuracy", "Body", "Glide", "Mover", "Piece", "Seams", "Surface", "Surfaces", "Tie", "Wall",
+]  # fmt: skip

@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.chipmunk import (
     GEAR,
     NOTHING,
     PIVOT,
+    ROTARY_LIMIT,
     Arbiters,
     Handle,
     Vector,
@@ -18,6 +20,7 @@ from mars2d.physics.islands.chipmunk import (
     add_shape,
     aim,
     angle_of,
+    drag_of,
     free_body,
     free_joint,
     free_shape,
@@ -39,13 +42,17 @@ from mars2d.physics.islands.chipmunk import (
     remove_shape,
     scale,
     set_joint,
+    set_limits,
     set_max_bias,
     set_max_force,
+    sew,
     spin_of,
     step,
+    twist_of,
     used_of,
     velocity_of,
     watch,
+    weight_at,
 )
 from mars2d.physics.islands.floor import hold
 from mars2d.physics.islands.pair import Wall
@@ -122,6 +129,8 @@ class Solver:
         """Make a body, its shapes, and the joints that hold it."""
         body.made = True
         body.handle = new_body(body.mass, body.moment, body.number)
+        if body.lead != 0.0:
+            weight_at(body.handle, body.lead)
         piece: Piece
         for piece in body.pieces:
             points = [(corner.local_x, corner.local_y) for corner in piece.corners]
@@ -142,7 +151,7 @@ class Solver:
         body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
         body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
         if body.is_robot:
-            self.limit(body, body.force, body.torque)
+            self.limit(body, body.bound, body.torque)
         else:
             self.limit(body, body.allowed, body.twist_allowed)
 
@@ -212,9 +221,11 @@ class Solver:
             return
         held = Held()
         self.walls[wall.number] = held
-        held.ground = new_ground(wall.obstacle)
+        held.ground = new_ground(wall.other)
         ends = ((wall.x, wall.y), (wall.x + wall.edge_x, wall.y + wall.edge_y))
         held.handle = new_segment(held.ground, ends, wall.surface)
+        if wall.seams is not None:
+            sew(held.handle, wall.seams)
         add_body(self.space, held.ground)
         add_shape(self.space, held.handle)
 
@@ -246,7 +257,7 @@ class Solver:
             first: Handle = b if turned else a
             second: Handle = a if turned else b
             part.handle = make_joint(kind, part.handle, first, second, ends, p, q, r)
-            set_joint(part.handle, settings, not tie.pinned)
+            set_joint(part.handle, 0.0 if kind == ROTARY_LIMIT else settings, not tie.pinned)
             if tie.is_rope and k == 0:
                 set_max_bias(part.handle, 0.0)
 
@@ -279,6 +290,28 @@ class Solver:
         part: Held = tie.joints[0]
         set_max_bias(part.handle, speed)
 
+    @cython.cfunc
+    def rebound(self, tie: Tie, h: cython.double) -> cython.void:
+        """Let a limit that a joint reaches within h s turn it back at its restitution.
+
+        The engine turns back what is beyond a limit, at a bounded speed, and at none does nothing.
+        """
+        speed: cython.double = max(tie.rebound * abs(tie.turning), 1e-9)
+        beyond: cython.double = 2 * speed * h
+        least: cython.double = tie.least
+        largest: cython.double = tie.largest
+        if tie.angle + tie.turning * h >= largest:
+            largest -= beyond
+        elif tie.angle + tie.turning * h <= least:
+            least += beyond
+        k: cython.int
+        part: Held
+        for k in range(len(tie.parts)):
+            if tie.parts[k][0] == ROTARY_LIMIT:
+                part = tie.joints[k]
+                set_limits(part.handle, least, largest)
+                set_max_bias(part.handle, speed)
+
     # -- a step -------------------------------------------------------------------------------
 
     @cython.cfunc
@@ -295,7 +328,7 @@ class Solver:
         self.stale = False
         k: cython.int
         if ratio != 1.0:
-            for k in range(self.arbiters.find(self.space)):
+            for k in range(self.find_contacts()):
                 scale(self.arbiters.at(k), ratio)
             tie: Tie
             for tie in self.ties:
@@ -303,6 +336,15 @@ class Solver:
                 self.make_parts(tie)
                 self.add_parts(tie)
         self.last_step = h
+
+    @cython.cfunc
+    def find_contacts(self) -> cython.int:
+        """Find all contacts that the engine knows, and return how many there are."""
+        body: Body
+        self.arbiters.clear()
+        for body in self.bodies:
+            self.arbiters.add_those_of(body.handle)
+        return self.arbiters.count()
 
     @cython.cfunc
     def renew(self, body: Body) -> cython.void:
@@ -316,7 +358,10 @@ class Solver:
 
     @cython.cfunc
     def go(self, h: cython.double, growth: cython.double) -> cython.void:
-        """Step by h seconds, with all bodies moving as they are aimed, and read what came of it."""
+        """Step by h seconds, with all bodies moving as they are aimed, and read what came of it.
+
+        `settle` and `share_out` do the rest.
+        """
         body: Body
         slips: cython.bint = False
         for body in self.bodies:
@@ -336,6 +381,8 @@ class Solver:
         for tie in self.ties:
             if tie.is_rope:
                 self.draw_in(tie, tie.turn * h)
+            if tie.largest < 1e300:
+                self.rebound(tie, h)
         for body in self.bodies:
             self.prepare(body, h)
         step(self.space, h)
@@ -344,15 +391,62 @@ class Solver:
             where: Vector = position_of(body.handle)
             fast: Vector = velocity_of(body.handle)
             body.x, body.y, body.angle = where.x, where.y, angle_of(body.handle)
-            body.vx, body.vy, body.spin = fast.x, fast.y, spin_of(body.handle)
+            body.after_x, body.after_y, body.spin = fast.x, fast.y, spin_of(body.handle)
             if not body.is_robot and body.engaged:
                 body.held = used_of(body.pivot) / h
                 body.twist_held = used_of(body.gear) / h
             if body.is_robot and body.slips:
-                share: cython.double = used_of(body.pivot) / (body.force * h)
+                share: cython.double = used_of(body.pivot) / max(body.bound * h, 1e-300)
                 body.effort = max(body.effort, share)
                 share = used_of(body.gear) / (body.torque * h)
                 body.effort = max(body.effort, share)
+
+    @cython.cfunc
+    def take_drag(self, body: Body) -> cython.void:
+        """Find the impulse on a body of its drive, or of the floor under it."""
+        drag: Vector = drag_of(body.pivot)
+        body.lean(body.angle)
+        body.drag_x, body.drag_y = drag.x, drag.y
+        body.drag_turn = twist_of(body.gear) - body.lead_x * drag.y + body.lead_y * drag.x
+
+    @cython.cfunc
+    def share_out(self, h: cython.double) -> cython.void:
+        """Take over how bodies move, and by what their kinetic energies have changed in the step.
+
+        An impulse works on a body as on one that moves at the mean of its velocities before and
+        after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
+        """
+        body: Body
+        for body in self.bodies:
+            body.vx, body.vy = body.after_x, body.after_y
+            if body.lead != 0.0:
+                body.lean(body.angle)
+                body.vx += body.spin * body.lead_y
+                body.vy -= body.spin * body.lead_x
+            x: cython.double = (body.before_x + body.after_x) / 2
+            y: cython.double = (body.before_y + body.after_y) / 2
+            spin: cython.double = (body.before_spin + body.spin) / 2
+            gained: cython.double = body.kinetic_at(body.after_x, body.after_y, body.spin)
+            gained -= body.energy
+            body.energy += gained
+            gained -= body.hit_x * x + body.hit_y * y + body.hit_turn * spin
+            if body.pulled:
+                by_hand: cython.double = (
+                    body.pull_x * x + body.pull_y * y + body.pull_turn * spin
+                ) * h
+                body.by_hand += by_hand
+                gained -= by_hand
+            if body.tied:
+                by_holder: cython.double = 0.0
+                if body.engaged:
+                    self.take_drag(body)
+                    by_holder = body.drag_x * x + body.drag_y * y + body.drag_turn * spin
+                body.by_holder += by_holder
+                body.by_joint += gained - by_holder
+            elif body.engaged:
+                body.by_holder += gained
+            else:  # a rounding error
+                body.by_push += gained
 
     @cython.cfunc
     def prepare(self, body: Body, h: cython.double) -> cython.void:
@@ -360,12 +454,16 @@ class Solver:
         vx: cython.double = body.aim_x
         vy: cython.double = body.aim_y
         spin: cython.double = body.aim_spin
-        if body.is_robot:
-            if body.engaged:  # joints act on the velocity of the step after this
-                body.follow(body.angle + (body.spin if body.slips else body.turning) * h, h)
-                aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
-                body.aim_x, body.aim_y, body.aim_spin = vx, vy, spin
-        elif not body.slips and (vx != 0.0 or vy != 0.0 or spin != 0.0):
+        if body.is_robot and body.engaged:  # joints act on the velocity of the step after this
+            turned: cython.double = body.angle + (body.spin if body.slips else body.turning) * h
+            body.follow(turned, h)
+            if body.lead != 0.0:
+                body.lead_control(turned, h)
+            aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+            if body.grips:
+                self.grasp(body, h)
+            body.aim_x, body.aim_y, body.aim_spin = vx, vy, spin
+        elif body.glides() and (vx != 0.0 or vy != 0.0 or spin != 0.0):
             # It gets its velocity at the end, so that an impact has the right one. With that it
             # would not go far enough, so it is put ahead by the difference.
             body.x = body.x + h * (vx - body.end_x)
@@ -379,9 +477,37 @@ class Solver:
         if body.placed:
             put(body.handle, body.x, body.y, body.angle)
             body.placed = False
+        body.pull_turn = body.pull_torque
+        if body.lead != 0.0:  # the engine's velocities and forces are those at the centre of mass
+            body.lean(body.angle)
+            x: cython.double = body.lead_x
+            y: cython.double = body.lead_y
+            body.pull_turn -= x * body.pull_y - y * body.pull_x
+            if body.slips:
+                vx, vy = vx - spin * y, vy + spin * x
+            else:
+                body.lean(body.angle + spin * h)
+                vx, vy = vx + (body.lead_x - x) / h, vy + (body.lead_y - y) / h
         if body.pulled:
-            push(body.handle, body.pull_x, body.pull_y, body.pull_torque)
+            push(body.handle, body.pull_x, body.pull_y, body.pull_turn)
         aim(body.handle, vx, vy, spin)
+        body.before_x, body.before_y, body.before_spin = vx, vy, spin
+        body.account(vx, vy, spin)
+
+    @cython.cfunc
+    def grasp(self, body: Body, h: cython.double) -> cython.void:
+        """Bound the force of a robot's drive in the direction in which it will push.
+
+        That is where it has pushed in the step before, or where its command is.
+        """
+        drag: Vector = drag_of(body.pivot)
+        if length(drag.x, drag.y) > 1e-9 * body.strength * h:
+            body.bear(drag.x, drag.y, body.angle, body.vx, body.vy)
+        else:
+            x: cython.double = body.aim_x - body.vx
+            y: cython.double = body.aim_y - body.vy
+            body.bear(x, y, body.angle, body.vx, body.vy)
+        set_max_force(body.pivot, body.bound)
 
     @cython.cfunc
     def brake(self, body: Body, h: cython.double) -> cython.void:

@@ -13,11 +13,10 @@ from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.chipmunk import (
     Handle,
     Vector,
+    arm_of,
     count_of,
     first_of,
     normal_of,
-    point_of,
-    position_of,
     second_of,
     set_surface,
     spin_of,
@@ -30,7 +29,7 @@ __all__ = ["Surface", "Surfaces"]
 @cython.final
 @cython.cclass
 class Surface:
-    """That of a body or obstacle. rubs, bounces: numbers of materials, or -1."""
+    """That of a body or wall. rubs, bounces: numbers of materials, or -1."""
 
     friction: cython.double
     static: cython.double
@@ -39,7 +38,7 @@ class Surface:
     bounces: cython.int  # and the restitution
 
     def __init__(
-        self, friction: float, static: float, restitution: float, rubs: int, bounces: int
+        self, friction: float, restitution: float, static: float, rubs: int, bounces: int
     ) -> None:
         """Take its coefficients and materials."""
         self.friction, self.static, self.restitution = friction, static, restitution
@@ -49,11 +48,11 @@ class Surface:
 @cython.final
 @cython.cclass
 class Surfaces:
-    """Those of all bodies, by number, and of all obstacles; and how two make a contact."""
+    """Those of all bodies and walls, by number; and how two make a contact."""
 
     bodies: list[Body]
     of_bodies: list[Surface]
-    of_obstacles: list[Surface]
+    of_walls: list[Surface]  # -1, -2, ...: of obstacles, then of walls that belong to several
     rule: cython.int
     bounce_rule: cython.int
     sticks: cython.double  # m/s, slower is not slipping
@@ -67,7 +66,7 @@ class Surfaces:
         self,
         bodies: list[Body],
         of_bodies: list[Surface],
-        of_obstacles: list[Surface],
+        of_walls: list[Surface],
         rules: tuple[int, int],
         sticks: float,
         pairs: tuple[list[float], list[float], list[float]],
@@ -76,7 +75,7 @@ class Surfaces:
 
         rules: 0 product, 1 minimum, 2 mean, 3 geometric mean, 4 maximum.
         """
-        self.bodies, self.of_bodies, self.of_obstacles = bodies, of_bodies, of_obstacles
+        self.bodies, self.of_bodies, self.of_walls = bodies, of_bodies, of_walls
         self.rule, self.bounce_rule = rules
         self.frictions, self.statics, self.restitutions = pairs
         self.sticks, self.count, self.handle = sticks, round(sqrt(len(pairs[0]))), None
@@ -88,8 +87,8 @@ class Surfaces:
             return
         first: cython.int = first_of(arbiter)
         second: cython.int = second_of(arbiter)
-        a: Surface = self.of_bodies[first] if first >= 0 else self.of_obstacles[-1 - first]
-        b: Surface = self.of_bodies[second] if second >= 0 else self.of_obstacles[-1 - second]
+        a: Surface = self.surface_of(first)
+        b: Surface = self.surface_of(second)
         friction: cython.double = -1.0
         static: cython.double = -1.0
         restitution: cython.double = -1.0
@@ -108,26 +107,30 @@ class Surfaces:
         set_surface(arbiter, friction, restitution)
 
     @cython.cfunc
+    def surface_of(self, number: cython.int) -> Surface:
+        """Return the surface of a body or wall."""
+        if number >= 0:
+            return self.of_bodies[number]
+        return self.of_walls[-1 - number]
+
+    @cython.cfunc
     def slip(self, arbiter: Handle, first: cython.int, second: cython.int) -> cython.double:
         """Return how fast two bodies slide along each other, before the substep, m/s."""
         vx: cython.double = 0.0
         vy: cython.double = 0.0
         body: Body
-        place: Vector
-        point: Vector
+        arm: Vector
         fast: Vector
         if second >= 0:
             body = self.bodies[second]
-            place, point = position_of(body.handle), point_of(arbiter, 0, True)
-            fast = velocity_of(body.handle)
-            vx = fast.x - spin_of(body.handle) * (point.y - place.y)
-            vy = fast.y + spin_of(body.handle) * (point.x - place.x)
+            arm, fast = arm_of(arbiter, 0, True), velocity_of(body.handle)
+            vx = fast.x - spin_of(body.handle) * arm.y
+            vy = fast.y + spin_of(body.handle) * arm.x
         if first >= 0:
             body = self.bodies[first]
-            place, point = position_of(body.handle), point_of(arbiter, 0, False)
-            fast = velocity_of(body.handle)
-            vx = vx - (fast.x - spin_of(body.handle) * (point.y - place.y))
-            vy = vy - (fast.y + spin_of(body.handle) * (point.x - place.x))
+            arm, fast = arm_of(arbiter, 0, False), velocity_of(body.handle)
+            vx = vx - (fast.x - spin_of(body.handle) * arm.y)
+            vy = vy - (fast.y + spin_of(body.handle) * arm.x)
         normal: Vector = normal_of(arbiter)
         along: cython.double = vy * normal.x - vx * normal.y
         return abs(along)

@@ -32,6 +32,10 @@ class Tie:
     always: cython.bint
     rigid: cython.bint
     pinned: cython.bint
+    springy: cython.bint
+    least: cython.double  # of the angle of b, or without b of a, rad
+    largest: cython.double
+    rebound: cython.double  # at these limits, the restitution
     parts: list[Any]  # how it is made in the solver: kind, whether turned round, three numbers
     joints: list[Any]  # there
     # as measured now
@@ -44,6 +48,8 @@ class Tie:
     apart: cython.double
     slack: cython.double
     turn: cython.double
+    angle: cython.double
+    turning: cython.double  # rad/s, how fast the angle changes
 
     def __init__(
         self,
@@ -52,17 +58,24 @@ class Tie:
         anchors: list[float],
         far: float,
         is_what: dict[str, bool],
+        limits: list[float],
         parts: list[Any],
     ) -> None:
-        """Take its bodies, its ends in their frames, its length, its nature, and its parts."""
+        """Take its bodies, its ends in their frames, its length, its nature, and its parts.
+
+        limits: the least and the largest angle, rad, and the restitution there.
+        """
         self.a, self.b, self.to_world = a, a if b is None else b, b is None
         self.anchor_ax, self.anchor_ay, self.anchor_bx, self.anchor_by = anchors
         self.length = far
         self.is_rope, self.always = is_what["is_rope"], is_what["always"]
         self.rigid, self.pinned = is_what["rigid"], is_what["pinned"]
+        self.springy = is_what["springy"]
+        self.least, self.largest, self.rebound = limits
         self.parts, self.joints = parts, []
         self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
         self.normal_x = self.normal_y = self.apart = self.slack = self.turn = 0.0
+        self.angle = self.turning = 0.0
 
     @cython.cfunc
     def measure(self) -> cython.void:
@@ -141,4 +154,20 @@ class Tie:
             elif not self.is_rope:
                 speed = abs(along)
             h = min(h, 2 * give / (speed + sqrt(speed * speed + 2 * turn * give) + 1e-12))
-        return h
+        return min(h, self.time_to_stop(give))
+
+    @cython.cfunc
+    def time_to_stop(self, give: cython.double) -> cython.double:
+        """Return when bodies have turned beyond a limit by so little that no tip goes `give` m."""
+        self.turning = self.a.now_spin
+        self.angle = self.a.angle
+        reach: cython.double = self.a.reach
+        if not self.to_world:
+            self.turning = self.b.now_spin - self.a.now_spin
+            self.angle = self.b.angle - self.a.angle
+            reach = max(reach, self.b.reach)
+        room: cython.double = self.largest - self.angle
+        if self.turning < 0.0:
+            room = self.angle - self.least
+        give = give / reach
+        return max(room + give, give / 64) / max(abs(self.turning), 1e-300)

@@ -1,0 +1,417 @@
+"""Impacts: what contacts do to the energy of the bodies that touch in a substep.
+
+An impulse J works J (u + u') / 2, with the velocities u before and u' after of its point on one
+body as seen from the other. The sum over all impulses is the change of the kinetic energy.
+"""
+
+from __future__ import annotations
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.chipmunk import (
+    Handle,
+    Vector,
+    arm_of,
+    bounce_of,
+    count_of,
+    first_of,
+    normal_of,
+    push_of,
+    rub_of,
+    scale,
+    second_of,
+)
+from mars2d.physics.islands.solver import Solver
+from mars2d.physics.islands.tie import Tie
+
+__all__ = ["Impact", "settle"]
+
+
+REBOUND = 0.1
+"""How much more than its restitution says a contact may throw back what it has stopped.
+
+Between two walls that are almost parallel, what the solver remembers of an impact throws back
+bodies at several times their speed.
+"""
+
+DRIVEN = 0.3
+"""The part of their energy that impulses may add in a substep where robots are told to move."""
+
+DRIVEN_BODIES = 5
+"""Of how many bodies that touch at most this is asked where robots are told to move."""
+
+FEW_BODIES = 2
+"""Of how many bodies that touch at most this is asked: in a heap some contacts would give way."""
+
+
+@cython.final
+@cython.cclass
+class Impact:
+    """The contact of two shapes in a substep: one is of body a, the other of b or of a wall."""
+
+    a: Body
+    b: Body
+    has_a: cython.bint
+    has_b: cython.bint
+    # at one of its points
+    normal_x: cython.double
+    normal_y: cython.double
+    arm_ax: cython.double
+    arm_ay: cython.double
+    arm_bx: cython.double
+    arm_by: cython.double
+    push: cython.double
+    rub: cython.double
+
+    def __init__(self, body: Body) -> None:
+        """Stand for none yet; body: any."""
+        self.a = self.b = body
+        self.has_a = self.has_b = False
+        self.normal_x = self.normal_y = self.push = self.rub = 0.0
+        self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
+
+    @cython.cfunc
+    def take(self, arbiter: Handle, numbers: list[Body]) -> cython.void:
+        """Stand for a contact that the solver knows."""
+        first: cython.int = first_of(arbiter)
+        second: cython.int = second_of(arbiter)
+        self.has_a, self.has_b = first >= 0, second >= 0
+        self.a = numbers[first if first >= 0 else second]
+        self.b = numbers[second if second >= 0 else first]
+        normal: Vector = normal_of(arbiter)
+        self.normal_x, self.normal_y = normal.x, normal.y
+
+    @cython.cfunc
+    def look_at(self, arbiter: Handle, k: cython.int) -> cython.void:
+        """Stand for one of its points."""
+        arm: Vector = arm_of(arbiter, k, False)
+        self.arm_ax, self.arm_ay = arm.x, arm.y
+        arm = arm_of(arbiter, k, True)
+        self.arm_bx, self.arm_by = arm.x, arm.y
+        self.push, self.rub = push_of(arbiter, k), rub_of(arbiter, k)
+
+    @cython.cfunc
+    def hit(self) -> cython.void:
+        """Add the impulse in this point to those of the bodies."""
+        x: cython.double = self.push * self.normal_x - self.rub * self.normal_y
+        y: cython.double = self.push * self.normal_y + self.rub * self.normal_x
+        if self.has_a:
+            self.a.hit_x -= x
+            self.a.hit_y -= y
+            self.a.hit_turn -= self.arm_ax * y - self.arm_ay * x
+        if self.has_b:
+            self.b.hit_x += x
+            self.b.hit_y += y
+            self.b.hit_turn += self.arm_bx * y - self.arm_by * x
+
+    @cython.cfunc
+    def work(self, bounce: cython.double) -> cython.void:
+        """Add up for the group how the impulse in this point works, and its rebound."""
+        group: Body = group_of(self.a)
+        x: cython.double = 0.0
+        y: cython.double = 0.0
+        after_x: cython.double = 0.0
+        after_y: cython.double = 0.0
+        body: Body
+        if self.has_b:
+            body = self.b
+            x, y = (
+                body.before_x - body.before_spin * self.arm_by,
+                body.before_y + body.before_spin * self.arm_bx,
+            )
+            after_x, after_y = (
+                body.after_x - body.spin * self.arm_by,
+                body.after_y + body.spin * self.arm_bx,
+            )
+        if self.has_a:
+            body = self.a
+            x -= body.before_x - body.before_spin * self.arm_ay
+            y -= body.before_y + body.before_spin * self.arm_ax
+            after_x -= body.after_x - body.spin * self.arm_ay
+            after_y -= body.after_y + body.spin * self.arm_ax
+        nx: cython.double = self.normal_x
+        ny: cython.double = self.normal_y
+        parting: cython.double = after_x * nx + after_y * ny
+        group.push_work += self.push * (x * nx + y * ny + parting) / 2
+        group.rub_work += self.rub * ((y + after_y) * nx - (x + after_x) * ny) / 2
+        group.excess += self.push * (parting + bounce)
+
+    @cython.cfunc
+    def power(self) -> cython.void:
+        """Add up for the group the power of the impulse on what all impulses alone would give."""
+        group: Body = group_of(self.a)
+        x: cython.double = 0.0
+        y: cython.double = 0.0
+        body: Body
+        turn: cython.double
+        if self.has_b:
+            body = self.b
+            turn = body.hit_turn / body.moment
+            x, y = (
+                body.hit_x / body.mass - turn * self.arm_by,
+                body.hit_y / body.mass + turn * self.arm_bx,
+            )
+        if self.has_a:
+            body = self.a
+            turn = body.hit_turn / body.moment
+            x -= body.hit_x / body.mass - turn * self.arm_ay
+            y -= body.hit_y / body.mass + turn * self.arm_ax
+        group.push_power += self.push * (x * self.normal_x + y * self.normal_y)
+        group.rub_power += self.rub * (y * self.normal_x - x * self.normal_y)
+
+
+@cython.cfunc
+def group_of(body: Body) -> Body:
+    """Return the body that stands for all that touch each other in this substep."""
+    above: Body
+    while body.group is not body:
+        above = body.group
+        body.group = above.group
+        body = above
+    return body
+
+
+@cython.cfunc
+def join_groups(a: Body, b: Body) -> cython.void:
+    """Let one body stand for the groups of both."""
+    a, b = group_of(a), group_of(b)
+    if a is b:
+        return
+    b.group = a
+    a.push_work += b.push_work
+    a.rub_work += b.rub_work
+    a.excess += b.excess
+    b.push_work = b.rub_work = b.excess = 0.0
+    a.crowd += b.crowd
+    a.driven = a.driven or b.driven
+    a.springy = a.springy or b.springy
+
+
+@cython.cfunc
+def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
+    """Let the solver's step of h s add no energy by contacts or joints; add up what they have done.
+
+    Of bodies that touch or hold each other, all impulses are weakened by one factor, so momentum is
+    kept. impact: any, to work with.
+    """
+    body: Body
+    for body in solver.bodies:
+        body.group, body.springy, body.tied = body, False, False
+        body.hit_x = body.hit_y = body.hit_turn = 0.0
+        body.push_work = body.rub_work = body.excess = 0.0
+        body.crowd, body.driven = 1, False
+        if body.is_robot:
+            body.driven = body.forward != 0.0 or body.left != 0.0 or body.turning != 0.0
+    if solver.find_contacts() > 0:
+        take_hits(solver, numbers, impact)
+        if gains(solver):
+            take_powers(solver, numbers, impact)
+            if weaken_contacts(solver):
+                scale_all(solver, numbers, impact)
+    if solver.ties:
+        take_holds(solver, h)
+        if weaken_holds(solver):
+            scale_all(solver, numbers, impact)
+            work_again(solver, numbers, impact)
+    for body in solver.bodies:
+        body.by_push += body.push_work
+        body.by_rub += body.rub_work
+
+
+@cython.cfunc
+def take_hits(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
+    """Find the groups that touch, the impulses on each body, and how they work."""
+    i: cython.int
+    k: cython.int
+    for i in range(solver.arbiters.count()):
+        arbiter: Handle = solver.arbiters.at(i)
+        impact.take(arbiter, numbers)
+        join_groups(impact.a, impact.b)
+        for k in range(count_of(arbiter)):
+            impact.look_at(arbiter, k)
+            impact.hit()
+            impact.work(bounce_of(arbiter, k))
+
+
+@cython.cfunc
+def gains(solver: Solver) -> cython.bint:
+    """Return whether any group gains energy by its contacts, or rebounds too much."""
+    gain: cython.bint = False
+    body: Body
+    for body in solver.bodies:
+        gain = gain or body.push_work + body.rub_work > 0.0 or body.excess > 0.0
+    return gain
+
+
+@cython.cfunc
+def take_powers(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
+    """Find out how fast the impulses of contacts would work on what they alone would give."""
+    i: cython.int
+    k: cython.int
+    body: Body
+    for body in solver.bodies:
+        body.push_power = body.rub_power = 0.0
+    for i in range(solver.arbiters.count()):
+        arbiter: Handle = solver.arbiters.at(i)
+        impact.take(arbiter, numbers)
+        for k in range(count_of(arbiter)):
+            impact.look_at(arbiter, k)
+            impact.power()
+
+
+@cython.cfunc
+def work_again(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
+    """Find out anew how the impulses of contacts have worked."""
+    i: cython.int
+    k: cython.int
+    body: Body
+    for body in solver.bodies:
+        body.push_work = body.rub_work = 0.0
+    for i in range(solver.arbiters.count()):
+        arbiter: Handle = solver.arbiters.at(i)
+        impact.take(arbiter, numbers)
+        for k in range(count_of(arbiter)):
+            impact.look_at(arbiter, k)
+            impact.work(0.0)
+
+
+@cython.cfunc
+def weaken_contacts(solver: Solver) -> cython.bint:
+    """Weaken contacts that add energy, or more rebound than their restitution; return if any do."""
+    weaken: cython.bint = False
+    body: Body
+    group: Body
+    for body in solver.bodies:
+        if body.group is body:
+            body.share = share_of(body)
+            weaken = weaken or body.share < 1.0
+    if not weaken:
+        return False
+    for body in solver.bodies:
+        group = group_of(body)
+        if group.share < 1.0:
+            weaken_body(body, body.hit_x, body.hit_y, body.hit_turn, group.share)
+    return True
+
+
+@cython.cfunc
+def share_of(group: Body) -> cython.double:
+    """Return the share of their impulses that a group's contacts may keep, and let that work.
+
+    Contacts that keep a share s of all impulses J work s (W - (1 - s) Q), with W their work now,
+    and Q the kinetic energy that J alone would give. Their rebound, the sum of J (u' + e u) along
+    normals, is too large by s (R - (1 - s) P), with R what it is now, and P the power of J on the
+    velocities that J alone would give.
+    """
+    energy: cython.double = (group.push_power + group.rub_power) / 2
+    share: cython.double = 1.0
+    work: cython.double = group.push_work + group.rub_work
+    if work > spare(group) * energy:
+        share = min(share, 1.0 - work / energy)
+    if group.crowd <= FEW_BODIES and group.excess > REBOUND * group.push_power:
+        share = min(share, 1.0 - group.excess / group.push_power)
+    share = max(share, 0.0)
+    group.push_work = share * (group.push_work - (1 - share) * group.push_power / 2)
+    group.rub_work = share * (group.rub_work - (1 - share) * group.rub_power / 2)
+    return share
+
+
+@cython.cfunc
+def spare(group: Body) -> cython.double:
+    """Return the part of the energy of a group's impulses that these may add to it.
+
+    Where drives push, the solver leaves some of either sign, and bodies would sink into each other.
+    """
+    if not group.driven:
+        return 0.0
+    return DRIVEN if group.crowd <= DRIVEN_BODIES else 1e300
+
+
+@cython.cfunc
+def weaken_body(
+    body: Body, x: cython.double, y: cython.double, turn: cython.double, share: cython.double
+) -> cython.void:
+    """Take back all but a share of impulses x, y and turn on a body."""
+    body.after_x -= (1 - share) * x / body.mass
+    body.after_y -= (1 - share) * y / body.mass
+    body.spin -= (1 - share) * turn / body.moment
+    body.hit_x *= share
+    body.hit_y *= share
+    body.hit_turn *= share
+
+
+@cython.cfunc
+def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
+    """Let the solver remember no more of the impulses of contacts than what they keep."""
+    i: cython.int
+    group: Body
+    for i in range(solver.arbiters.count()):
+        impact.take(solver.arbiters.at(i), numbers)
+        group = group_of(impact.a)
+        if group.share < 1.0:
+            scale(solver.arbiters.at(i), group.share)
+
+
+@cython.cfunc
+def take_holds(solver: Solver, h: cython.double) -> cython.void:
+    """Find the groups that joints hold, and the impulses on them that no drive or pull explains."""
+    tie: Tie
+    body: Body
+    group: Body
+    for tie in solver.ties:
+        tie.a.tied = tie.b.tied = True
+        join_groups(tie.a, tie.b)
+        group = group_of(tie.a)
+        group.springy = group.springy or tie.springy
+    for body in solver.bodies:
+        body.held_x = body.mass * (body.after_x - body.before_x)
+        body.held_y = body.mass * (body.after_y - body.before_y)
+        body.held_turn = body.moment * (body.spin - body.before_spin)
+        if body.pulled:
+            body.held_x -= body.pull_x * h
+            body.held_y -= body.pull_y * h
+            body.held_turn -= body.pull_turn * h
+        if body.engaged:
+            solver.take_drag(body)
+            body.held_x -= body.drag_x
+            body.held_y -= body.drag_y
+            body.held_turn -= body.drag_turn
+
+
+@cython.cfunc
+def weaken_holds(solver: Solver) -> cython.bint:
+    """Weaken joints and contacts that together add energy; return whether any do.
+
+    Those of a group with a spring may: it gives what it took before.
+    """
+    body: Body
+    group: Body
+    for body in solver.bodies:
+        body.hold_work = body.hold_energy = 0.0
+        body.share = 1.0
+    for body in solver.bodies:
+        group = group_of(body)
+        group.hold_work += (
+            body.held_x * (body.before_x + body.after_x)
+            + body.held_y * (body.before_y + body.after_y)
+            + body.held_turn * (body.before_spin + body.spin)
+        ) / 2
+        group.hold_energy += (
+            (body.held_x * body.held_x + body.held_y * body.held_y) / body.mass
+            + body.held_turn * body.held_turn / body.moment
+        ) / 2
+        group.tied = group.tied or body.tied
+    weaken: cython.bint = False
+    for body in solver.bodies:
+        if not (body.group is body and body.tied) or body.springy:
+            continue
+        if body.hold_work > spare(body) * body.hold_energy:
+            body.share = max(1.0 - body.hold_work / body.hold_energy, 0.0)
+            weaken = weaken or body.share < 1.0
+    if not weaken:
+        return False
+    for body in solver.bodies:
+        group = group_of(body)
+        if group.share < 1.0:
+            weaken_body(body, body.held_x, body.held_y, body.held_turn, group.share)
+    return True

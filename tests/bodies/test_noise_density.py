@@ -1,0 +1,173 @@
+"""The noise of drives is a density: how far robots stray does not depend on the sampling time.
+
+What is predicted are the moments of Brownian motion with the density `noise` of each actuator, in
+closed form; what is measured are the poses of a crowd after ten seconds.
+"""
+
+from __future__ import annotations
+
+from math import cos, exp, sin, sqrt, tan
+
+import numpy as np
+import pytest
+
+from mars2d import Car, Differential, Drive, Holonomic, Robot, Scenario, Unicycle, World
+
+N = 2000
+SECONDS = 10.0
+PERIODS = [0.4, 0.1, 0.025, 0.013]
+
+MEAN = 4 / sqrt(N)
+"""Four standard deviations of an estimated mean, in standard deviations; of a correlation, too."""
+
+SPREAD = 4 / sqrt(2 * N)
+"""Four standard deviations of an estimated standard deviation, relatively."""
+
+
+def crowd(drive: Drive, command, sampling_time: float) -> tuple[np.ndarray, float]:
+    """Return how far N robots have come after ten seconds (3, N), and the time, seconds."""
+    robots = [Robot(pose=(20.0 * (i % 50), 20.0 * (i // 50), 0), drive=drive) for i in range(N)]
+    scenario = Scenario(
+        robots=robots, physics="ideal", workspace=None,
+        sampling_time=sampling_time, stop_time=SECONDS,
+    )  # fmt: skip
+    world = World(scenario, seed=7)
+    start, commands = world.pose.copy(), np.tile(np.reshape(command, (2, 1)), N)
+    while not world.over:
+        world.step(commands)
+    return world.pose - start, world.time
+
+
+def like(values: np.ndarray, mean: float, deviation: float) -> None:
+    """Assert that values (N,) have this mean and standard deviation."""
+    assert values.mean() == pytest.approx(mean, abs=MEAN * deviation)
+    assert values.std() == pytest.approx(deviation, rel=SPREAD)
+
+
+def strays(pose: np.ndarray, time: float, speed: float, along: float, turn: float) -> None:
+    """Assert that poses (3, N) are those of robots that were to drive straight ahead.
+
+    speed: m/s. along: the density of the way, m/sqrt(s). turn: that of the heading, rad/sqrt(s).
+    """
+    x, y, theta = pose
+    like(theta, 0, turn * sqrt(time))
+    like(y, 0, speed * turn * sqrt(time**3 / 3))
+    assert np.corrcoef(y, theta)[0, 1] == pytest.approx(sqrt(3) / 2, abs=MEAN / 4)
+    # E cos(theta) = exp(-turn^2 t / 2); what bends add to the spread is that of theta^2, summed up.
+    q = turn**2
+    bends = speed * q * time**2 / sqrt(12)
+    like(x, 2 * speed / q * (1 - exp(-q * time / 2)), sqrt(along**2 * time + bends**2))
+    assert np.corrcoef(x, theta)[0, 1] == pytest.approx(0, abs=MEAN)
+
+
+@pytest.mark.parametrize("sampling_time", PERIODS)
+def test_a_unicycle_that_drives_straight_strays_alike_at_any_sampling_time(sampling_time):
+    v, b, s = 0.37, 0.13, 0.0071
+    pose, time = crowd(Unicycle(noise=s, wheel_semiaxis=b), (v, 0.0), sampling_time)
+    strays(pose, time, v, s * v / sqrt(2), s * v / (b * sqrt(2)))
+
+
+@pytest.mark.parametrize("sampling_time", PERIODS)
+def test_much_noise_is_a_density_as_well(sampling_time):
+    v, b, s = 0.3, 0.1, 0.05 * sqrt(0.1)
+    pose, time = crowd(Unicycle(noise=s, wheel_semiaxis=b), (v, 0.0), sampling_time)
+    turn = s * v / (b * sqrt(2))
+    like(pose[2], 0, turn * sqrt(time))
+    ahead = 2 * v / turn**2 * (1 - exp(-(turn**2) * time / 2))
+    assert pose[0].mean() == pytest.approx(ahead, abs=MEAN * pose[0].std())
+    assert pose[1].mean() == pytest.approx(0, abs=MEAN * pose[1].std())
+
+
+@pytest.mark.parametrize("sampling_time", PERIODS)
+@pytest.mark.parametrize("command", ["wheels", "twist"])
+def test_each_wheel_of_a_differential_drive_has_a_density_of_its_own(command, sampling_time):
+    b, r, s = 0.17, 0.06, 0.021
+    left, right = 1.9 * r, 5.3 * r
+    drive = Differential(noise=s, wheel_semiaxis=b, wheel_radius=r, command=command)
+    asked = (1.9, 5.3) if command == "wheels" else ((left + right) / 2, (right - left) / (2 * b))
+    pose, time = crowd(drive, asked, sampling_time)
+    omega = (right - left) / (2 * b)
+    like(pose[2], omega * time, s * sqrt((left**2 + right**2) * time) / (2 * b))
+
+
+@pytest.mark.parametrize("sampling_time", PERIODS)
+def test_a_wheel_that_stands_has_no_noise_so_the_robot_turns_about_it(sampling_time):
+    b, s, rim = 0.15, 0.03, 0.29
+    drive = Differential(noise=s, wheel_semiaxis=b, wheel_radius=0.05)
+    pose, time = crowd(drive, (0.0, rim / 0.05), sampling_time)
+    like(pose[2], rim / (2 * b) * time, s * rim * sqrt(time) / (2 * b))
+    wheel = pose[:2] + b * np.array([-np.sin(pose[2]), np.cos(pose[2])])
+    assert wheel == pytest.approx(np.tile([[0.0], [b]], N), abs=1e-9)
+
+
+@pytest.mark.parametrize("sampling_time", PERIODS)
+def test_a_holonomic_robot_strays_alike_in_all_directions(sampling_time):
+    speed, angle, s = 0.31, 0.6, 0.11
+    velocity = (speed * cos(angle), speed * sin(angle))
+    pose, time = crowd(Holonomic(noise=s), velocity, sampling_time)
+    for axis in (0, 1):
+        like(pose[axis], velocity[axis] * time, s * speed * sqrt(time))
+    assert np.corrcoef(pose[:2])[0, 1] == pytest.approx(0, abs=MEAN)
+    assert not pose[2].any()
+
+
+@pytest.mark.parametrize("sampling_time", PERIODS)
+def test_a_car_that_drives_straight_strays_alike_at_any_sampling_time(sampling_time):
+    v, s, most, base = 0.41, 0.008, 0.5, 0.23
+    drive = Car(noise=s, max_steering=most, wheelbase=base)
+    pose, time = crowd(drive, (v, 0.0), sampling_time)
+    strays(pose, time, v, s * v, s * v * most / base)
+
+
+@pytest.mark.parametrize("sampling_time", PERIODS)
+@pytest.mark.parametrize("delta", [0.3, 0.7])  # 0.7: the wheels are at their bound
+def test_a_car_on_a_bend_turns_as_far_as_it_is_told_with_the_noise_of_both(delta, sampling_time):
+    v, s, most, base = 0.41, 0.1, 0.7, 0.23
+    drive = Car(noise=s, max_steering=most, wheelbase=base)
+    pose, time = crowd(drive, (v, delta), sampling_time)
+    deviation = s * v / base * sqrt((tan(delta) ** 2 + most**2) * time)
+    like(pose[2], v * tan(delta) / base * time, deviation)
+
+
+def test_at_its_limit_of_speed_a_robot_is_as_quick_on_average_as_it_is_told():
+    """A limit after the noise would cut off one half of it."""
+    drive = Holonomic(noise=0.2, max_linear_speed=0.5)
+    pose, time = crowd(drive, (3.0, 0.0), 0.025)
+    like(pose[0], 0.5 * time, 0.2 * 0.5 * sqrt(time))
+
+
+def test_what_is_drawn_does_not_depend_on_the_sampling_time_but_for_its_size():
+    """The random streams are those of the robots, a pair of numbers for each control step."""
+    ways = []
+    for sampling_time in (0.2, 0.05):
+        world = World(
+            Scenario(
+                robots=[Robot(drive=Holonomic(noise=0.1))], physics="ideal", workspace=None,
+                sampling_time=sampling_time, stop_time=1000,
+            ), seed=3,
+        )  # fmt: skip
+        for _ in range(600):
+            world.step([[0.3], [0.0]])
+        off = np.diff(world.record.pose[:, :2, 0], axis=0) / sampling_time - [0.3, 0.0]
+        ways.append(off * sqrt(sampling_time) / (0.1 * 0.3))
+    assert ways[0] == pytest.approx(ways[1], abs=1e-9)
+    assert ways[0].std() == pytest.approx(1, rel=5 / sqrt(2400))
+    assert abs(np.corrcoef(ways[0].T)[0, 1]) < 5 / sqrt(600)
+    assert abs(np.corrcoef(ways[0][1:, 0], ways[0][:-1, 0])[0, 1]) < 5 / sqrt(600)
+
+
+def test_an_own_drive_finds_numbers_whose_variance_is_the_rate_of_control():
+    drawn = []
+
+    class Listening(Unicycle):
+        def disturb(self, command, normal):
+            drawn.append(normal.copy())
+            return command
+
+    robots = [Robot(pose=(k, 0, 0), drive=Listening(noise=0.5)) for k in range(50)]
+    world = World(Scenario(robots=robots, workspace=None, sampling_time=0.04))
+    for _ in range(40):
+        world.step(np.zeros((2, 50)))
+    numbers = np.ravel(drawn)
+    assert numbers.std() == pytest.approx(1 / sqrt(0.04), rel=5 / sqrt(2 * numbers.size))
+    assert numbers.mean() == pytest.approx(0, abs=5 * 5 / sqrt(numbers.size))

@@ -1,0 +1,465 @@
+"""Nothing trips over the seams of walls: what goes straight on is one wall, and ends are behind."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import cos, hypot, pi, radians, sin
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from mars2d import Holonomic, Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.bodies.props import Box, Prop, Puck, Solid
+from mars2d.geometry.shapes import Polygon
+from mars2d.physics import translation, walls
+from mars2d.physics.walls import MEET, walls_of
+from tests.islands import plainly
+
+SMOOTH = {"friction": 0.0, "ground_friction": 0.0, "restitution": 0.0}
+
+Image = tuple[float, int]
+"""An angle by which a scene is turned, and 1, or -1 if it is mirrored before."""
+
+IMAGES: list[Image] = [(0.0, 1), (0.37, 1), (2.1, -1)]
+
+ONE = SimpleNamespace(walls=[[(-9, 0), (9, 0)]])
+
+
+def blocks(*tops: float, wide: float = 0.5) -> list:
+    """Blocks that adjoin, with their tops at these heights, the middle at 0."""
+    left = -len(tops) / 2 * wide
+    edges = [(left + k * wide, left + (k + 1) * wide, top) for k, top in enumerate(tops)]
+    return [[(a, -1), (b, -1), (b, top), (a, top)] for a, b, top in edges]
+
+
+STRAIGHT = {
+    "three points": SimpleNamespace(walls=[[(-9, 0), (0, 0), (9, 0)]]),
+    "two walls": SimpleNamespace(walls=[[(-9, 0), (0.1, 0)], [(9, 0), (0.1, 0)]]),
+    "overlapping": SimpleNamespace(walls=[[(-9, 0), (0.3, 0)], [(9, 0), (-0.2, 0)]]),
+    "missed by a nanometre": SimpleNamespace(walls=[[(-9, 0), (-1e-9, 1e-9)], [(1e-9, 0), (9, 0)]]),
+    "forty pieces": SimpleNamespace(walls=[[(-9 + 0.45 * k, 0) for k in range(41)]]),
+    "blocks": SimpleNamespace(outlines=blocks(*[0.0] * 36)),
+    "ends from behind": SimpleNamespace(
+        walls=[[(-9, 0), (9, 0)], *([(k / 3, 0), (k / 3 + sin(k) / 5, -1)] for k in range(-15, 16))]
+    ),
+    "corners from behind": SimpleNamespace(
+        walls=[[(-9, 0), (9, 0)]],
+        outlines=[[(k / 2, 0), (k / 2 + 0.1, -0.4), (k / 2 + 0.3, 0)] for k in range(-10, 10)],
+    ),
+    "blocks in a block": SimpleNamespace(
+        outlines=[[(-9, -1), (9, -1), (9, 0), (-9, 0)], *blocks(*[0.0] * 16)[::2]]
+    ),
+}
+"""Scenes in which the x axis is a straight wall."""
+
+
+def seen(point, image: Image) -> tuple[float, float]:
+    """The image of a direction."""
+    (x, y), (angle, sense) = point, image
+    y *= sense
+    return x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)
+
+
+def at(point, image: Image) -> tuple[float, float]:
+    """The image of a point."""
+    x, y = seen(point, image)
+    return x + 0.3, y - 0.2
+
+
+def map_of(scene: SimpleNamespace, image: Image) -> Map:
+    """The image of a scene's obstacles."""
+    outlines, lines = (
+        [[at(point, image) for point in line] for line in getattr(scene, kind, [])]
+        for kind in ("outlines", "walls")
+    )
+    return Map(outlines or None, walls=lines)
+
+
+def world_of(*addons: Map, prop: Prop, stop_time: float = 1.5, robot: Robot | None = None) -> World:
+    robot = robot or Robot(pose=(40, 40, 0))
+    scenario = Scenario(
+        robots=[robot], props=[prop], addons=list(addons), workspace=None,
+        stop_time=stop_time, sampling_time=0.05,
+    )  # fmt: skip
+    return World(scenario)
+
+
+def ngon(corners: int, radius: float) -> Polygon:
+    turns = [2 * pi * k / corners + 0.3 for k in range(corners)]
+    return Polygon([(radius * cos(turn), radius * sin(turn)) for turn in turns])
+
+
+def thrown(k: int, image: Image) -> Prop:
+    """The image of a box, polygon or disc that is thrown at the x axis from above."""
+    rng = np.random.default_rng(k)
+    radius = rng.uniform(0.05, 0.3)
+    place = rng.uniform(-2, -0.5), rng.uniform(0.32, 0.5)
+    velocity = rng.uniform(0.5, 4), -rng.uniform(0.05, 0.6)
+    angle, spin = (0.0, 0.0) if k % 2 else (rng.uniform(-3, 3), rng.uniform(-2, 2))
+    what = {
+        "pose": (*at(place, image), image[0] + image[1] * angle),
+        "velocity": (*seen(velocity, image), image[1] * spin),
+    }
+    if k % 4 < 2:
+        return Box(length=2 * radius, width=rng.uniform(0.5, 1.5) * radius, **what, **SMOOTH)
+    if k % 4 == 2:
+        return Solid(shape=ngon(3 + k % 6, radius), **what, **SMOOTH)
+    return Puck(diameter=2 * radius, **what, **SMOOTH)
+
+
+def velocity_after(prop: Prop, *addons: Map, image: Image = (0.0, 1), time: float = 1.5):
+    """What is left of a prop's velocity, as in the scene and not its image."""
+    world = world_of(*addons, prop=prop, stop_time=time)
+    while world.time < time - 1e-9:
+        world.step()
+    (angle, sense), (x, y, spin) = image, world.prop_velocity[:, 0]
+    back = x * cos(angle) + y * sin(angle), sense * (y * cos(angle) - x * sin(angle))
+    return np.array([*back, sense * spin])
+
+
+# -- what is straight -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", STRAIGHT)
+@pytest.mark.parametrize("image", IMAGES)
+def test_sixty_throws_go_on_as_on_one_wall(name, image):
+    """Without friction and floor the speed along a straight wall is kept for ever."""
+    for k in range(20 * IMAGES.index(image), 20 * IMAGES.index(image) + 20):
+        prop = thrown(k, image)
+        found = velocity_after(prop, map_of(STRAIGHT[name], image), image=image)
+        expected = velocity_after(prop, map_of(ONE, image), image=image)
+        assert found == pytest.approx(expected, abs=1e-6), k
+        along = np.array(seen((1, 0), image)) @ prop.velocity[:2]
+        assert found[0] == pytest.approx(along, abs=1e-6), k
+
+
+@pytest.mark.parametrize("image", IMAGES)
+def test_ends_from_behind_are_not_felt_even_near_the_wall_s_own_end(monkeypatch, image):
+    """There the pair of body and end can't be left out; the contact is void all the same."""
+    found = walls.walls_of
+    monkeypatch.setattr(
+        translation, "walls_of", lambda parts: tuple(w._replace(shades=()) for w in found(parts))
+    )
+    for name in ("ends from behind", "corners from behind"):
+        for k in range(60):
+            prop = thrown(k, image)
+            after = velocity_after(prop, map_of(STRAIGHT[name], image), image=image)
+            along = np.array(seen((1, 0), image)) @ prop.velocity[:2]
+            assert after[0] == pytest.approx(along, abs=1e-6), (name, k)
+
+
+def test_throws_over_occupied_cells_go_on_as_on_one_wall(tmp_path):
+    """Through the importer: a row of black pixels, with some rows of other lengths below it."""
+    pixels = np.full((12, 80), 255, dtype=np.uint8)
+    pixels[6, :] = 0
+    pixels[7, 5:60:3] = 0
+    pixels[8, 10:70] = 0
+    (tmp_path / "row.pgm").write_bytes(b"P5\n80 12\n255\n" + pixels.tobytes())
+    cells = Map.from_file(tmp_path / "row.pgm", resolution=0.25, at=(-10, -1.5 - 0.2), tolerance=0)
+    for k in range(30):
+        prop = thrown(k, (0.0, 1))
+        found = velocity_after(prop, cells)
+        assert found[0] == pytest.approx(prop.velocity[0], abs=1e-6), k
+
+
+def test_a_wall_of_two_surfaces_is_not_tripped_over():
+    """It stays two walls, since their friction differs."""
+    rough, smooth = ([[(-9, -0.2), (0.1, -0.2)]], [[(0.1, -0.2), (9, -0.2)]])
+    for k in range(60):
+        prop = thrown(k, (0.0, 1))
+        addons = Map(rough, friction=0.9), Map(smooth, friction=0.1, name="smooth")
+        found = velocity_after(prop, *addons)
+        assert found[0] == pytest.approx(prop.velocity[0], abs=1e-6), k
+
+
+@pytest.mark.parametrize("image", IMAGES)
+def test_a_square_robot_drives_along_forty_pieces_as_along_one(image):
+    """Pressed against it with friction, by its drive; with one piece each it stood for good."""
+    poses = []
+    for scene in (ONE, STRAIGHT["forty pieces"], STRAIGHT["ends from behind"]):
+        robot = Robot(
+            shape=Polygon([(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)]),
+            drive=Holonomic(), friction=0.4, pose=(*at((-2, 0.3), image), image[0]),
+        )  # fmt: skip
+        world = world_of(
+            map_of(scene, image), prop=Puck(pose=(30, 30, 0)), stop_time=8, robot=robot
+        )
+        command = np.array([[0.6], [-0.3 * image[1]]])
+        while world.time < 8 - 1e-9:
+            world.step(command)
+        poses.append(world.pose[:, 0])
+    way = np.array(poses[0][:2]) - at((-2, 0.2), image)
+    assert hypot(*way) > 1.5
+    assert poses[1] == pytest.approx(poses[0], abs=1e-9)
+    assert poses[2] == pytest.approx(poses[0], abs=1e-6)
+
+
+# -- what is not straight ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("degrees", [0.01, 1.0, 9.0, 30.0, 80.0])
+@pytest.mark.parametrize("image", IMAGES)
+def test_a_bend_takes_the_velocity_across_it_and_no_more(degrees, image):
+    """A disc that slides without friction keeps v cos a, in the direction of what comes."""
+    a = radians(degrees)
+    bent = SimpleNamespace(walls=[[(-9, 0), (0, 0), (9 * cos(a), 9 * sin(a))]])
+    puck = Puck(
+        diameter=0.3, pose=(*at((-1, 0.1501), image), 0),
+        velocity=(*seen((2.0, -1e-3), image), 0.0), **SMOOTH,
+    )  # fmt: skip
+    found = velocity_after(puck, map_of(bent, image), image=image)
+    speed = 2 * cos(a)
+    assert found[:2] == pytest.approx([speed * cos(a), speed * sin(a)], abs=2e-4)
+
+
+@pytest.mark.parametrize("degrees", [1.0, 5.0, 45.0, 90.0, 135.0])
+@pytest.mark.parametrize("kind", ["walls", "outlines"])
+@pytest.mark.parametrize("image", IMAGES)
+def test_what_slides_over_a_corner_that_falls_away_keeps_its_velocity(degrees, kind, image):
+    """Nothing is there any more: neither a line's end nor a solid's next edge holds it back."""
+    a = radians(degrees)
+    line = [(-9, 0), (0, 0), (2 * cos(a), -2 * sin(a))]
+    scene = SimpleNamespace(**{kind: [line if kind == "walls" else [*line, (-9, -4)]]})
+    for k in range(12):
+        box = Box(
+            length=0.3, width=0.2, pose=(*at((-1 - k / 50, 0.1), image), image[0]),
+            velocity=(*seen((2.3 - k / 9, -1e-4), image), 0.0), **SMOOTH,
+        )  # fmt: skip
+        found = velocity_after(box, map_of(scene, image), image=image)
+        assert found[0] == pytest.approx(2.3 - k / 9, abs=1e-6)
+        assert hypot(*found[1:]) < 2e-3
+
+
+@pytest.mark.parametrize("height", [0.5, 0.3])
+@pytest.mark.parametrize("kind", ["blocks", "walls"])
+@pytest.mark.parametrize("image", IMAGES)
+def test_a_step_is_felt(height, kind, image):
+    """Above the middle of a box of 0.3 m its push goes through it: the box stands."""
+    scene = SimpleNamespace(outlines=blocks(0.0, 0.0, height, height, wide=2.0))
+    if kind == "walls":
+        scene = SimpleNamespace(walls=[[(-4, 0), (0, 0), (0, height), (4, height)]])
+    box = Box(
+        length=0.3, width=0.3, pose=(*at((-1, 0.15), image), image[0]),
+        velocity=(*seen((2.0, -0.01), image), 0.0), **SMOOTH,
+    )  # fmt: skip
+    found = velocity_after(box, map_of(scene, image), image=image)
+    assert found == pytest.approx([0, 0, 0], abs=1e-2)
+
+
+@pytest.mark.parametrize("image", IMAGES)
+def test_a_corner_of_walls_is_hit_as_that_of_a_polygon(image):
+    """From outside, at all angles: the same bits, but for rounding."""
+    block = SimpleNamespace(outlines=[[(0, -2), (2, -2), (2, 0), (0, 0)]])
+    lines = SimpleNamespace(walls=[[(2, 0), (0, 0), (0, -2)], [(0, -2), (2, -2), (2, 0)]])
+    hit = 0
+    for k in range(30):
+        rng = np.random.default_rng(k)
+        place, way = rng.uniform(-0.6, -0.3, 2) * (1, -1), rng.uniform(0.2, 1.0, 2) * (1, -1)
+        box = Box(
+            length=0.3, width=0.2, pose=(*at(place, image), rng.uniform(0, 3)),
+            velocity=(*seen(way, image), 0.5), **SMOOTH,
+        )  # fmt: skip
+        found = velocity_after(box, map_of(block, image), image=image)
+        assert found == pytest.approx(
+            velocity_after(box, map_of(lines, image), image=image), abs=1e-9
+        )
+        hit += hypot(*(found[:2] - way)) > 1e-3
+    assert hit > 10
+
+
+@pytest.mark.parametrize("kind", ["walls", "tee", "blocks"])
+@pytest.mark.parametrize("image", IMAGES)
+def test_a_box_that_is_pushed_into_a_corner_rests_against_both_walls(kind, image):
+    scene = {
+        "walls": SimpleNamespace(walls=[[(-4, 0), (0, 0), (0, 4)]]),
+        "tee": SimpleNamespace(walls=[[(-4, 0), (4, 0)], [(0, 0), (0, 4)]]),
+        "blocks": SimpleNamespace(outlines=blocks(0, 0, 2, 2, wide=2.0)),
+    }[kind]
+    box = Box(
+        length=0.3, width=0.3, pose=(*at((-0.5, 0.5), image), image[0]), ground_friction=0.1,
+        velocity=(*seen((1.5, -1.5), image), 0.0), friction=0.1, restitution=0.0,
+    )  # fmt: skip
+    world = world_of(map_of(scene, image), prop=box)
+    while world.time < 1.5 - 1e-9:
+        world.step()
+    assert world.prop_pose[:2, 0] == pytest.approx(at((-0.15, 0.15), image), abs=1.2e-3)
+    assert world.prop_velocity[:, 0] == pytest.approx([0, 0, 0], abs=1e-9)
+
+
+BENDS = {
+    "straight": [[(-9, 0), (0, 0), (9, 0)]],
+    "concave": [[(-9, 0), (0, 0), (9, 0.17)]],
+    "bulging": [[(-9, 0), (0, 0), (9, -0.17)]],
+    "steep": [[(-9, 0), (0, 0), (9, 5)]],
+    "corner": [[(-3, 0), (0, 0), (0, -3)]],
+    "tee": [[(-9, 0), (9, 0)], [(0, 0), (0, -3)]],
+    "fork": [[(-9, 0), (0, 0), (9, 0.3)], [(0, 0), (0, -3)]],
+}
+
+TIPS = {
+    "tip": {"shape": Polygon([(0, -0.1), (0.1, 0), (0, 0.1), (-0.1, 0)])},
+    "needle": {"shape": Polygon([(0, -0.1), (0.02, 0.05), (-0.02, 0.05)])},
+    "disc": {"diameter": 0.1},
+    "bead": {"diameter": 0.002},
+}
+
+
+@pytest.mark.parametrize("bend", BENDS)
+@pytest.mark.parametrize("tip", TIPS)
+@pytest.mark.parametrize("off", [0.0, 1e-5, -3e-4, 1e-3])
+def test_nothing_is_pressed_through_a_seam(bend, tip, off):
+    """A robot presses it there for seconds; no point of it gets deeper than bodies may."""
+    kind = Solid if "shape" in TIPS[tip] else Puck
+    prop = kind(pose=(off, 0.15, 0), **TIPS[tip], **SMOOTH)
+    robot = Robot(
+        shape=Polygon([(-0.2, -0.3), (0.2, -0.3), (0.2, 0.3), (-0.2, 0.3)]), drive=Holonomic(),
+        pose=(0, 0.62, 0),
+    )  # fmt: skip
+    world = world_of(Map(walls=BENDS[bend]), prop=prop, robot=robot, stop_time=4)
+    deepest = 0.0
+    while world.time < 4 - 1e-9:
+        world.step(np.array([[0.0], [-0.3]]))
+        x, y, angle = world.prop_pose[:, 0]
+        corners, radius = [(0.0, 0.0)], TIPS[tip].get("diameter", 0.0) / 2
+        if kind is Solid:
+            corners = [tuple(p) for p in prop.shape.pieces[0].vertices]
+        for u, v in corners:
+            px, py = x + u * cos(angle) - v * sin(angle), y + u * sin(angle) + v * cos(angle)
+            top = np.interp(px, *zip(*BENDS[bend][0][: 2 if bend == "corner" else 3], strict=True))
+            if not (bend == "corner" and px > 0):
+                deepest = max(deepest, top - py + radius)
+    assert deepest > 0 or bend == "corner"  # it was pressed, or slid off
+    assert deepest < 1.6e-3 if bend == "steep" else deepest < 1.1e-3
+
+
+# -- whose a wall is --------------------------------------------------------------------------
+
+
+def test_a_contact_says_which_piece_of_a_wall_is_touched():
+    place = at((-1, 0.1001), (0.0, 1))
+    prop = Puck(diameter=0.2, pose=(*place, 0), velocity=(2, -0.05, 0), **SMOOTH)
+    world = world_of(map_of(STRAIGHT["three points"], (0.0, 1)), prop=prop)
+    while world.time < 1.5 - 1e-9:
+        world.step()
+    contacts = world.record.contacts
+    assert set(contacts["b"].tolist()) == {-1, -2}
+    middle = at((0, 0), (0.0, 1))[0]
+    before = contacts["point"][:, 0] < middle
+    assert (contacts["b"] == np.where(before, -1, -2)).all()
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+def test_what_ends_at_the_back_of_a_wall_is_not_touched(physics):
+    robot = Robot(drive=Holonomic(), pose=(-1, 0.16, 0))
+    scenario = Scenario(
+        robots=[robot], workspace=None, physics=physics, stop_time=3, sampling_time=0.05,
+        addons=[Map(STRAIGHT["ends from behind"].walls)],
+    )  # fmt: skip
+    world = World(scenario)
+    while world.time < 3 - 1e-9:
+        world.step(np.array([[0.6], [-0.02]]))
+    assert set(world.record.contacts["b"].tolist()) == {-1}
+
+
+# -- which walls there are --------------------------------------------------------------------
+
+
+def parts(*obstacles, surface=(1.0, 1.0)):
+    return tuple((tuple(map(tuple, outline)), surface, True) for outline in obstacles)
+
+
+def ends_of(found) -> set:
+    return {tuple(sorted((wall.start, wall.end))) for wall in found}
+
+
+def test_pieces_in_one_line_are_one_wall_in_the_direction_of_the_first():
+    [wall] = walls_of(parts([(0, 0), (1, 0)], [(3, 0), (1, 0)], [(2.5, 0), (4, 0)]))
+    assert (wall.start, wall.end) == ((0, 0), (4, 0))
+    assert wall.owners == ((0.0, 0), (1.0, 1), (3.0, 2))
+
+
+def test_walls_that_bend_or_differ_in_surface_stay_as_they_are():
+    bent = parts([(0, 0), (1, 0)], [(1, 0), (2, 3 * MEET)])
+    assert len(walls_of(bent)) == 2
+    first, second = parts([(0, 0), (1, 0)]), parts([(1, 0), (2, 0)], surface=(0.5, 1.0))
+    assert len(walls_of(first + second)) == 2
+
+
+def test_a_line_that_bends_too_little_at_each_piece_is_not_straightened():
+    radius, count = 1e4, 1000
+    turns = [2e-7 * k for k in range(count + 1)]
+    arc = [(radius * sin(turn), radius * (1 - cos(turn))) for turn in turns]
+    assert len(walls_of(parts(*pairwise(arc)))) == count
+
+
+def test_what_adjoining_solids_have_in_common_is_left_out():
+    low, high = [(0, 0), (1, 0), (1, 1), (0, 1)], [(1, 0), (2, 0), (2, 3), (1, 3)]
+    found = ends_of(walls_of(parts(low, high[::-1])))
+    assert found == {
+        ((0, 0), (2, 0)), ((0, 0), (0, 1)), ((0, 1), (1, 1)), ((1, 1), (1, 3)), ((1, 3), (2, 3)),
+        ((2, 0), (2, 3)),
+    }  # fmt: skip
+    # an outline that is there twice has its inside on one side
+    assert ends_of(walls_of(parts(low, low))) == ends_of(walls_of(parts(low)))
+
+
+def test_the_workspace_is_no_solid():
+    room, block = [(0, 0), (4, 0), (4, 3), (0, 3)], [(0, 0), (1, 0), (1, 1), (0, 1)]
+    inside = (*parts(block), (tuple(room), (1.0, 1.0), False))
+    assert ((0, 0), (4, 0)) in ends_of(walls_of(inside))
+
+
+def test_a_wall_knows_what_it_meets_on_each_side():
+    lines = parts([(0, 0), (1, 0)], [(1, 0), (1, 1)], [(1, 0), (2, -2)])
+    first = next(wall for wall in walls_of(lines) if wall.end == (1, 0))
+    at_start, again, left, right = first.seams
+    assert at_start is None
+    assert again is None
+    assert left == ((0, 1), False)
+    assert right.way == pytest.approx((5**-0.5, -2 * 5**-0.5))
+    assert not right.bulges
+    square = walls_of(parts([(0, 0), (1, 0), (1, 1), (0, 1)]))
+    assert [seam.bulges for seam in square[0].seams] == [False, True, False, True]
+
+
+def test_meetings_are_those_that_all_pairs_have():
+    """In the plane's cells as by brute force, for lines of all lengths on a coarse grid."""
+    rng = np.random.default_rng(5)
+    points = rng.integers(0, 12, (300, 4)) / 4
+    lines = [((a, b), (c, d)) for a, b, c, d in points.tolist() if (a, b) != (c, d)]
+    lines += [((0.25, 90.0), (700.0, 90.0)), ((3.0, 90.0), (3.0, 91.0))]
+
+    def touches(point, line) -> bool:
+        (x, y), (u, v) = line
+        along = np.subtract((u, v), (x, y)) / hypot(u - x, v - y)
+        to = np.subtract(point, (x, y))
+        past = to @ along
+        off = abs(to[0] * along[1] - to[1] * along[0])
+        return off <= MEET and -MEET <= past <= hypot(u - x, v - y) + MEET
+
+    expected = [
+        tuple([j for j, other in enumerate(lines) if j != k and touches(p, other)] for p in line)
+        for k, line in enumerate(lines)
+    ]
+    assert len(lines) > walls.FEW
+    assert [tuple(each) for each in walls._meetings(lines)] == expected
+
+
+@pytest.mark.parametrize("bend", BENDS)
+def test_seams_give_the_same_bits_where_nothing_is_compiled(bend):
+    def states() -> list[bytes]:
+        found = []
+        for k in range(6):
+            scene = map_of(SimpleNamespace(walls=BENDS[bend]), (0.0, 1))
+            world = world_of(scene, prop=thrown(k, (0.0, 1)), stop_time=1.0)
+            while world.time < 1.0 - 1e-9:
+                world.step()
+            arrays = world.prop_pose, world.prop_velocity, world.record.contacts
+            found += [array.tobytes() for array in arrays]
+        return found
+
+    quick = states()
+    with plainly():
+        assert states() == quick

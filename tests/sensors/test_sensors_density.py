@@ -1,0 +1,189 @@
+"""What readings add up to strays alike at any sampling time and at any rate of the sensor.
+
+A single reading of a range finder, say, is no part of a sum: its noise is that of each reading.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
+from mars2d.sensors import NUMBER, Imu, Odometry, Pose, Quantity, RangeFinder, Sensor
+
+N = 150
+SECONDS = 10.0
+PERIODS = [(0.4, 1), (0.1, 1), (0.1, 5), (0.025, 1), (0.025, 8), (0.013, 1)]
+
+
+def spread(values: np.ndarray, deviation: float) -> None:
+    """Assert that values of the mean 0 have this standard deviation, to four of its own."""
+    assert values.std() == pytest.approx(deviation, rel=4 / sqrt(2 * values.size))
+    assert values.mean() == pytest.approx(0, abs=4 * deviation / sqrt(values.size))
+
+
+def crowd(sensor: Sensor, sampling_time: float, command=(0.0, 0.0), drive=None) -> World:
+    """Return a world after ten seconds in which N robots carry a sensor, far from each other."""
+    drive = drive or Unicycle(wheel_semiaxis=0.14)
+    robots = [Robot(pose=(0, 20.0 * k, 0), drive=drive, sensors=[sensor]) for k in range(N)]
+    scenario = Scenario(
+        robots=robots, physics="ideal", workspace=None,
+        sampling_time=sampling_time, stop_time=SECONDS,
+    )  # fmt: skip
+    world = World(scenario, seed=11)
+    commands = np.tile(np.reshape(command, (2, 1)), N)
+    while not world.over:
+        world.step(commands)
+    return world
+
+
+def summed(world: World, key: str, every: int) -> tuple[np.ndarray, float]:
+    """Return the integrals of the readings (N, k), each over the time before it, and that time."""
+    rows = world.record.sensors[key][every::every]
+    interval = every * world.scenario.sampling_time
+    return interval * rows.sum(axis=0), interval * len(rows)
+
+
+# -- a gyroscope and accelerometers --------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("sampling_time", "every"), PERIODS)
+def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every):
+    density = (0.03, 0.021, 0.004)
+    rate = None if every == 1 else 1 / (every * sampling_time)
+    world = crowd(Imu(noise=density, rate=rate), sampling_time)
+    found, time = summed(world, "imu", every)
+    for k in range(3):
+        spread(found[:, k], density[k] * sqrt(time))
+    largest = np.abs(np.corrcoef(found.T) - np.eye(3)).max()
+    assert largest < 4 / sqrt(N)
+
+
+@pytest.mark.parametrize("every", [1, 4])
+def test_one_reading_is_the_noisier_the_shorter_its_time(every):
+    robot = Robot(sensors=[Imu(noise=0.02, rate=25 / every)])
+    found = mars2d.run(Scenario(robots=[robot], sampling_time=0.04, stop_time=160)).sensors["imu"]
+    spread(found[::every, 0].ravel(), 0.02 / sqrt(0.04 * every))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("sampling_time", [0.4, 0.1, 0.025, 0.013])
+def test_the_bias_walks_alike_at_any_sampling_time(sampling_time):
+    world = crowd(Imu(bias_walk=(0.02, 0.05, 0.003)), sampling_time)
+    for k, density in enumerate((0.02, 0.05, 0.003)):
+        spread(world.record.sensors["imu"][-1, :, k], density * sqrt(world.time))
+
+
+@pytest.mark.parametrize("every", [1, 3, 7])
+def test_at_a_low_rate_a_gyroscope_misses_no_turn(every):
+    """A reading is the mean over the time since the one before; so they sum up to the heading."""
+    robot = Robot(pose=(0, 0, 0.4), sensors=[Imu(rate=10 / every)])
+    world = World(Scenario(robots=[robot], workspace=None, sampling_time=0.1))
+    rng = np.random.default_rng(2)
+    for spin in rng.uniform(-1.5, 1.5, 42):
+        world.step([[0.1], [spin]])
+    world.stop("done")
+    found, _ = summed(world, "imu", every)
+    assert found[0, 2] == pytest.approx(world.pose[2, 0] - 0.4, abs=1e-12)
+    assert world.time == pytest.approx(4.2)
+
+
+def test_at_a_low_rate_accelerometers_miss_no_blow():
+    robot = Robot(drive=Holonomic(), sensors=[Imu(rate=2)])
+    world = World(Scenario(robots=[robot], workspace=None, sampling_time=0.1))
+    for speed in [0.0, 0.3, 0.1, 0.4, 0.2, 0.2, 0.2, 0.0, 0.1, 0.1]:
+        world.step([[speed], [0.0]])
+    world.observe()
+    assert world.record.sensors["imu"][5, 0] == pytest.approx([0.2 / 0.5, 0, 0], abs=1e-12)
+    assert world.robots[0].sense.imu == pytest.approx([-0.1 / 0.5, 0, 0], abs=1e-12)
+
+
+class Gyroscope(Sensor):
+    """One of the user's own, in two numbers of which one is nothing."""
+
+    averages = True
+    quantities = (Quantity("omega", "rad/s"), NUMBER)
+
+    def read(self, robot, world, rng):
+        return robot.velocity[2], 0.0
+
+
+def test_a_sensor_of_ones_own_may_have_a_density():
+    robot = Robot(sensors=[Gyroscope(noise=(0.05, 0.0), rate=5, outliers=0.0)])
+    scenario = Scenario(robots=[robot], sampling_time=0.04, stop_time=400)
+    found = mars2d.run(scenario).sensors["gyroscope"][::5, 0]
+    spread(found[:, 0], 0.05 / sqrt(0.2))
+    assert not found[:, 1].any()
+
+
+def test_its_outliers_are_ten_times_as_far_off_as_its_readings():
+    robot = Robot(sensors=[Gyroscope(noise=0.05, outliers=1.0)])
+    scenario = Scenario(robots=[robot], sampling_time=0.04, stop_time=80)
+    spread(mars2d.run(scenario).sensors["gyroscope"].ravel(), 10 * 0.05 / sqrt(0.04))
+
+
+def test_a_density_that_can_not_be_is_an_error_that_says_density():
+    with pytest.raises(InputError, match=r"Imu.noise = -1: expected a density: 0, or from 1e-12"):
+        Imu(noise=-1)
+    with pytest.raises(InputError, match=r"Imu.noise = .*: expected one number, or 3: ax"):
+        Imu(noise=(0.1, 0.2))
+
+
+# -- odometry ------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("sampling_time", "every"), PERIODS)
+def test_the_drift_of_odometry_is_alike_at_any_rate(sampling_time, every):
+    v, b, drift = 0.31, 0.14, 0.004
+    rate = None if every == 1 else 1 / (every * sampling_time)
+    world = crowd(Odometry(drift=drift, rate=rate), sampling_time, (v, 0.0))
+    last = world.record.sensors["odometry"][::every][-1]
+    way = v * every * sampling_time * (len(world.record.time[::every]) - 1)
+    off = last - [way, 0, 0]
+    turning = drift**2 / (2 * b * b)
+    spread(off[:, 2], sqrt(turning * way))
+    spread(off[:, 1], sqrt(turning * way**3 / 3))
+    bends = way**2 * turning
+    deviation = sqrt(drift**2 * way / 2 + bends**2 / 12)
+    assert off[:, 0].mean() == pytest.approx(-bends / 4, abs=4 * deviation / sqrt(N))
+    assert off[:, 0].std() == pytest.approx(deviation, rel=4 / sqrt(2 * N))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("sampling_time", [0.4, 0.1, 0.025, 0.013])
+def test_odometry_follows_a_noisy_drive_at_any_sampling_time(sampling_time):
+    """The wheels do turn so; what it is off by is its own drift alone."""
+    v, b, drift, noise = 0.31, 0.14, 0.004, 0.01
+    drive = Unicycle(wheel_semiaxis=b, noise=noise)
+    world = crowd(Odometry(drift=drift), sampling_time, (v, 0.0), drive)
+    believed = world.record.sensors["odometry"][-1, :, 2]
+    spread(world.pose[2], noise * v * sqrt(world.time / 2) / b)
+    spread(believed - world.pose[2], drift * sqrt(v * world.time / 2) / b)
+
+
+# -- one draw for each reading -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("sampling_time", [0.4, 0.1, 0.013])
+@pytest.mark.parametrize(
+    ("sensor", "noise"),
+    [(RangeFinder(beams=3, range=9, noise=0.03), 0.03), (Pose(noise=0.2), 0.2),
+     (Odometry(noise=0.1), 0.1)],
+    ids=lambda value: getattr(value, "key", ""),
+)  # fmt: skip
+def test_the_noise_of_a_reading_is_the_same_at_any_sampling_time(sensor, noise, sampling_time):
+    walls = [(-2, -2), (-2, 2), (2, 2), (2, -2)]
+    scenario = Scenario(
+        robots=[Robot(sensors=[sensor])], on_exit="wall", workspace=walls,
+        sampling_time=sampling_time, stop_time=500 * sampling_time,
+    )  # fmt: skip
+    found = mars2d.run(scenario).sensors[sensor.key][:, 0]
+    perfect = mars2d.run(
+        scenario.replace(robots=[Robot(sensors=[sensor.replace(noise=0.0)])])
+    ).sensors[sensor.key][:, 0]
+    spread((found - perfect).ravel(), noise)
