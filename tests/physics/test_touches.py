@@ -204,7 +204,7 @@ def told(monkeypatch):
     bodies = log_of(0, 1, 2)
     for k, body in enumerate(bodies):
         place(body, complex(k, 0))
-    island = islands.Island(SimpleNamespace(iterations=1), None, bodies, [], [])
+    island = islands.Island(SimpleNamespace(iterations=1), None, bodies, [], [], None)
     island.bodies = bodies
     return island
 
