@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arrays import locked
 from mars2d.physics.space import Space
 from mars2d.physics.translation import mover_of
 from mars2d.record.contact import CONTACT
@@ -48,7 +49,11 @@ class Start(NamedTuple):
 
 
 class Motion:
-    """The base of engines: robots first, then props. space: the bodies as sensors see them."""
+    """The base of engines: robots first, then props. space: the bodies as sensors see them.
+
+    seen_velocity, seen_work: as `velocity` and `work`, at the last `look`, in memory that the next
+    one writes again.
+    """
 
     def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
         """Build robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls.
@@ -67,6 +72,9 @@ class Motion:
         self._numbers = array("d", bytes(48 * self.count))
         self._state = np.frombuffer(self._numbers).reshape(-1, 6)
         self._mover.write_states(self._numbers)
+        self._rates, self._worked = array("d", bytes(24 * self.count)), array("d", bytes(48))
+        self.seen_velocity = locked(np.frombuffer(self._rates).reshape(3, -1))
+        self.seen_work = locked(np.frombuffer(self._worked))
         self.space = Space(scenario, self._state)
 
     @property
@@ -77,9 +85,13 @@ class Motion:
     @property
     def velocity(self) -> Float:
         """The velocities (3, N) at this instant: x', y' [m/s], theta' [rad/s], as a new array."""
-        velocity = array("d", bytes(24 * self.count))
-        self._mover.write_velocities(velocity)
-        return np.frombuffer(velocity).reshape(3, -1)
+        self.look()
+        return self.seen_velocity.copy()
+
+    def look(self) -> None:
+        """Let `seen_velocity` and `seen_work` be those of this instant."""
+        self._mover.write_velocities(self._rates)
+        self._mover.write_work(self._worked)
 
     @property
     def motion(self) -> Start:
@@ -105,9 +117,8 @@ class Motion:
     @property
     def work(self) -> Float:
         """The work on all bodies since the start (6,), joules; see `mars2d.record.energy.WORK`."""
-        work = array("d", bytes(48))
-        self._mover.write_work(work)
-        return np.frombuffer(work)
+        self.look()
+        return self.seen_work.copy()
 
     def take_contacts(self) -> NDArray[np.void]:
         """Return the contacts since the last call by time, one row (dtype CONTACT) per pair."""

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.description import wrong
+from mars2d.core.errors import InputError, nearest
 from mars2d.scenario.scenario import Scenario
 
 __all__ = ["WORK", "Energy", "Momentum", "energy_of", "momentum_of"]
@@ -33,9 +35,20 @@ class Energy(NamedTuple):
         """The kinetic energy of all bodies, J."""
         return np.asarray(self.kinetic.sum(axis=-1))
 
+    @property
+    def missing(self) -> Float:
+        """What all works together do not account for, (T,) J: 0, but for rounding.
+
+        It is the change of `total` since the first of T instants, less the work since then.
+        """
+        if not self.total.ndim:
+            raise InputError("Energy.missing is of several instants: expected that of a record")
+        unmoved = self.total - self.work.sum(axis=-1)
+        return np.asarray(unmoved - unmoved[:1])
+
     def by(self, what: str) -> Float:
-        """Return the work of one of `WORK` since the start, J."""
-        return np.asarray(self.work[..., WORK.index(what)])
+        """Return the work of one of `WORK` since the start, J. Raises InputError for others."""
+        return np.asarray(self.work[..., WORK.index(_known(what))])
 
 
 class Momentum(NamedTuple):
@@ -70,6 +83,12 @@ def momentum_of(scenario: Scenario, pose: Float, velocity: Float) -> Momentum:
     y = pose[..., 1, :] + lead * np.sin(pose[..., 2, :])
     angular = (mass * (x * vy - y * vx) + moment * spin).sum(axis=-1)
     return Momentum(np.stack([mass * vx, mass * vy], axis=-2), np.asarray(angular))
+
+
+def _known(what: str) -> str:
+    if what not in WORK:
+        raise wrong("what", what, f"one of {', '.join(WORK)}{nearest(what, WORK, most=0)}")
+    return what
 
 
 def _inertia(scenario: Scenario) -> tuple[Float, Float]:

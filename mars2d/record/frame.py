@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene
 from mars2d.record.contact import CONTACT
+from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.message import MESSAGE
 from mars2d.scenario.scenario import Scenario
 
@@ -49,6 +50,8 @@ class Frame:
     empty. messages: under way in the control step that led here. message_log: returns all messages
     so far, and the texts to which their field `content` refers. reading_path: returns the readings
     of a sensor, by its name, on a robot at the times of `path`, (k, ...), or None if unknown.
+    exact_velocity: (3, n + p), of robots and props at this instant, and work: (6,) J since the
+    start; empty if they are unknown.
     """
 
     scenario: Scenario
@@ -70,6 +73,8 @@ class Frame:
     command_path: Float = field(default_factory=lambda: np.empty((0, 2, 0)))
     message_log: Callable[[], tuple[NDArray[np.void], Sequence[str]]] = _no_message_log
     reading_path: Callable[[str, int], NDArray[Any] | None] = _no_readings
+    exact_velocity: Float = field(default_factory=lambda: np.empty((3, 0)))
+    work: Float = field(default_factory=lambda: np.empty(0))
 
     @property
     def velocity(self) -> Float:
@@ -86,6 +91,24 @@ class Frame:
         if 0 <= row < len(self.prop_path):
             velocity[:, n:] = (self.prop_pose - self.prop_path[row]) / spent
         return velocity
+
+    @property
+    def energy(self) -> Energy | None:
+        """The kinetic energies of robots and props, and the work since the start; see `Energy`."""
+        if not self.work.size or np.isnan(self.work).any():
+            return None
+        return energy_of(self.scenario, self._poses, self.exact_velocity, self.work)
+
+    @property
+    def momentum(self) -> Momentum | None:
+        """The momenta of robots and props; None if unknown."""
+        if not self.work.size or np.isnan(self.work).any():
+            return None
+        return momentum_of(self.scenario, self._poses, self.exact_velocity)
+
+    @property
+    def _poses(self) -> Float:
+        return np.hstack([self.pose, self.prop_pose])
 
 
 def between(first: Frame, second: Frame, time: float) -> Frame:

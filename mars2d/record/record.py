@@ -18,6 +18,7 @@ from mars2d.core.errors import counted
 from mars2d.core.scene import Scene
 from mars2d.record.columns import Texts, blocks
 from mars2d.record.contact import CONTACT, rows_of
+from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Change, Intervention
 from mars2d.record.message import MESSAGE, in_flight
@@ -30,15 +31,25 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
-__all__ = ["COLUMNS", "Record", "load"]
+__all__ = ["COLUMNS", "FORMER", "Record", "digest_of", "load"]
 
 Float = NDArray[np.float64]
 
-COLUMNS = ("time", "pose", "command", "command_time", "prop_pose", "effort")
+COLUMNS = (
+    "time", "pose", "command", "command_time", "prop_pose", "effort", "velocity", "prop_velocity",
+    "work",
+)  # fmt: skip
 """The columns of every record, with a row for each control step."""
+
+FORMER = COLUMNS[:6]
+"""The columns of records from before velocities and work were recorded."""
 
 LOAD_LIMIT = 2**31
 """The most data that `load` reads by default, bytes."""
+
+
+def _not_given() -> Float:
+    return np.empty(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,8 +58,11 @@ class Record:
 
     time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, 2, n), issued at
     ``time``, after saturation; it takes effect at command_time (T,). prop_pose: (T, 3, p). effort:
-    (T, n), the largest share of its bounds that a drive used in the control step before. sensors:
-    for each sensor's name an array (T, m, ...) of readings, of the m robots in
+    (T, n), the largest share of its bounds that a drive used in the control step before. velocity,
+    prop_velocity: (T, 3, n) and (T, 3, p) = x', y' [m/s], theta' [rad/s] at ``time``, before its
+    command takes effect; where they are not given, the means over the control step before. work:
+    (T, 6) J since the start, of what `mars2d.record.energy.WORK` names; nan where it is not given.
+    sensors: for each sensor's name an array (T, m, ...) of readings, of the m robots in
     ``sensor_robots[name]``. contacts: a row for each pair and control step, with the fields of
     `mars2d.record.CONTACT`. messages: a row for each message and receiver, with the fields of
     `mars2d.record.MESSAGE`; contents: the texts that were sent, as JSON, to which their field
@@ -67,6 +81,9 @@ class Record:
     command_time: Float
     prop_pose: Float
     effort: Float
+    velocity: Float = field(default_factory=_not_given)
+    prop_velocity: Float = field(default_factory=_not_given)
+    work: Float = field(default_factory=_not_given)
     sensors: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     sensor_robots: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     contacts: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=CONTACT))
@@ -82,10 +99,19 @@ class Record:
     branches: tuple[Record, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
+        self._complete()
         for name in (*COLUMNS, "contacts", "messages"):
             object.__setattr__(self, name, frozen(getattr(self, name)))
         sensors = {name: frozen(values) for name, values in self.sensors.items()}
         object.__setattr__(self, "sensors", sensors)
+
+    def _complete(self) -> None:
+        """Put mean velocities and nan in place of velocities and work that are not given."""
+        for name, pose in (("velocity", self.pose), ("prop_velocity", self.prop_pose)):
+            if getattr(self, name).ndim == 1:
+                object.__setattr__(self, name, _mean_velocity(self.time, pose))
+        if self.work.ndim == 1:
+            object.__setattr__(self, "work", np.full((len(self.time), len(WORK)), np.nan))
 
     def __len__(self) -> int:
         return len(self.time)
@@ -97,13 +123,30 @@ class Record:
     @cached_property
     def digest(self) -> str:
         """The sha256 over all columns: the same for the same run, to the last bit."""
-        sha = hashlib.sha256()
-        for name, column in self.columns().items():
-            sha.update(f"{name} {column.dtype.str} {column.shape} ".encode())
-            for block in blocks(column):
-                sha.update(block.tobytes())
-        sha.update(self.over_message.encode())
-        return sha.hexdigest()
+        return digest_of(self.columns(), self.over_message)
+
+    @cached_property
+    def energy(self) -> Energy:
+        """The kinetic energy of each body in each row, and the work that has made it, J."""
+        return energy_of(self.scenario, self._poses, self._velocities, self.work)
+
+    @cached_property
+    def momentum(self) -> Momentum:
+        """The momentum of each body in each row, N s, and the angular one of all, N m s."""
+        return momentum_of(self.scenario, self._poses, self._velocities)
+
+    @property
+    def _poses(self) -> Float:
+        return np.concatenate([self.pose, self.prop_pose], axis=-1)
+
+    @property
+    def _velocities(self) -> Float:
+        return np.concatenate([self.velocity, self.prop_velocity], axis=-1)
+
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """Those of `COLUMNS` that were recorded: `FORMER` where the work is unknown."""
+        return FORMER if np.isnan(self.work[:1]).any() else COLUMNS
 
     @property
     def collisions(self) -> int:
@@ -117,7 +160,7 @@ class Record:
         ``message:FIELD``. The texts of messages are in ``contents`` (UTF-8, one after the other)
         and ``content_sizes`` (the bytes of each).
         """
-        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in COLUMNS}
+        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in self.kept}
         columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
         # Field by field, since a structured array has undefined bytes between its fields.
         columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
@@ -153,6 +196,8 @@ class Record:
             command_path=self.command[:row],
             message_log=lambda: (self.messages, self.contents),
             reading_path=lambda name, robot: self._readings_before(row, name, robot),
+            exact_velocity=np.hstack([self.velocity[row], self.prop_velocity[row]]),
+            work=self.work[row],
             draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
         )
 
@@ -296,6 +341,25 @@ class Record:
         from mars2d.output import formats
 
         return formats.save(self, path)
+
+
+def digest_of(columns: Mapping[str, NDArray[Any]], over_message: str) -> str:
+    """Return the sha256 over columns by name, and over why a run ended."""
+    sha = hashlib.sha256()
+    for name, column in columns.items():
+        sha.update(f"{name} {column.dtype.str} {column.shape} ".encode())
+        for block in blocks(column):
+            sha.update(block.tobytes())
+    sha.update(over_message.encode())
+    return sha.hexdigest()
+
+
+def _mean_velocity(time: Float, pose: Float) -> Float:
+    """Return the means (T, 3, k) over the control step before each row, 0 in the first."""
+    velocity = np.zeros_like(pose)
+    with np.errstate(over="ignore"):  # of numbers that no run has
+        velocity[1:] = np.diff(pose, axis=0) / np.diff(time)[:, None, None]
+    return velocity
 
 
 def load(path: str | Path, largest: float = LOAD_LIMIT) -> Record:

@@ -14,6 +14,7 @@ from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
 from mars2d.record.columns import Column, DiskError, Storage, Texts, blocks
 from mars2d.record.contact import CONTACT
+from mars2d.record.energy import WORK
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE, as_of, in_flight
 from mars2d.record.record import Record
@@ -64,6 +65,21 @@ class History:
         """The drives' efforts, (k, n); see `World.effort`."""
         return self._recorder.column("effort")
 
+    @property
+    def velocity(self) -> Float:
+        """The velocities of the robots, (k, 3, n); see `World.velocity`."""
+        return self._recorder.column("velocity")
+
+    @property
+    def prop_velocity(self) -> Float:
+        """The velocities of the props, (k, 3, p)."""
+        return self._recorder.column("prop_velocity")
+
+    @property
+    def work(self) -> Float:
+        """The work since the start, (k, 6) J; see `World.energy`."""
+        return self._recorder.column("work")
+
     def __len__(self) -> int:
         return self._recorder.rows
 
@@ -96,6 +112,9 @@ class Recorder:
             "command_time": storage((), float, capacity),
             "prop_pose": storage((3, props), float, capacity),
             "effort": storage((n,), float, capacity),
+            "velocity": storage((3, n), float, capacity),
+            "prop_velocity": storage((3, props), float, capacity),
+            "work": storage((len(WORK),), float, capacity),
         }
         self._places: list[tuple[str, NDArray[Any]]] = []  # where rows of columns are written
         self._room = 0  # the number of rows that all of them have
@@ -227,6 +246,9 @@ class Recorder:
             command_time=self.column("command_time"),
             prop_pose=self.column("prop_pose"),
             effort=self.column("effort"),
+            velocity=self.column("velocity"),
+            prop_velocity=self.column("prop_velocity"),
+            work=self.column("work"),
             sensors=self.sensors(),
             sensor_robots={k: v for k, v in self.sensor_robots.items() if k in self._sensors},
             contacts=self.contacts(),

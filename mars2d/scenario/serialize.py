@@ -307,18 +307,21 @@ _KNOWN = (
 def _stand_in(family: str, fields: dict[str, Any]) -> Any:
     """Return the replacement for a part of the user's own, or `_LEFT_OUT`."""
     if family == "drive":
-        return Unicycle(**{f.name: fields[f.name] for f in dataclasses.fields(Drive)})
+        return Unicycle(**_common(Drive, fields))
     if family == "prop":
-        kept = {f.name: fields[f.name] for f in dataclasses.fields(Prop)}
-        return Solid(fields["shape"], **kept)
+        return Solid(fields["shape"], **_common(Prop, fields))
     if family == "shape":
         return Compound(fields["parts"])
     if family == "neighbourhood":
         return Everyone()
     if family == "add-on" and fields["obstacles"]:
-        kept = {f.name: fields[f.name] for f in dataclasses.fields(Addon)}
-        return Map(fields["obstacles"], **kept)
+        return Map(fields["obstacles"], **_common(Addon, fields))
     return _LEFT_OUT
+
+
+def _common(base: type[Description], fields: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields that all parts of a family have; older files lack the newer ones."""
+    return {f.name: fields[f.name] for f in dataclasses.fields(base) if f.name in fields}
 
 
 _LEFT_OUT = object()

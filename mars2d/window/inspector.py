@@ -19,6 +19,7 @@ from mars2d.window.readout import (
     MAX_MESSAGES,
     Row,
     contacts_of,
+    dynamics_of,
     inbox,
     kind_of,
     rounded,
@@ -39,7 +40,7 @@ HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
 """The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
 MIN_FORCE = 76.0
 """The lowest plot of forces, points."""
-LABEL = 72.0
+LABEL = 80.0
 """The room for the label of a row, points."""
 
 DRAW_INTERVAL = 1 / 15
@@ -163,6 +164,15 @@ class Inspector:
                     MIN_FORCE,
                 ),
             )
+        dynamics = dynamics_of(frame, body)
+        if dynamics:
+            yield (
+                "energy",
+                Section(
+                    ROW * len(dynamics),
+                    lambda surface, rect: self._draw_rows(surface, rect, rect.top, dynamics),
+                ),
+            )
         for plot in sensor_plots(frame, body):
             yield plot.sensor.key, self._sensor(plot)
         if body < n and any(addon.carries_messages for addon in frame.scenario.addons):
@@ -197,14 +207,21 @@ class Inspector:
         image = fonts.render(name, 17 * ui, theme.ink, bold=True)
         surface.blit(image, image.get_rect(midleft=(rect.left + round(22 * ui), middle)))
         top = rect.top + round(HEAD * ui)
-        for k, (what, numbers) in enumerate(rows):
-            line = pygame.Rect(rect.left, top + round(k * ROW * ui), rect.width, round(ROW * ui))
-            self._draw_row(surface, line, what, numbers)
+        self._draw_rows(surface, rect, top, rows)
         if effort is not None:
             line = pygame.Rect(
                 rect.left, top + round(len(rows) * ROW * ui), rect.width, round(ROW * ui)
             )
             self._draw_effort(surface, line, effort)
+
+    def _draw_rows(
+        self, surface: pygame.Surface, rect: pygame.Rect, top: int, rows: list[Row]
+    ) -> None:
+        """Draw rows of numbers one below the other."""
+        ui = self.painter.ui
+        for k, (what, numbers) in enumerate(rows):
+            line = pygame.Rect(rect.left, top + round(k * ROW * ui), rect.width, round(ROW * ui))
+            self._draw_row(surface, line, what, numbers)
 
     def _draw_row(
         self,

@@ -14,7 +14,9 @@ from mars2d.core.quantity import UNKNOWN
 from mars2d.output.layers.forces import in_newtons, mean_forces
 from mars2d.record.frame import Frame
 
-__all__ = ["MAX_MESSAGES", "Row", "contacts_of", "inbox", "kind_of", "rounded", "state_of"]
+__all__ = [
+    "MAX_MESSAGES", "Row", "contacts_of", "dynamics_of", "inbox", "kind_of", "rounded", "state_of",
+]  # fmt: skip
 
 MAX_MESSAGES = 3
 """How many messages of the inbox are listed."""
@@ -59,6 +61,19 @@ def state_of(frame: Frame, body: int) -> list[Row]:
     return rows
 
 
+def dynamics_of(frame: Frame, body: int) -> list[Row]:
+    """Return a body's energy and momentum beside those of all bodies, where they are known."""
+    energy, momentum = frame.energy, frame.momentum
+    if energy is None or momentum is None:
+        return []
+    own, whole = float(energy.kinetic[body]), float(energy.total)
+    p, total = np.hypot(*momentum.linear[:, body]), np.hypot(*momentum.total)
+    return [
+        ("energy", [("E", _digits(own, "J")), ("of all", _digits(whole, "J"))]),
+        ("momentum", [("p", _digits(float(p), "N s")), ("of all", _digits(float(total), "N s"))]),
+    ]
+
+
 def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
     """Return the names and values of a command (2,); a common unit is written once."""
     first, second = drive.quantities or UNKNOWN
@@ -75,6 +90,11 @@ def _number(value: float, unit: str = "") -> str:
     text = f"{value + 0.0:.2f}" if abs(value) < 1000 else f"{value:.3g}"
     text = "0.00" if text == "-0.00" else text
     return f"{text} {unit}".strip().replace("-", MINUS)
+
+
+def _digits(value: float, unit: str) -> str:
+    """Return a number of three digits, with its unit; what is below a millionth is 0."""
+    return f"{value if value >= 1e-6 else 0.0:.3g} {unit}".replace("-", MINUS)
 
 
 def _degrees(angle: float) -> str:

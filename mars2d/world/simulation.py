@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.communication import Communication
 from mars2d.bodies.team import Drives
-from mars2d.core.arrays import frozen, locked
+from mars2d.core.arrays import locked
 from mars2d.core.delay import DelayLine
 from mars2d.core.errors import InputError, LawError, described
 from mars2d.core.interfaces import WorldLike
@@ -270,6 +270,7 @@ class Simulation(State):
 
     def _write_row(self) -> None:
         time = self.time
+        velocity, prop_velocity, work = self.look()
         self.recorder.write(
             self.sensing.recorded(),
             time=time,
@@ -278,6 +279,9 @@ class Simulation(State):
             command_time=time + self.scenario.command_delay,
             prop_pose=self.prop_pose,
             effort=self.effort,
+            velocity=velocity,
+            prop_velocity=prop_velocity,
+            work=work,
         )
 
     def _check_workspace(self) -> None:
@@ -303,10 +307,10 @@ class Simulation(State):
         if reached is not None:
             self.engine.ask(reached)
         self.engine_seconds += perf_counter() - start
-        self.contacts = frozen(self.engine.take_contacts())
+        self.contacts = locked(self.engine.take_contacts())
         self.recorder.write_contacts(self.contacts)
         self.take_poses()
-        self.effort = frozen(self.engine.take_effort())
+        self.effort = locked(self.engine.take_effort())
         self.iteration += 1
 
     # -- changes while it runs -------------------------------------------------------------------

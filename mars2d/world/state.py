@@ -109,7 +109,7 @@ class State:
         self.driven: list[tuple[float, Float]] = []
         self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
         self._robots, self._props = slice(n), slice(n, None)  # columns of all bodies' arrays
-        self._worked: Float = np.zeros(len(WORK))  # before the engine that is there now
+        self._worked: Float | None = None  # before the engine that is there now, if any was
         self.engine = ENGINES[scenario.physics](scenario, None)
         self._take_engine()
 
@@ -118,15 +118,16 @@ class State:
 
         What that changes in the bodies' energies is the work of hands.
         """
-        worked, before = self.work, self.energy.total
+        self._worked, before = self.work, self.energy.total
         self.engine = ENGINES[self.scenario.physics](self.scenario, start)
-        self._worked = worked
         self._take_engine()
         self._worked[WORK.index("hands")] += self.energy.total - before
 
     def _take_engine(self) -> None:
         self.take_poses()
         self._velocity_at = -1, self.pose
+        seen = self.engine.seen_velocity
+        self._seen = seen[:, self._robots], seen[:, self._props], self.engine.seen_work
 
     def take_poses(self) -> None:
         """Take the poses of robots and props from the engine."""
@@ -165,10 +166,19 @@ class State:
             self._velocity_at = self.iteration, locked(self.engine.velocity)
         return self._velocity_at[1]
 
+    def look(self) -> tuple[Float, Float, Float]:
+        """Return the velocities of robots and props and the work at this instant, for a moment.
+
+        The next look may write to the same memory.
+        """
+        self.engine.look()
+        velocity, prop_velocity, work = self._seen
+        return velocity, prop_velocity, work if self._worked is None else work + self._worked
+
     @property
     def work(self) -> Float:
         """The work on all bodies since the start (6,), J; see `mars2d.record.energy.WORK`."""
-        return np.asarray(self._worked + self.engine.work)
+        return np.array(self.look()[2])
 
     @property
     def energy(self) -> Energy:

@@ -219,6 +219,8 @@ class WorldView:
             command_path=now.history.command[: now.iteration],
             message_log=now.recorder.messages,
             reading_path=partial(now.recorder.readings, now.iteration),
+            exact_velocity=np.hstack([now.velocity, now.prop_velocity]),
+            work=now.work,
         )
 
     # -- what may be done ----------------------------------------------------------------------

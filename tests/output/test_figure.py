@@ -491,6 +491,9 @@ def test_a_hundred_robots_of_a_thousand_rows_are_drawn_quickly(record):
         pose=pose,
         prop_pose=np.empty((1000, 3, 0)),
         effort=np.zeros((1000, 100)),
+        velocity=np.empty(0),
+        prop_velocity=np.empty(0),
+        work=np.empty(0),
     )
     begin = time.process_time()
     large.plot().figure.savefig(BytesIO(), format="png")

@@ -22,6 +22,7 @@ from mars2d.output.films.film import (
     size_of,
 )
 from mars2d.output.films.footage import Cut, Footage, shots
+from mars2d.record.record import COLUMNS
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
 from tests.window.circling import Circling
@@ -372,8 +373,7 @@ def test_what_can_not_be_filmed_is_said_and_leaves_nothing(record, tmp_path, nam
 def test_a_record_without_rows_is_no_film(record, tmp_path):
     from dataclasses import replace
 
-    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort")
-    empty = replace(record, **{name: getattr(record, name)[:0] for name in columns})
+    empty = replace(record, **{name: getattr(record, name)[:0] for name in COLUMNS})
     with pytest.raises(InputError, match="no rows"):
         film_record(empty, tmp_path / "a.gif")
 

@@ -15,10 +15,12 @@ from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.scene import Scene
 from mars2d.output.pages.replay import page, save_html
+from mars2d.record.record import COLUMNS
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.sensors.base import Sensor
 
 ROOM = [(-6, -6), (6, -6), (6, 6), (-6, 6)]
+NOT_GIVEN = dict.fromkeys(("velocity", "prop_velocity", "work"), np.empty(0))
 
 
 def circles(world):
@@ -130,7 +132,7 @@ def test_a_long_run_is_thinned_to_20_000_rows_with_its_first_and_last():
     pose[:, 0, 0] = np.sin(time / 40)
     record = replace(
         short, time=time, pose=pose, command=np.zeros((rows, 2, 1)), command_time=time,
-        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, 1)),
+        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, 1)), **NOT_GIVEN,
     )  # fmt: skip
     text = page(record)
     assert len(text.encode()) < 2_000_000
@@ -271,7 +273,7 @@ def test_a_thousand_robots_fit_too():
     pose[:, 1] = grid[:, 1] + 0.3 * np.cos(np.outer(time, 2 - np.arange(n) / n))
     record = replace(
         record, time=time, pose=pose, command=np.zeros((rows, 2, n)), command_time=time,
-        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, n)),
+        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, n)), **NOT_GIVEN,
     )  # fmt: skip
     text = page(record)
     assert len(text.encode()) < 2_000_000
@@ -282,15 +284,13 @@ def test_a_thousand_robots_fit_too():
 
 def test_a_record_of_one_row_has_a_replay():
     record = mars2d.run(Scenario(robots=1, stop_time=0.1), control=circles)
-    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort")
-    content, columns = held(page(replace(record, **{c: getattr(record, c)[:1] for c in columns})))
+    content, columns = held(page(replace(record, **{c: getattr(record, c)[:1] for c in COLUMNS})))
     assert len(columns["places"]) == content["rows"] == 1
 
 
 def test_a_record_without_rows_has_no_replay():
     record = mars2d.run(Scenario(robots=1, stop_time=0.1), control=circles)
-    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort")
-    empty = replace(record, **{name: getattr(record, name)[:0] for name in columns})
+    empty = replace(record, **{name: getattr(record, name)[:0] for name in COLUMNS})
     with pytest.raises(InputError, match="no rows"):
         page(empty)
 

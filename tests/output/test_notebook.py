@@ -237,7 +237,8 @@ def test_paths_that_would_fill_a_notebook_are_left_out_and_it_says_so():
     wild = dataclasses.replace(
         record, time=np.arange(rows) * 0.1, pose=pose, command=np.zeros((rows, 2, count)),
         command_time=np.arange(rows) * 0.1, prop_pose=np.zeros((rows, 3, 0)),
-        effort=np.zeros((rows, count)),
+        effort=np.zeros((rows, count)), velocity=np.empty(0), prop_velocity=np.empty(0),
+        work=np.empty(0),
     )  # fmt: skip
     picture = wild._repr_svg_()
     assert len(picture) < 300_000

@@ -11,6 +11,7 @@ import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 
 import mars2d
 from mars2d import Car, Holonomic, InputError, Record, Robot, Scenario, World
@@ -96,6 +97,54 @@ def test_robots_are_chosen_by_name_or_index_in_the_order_given(record):
     (ax,) = record.plot_signals("y", robots=["bob", 0, 1])
     np.testing.assert_array_equal(data(ax)[0][:, 1], record.pose[:, 1, 1])
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["bob", "ann"]
+
+
+def test_energy_has_a_curve_for_all_that_did_work_and_momentum_its_two_parts(record):
+    energy, kinetic = record.plot_signals("energy", "kinetic")
+    total, *works = [points[:, 1] for points in data(energy)]
+    mass = np.array([body.inertia.mass for body in record.scenario.bodies])
+    moment = np.array([body.inertia.moment for body in record.scenario.bodies])
+    vx, vy, omega = np.moveaxis(np.concatenate([record.velocity, record.prop_velocity], -1), 1, 0)
+    each = (mass * (vx**2 + vy**2) + moment * omega**2) / 2
+    np.testing.assert_allclose(total, each.sum(axis=1), atol=1e-12)
+    np.testing.assert_allclose(np.transpose([p[:, 1] for p in data(kinetic)]), each, atol=1e-12)
+    assert len(works) >= 3, "drives, floor and impacts"
+    np.testing.assert_allclose(sum(works), total - total[0], atol=1e-9)
+    legends = [child for child in energy.get_children() if isinstance(child, Legend)]
+    names = {text.get_text() for legend in legends for text in legend.get_texts()}
+    assert {"kinetic, of all", "work of drives", "work of floor", "ann", "puck"} <= names
+
+    linear, angular = record.plot_signals("momentum")
+    x, y = (points[:, 1] for points in data(linear))
+    np.testing.assert_allclose(x, (mass * vx).sum(axis=1), atol=1e-12)
+    np.testing.assert_allclose(y, (mass * vy).sum(axis=1), atol=1e-12)
+    np.testing.assert_array_equal(data(angular)[0][:, 1], record.momentum.angular)
+
+
+def test_legends_beside_panels_lie_on_the_page(record):
+    for ax in record.plot_signals("energy", "kinetic"):
+        ax.figure.canvas.draw()
+        page = ax.figure.bbox
+        for legend in (child for child in ax.get_children() if isinstance(child, Legend)):
+            box = legend.get_window_extent()
+            assert page.x0 <= box.x0 < box.x1 <= page.x1 + 1
+
+
+def test_a_record_without_work_has_the_energy_of_mean_velocities(record):
+    nothing = np.empty(0)
+    old = dataclasses.replace(record, velocity=nothing, prop_velocity=nothing, work=nothing)
+    (ax,) = old.plot_signals("energy")
+    (line,) = data(ax)
+    vx, vy, omega = np.diff(old.pose, axis=0)[4] / old.scenario.sampling_time
+    puck = np.diff(old.prop_pose, axis=0)[4, :, 0] / old.scenario.sampling_time
+    moves = [*zip(vx, vy, omega, strict=True), puck]
+    energies = [
+        (body.inertia.mass * (x**2 + y**2) + body.inertia.moment * w**2) / 2
+        for body, (x, y, w) in zip(old.scenario.bodies, moves, strict=True)
+    ]
+    assert line[5, 1] == pytest.approx(sum(energies))
+    legend = next(child for child in ax.get_children() if isinstance(child, Legend))
+    assert [text.get_text() for text in legend.get_texts()] == ["kinetic, by mean velocities"]
 
 
 def test_props_have_columns_too(record):

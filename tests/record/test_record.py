@@ -17,6 +17,7 @@ from mars2d.bodies.rigid import Inertia
 from mars2d.cli.command_line import main
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.record.contact import CONTACT
+from mars2d.record.record import COLUMNS
 from mars2d.scenario import serialize
 from mars2d.sensors import Proximity
 from mars2d.world.verify import rerun
@@ -61,6 +62,9 @@ def test_columns_have_time_first(record):
     assert record.command_time.shape == (21,)
     assert record.prop_pose.shape == (21, 3, 2)
     assert record.effort.shape == (21, 3)
+    assert record.velocity.shape == (21, 3, 3)
+    assert record.prop_velocity.shape == (21, 3, 2)
+    assert record.work.shape == (21, 6)
     assert record.sensors["proximity"].shape == (21, 1)
     assert record.sensors["beams"].shape == (21, 2, 3)
     assert record.sensor_robots == {"proximity": (0,), "beams": (0, 2)}
@@ -131,20 +135,22 @@ def test_the_digest_depends_on_every_column(record):
         {"command_time": record.command_time + 1},
         {"prop_pose": record.prop_pose + 1e-15},
         {"effort": record.effort + 1e-15},
+        {"velocity": record.velocity + 1e-15},
+        {"prop_velocity": record.prop_velocity + 1e-15},
+        {"work": record.work + 1e-15},
         {"over_message": "x"},
         {"sensors": {**record.sensors, "beams": record.sensors["beams"] + 1e-9}},
         {"sensors": {"proximity": record.sensors["proximity"]}},
         {"contacts": record.contacts[:-1]},
     ):
         digests.add(_with(record, **change).digest)
-    assert len(digests) == 11
+    assert len(digests) == 14
     assert _with(record).digest == record.digest
 
 
 def _with(record: Record, **changes) -> Record:
-    kept = ("scenario", "seed", "time", "pose", "command", "command_time", "prop_pose", "effort",
-            "sensors", "sensor_robots", "contacts", "over_message")  # fmt: skip
-    return Record(**({name: getattr(record, name) for name in kept} | changes))
+    others = ("scenario", "seed", "sensors", "sensor_robots", "contacts", "over_message")
+    return Record(**({name: getattr(record, name) for name in (*COLUMNS, *others)} | changes))
 
 
 # -- frames ---------------------------------------------------------------------------------
@@ -212,8 +218,7 @@ def test_what_is_saved_comes_back_to_the_last_bit(record, tmp_path):
     path = record.save(tmp_path / "run.npz")
     again = mars2d.load(path)
     assert again.digest == record.digest
-    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort", "contacts")
-    for name in columns:
+    for name in (*COLUMNS, "contacts"):
         assert np.array_equal(getattr(again, name), getattr(record, name))
     for name, values in record.sensors.items():
         assert np.array_equal(again.sensors[name], values)

@@ -37,6 +37,15 @@ def test_a_record_saved_before_the_rooms_opens_with_the_same_digest_and_scenario
     assert record.missing == LOST  # code of the user's own
 
 
+def test_velocities_of_a_record_saved_before_are_means_and_its_work_is_unknown():
+    record = mars2d.load(HERE / "saved" / "run.npz")
+    steps = np.diff(record.pose, axis=0) / record.scenario.sampling_time
+    np.testing.assert_allclose(record.velocity[1:], steps, atol=1e-12)
+    assert (record.velocity[0] == 0).all()
+    assert np.isnan(record.work).all()
+    assert not np.isnan(record.energy.kinetic).any()
+
+
 def test_a_scenario_saved_before_the_rooms_has_parts_of_all_families(scenario):
     parts = {
         "bodies": [robot.drive for robot in scenario.robots],

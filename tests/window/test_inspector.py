@@ -37,7 +37,7 @@ from mars2d.sensors import (
 from mars2d.window.forcemeter import Meter
 from mars2d.window.forceplot import draw_force
 from mars2d.window.inspector import Inspector, sensor_plots
-from mars2d.window.readout import contacts_of, inbox, rounded, state_of
+from mars2d.window.readout import contacts_of, dynamics_of, inbox, rounded, state_of
 from mars2d.window.sensorplot import history
 from tests.window.circling import Circling
 from tests.window.written import Written, painter
@@ -117,6 +117,21 @@ def test_a_robots_numbers_are_those_of_its_drive(world):
     assert "wheels" not in green
     assert car["command"] == ["v 0.30 m/s", "δ 11°"]
     assert list(words(frame, 4)) == ["pose", "moves"], "a prop has no command"
+
+
+def test_energy_and_momentum_stand_beside_those_of_all_bodies(world):
+    frame = world.frame
+    energy, momentum = dict(dynamics_of(frame, 4)).values()
+    masses = [body.inertia.mass for body in frame.scenario.bodies]
+    speeds = np.hypot(*np.hstack([world.velocity, world.prop_velocity])[:2])
+    p = masses[4] * speeds[4]
+    assert p > 0.01, "the crate is pushed"
+    assert momentum[0] == ("p", f"{p:.3g} N s")
+    spin = frame.scenario.bodies[4].inertia.moment * world.prop_velocity[2, 0] ** 2 / 2
+    assert energy[0] == ("E", f"{p**2 / 2 / masses[4] + spin:.3g} J")
+    assert float(energy[1][1].split()[0]) > float(energy[0][1].split()[0])
+    old = replace(frame, work=np.empty(0))
+    assert dynamics_of(old, 4) == [], "those of old records are unknown"
 
 
 def test_what_moves_is_measured_over_the_control_step(world):

@@ -11,6 +11,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.cli import command_line as cli
 from mars2d.core.errors import InputError
+from mars2d.record.record import COLUMNS
 from mars2d.world.verify import other_versions, rerun
 
 
@@ -125,8 +126,7 @@ def test_what_departs_first_is_told(record):
 
 def test_a_run_that_was_broken_off_is_the_same_again(record):
     for rows in (1, 20, 30):
-        columns = ("time", "pose", "command", "command_time", "prop_pose", "effort")
-        cut = {name: getattr(record, name)[:rows] for name in columns}
+        cut = {name: getattr(record, name)[:rows] for name in COLUMNS}
         assert rerun(replace(record, **cut, finished=False)) is None
 
 
@@ -184,8 +184,8 @@ def test_check_says_where_and_by_how_much_and_with_what_it_was_made(record, tmp_
 
 
 def test_check_of_a_record_without_rows_says_so(record, tmp_path, capsys):
-    columns = ("time", "pose", "command", "command_time", "prop_pose", "effort", "contacts")
-    empty = replace(record, **{name: getattr(record, name)[:0] for name in columns})
+    names = (*COLUMNS, "contacts")
+    empty = replace(record, **{name: getattr(record, name)[:0] for name in names})
     code, shown, _ = check(empty, tmp_path / "a.npz", capsys)
     assert code == 0
     assert "run again   nothing: it has no rows" in shown

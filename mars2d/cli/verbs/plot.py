@@ -17,7 +17,7 @@ from mars2d.output.formats import SUFFIXES
 from mars2d.record.record import Record, load
 from mars2d.scenario.experiment import examples
 
-KINDS = ("paths", "snapshots", "signals", "contacts", "distances")
+KINDS = ("paths", "snapshots", "signals", "energy", "momentum", "contacts", "distances")
 
 KIND_OF_OPTION = {"at": "snapshots"} | dict.fromkeys(("columns", "robots", "from", "to"), "signals")
 """Options that belong to one kind of figure."""
@@ -45,7 +45,7 @@ def _words(text: str) -> list[str]:
 
 
 def execute(arguments: argparse.Namespace) -> None:
-    """Draw a recorded run: paths, snapshots, signals, contacts or distances."""
+    """Draw a recorded run: paths, snapshots, signals, energy, momentum, contacts or distances."""
     kind, path = arguments.kind, arguments.record
     if kind not in KINDS:
         raise InputError(f"there is no figure of {kind!r}{nearest(kind, KINDS)}")
@@ -87,6 +87,8 @@ def _drawing(arguments: argparse.Namespace, record: Record) -> Callable[[], Any]
                 style=style,
             )[0].figure
         ),
+        "energy": lambda: record.plot_signals("energy", "kinetic", style=style)[0].figure,
+        "momentum": lambda: record.plot_signals("momentum", style=style)[0].figure,
         "contacts": lambda: record.plot_contacts(style=style)[0].figure,
         "distances": lambda: record.plot_distances(style=style).figure,
     }

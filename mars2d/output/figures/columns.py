@@ -13,6 +13,7 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.core.quantity import Quantity
 from mars2d.output.formats.columns import POSE_UNITS
+from mars2d.record.energy import WORK
 from mars2d.record.interventions import Change, Place
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ DRIVE_UNIT = "unit of the drive"
 
 COLOR_UNIT = "red, green, blue"
 """The unit of colours, which are drawn in their own colours."""
+
+NOTHING = 1e-9
+"""Work of less than this share of the largest energy is not drawn."""
 
 MIN_IMAGE_NUMBERS = 6
 """The fewest numbers of one kind in a reading that is drawn as an image."""
@@ -54,6 +58,8 @@ class Signal:
     """Whether an image that is thinned keeps the smallest numbers, as for distances."""
     wraps: bool = False
     """Whether the values are angles, which jump from pi to -pi."""
+    curves: tuple[str, ...] = ()
+    """The names of the curves, where the values are of no single bodies."""
 
 
 def signals(
@@ -86,7 +92,8 @@ def chosen_robots(record: Record, robots: Sequence[str | int] | None) -> tuple[i
 
 def known_columns(record: Record) -> list[str]:
     """Return the names of all columns, without their parts."""
-    names = [*POSE_UNITS, SPEED, "command", "effort", *record.sensors]
+    names = [*POSE_UNITS, SPEED, "command", "effort", "energy", "kinetic", "momentum"]
+    names += record.sensors
     if record.scenario.props:
         names += [f"prop.{part}" for part in (*POSE_UNITS, SPEED)]
     return names
@@ -100,6 +107,9 @@ def _named(record: Record, name: object, robots: tuple[int, ...]) -> list[Signal
         **dict.fromkeys((*POSE_UNITS, SPEED), _motion),
         "command": _command,
         "effort": _effort,
+        "energy": _energy,
+        "kinetic": _kinetic,
+        "momentum": _momentum,
     }
     if head in makers:
         return makers[head](record, name, head, parts, robots)
@@ -179,6 +189,55 @@ def _effort(
 ) -> list[Signal]:
     _no_parts(name, head, parts)
     return [Signal("effort", "", record.effort[:, list(robots)], robots, "pre")]
+
+
+def _energy(
+    record: Record,
+    name: str,
+    head: str,
+    parts: list[str],
+    robots: tuple[int, ...],  # noqa: ARG001
+) -> list[Signal]:
+    """Return the kinetic energy of all bodies, and the work of all that has done any."""
+    _no_parts(name, head, parts)
+    energy = record.energy
+    known = not np.isnan(energy.work[:1]).any()
+    values = {"kinetic, of all" if known else "kinetic, by mean velocities": energy.total}
+    values |= {f"work of {what}": energy.by(what) for what in WORK}
+    least = NOTHING * max(float(np.abs(each).max(initial=0)) for each in values.values())
+    shown = {
+        what: each
+        for k, (what, each) in enumerate(values.items())
+        if k == 0 or np.abs(each).max(initial=0) > least
+    }
+    curves = np.stack(list(shown.values()), axis=-1)
+    return [Signal("energy", "J", curves, (), curves=tuple(shown))]
+
+
+def _kinetic(
+    record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
+) -> list[Signal]:
+    _no_parts(name, head, parts)
+    bodies = (*robots, *range(len(record.scenario.robots), len(record.scenario.bodies)))
+    return [Signal("kinetic energy", "J", record.energy.kinetic[:, list(bodies)], bodies)]
+
+
+def _momentum(
+    record: Record,
+    name: str,
+    head: str,
+    parts: list[str],
+    robots: tuple[int, ...],  # noqa: ARG001
+) -> list[Signal]:
+    """Return the momentum of all bodies: x, y, and the angular one about the origin."""
+    _no_parts(name, head, parts)
+    momentum = record.momentum
+    return [
+        Signal("momentum", "N s", momentum.total, (), curves=("x", "y")),
+        Signal(
+            "angular momentum", "N m s", momentum.angular[:, None], (), curves=("about the origin",)
+        ),
+    ]
 
 
 def _props(record: Record, name: str, parts: list[str]) -> list[Signal]:

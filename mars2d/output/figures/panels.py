@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 from math import ceil
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,7 @@ __all__ = [
     "curve",
     "dress_panel",
     "finish",
+    "name_beside",
     "name_curves",
     "panels",
     "say",
@@ -136,8 +137,6 @@ def caption(ax: Axes, name: str, unit: str, look: Style) -> None:
 
 def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> None:
     """Write a title above the first panel, and a legend between them."""
-    from matplotlib.lines import Line2D
-
     room = _points(ax)[0]
     above = 0.0
     if entries:
@@ -146,29 +145,10 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
         each = look.small * (handle + 0.5 + 1.2 + LETTER_WIDTH * widest)
         cols = max(1, min(len(entries), int(room / each)))
         lines = ceil(len(entries) / cols)
-        cols = ceil(len(entries) / lines)
-        handles = [
-            Line2D(
-                [],
-                [],
-                color=entry.color,
-                linestyle=line_style(entry.dash),
-                linewidth=entry.width,
-                marker=entry.marker,
-                markersize=0.7 * look.small,
-                markerfacecolor="white" if entry.hollow else entry.color,
-            )
-            for entry in entries
-        ]
-        legend = ax.legend(
-            handles, ["curve"] * len(entries), loc="lower left", bbox_to_anchor=(0.0, 1.0),
-            ncols=cols, frameon=False, fontsize=look.small, labelcolor=look.ink,
-            handlelength=handle, columnspacing=1.2, handletextpad=0.5, borderpad=0.0,
-            borderaxespad=0.3, labelspacing=0.3,
+        _legend(
+            ax, entries, look, loc="lower left", bbox_to_anchor=(0.0, 1.0),
+            ncols=ceil(len(entries) / lines),
         )  # fmt: skip
-        for text, entry in zip(legend.get_texts(), entries, strict=True):
-            text.set_parse_math(False)
-            text.set_text(entry.name)  # only now: a legend leaves out labels that begin with "_"
         above = lines * look.small * 1.5
     if look.title:
         letters = max(20, int(room / (LETTER_WIDTH * look.title)))
@@ -176,6 +156,40 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
             textwrap.fill(title, letters, max_lines=2, placeholder=" …"), loc="left",
             fontsize=look.title, color=look.ink, pad=6 * look.stroke**0.5 + above, parse_math=False,
         )  # fmt: skip
+
+
+def name_beside(ax: Axes, entries: Sequence[Entry], look: Style) -> None:
+    """Write a legend of a panel's own curves at its right side."""
+    if entries:
+        _legend(ax, entries, look, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+def _legend(ax: Axes, entries: Sequence[Entry], look: Style, **place: Any) -> None:
+    from matplotlib.lines import Line2D
+
+    handles = [
+        Line2D(
+            [],
+            [],
+            color=entry.color,
+            linestyle=line_style(entry.dash),
+            linewidth=entry.width,
+            marker=entry.marker,
+            markersize=0.7 * look.small,
+            markerfacecolor="white" if entry.hollow else entry.color,
+        )
+        for entry in entries
+    ]
+    legend = ax.legend(
+        handles, ["curve"] * len(entries), frameon=False, fontsize=look.small,
+        labelcolor=look.ink, handlelength=3.2 if look.greys else 2.0, columnspacing=1.2,
+        handletextpad=0.5, borderpad=0.0, borderaxespad=0.3, labelspacing=0.3, **place,
+    )  # fmt: skip
+    ax.add_artist(legend)  # a further one of these axes would take its place
+    legend.set_clip_on(False)
+    for text, entry in zip(legend.get_texts(), entries, strict=True):
+        text.set_parse_math(False)
+        text.set_text(entry.name)  # only now: a legend leaves out labels that begin with "_"
 
 
 def curve(

@@ -21,6 +21,7 @@ from mars2d.output.figures.panels import (
     curve,
     dress_panel,
     finish,
+    name_beside,
     name_curves,
     panels,
     say,
@@ -65,10 +66,11 @@ def plot_signals(
     the row before, from the poses; "command", both parts, or one of them, as "command.0" or, where
     all drives agree on its name, "command.v"; "effort"; the name of a sensor, or parts of its
     reading, as "range_finder.90" (a beam) or "imu.ax" (a quantity); "prop.x", "prop.y",
-    "prop.theta", "prop.speed". By default x, y, theta and the command. robots: those wanted, by
-    name or index; None: all. axes: one for each panel; by default those of a new figure. start,
-    end: seconds, the part of the run that is drawn; by default all of it. style: as in
-    `Record.plot`.
+    "prop.theta", "prop.speed"; "energy" [J], that of all bodies and the work of what has made it,
+    "kinetic" of each body, "momentum" of all. By default x, y, theta and the command. robots:
+    those wanted, by name or index; None: all. axes: one for each panel; by default those of a new
+    figure. start, end: seconds, the part of the run that is drawn; by default all of it. style: as
+    in `Record.plot`.
 
     A scan, for example of a laser, is an image of a robot's readings over time and bearing; if it
     has more rows than the page has pixels, each pixel shows the nearest distance. Flags are bars
@@ -84,7 +86,8 @@ def plot_signals(
     names = [columns] if isinstance(columns, str) else list(columns or DEFAULT)
     found = [replace(s, values=s.values[rows]) for s in signals(record, names, robots)]
     team = len(record.scenario.robots)
-    if robots is not None and all(body >= team for signal in found for body in signal.bodies):
+    bodies = [body for signal in found for body in signal.bodies]
+    if robots is not None and all(body >= team for body in bodies):
         raise InputError("robots: all columns that were chosen are of props")
     shown = [part for signal in found for part in _by_robot(signal)]
     if len(shown) > PANEL_LIMIT // 4:
@@ -147,8 +150,10 @@ def _draw(ax: Axes, record: Record, rows: slice, signal: Signal, look: Style) ->
         return
     caption(ax, signal.name, signal.unit, look)
     many = values.shape[1]
-    for k in range(many):
-        entry = _entry(record, signal.bodies[k // each], look, many)
+    entries = _own_entries(signal, look)
+    name_beside(ax, entries, look)
+    entries = entries or [_entry(record, signal.bodies[k // each], look, many) for k in range(many)]
+    for k, entry in enumerate(entries):
         curve(ax, times, values[:, k], entry, held=signal.held, many=many, wraps=signal.wraps)
     finite = values[np.isfinite(values)]
     if not len(finite):
@@ -168,6 +173,14 @@ def _entry(record: Record, body: int, look: Style, many: int) -> Entry:
         color, dash = look.robot_curve(scenario, body)
         return Entry(name, color, dash if many <= LEGEND_LIMIT else "-", width)
     return Entry(name, *look.curve(body), width)
+
+
+def _own_entries(signal: Signal, look: Style) -> list[Entry]:
+    """Return the styles and names of the curves of a signal that belong to no body."""
+    width = width_of(len(signal.curves), look, LEGEND_LIMIT)
+    first = [Entry(name, look.ink, "-", width) for name in signal.curves[:1]]
+    rest = enumerate(signal.curves[1:])
+    return first + [Entry(name, *look.curve(k), width) for k, name in rest]
 
 
 def _entries(

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mars2d.record.record import Record
+from mars2d.record.energy import WORK
+from mars2d.record.record import COLUMNS, Record
 
 __all__ = [
     "AXES",
@@ -31,7 +32,7 @@ __all__ = [
 POSE_UNITS = {"x": "m", "y": "m", "theta": "rad"}
 """The units of a pose's three numbers, in order."""
 
-COLUMN_UNITS = {"time": "s", "command_time": "s", "effort": "1"}
+COLUMN_UNITS = {"time": "s", "command_time": "s", "effort": "1", "work": "J"}
 """The units of the other columns that have one unit."""
 
 CONTACT_UNITS = {
@@ -130,12 +131,13 @@ def parts_of(
     props: int,
     sensor_robots: Mapping[str, Sequence[int]],
     shapes: Mapping[str, Sequence[int]],
+    columns: Sequence[str] = COLUMNS,
 ) -> dict[str, list[Part]]:
     """Return the table's columns after time and body, by name; each has one part or two.
 
-    shapes: for each sensor that of all its readings, (T, m, ...). A reading that is an array has a
-    column for each of its values, for example ``scan_0`` or ``grid_0_1``. A sensor's column whose
-    name is taken gets an underscore at its end.
+    shapes: for each sensor that of all its readings, (T, m, ...). columns: those that there are. A
+    reading that is an array has a column for each of its values, for example ``scan_0`` or
+    ``grid_0_1``. A sensor's column whose name is taken gets an underscore at its end.
     """
     teams, others = tuple(range(robots)), tuple(range(robots, robots + props))
     every = slice(None)
@@ -146,6 +148,12 @@ def parts_of(
     found |= {name: [Part("command", (k, every), teams)] for k, name in enumerate(INPUTS)}
     found["command_time"] = [Part("command_time", (None,), teams)]
     found["effort"] = [Part("effort", (every,), teams)]
+    found |= {
+        f"v{axis}": [Part("velocity", (k, every), teams), Part("prop_velocity", (k, every), others)]
+        for k, axis in enumerate(AXES)
+    }
+    found |= {f"work_{name}": [Part("work", (k, None), teams)] for k, name in enumerate(WORK)}
+    found = {name: parts for name, parts in found.items() if parts[0].name in columns}
     taken = {*KEYS, *found, LAST}
     for sensor in sensor_robots:
         for place in np.ndindex(*shapes[sensor][2:]):

@@ -17,6 +17,7 @@ from mars2d.output.formats.columns import (
     command_units,
     sensor_units,
 )
+from mars2d.record.energy import WORK
 from mars2d.record.message import STATUS
 from mars2d.record.record import Record
 
@@ -34,6 +35,9 @@ LONG_NAMES = {
     "command_time": "when the command takes effect",
     "prop_pose": "poses of the props: x, y, heading",
     "effort": "largest share of its bounds that a drive used in the control step before",
+    "velocity": "velocities of the robots: x, y, heading",
+    "prop_velocity": "velocities of the props: x, y, heading",
+    "work": "work on all bodies since the start",
 }
 
 DIMENSIONS = {
@@ -43,6 +47,9 @@ DIMENSIONS = {
     "command_time": ("time",),
     "prop_pose": ("time", "axis", "prop"),
     "effort": ("time", "robot"),
+    "velocity": ("time", "axis", "robot"),
+    "prop_velocity": ("time", "axis", "prop"),
+    "work": ("time", "work_of"),
 }
 
 
@@ -50,7 +57,8 @@ def to_xarray(record: Record) -> Dataset:
     """Return all columns of a record as a dataset, with units as attributes.
 
     ``pose``: time, axis (x, y, theta), robot. ``command``: time, input, robot. ``prop_pose``: time,
-    axis, prop. ``effort``: time, robot. ``sensor_NAME``: time, robot, and ``NAME_0`` and so on for
+    axis, prop. ``effort``: time, robot. ``velocity`` and ``prop_velocity``: as the poses. ``work``:
+    time, work_of. ``sensor_NAME``: time, robot, and ``NAME_0`` and so on for
     the axes of a reading; ``NAME_robot`` in place of robot where not all carry it.
     ``contact_FIELD``: contact. ``message_FIELD``: message; ``contents``: content, the texts. The
     attributes have title, seed, digest, why it ended and, as JSON, the rest. Raises
@@ -71,6 +79,7 @@ def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
         "axis": list(POSE_UNITS),
         "robot": np.array(names, dtype=object),
         "prop": np.array([str(prop.name) for prop in scenario.props], dtype=object),
+        "work_of": list(WORK),
     }
     for name, robots in record.sensor_robots.items():
         if len(robots) < len(names):
@@ -121,6 +130,8 @@ def _attributes(record: Record, column: str) -> dict[str, str]:
     unit = COLUMN_UNITS.get(column)
     if column in ("pose", "prop_pose"):
         unit = ", ".join(POSE_UNITS.values())
+    elif column in ("velocity", "prop_velocity"):
+        unit = ", ".join(f"{each}/s" for each in POSE_UNITS.values())
     elif column == "command":
         unit = ", ".join(command_units(record)) or None
     elif family == "sensor":

@@ -59,7 +59,7 @@ def _bodies(record: Record) -> tuple[DataFrame, dict[str, str]]:
     columns = record.columns()
     robots, props = len(record.scenario.robots), len(record.scenario.props)
     shapes = {name: values.shape for name, values in record.sensors.items()}
-    parts = parts_of(robots, props, record.sensor_robots, shapes)
+    parts = parts_of(robots, props, record.sensor_robots, shapes, record.kept)
     table = {name: _column(columns, where, robots + props) for name, where in parts.items()}
     names = [body.name for body in record.scenario.bodies]
     index = pd.MultiIndex.from_product([record.time, names], names=["time", "body"])

@@ -15,17 +15,20 @@ from mars2d.core.errors import InputError
 from mars2d.output.formats.guard import check_size
 from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
+from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE, STATUS
-from mars2d.record.record import COLUMNS, Record
+from mars2d.record.record import COLUMNS, FORMER, Record, digest_of
 from mars2d.scenario import serialize
 
 __all__ = [
     "FORMAT",
     "KINDS",
+    "NOT_KEPT",
     "OBJECTS",
     "TEXTS",
     "as_text",
     "check_format",
+    "columns_in",
     "names_in",
     "names_of_bodies",
     "numbers_of",
@@ -38,11 +41,17 @@ __all__ = [
 
 Columns = Mapping[str, NDArray[Any]]
 
-FORMAT = 3
-"""The version of the contents of files. Files of another version are refused."""
+FORMAT = 4
+"""The version of the contents of files. Later ones are refused, and those before the former."""
+
+FORMER_FORMAT = 3
+"""The version of files of records whose velocities and work are unknown."""
 
 OBJECTS = 16
 """How many bytes of memory one byte of JSON may take when it is read."""
+
+NOT_KEPT = np.empty(0)
+"""In place of a column that files of the former version do not have."""
 
 TEXTS = ("contents", "content_sizes")
 """The columns that are texts. Formats for text and numbers keep them with the header."""
@@ -54,7 +63,7 @@ KINDS = frozenset(np.dtype(kind).str for kind in (np.float64, np.bool_, np.int32
 def of_record(record: Record) -> dict[str, Any]:
     """Return everything in a record but its columns, as dicts, lists, text and numbers."""
     return {
-        "format": FORMAT,
+        "format": FORMAT if record.kept == COLUMNS else FORMER_FORMAT,
         "scenario": serialize.from_description(record.scenario),
         "seed": record.seed,
         "over_message": record.over_message,
@@ -99,17 +108,22 @@ def of_text(path: Path, text: str | bytes, largest: int) -> dict[str, Any]:
     return header
 
 
+def columns_in(header: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the columns that every file of this version holds."""
+    return COLUMNS if header["format"] == FORMAT else FORMER
+
+
 def names_in(header: Mapping[str, Any]) -> list[str]:
     """Return the names of the columns that a file with this header holds."""
     contacts = [f"contact:{name}" for name in CONTACT.names or ()]
     messages = [*(f"message:{name}" for name in MESSAGE.names or ()), *TEXTS]
     sensors = [f"sensor:{name}" for name in header["sensor_robots"]]
-    return [*COLUMNS, *contacts, *sensors, *(messages if header["messages"] else ())]
+    return [*columns_in(header), *contacts, *sensors, *(messages if header["messages"] else ())]
 
 
 def names_of_bodies(header: Mapping[str, Any]) -> list[str]:
     """Return the names of the columns in a file that have a row for each time."""
-    return [*COLUMNS, *(f"sensor:{name}" for name in header["sensor_robots"])]
+    return [*columns_in(header), *(f"sensor:{name}" for name in header["sensor_robots"])]
 
 
 def check_format(header: Mapping[str, Any]) -> None:
@@ -122,7 +136,7 @@ def check_format(header: Mapping[str, Any]) -> None:
         raise TypeError("format")
     if header["format"] > FORMAT:
         raise InputError(f"written by a newer version of MARS2D, {made}: install that one to read")
-    if header["format"] < FORMAT:
+    if header["format"] < FORMER_FORMAT:
         raise InputError(f"written by an older version of MARS2D, {made}: run the experiment again")
 
 
@@ -166,6 +180,9 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
         command_time=columns["command_time"],
         prop_pose=columns["prop_pose"],
         effort=columns["effort"],
+        velocity=columns.get("velocity", NOT_KEPT),
+        prop_velocity=columns.get("prop_velocity", NOT_KEPT),
+        work=columns.get("work", NOT_KEPT),
         sensors={name: columns[f"sensor:{name}"] for name in robots},
         sensor_robots=robots,
         contacts=_rows(CONTACT, "contact", columns),
@@ -180,9 +197,18 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
     )
     _check_kinds(header)
     _check(record)
-    if not torn and record.digest != header["digest"]:
+    if not torn and _digest(record, header) != header["digest"]:
         raise InputError("damaged: its columns do not have the digest that it states")
     return record
+
+
+def _digest(record: Record, header: Mapping[str, Any]) -> str:
+    """Return the digest of a record, as the version of its file has it."""
+    without = set(COLUMNS) - set(columns_in(header))
+    if not without:
+        return record.digest
+    columns = {name: each for name, each in record.columns().items() if name not in without}
+    return digest_of(columns, record.over_message)
 
 
 def _rows(dtype: np.dtype[Any], family: str, columns: Columns) -> NDArray[np.void]:
@@ -225,9 +251,11 @@ def _check(record: Record) -> None:
     """
     rows, n, props = len(record.time), len(record.scenario.robots), len(record.scenario.props)
     shapes = [(rows,), (rows, 3, n), (rows, 2, n), (rows,), (rows, 3, props), (rows, n)]
+    shapes += [(rows, 3, n), (rows, 3, props), (rows, len(WORK))]
     for name, shape in zip(COLUMNS, shapes, strict=True):
         column = getattr(record, name)
-        if column.shape != shape or column.dtype != np.float64 or not np.isfinite(column).all():
+        known = name not in record.kept or np.isfinite(column).all()
+        if column.shape != shape or column.dtype != np.float64 or not known:
             raise ValueError(name)
     if (np.diff(record.time) <= 0).any():
         raise ValueError("time")

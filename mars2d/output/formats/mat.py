@@ -31,7 +31,8 @@ MAX_SIZE = 2**31 - 2**20
 
 HISTORY = {
     "time": "Time", "pose": "Pose", "command": "Command", "command_time": "Command_time",
-    "prop_pose": "Prop_pose", "effort": "Effort",
+    "prop_pose": "Prop_pose", "effort": "Effort", "velocity": "Velocity",
+    "prop_velocity": "Prop_velocity", "work": "Work",
 }  # fmt: skip
 
 INDICES = {"contact:a", "contact:b", "message:sender", "message:receiver", "message:content"}

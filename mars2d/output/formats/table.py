@@ -126,7 +126,8 @@ def _parts(header: Mapping[str, Any]) -> dict[str, list[Part]]:
     """Return the columns of the table of a record with this header."""
     shapes, sensors = header["columns"], header["sensor_robots"]
     robots, props = (shapes[name][1][2] for name in ("pose", "prop_pose"))
-    return parts_of(robots, props, sensors, {name: shapes[f"sensor:{name}"][1] for name in sensors})
+    readings = {name: shapes[f"sensor:{name}"][1] for name in sensors}
+    return parts_of(robots, props, sensors, readings, headers.columns_in(header))
 
 
 def _blocks(rows: int, width: int) -> Iterator[slice]:

@@ -416,10 +416,15 @@ class Mover:
         body: Body
         for i in range(n):
             body = self.bodies[i]
-            body.look()
-            velocities[i] = body.now_x
-            velocities[n + i] = body.now_y
-            velocities[2 * n + i] = body.now_spin
+            if body.slips or body.limited or not body.is_robot:
+                velocities[i] = body.vx
+                velocities[n + i] = body.vy
+                velocities[2 * n + i] = body.spin
+                continue
+            body.follow(body.angle, 0.0)
+            velocities[i] = body.aim_x
+            velocities[n + i] = body.aim_y
+            velocities[2 * n + i] = body.aim_spin
 
     def take_effort(self, efforts: cython.Doubles) -> None:
         """Write the largest share of its bounds that each drive used since the last call."""

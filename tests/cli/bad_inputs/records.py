@@ -138,7 +138,7 @@ def _replaced(name: str, old: bytes, new: bytes) -> Callable[[], bytes]:
 OTHERS: list[tuple[str, str, Content, tuple[str, ...]]] = [
     ("a record from a newer version", "run.npz", _npz(header=_header(format=9)), ("newer",)),
     ("a record from an older version", "run.npz", _npz(header=_header(format=1)), ("older",)),
-    ("a table from a newer version", "run.csv", _replaced("run.csv", b'"format"": 3',
+    ("a table from a newer version", "run.csv", _replaced("run.csv", b'"format"": 4',
      b'"format"": 9'),
      ("newer",)),
     ("a record without a digest", "run.npz", _npz(header=_header(digest=...)), ("damaged",)),

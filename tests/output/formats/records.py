@@ -17,6 +17,7 @@ from mars2d.bodies.props import Box, Puck
 from mars2d.record.contact import CONTACT
 from mars2d.record.interventions import Change, Place, Pull, Steer
 from mars2d.record.message import MESSAGE, STATUS, as_text
+from mars2d.record.record import COLUMNS
 from mars2d.scenario import serialize
 from mars2d.sensors import Bumper, Proximity
 
@@ -64,9 +65,8 @@ def everything() -> Record:
 
 def cut_to(record: Record, rows: int) -> Record:
     """Return the first rows of a record."""
-    names = ("time", "pose", "command", "command_time", "prop_pose", "effort")
     sensors = {name: values[:rows] for name, values in record.sensors.items()}
-    columns = {name: getattr(record, name)[:rows] for name in names}
+    columns = {name: getattr(record, name)[:rows] for name in COLUMNS}
     nothing = {"contacts": np.empty(0, CONTACT), "messages": np.empty(0, MESSAGE), "contents": ()}
     return replace(record, sensors=sensors, interventions=(), **columns, **nothing)
 
@@ -97,6 +97,12 @@ def records(draw) -> Record:
 
     def anything(*shape):
         return draw(arrays(np.uint64, shape)).view(np.float64)
+
+    def moved():
+        return {
+            "velocity": finite(rows, 3, robots), "prop_velocity": finite(rows, 3, props),
+            "work": finite(rows, 6),
+        }  # fmt: skip
 
     sensors, sensor_robots = {}, {}
     identifiers = st.sampled_from(
@@ -133,6 +139,7 @@ def records(draw) -> Record:
         command_time=finite(rows),
         prop_pose=finite(rows, 3, props),
         effort=finite(rows, robots),
+        **(moved() if draw(st.booleans()) else {}),
         sensors=sensors,
         sensor_robots=sensor_robots,
         contacts=contacts,

@@ -307,7 +307,7 @@ def test_a_netcdf_that_claims_to_be_huge_is_refused(content, tmp_path, said):
 def test_a_netcdf_whose_variables_share_their_values_is_refused(tmp_path, said):
     """A small file of many variables could fill the memory, each a copy of the same bytes."""
     count, sensors = 100_000, [f"s{k}" for k in range(400)]
-    names = names_in({"messages": False, "sensor_robots": sensors})
+    names = names_in({"format": FORMAT, "messages": False, "sensor_robots": sensors})
     header = {
         "format": FORMAT, "versions": {}, "messages": False, "contents": [], "scenario": {},
         "sensor_robots": {name: [0] for name in sensors},

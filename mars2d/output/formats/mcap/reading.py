@@ -27,6 +27,7 @@ from mars2d.output.formats.mcap.scanning import (
 )
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
 from mars2d.record.contact import CONTACT
+from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE as MESSAGES
 from mars2d.record.message import as_of
 from mars2d.record.record import Record
@@ -36,8 +37,11 @@ __all__ = ["BROKEN_OFF", "read"]
 BROKEN_OFF = "The log breaks off here: the run was killed, or still goes on"
 """The `over_message` of a record whose log does not tell how the run ended."""
 
-SIZES = {"pose": 3, "command": 2, "prop_pose": 3, "effort": 1}
-"""How many numbers a body has in each column."""
+SIZES = {
+    "pose": 3, "command": 2, "prop_pose": 3, "effort": 1, "velocity": 3, "prop_velocity": 3,
+    "work": 1,
+}  # fmt: skip
+"""How many numbers a body, or whatever works on bodies, has in each column."""
 
 
 def read(path: Path, largest: int) -> Record:
@@ -160,16 +164,18 @@ class _Rows:
             "sensor_robots": {name: robots[name] for name in robots if name in self._sensors},
         }
         whole |= end or {"over_message": BROKEN_OFF, "finished": False}
-        scenario = header["scenario"]
-        return headers.to_record(whole, self._all(scenario), torn=end is None)
+        return headers.to_record(whole, self._all(header), torn=end is None)
 
-    def _all(self, scenario: dict[str, Any]) -> dict[str, NDArray[Any]]:
-        """Return the columns as `Record.columns` does. scenario: as plain data."""
-        n = self._count
+    def _all(self, header: dict[str, Any]) -> dict[str, NDArray[Any]]:
+        """Return the columns as `Record.columns` does."""
+        n, scenario = self._count, header["scenario"]
         robots, props = len(scenario["robots"]), len(scenario.get("props", ()))
-        columns = {name: np.frombuffer(data) for name, data in self._columns.items()}
+        columns = {name: np.frombuffer(self._columns[name]) for name in headers.columns_in(header)}
         for name, numbers in SIZES.items():
-            bodies = props if name == "prop_pose" else robots
+            if name not in columns:
+                continue
+            bodies = props if name.startswith("prop_") else robots
+            bodies = len(WORK) if name == "work" else bodies
             shape = (n, bodies) if numbers == 1 else (n, numbers, bodies)
             columns[name] = columns[name].reshape(shape)
         for name, (reading_shape, dtype, data) in self._sensors.items():

@@ -12,22 +12,28 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.output.formats.header import NOT_KEPT
 from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE
-from mars2d.record.record import Record
+from mars2d.record.record import COLUMNS, FORMER, Record
 
 __all__ = ["Row", "changes_at", "cut", "decoded", "encoded", "schema", "with_arrays_as_bytes"]
 
 Float = NDArray[np.float64]
 
 
+LATER = COLUMNS[len(FORMER) :]
+"""The columns that the first logs do not have."""
+
+
 class Row(NamedTuple):
     """A row of a record, with the contacts and messages of the control step that began there.
 
-    pose: (3, n); command: (2, n); prop_pose: (3, p). readings: by the names of sensors. contents:
-    the texts that no earlier row has. changes: the interventions at this row, as JSON.
+    pose, velocity: (3, n); command: (2, n); prop_pose, prop_velocity: (3, p); work: (6,). readings:
+    by the names of sensors. contents: the texts that no earlier row has. changes: the interventions
+    at this row, as JSON. velocity, prop_velocity, work: empty where they are unknown.
     """
 
     row: int
@@ -42,6 +48,9 @@ class Row(NamedTuple):
     messages: NDArray[np.void]
     contents: Sequence[str]
     changes: Sequence[str]
+    velocity: Float = NOT_KEPT
+    prop_velocity: Float = NOT_KEPT
+    work: Float = NOT_KEPT
 
 
 # -- a record cut into rows -------------------------------------------------------------------
@@ -72,6 +81,7 @@ def cut(record: Record, start: int = 0) -> Iterator[Row]:
             messages=record.messages[messages[k] : messages[k + 1]],
             contents=record.contents[contents[k] : contents[k + 1]],
             changes=changes_at(record.interventions, k),
+            **{name: getattr(record, name)[k] for name in LATER if name in record.kept},
         )
 
 
@@ -124,7 +134,10 @@ FIELDS = {
         "messages": "Messages",
         "contents": "string[]",
         "changes": "string[]",
+        "velocity": "double[]",
+        "prop_velocity": "double[]",
         "crc": "fixed32",
+        "work": "double[]",
     },
     "Readings": {
         "sensor": "string",
@@ -135,13 +148,12 @@ FIELDS = {
     "Contacts": _fields_of(CONTACT),
     "Messages": _fields_of(MESSAGE),
 }
-"""The fields of all messages, numbered from 1 on; [] marks arrays."""
+"""The fields of all messages, numbered from 1 on; [] marks arrays. New ones come last."""
 
 CRC = struct.Struct("<BI")
 """How a row ends: the tag of its field `crc`, and the check sum of all bytes before it."""
 
-CRC_NUMBER = 15
-CRC_TAG = CRC_NUMBER << 3 | 5  # a fixed32
+CRC_TAG = 15 << 3 | 5  # a fixed32
 
 
 def schema() -> bytes:
@@ -154,7 +166,7 @@ def schema() -> bytes:
     for title, fields in FIELDS.items():
         message = file.message_type.add(name=title)
         for number, (name, kind) in enumerate(fields.items(), start=1):
-            field = message.field.add(name=name, number=CRC_NUMBER if name == "crc" else number)
+            field = message.field.add(name=name, number=number)
             field.label = Field.LABEL_REPEATED if kind.endswith("[]") else Field.LABEL_OPTIONAL
             one = kind.removesuffix("[]")
             if one in FIELDS:
@@ -206,6 +218,9 @@ def encoded(row: Row) -> bytes:
         contents=row.contents,
         changes=row.changes,
     )
+    if row.work.size:
+        for name in LATER:
+            setattr(message, name, _stored(getattr(row, name)))
     for sensor, values in row.readings.items():
         readings = message.readings.add(sensor=sensor, shape=_stored(np.array(values.shape, "<u4")))
         if values.dtype.kind == "b":
@@ -243,6 +258,7 @@ def decoded(data: bytes) -> Row:
         messages=_table(message, "messages", MESSAGE),
         contents=list(message.contents),
         changes=list(message.changes),
+        **{name: _restored(getattr(message, name), double) for name in LATER},
     )
 
 
