@@ -336,7 +336,7 @@ def test_a_ctrl_c_that_got_lost_within_a_step_ends_the_run_all_the_same(child):
 def test_a_long_run_shows_its_progress_on_a_terminal(tmp_path):
     import pty
 
-    (tmp_path / "long.py").write_text(HEAD + "scenario = Scenario(stop_time=2000)\n")
+    (tmp_path / "long.py").write_text(HEAD + "scenario = Scenario(stop_time=20_000)\n")
     theirs, ours = pty.openpty()
     done = subprocess.run(
         [sys.executable, "-m", "mars2d", "run", "long.py", "--headless"],
