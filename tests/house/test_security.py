@@ -226,7 +226,7 @@ def test_a_record_names_no_code(name, marker, tmp_path) -> None:
             for step in place:
                 part = part[step]
             part.update(change)
-            path = _npz(tmp_path / "run.npz", {"header.npy": _npy_of(json.dumps(header))})
+            path = _npz(tmp_path / "run.npz", {"header.npy": _npy_of(as_text(header))})
             try:
                 record = mars2d.load(path)
             except InputError as error:

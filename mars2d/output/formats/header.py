@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,7 @@ __all__ = [
     "TEXTS",
     "as_text",
     "check_format",
+    "check_sums",
     "columns_in",
     "names_in",
     "names_of_bodies",
@@ -46,6 +48,18 @@ FORMAT = 4
 
 FORMER_FORMAT = 3
 """The version of files of records whose velocities and work are unknown."""
+
+SUMS = "sums"
+"""The name of the check sums in a header."""
+
+MEANING = {
+    "scenario": "its scenario", "seed": "its seed", "over_message": "why it ended",
+    "finished": "whether it was finished", "filename": "the name of its experiment",
+    "versions": "the versions it was made by", "sensor_robots": "which robots carry its sensors",
+    "interventions": "what was done by hand", "digest": "its digest", "contents": "its messages",
+    "columns": "the shapes of its columns", "exact": "its columns", "messages": "its messages",
+}  # fmt: skip
+"""The values of a header in words."""
 
 OBJECTS = 16
 """How many bytes of memory one byte of JSON may take when it is read."""
@@ -93,8 +107,8 @@ def with_shapes(record: Record) -> dict[str, Any]:
 
 
 def as_text(header: Mapping[str, Any]) -> str:
-    """Return a header as one line of JSON, in ASCII."""
-    return json.dumps(header)
+    """Return a header as one line of JSON, in ASCII, with a check sum of each of its values."""
+    return json.dumps({**header, SUMS: _sums(header)})
 
 
 def of_text(path: Path, text: str | bytes, largest: int) -> dict[str, Any]:
@@ -105,7 +119,27 @@ def of_text(path: Path, text: str | bytes, largest: int) -> dict[str, Any]:
     check_size(path, OBJECTS * len(text), largest)
     header: dict[str, Any] = json.loads(text)
     check_format(header)
+    check_sums(header, header["format"])
     return header
+
+
+def check_sums(header: dict[str, Any], version: int) -> None:
+    """Take the check sums out of a header; InputError that names what was changed since.
+
+    version: of the file; files of the former one may have none.
+    """
+    if SUMS not in header and version == FORMER_FORMAT:
+        return
+    stated, found = header.pop(SUMS, {}), _sums(header)
+    changed = [name for name in found | stated if found.get(name) != stated.get(name)]
+    if changed:
+        words = ", ".join(MEANING.get(name, repr(name)) for name in changed[:3])
+        raise InputError(f"damaged: {words} changed since it was saved")
+
+
+def _sums(header: Mapping[str, Any]) -> dict[str, str]:
+    texts = {name: json.dumps(value) for name, value in header.items() if name != SUMS}
+    return {name: sha256(text.encode()).hexdigest()[:16] for name, text in texts.items()}
 
 
 def columns_in(header: Mapping[str, Any]) -> tuple[str, ...]:

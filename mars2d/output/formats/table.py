@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import KEYS, LAST, Part, parts_of
@@ -30,6 +31,9 @@ PIECE_LENGTH = 30_000
 
 BLOCK_CELLS = 50_000
 """How many cells of the table are made at once, approximately."""
+
+MIXED = "damaged: its rows are not those of its bodies, in their order"
+"""Why a table is refused whose rows were sorted or renamed."""
 
 NAN = np.array(np.nan).view(np.uint64) << np.uint64(1)
 """The bits of numpy's NaN without its sign."""
@@ -73,7 +77,11 @@ def read(path: Path, largest: int) -> Record:
         header = headers.of_text(path, text, largest)
         check_size(path, 8 * _claimed(header, size), largest)
         file.seek(0)
-        return headers.restored(header, _values(header, csv.reader(file, strict=True)))
+        values, names = _values(header, csv.reader(file, strict=True))
+        record = headers.restored(header, values)
+        if names not in (None, [str(body.name) for body in record.scenario.bodies]):
+            raise InputError(MIXED)
+        return record
 
 
 def _claimed(header: Mapping[str, Any], size: int) -> int:
@@ -97,19 +105,28 @@ def _pieces(table: Iterator[list[str]]) -> Iterator[str]:
         yield row[-1]
 
 
-def _values(header: Mapping[str, Any], table: Iterator[list[str]]) -> dict[str, NDArray[Any]]:
-    """Return the columns in a table, and those in its header, which are there to the last bit."""
+def _values(
+    header: Mapping[str, Any], table: Iterator[list[str]]
+) -> tuple[dict[str, NDArray[Any]], list[str] | None]:
+    """Return the columns in a table and its header, and the bodies' names in it, if it has rows.
+
+    Columns in the header are there to the last bit.
+    """
     shapes, parts = header["columns"], _parts(header)
     if next(table) != [*KEYS, *parts, LAST]:
         raise ValueError("names of columns")
     names = headers.names_of_bodies(header)
     found = {name: np.empty(shapes[name][1], shapes[name][0]) for name in names}
     bodies = shapes["pose"][1][2] + shapes["prop_pose"][1][2]
+    called: list[str] | None = None
     for rows in _blocks(shapes["time"][1][0], bodies * len(parts)):
         count = rows.stop - rows.start
         lines = list(islice(table, count * bodies))
         cells = np.array(lines, dtype=object).reshape(count, bodies, len(parts) + 3)
         found["time"][rows] = cells[:, 0, 0].astype(np.float64)
+        called = cells[0, :, 1].tolist() if called is None else called
+        if (cells[:, :, 0] != cells[:, :1, 0]).any() or (cells[:, :, 1] != called).any():
+            raise InputError(MIXED)
         for k, column in enumerate(parts.values(), len(KEYS)):
             for part in column:
                 values = found[part.name][rows][(slice(None), *part.at)]
@@ -119,7 +136,7 @@ def _values(header: Mapping[str, Any], table: Iterator[list[str]]) -> dict[str, 
         raise ValueError("more rows than there are")
     for name, text in header["exact"].items():
         found[name] = np.frombuffer(b64decode(text, validate=True), shapes[name][0])
-    return found
+    return found, called
 
 
 def _parts(header: Mapping[str, Any]) -> dict[str, list[Part]]:

@@ -120,9 +120,11 @@ def _header(**changes: object) -> Callable[[np.ndarray], np.ndarray]:
     """Return what changes entries of the header of a run's file; to ... they are left out."""
 
     def make(text: np.ndarray) -> np.ndarray:
+        from mars2d.output.formats.header import as_text
+
         header = json.loads(text.tobytes()) | changes
         kept = {name: value for name, value in header.items() if value is not ...}
-        return np.frombuffer(json.dumps(kept).encode(), np.uint8)
+        return np.frombuffer(as_text(kept).encode(), np.uint8)
 
     return make
 

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-from mars2d.output.formats.header import FORMAT, names_in
+from mars2d.output.formats.header import FORMAT, as_text, names_in
 from tests.output.formats.records import FORMATS, everything, refused
 
 MB = 10**6
@@ -257,7 +257,7 @@ def test_a_csv_whose_header_claims_many_values_is_refused(shapes, tmp_path, said
     header = json.loads("".join(table["record"]))
     for name, shape in shapes.items():
         header["columns"][name][1] = shape
-    text = json.dumps(header)
+    text = as_text(header)
     table["record"] = [text[i * 30000 :][:30000] for i in range(len(table))]
     table.to_csv(path, index=False)
     assert "not a record of MARS2D, or damaged" in said(path)
@@ -313,7 +313,7 @@ def test_a_netcdf_whose_variables_share_their_values_is_refused(tmp_path, said):
         "sensor_robots": {name: [0] for name in sensors},
         "columns": {name: ["<f8", [count]] for name in names},
     }  # fmt: skip
-    text = json.dumps(header)
+    text = as_text(header)
     attribute = _text("mars2d") + struct.pack(">I", 2) + _text(text)
     variables = [name.replace(":", "_") for name in names]
     content = _netcdf([count], variables, attribute) + bytes(8 * count)

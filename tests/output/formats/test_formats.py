@@ -17,9 +17,10 @@ from hypothesis import strategies as st
 from scipy.io import loadmat, savemat
 
 import mars2d
-from mars2d import InputError
+from mars2d import InputError, Robot, Scenario
 from mars2d.output import formats
 from mars2d.output.formats.columns import KEYWORDS, MAX_NAME, plain_names
+from mars2d.output.formats.header import as_text
 from tests.output.formats.records import FORMATS, cut_to, everything, records, refused
 
 each_format = pytest.mark.parametrize("suffix", FORMATS)
@@ -259,9 +260,9 @@ def _netcdf(path: Path):
     return netcdf_file(path, "r", mmap=False)
 
 
-def _rewrite_header(path: Path, change: dict) -> None:
-    """Change some of a file's header, all else stays."""
-    text = json.dumps(_header(path) | change)
+def _rewrite_header(path: Path, change: dict, write=as_text) -> None:
+    """Change some of a file's header, all else stays; write: by whom, by default with its sums."""
+    text = write(_header(path) | change)
     if path.suffix == ".npz":
         with np.load(path) as data:
             np.savez(path, **{**data, "header": np.frombuffer(text.encode(), np.uint8)})
@@ -291,6 +292,91 @@ def test_what_rewrites_headers_here_leaves_the_rest_of_a_file_as_it_is(tmp_path)
         path = everything().save(tmp_path / f"run{suffix}")
         _rewrite_header(path, {})
         assert mars2d.load(path).digest == everything().digest
+
+
+# -- what somebody changed ------------------------------------------------------------------
+
+
+def _swapped(header):
+    first, second = header["scenario"]["robots"][:2]
+    names = first.get("name"), second.get("name")
+    first["name"], second["name"] = names[::-1]
+    return {"scenario": header["scenario"]}
+
+
+EDITS = [
+    (_swapped, "its scenario"),
+    (lambda header: {"seed": header["seed"] + 1}, "its seed"),
+    (lambda header: {"finished": not header["finished"]}, "whether it was finished"),
+    (lambda header: {"filename": "other.py"}, "the name of its experiment"),
+    (lambda header: {"versions": header["versions"] | {"numpy": "1"}}, "the versions"),
+    (lambda header: {"sensor_robots": {}}, "which robots carry its sensors"),
+    (lambda header: {"interventions": []}, "what was done by hand"),
+    (lambda header: {"digest": "0" * 64}, "its digest"),
+    (lambda header: {"over_message": "the other one won"}, "why it ended"),
+    (lambda _: {"signed": "by me"}, "'signed'"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("edit", "said"), EDITS, ids=[said for _, said in EDITS])
+@pytest.mark.parametrize("suffix", [".npz", ".mat", ".csv", ".nc"])
+def test_an_edit_of_a_header_is_refused_and_named(suffix, edit, said, tmp_path):
+    path = everything().save(tmp_path / f"run{suffix}")
+    _rewrite_header(path, edit(_header(path)), json.dumps)
+    refused(path, f"damaged: {said}.*changed since it was saved")
+
+
+@pytest.mark.parametrize("physics", ["contact", "stop"])
+def test_an_edit_of_the_physics_is_refused(physics, tmp_path):
+    path = everything().save(tmp_path / "run.npz")
+    header = _header(path)
+    if header["scenario"].get("physics", "contact") == physics:
+        physics = "ideal"
+    _rewrite_header(path, {"scenario": header["scenario"] | {"physics": physics}}, json.dumps)
+    refused(path, "its scenario")
+
+
+def test_without_its_check_sums_a_header_is_refused(tmp_path):
+    path = everything().save(tmp_path / "run.npz")
+    header = _header(path)
+    del header["sums"]
+    with np.load(path) as data:
+        text = np.frombuffer(json.dumps(header).encode(), np.uint8)
+        np.savez(path, **{**data, "header": text})
+    refused(path, "damaged")
+
+
+@pytest.mark.parametrize("change", [("robot1", "robot9"), ("0.1,", "0.2,")])
+def test_a_table_whose_bodies_or_times_were_mixed_up_is_refused(change, tmp_path):
+    scenario = Scenario(robots=[Robot(), Robot(pose=(2, 0, 0))], stop_time=0.3)
+    path = mars2d.run(scenario, control=lambda world: [[0.1] * 2, [0] * 2]).save(tmp_path / "r.csv")
+    lines = path.read_text().split("\n")
+    lines[4] = lines[4].replace(*change)
+    path.write_text("\n".join(lines))
+    refused(path, "damaged")
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_a_flipped_bit_is_refused_or_changes_nothing_that_is_read(suffix, tmp_path):
+    """What only other programs read, for example names of units, may change."""
+    path = everything().save(tmp_path / f"run{suffix}")
+    record = mars2d.load(path)
+    data, rng, loaded = path.read_bytes(), np.random.default_rng(7), 0
+    for _ in range(120):
+        flipped = bytearray(data)
+        flipped[rng.integers(len(data))] ^= 1 << int(rng.integers(8))
+        path.write_bytes(flipped)
+        try:
+            again = mars2d.load(path)
+        except InputError:
+            continue
+        loaded += 1
+        if again.over_message == record.over_message:  # a log is read as far as it is sound
+            assert again.digest == record.digest
+        assert (again.seed, again.scenario) == (record.seed, record.scenario)
+        assert again.versions == record.versions
+        assert again.sensor_robots == record.sensor_robots
+    assert loaded < 120
 
 
 # -- where it can't be written --------------------------------------------------------------

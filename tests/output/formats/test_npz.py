@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import mars2d
+from mars2d.output.formats.header import as_text
 from tests.output.formats.records import everything, refused
 
 
@@ -91,7 +92,11 @@ def _header(path) -> dict:
 
 
 def _encoded(header) -> bytes:
-    return _npy(np.frombuffer(json.dumps(header).encode(), dtype=np.uint8))
+    return _npy(
+        np.frombuffer(
+            (as_text if isinstance(header, dict) else json.dumps)(header).encode(), dtype=np.uint8
+        )
+    )
 
 
 @pytest.mark.parametrize("key", ["format", "scenario", "seed", "digest", "finished"])

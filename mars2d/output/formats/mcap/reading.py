@@ -51,7 +51,9 @@ def read(path: Path, largest: int) -> Record:
     """
     require(path)
     with reading(path), path.open("rb") as file:
-        rows, header, end, count = _Rows(), None, None, 0
+        rows, count = _Rows(), 0
+        header: Any = None
+        end: Any = None
         channels: set[int] = set()
         try:
             for operation in scan(path, file, largest, channels):
@@ -67,9 +69,11 @@ def read(path: Path, largest: int) -> Record:
                     if told.name == BEGIN:
                         header = json.loads(told.metadata["header"])
                         headers.check_format(header)
+                        headers.check_sums(header, header["format"])
                         rows.cut(int(told.metadata["row"]))
                     elif told.name == END:
                         end, count = json.loads(told.metadata["end"]), int(told.metadata["rows"])
+                        headers.check_sums(end, header["format"])
         except Torn:
             if len(rows) < count:
                 end = None
