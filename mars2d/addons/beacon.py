@@ -5,10 +5,10 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Mapping
 from itertools import accumulate, pairwise
-from math import hypot
 
 from mars2d.addons.base import Addon
 from mars2d.core import checks
+from mars2d.core.arithmetic import norm
 from mars2d.core.description import entry, flag, number, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, WorldLike
@@ -85,7 +85,7 @@ class Beacon(Addon):
             assert self.at is not None
             return self.at
         corners = self._way(self.path)
-        sides = [hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(corners)]
+        sides = [norm(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(corners)]
         ends = [0.0, *accumulate(sides)]
         gone = self.speed * time
         if not self.closed and gone >= ends[-1]:

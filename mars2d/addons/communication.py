@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from mars2d.addons.base import Addon
+from mars2d.core.arithmetic import whole_power
 from mars2d.core.checks import instance, optional
 from mars2d.core.description import Description, entry, flag, number
 from mars2d.core.errors import InputError
@@ -64,7 +65,7 @@ class Burst(Description):
         """
         share = self.share_bad
         if bad is not None:
-            share += (float(bad) - share) * (1 - self.to_bad - self.to_good) ** steps
+            share += (float(bad) - share) * whole_power(1 - self.to_bad - self.to_good, steps)
         return bool(rng.random() < share)
 
     def loses(self, bad: bool, rng: np.random.Generator) -> bool:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from math import cos, floor, log, pi, sin, sqrt
+from math import floor, log, pi, sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
+from mars2d.core.arithmetic import cosine_sine, cosines_sines
 from mars2d.core.delay import ROUNDING
 from mars2d.core.description import entry, number, text
 from mars2d.core.errors import InputError
@@ -38,7 +39,7 @@ def ellipse(center: ArrayLike, covariance: ArrayLike, probability: float = 0.95)
     """
     spread = np.asarray(covariance, dtype=float)[:2, :2] + MIN_VARIANCE * np.eye(2)
     angles = np.linspace(0, 2 * pi, CORNERS, endpoint=False)
-    circle = sqrt(-2 * log(1 - probability)) * np.array([np.cos(angles), np.sin(angles)])
+    circle = sqrt(-2 * log(1 - probability)) * np.array(cosines_sines(angles))
     return np.asarray(np.asarray(center, dtype=float)[:2] + (np.linalg.cholesky(spread) @ circle).T)
 
 
@@ -123,7 +124,7 @@ class Estimate(Addon):
         """Return points (k, 2) of the estimate's frame in that of the world."""
         x, y, theta = self._origin.tolist()
         ahead, left = np.asarray(points, dtype=float)[:, :2].T
-        c, s = cos(theta), sin(theta)
+        c, s = cosine_sine(theta)
         return np.column_stack([x + c * ahead - s * left, y + s * ahead + c * left])
 
     def on_draw(self, world: WorldLike, scene: Scene) -> None:  # noqa: ARG002

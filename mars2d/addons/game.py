@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.contest import Capture, Contest, Outcome, Teams, mark
+from mars2d.core.arithmetic import norms
 from mars2d.core.description import entry, real, wrong
 from mars2d.core.errors import likely
 from mars2d.core.interfaces import FrameLike, RecordLike, WorldLike
@@ -191,7 +192,7 @@ def _approaches(
     found = []
     for evader in evaders:
         x, y = (pose[:, k, list(hunters)] - pose[:, k, evader, None] for k in (0, 1))
-        distance = np.hypot(x, y)
+        distance = norms(x, y)
         rows = np.flatnonzero(distance.min(axis=1) <= reach)
         if len(rows):
             nearest_one = hunters[int(distance[rows[0]].argmin())]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.contest import MARK, Contest, Outcome, Teams, mark
 from mars2d.core import checks
+from mars2d.core.arithmetic import norms
 from mars2d.core.description import entry, number
 from mars2d.core.interfaces import FrameLike, RecordLike, WorldLike
 from mars2d.core.plane import Outline, Point
@@ -106,7 +107,7 @@ class Ring(Contest):
         time: (T,). pose: (T, 3, n).
         """
         x, y = (pose[:, k] - self.center[k] for k in (0, 1))
-        outside = np.hypot(x, y) > self.radius
+        outside = norms(x, y) > self.radius
         if not len(time):
             return {}  # the run was over before its first row
         first = {robot: outside[:, robot].argmax() for team in teams for robot in team}

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
+from mars2d.core.arithmetic import norms
 from mars2d.core.checks import point
 from mars2d.core.description import entry, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
@@ -73,7 +74,7 @@ class Waypoints(Addon):
         """Return the number of points of a route that are reached along positions (T, 2)."""
         row = 0
         for k, (x, y) in enumerate(route):
-            near = np.hypot(positions[row:, 0] - x, positions[row:, 1] - y) <= self.tolerance
+            near = norms(positions[row:, 0] - x, positions[row:, 1] - y) <= self.tolerance
             if not near.any():
                 return k
             row += int(near.argmax())

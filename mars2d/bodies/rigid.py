@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from math import cos, sin
 from typing import NamedTuple
 
+from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.plane import Point
 from mars2d.geometry.shapes import Disc, Shape
 
@@ -62,7 +62,7 @@ class Rigid(NamedTuple):
     def to_world(self, point: Point) -> Point:
         """Return where a point of the body lies at the start."""
         x, y, theta = self.pose
-        c, s = cos(theta), sin(theta)
+        c, s = cosine_sine(theta)
         return x + c * point[0] - s * point[1], y + s * point[0] + c * point[1]
 
 

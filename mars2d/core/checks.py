@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from mars2d.core.arithmetic import norms
 from mars2d.core.description import Check, real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point
@@ -95,7 +96,7 @@ def _check_apart(name: str, points: list[Point]) -> None:
     """Raise InputError if consecutive vertices are the same; a closed list ends with the first."""
     last = len(points) - 1
     for i, (a, b) in enumerate(pairwise(points)):
-        if np.hypot(a[0] - b[0], a[1] - b[1]) < 1e-6:
+        if norms(a[0] - b[0], a[1] - b[1]) < 1e-6:
             after = 0 if i + 1 == last and points[last] is points[0] else i + 1
             raise InputError(f"{name}: vertices {i} and {after} are the same, {a}")
 

@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mars2d.core.arithmetic import norms
+
 __all__ = [
     "ON_THE_EDGE",
     "bounds_of",
@@ -106,7 +108,7 @@ def point_segment_distance(px: Float, py: Float, segments: Float) -> Float:
     ex, ey = x2 - x1, y2 - y1
     along = ((px - x1) * ex + (py - y1) * ey) / (ex * ex + ey * ey)
     along = np.minimum(np.maximum(along, 0.0), 1.0)
-    return np.asarray(np.hypot(px - x1 - along * ex, py - y1 - along * ey))
+    return np.asarray(norms(px - x1 - along * ex, py - y1 - along * ey))
 
 
 def edges_of(outline: Outline) -> list[tuple[Point, Point]]:

@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mars2d.core.arithmetic import cosines_sines, norm
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.plane import Outline
 
@@ -335,7 +336,8 @@ class Scene:
             return
         x, y, theta = np.asarray(pose, dtype=float).tolist()
         steps = theta + np.linspace(-angle / 2, angle / 2, max(2, int(angle / 0.1) + 2))
-        arc = np.column_stack([x + radius * np.cos(steps), y + radius * np.sin(steps)])
+        c, s = cosines_sines(steps)
+        arc = np.column_stack([x + radius * c, y + radius * s])
         self.polygon(np.vstack([[x, y], arc]), fill=fill, stroke=stroke, width=width)
 
     def extend(self, shapes: Iterable[Shape]) -> None:
@@ -355,7 +357,7 @@ def arrow_outline(
 ) -> NDArray[np.float64]:
     """Return the corners (7, 2) of an arrow whose shaft is `width` wide, all in one unit."""
     dx, dy = tip[0] - tail[0], tip[1] - tail[1]
-    length = float(np.hypot(dx, dy))
+    length = float(norm(dx, dy))
     if length == 0.0:
         return np.tile(np.array([tail], dtype=float), (7, 1))
     width = min(width, length / (MIN_ARROW_LENGTH * HEAD_LENGTH))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import atan2, cos, inf, isfinite, nan, pi, sin
+from math import inf, isfinite, nan, pi
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mars2d.core.arithmetic import angles_of, cosine_sine, norms
 from mars2d.core.plane import Point, wrap
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
@@ -61,8 +62,8 @@ def sighted(
         around &= bodies != np.array(robots)[:, None]
     who, what = np.nonzero(around)
     dx, dy = across[who, what], upwards[who, what]
-    apart = np.hypot(dx, dy)
-    bearings = wrap(np.array(list(map(atan2, dy.tolist(), dx.tolist()))) - theta[who])
+    apart = norms(dx, dy)
+    bearings = wrap(angles_of(dy, dx) - theta[who])
     seen = apart <= reach
     if field_of_view < 2 * pi:
         seen &= np.abs(bearings) <= field_of_view / 2
@@ -122,6 +123,7 @@ def draw_sighted(scene: Scene, pose: Float, rows: ArrayLike, color: str) -> None
     for distance, bearing in np.asarray(rows, dtype=float).reshape(-1, 2).tolist():
         if isfinite(distance + bearing):
             angle = theta + bearing
-            there = (x + distance * cos(angle), y + distance * sin(angle))
+            c, s = cosine_sine(angle)
+            there = (x + distance * c, y + distance * s)
             scene.line([(x, y), there], stroke=faded(color, 0.7), width=1.0)
             scene.circle(there, 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)

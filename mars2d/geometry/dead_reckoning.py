@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, isfinite, sin, sqrt
+from math import isfinite, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.scene import Scene, faded
 
 __all__ = ["covariance_after_arc", "covariances", "draw_pose", "odometry_covariance", "sinc"]
@@ -16,7 +17,7 @@ Float = NDArray[np.float64]
 
 def sinc(angle: float) -> float:
     """Return sin(angle) / angle: the ratio of chord to arc for an arc of twice that angle."""
-    return sin(angle) / angle if angle else 1.0
+    return cosine_sine(angle)[1] / angle if angle else 1.0
 
 
 def odometry_covariance(
@@ -40,8 +41,8 @@ def odometry_covariance(
     middle, half = theta + spin / 2, spin / 2
     chord = sinc(half)
     # d(chord) / d(spin); for small angles its series, since the difference would cancel.
-    bend = -spin / 12 if abs(spin) < 1e-3 else (cos(half) - chord) / spin
-    c, s = cos(middle), sin(middle)
+    bend = -spin / 12 if abs(spin) < 1e-3 else (cosine_sine(half)[0] - chord) / spin
+    c, s = cosine_sine(middle)
     dx, dy = chord * forward * c, chord * forward * s
     by_pose = np.array([[1.0, 0.0, -dy], [0.0, 1.0, dx], [0.0, 0.0, 1.0]])
     by_spin = np.array(
@@ -51,7 +52,12 @@ def odometry_covariance(
     per_left = by_forward / 2 - by_spin / (2 * semiaxis)
     per_right = by_forward / 2 + by_spin / (2 * semiaxis)
     by_rims = drift * np.column_stack([sqrt(abs(left)) * per_left, sqrt(abs(right)) * per_right])
-    return np.asarray(by_pose @ before @ by_pose.T + by_rims @ by_rims.T)
+    return _product(_product(by_pose, before), by_pose.T) + _product(by_rims, by_rims.T)
+
+
+def _product(a: Float, b: Float) -> Float:
+    """Return a product of matrices; numpy's own rounds as the processor does."""
+    return np.asarray((a[:, :, None] * b).sum(axis=1))
 
 
 def covariance_after_arc(
@@ -64,7 +70,8 @@ def covariance_after_arc(
     theta = float(before[2])
     dx, dy, turn = (after - before).tolist()
     middle, chord = theta + turn / 2, sinc(turn / 2)
-    straight = cos(middle) * dx + sin(middle) * dy
+    c, s = cosine_sine(middle)
+    straight = c * dx + s * dy
     way = straight / chord if abs(chord) > 1e-9 else 0.0  # a whole turn ends where it began
     rims = (way - semiaxis * turn, way + semiaxis * turn)
     return odometry_covariance(covariance, theta, *rims, semiaxis, drift)
@@ -75,7 +82,8 @@ def draw_pose(scene: Scene, pose: ArrayLike, color: str) -> None:
     x, y, theta = np.asarray(pose, dtype=float).tolist()
     if isfinite(x + y + theta):
         scene.circle((x, y), 0.0, stroke=color, fill=faded(color, 0.15), width=1.2, pixels=6.0)
-        ahead = (x + 0.3 * cos(theta), y + 0.3 * sin(theta))
+        c, s = cosine_sine(theta)
+        ahead = (x + 0.3 * c, y + 0.3 * s)
         scene.line([(x, y), ahead], stroke=color, width=1.2)
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property, lru_cache
-from math import fsum, hypot, inf
+from math import fsum, inf
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core import checks
+from mars2d.core.arithmetic import norm, norms
 from mars2d.core.description import Description, entry, number
 from mars2d.core.plane import Outline, Point
 
@@ -112,7 +113,7 @@ class Potential(Description):
         x1, y1, ex, ey, square = self._edges
         along = np.clip(((x - x1) * ex + (y - y1) * ey) / square, 0.0, 1.0)
         dx, dy = x - x1 - along * ex, y - y1 - along * ey
-        distance = np.hypot(dx, dy)
+        distance = norms(dx, dy)
         near = np.flatnonzero(distance < self.reach + self.radius)
         for d, ax, ay in np.array([distance, dx, dy])[:, near].T.tolist():
             away = (ax / d, ay / d) if d > 0 else (0.0, 0.0)
@@ -121,7 +122,7 @@ class Potential(Description):
     def force(self, at: Sequence[float] | Float, goal: Sequence[float] | Float) -> Point:
         """Return the force F = -grad U (Fx, Fy) at (x, y) [m], in m/s: a desired velocity."""
         (x, y), (gx, gy) = map(float, at), map(float, goal)
-        distance = hypot(gx - x, gy - y)
+        distance = norm(gx - x, gy - y)
         pull = self.attraction * min(1.0, self.far / distance) if distance else 0.0
         fx, fy = [pull * (gx - x)], [pull * (gy - y)]
         for rho, ux, uy in self._near(x, y):
@@ -135,9 +136,10 @@ class Potential(Description):
         (x, y), (gx, gy) = map(float, at), map(float, goal)
         if not self.free((x, y)):
             return inf
-        distance, far = hypot(gx - x, gy - y), self.far
-        square = distance**2 if distance <= far else far * (2 * distance - far)
-        terms = [self.repulsion * (1 / rho - 1 / self.reach) ** 2 for rho, _, _ in self._near(x, y)]
+        distance, far = norm(gx - x, gy - y), self.far
+        square = distance * distance if distance <= far else far * (2 * distance - far)
+        gaps = (1 / rho - 1 / self.reach for rho, _, _ in self._near(x, y))
+        terms = [self.repulsion * gap * gap for gap in gaps]
         return fsum([self.attraction * square, *terms]) / 2
 
     def free(self, at: Sequence[float] | Float) -> bool:
@@ -163,7 +165,7 @@ class Potential(Description):
         for x in np.arange(xmin + spacing / 2, xmax, spacing).tolist():
             for y in np.arange(ymin + spacing / 2, ymax, spacing).tolist():
                 fx, fy = self.force((x, y), goal)
-                size = hypot(fx, fy)
+                size = norm(fx, fy)
                 if size > 0 and self.free((x, y)):
                     found.append(((x, y), (fx / size, fy / size)))
         return tuple(found)
@@ -177,15 +179,15 @@ class Potential(Description):
         """
         (x, y), (gx, gy) = map(float, start), map(float, goal)
         step, count, before = STEP, 0, (x, y)
-        while hypot(gx - x, gy - y) > tolerance and count < MAX_STEPS:
+        while norm(gx - x, gy - y) > tolerance and count < MAX_STEPS:
             fx, fy = self.force((x, y), (gx, gy))
-            size = hypot(fx, fy)
+            size = norm(fx, fy)
             if size == 0.0:
                 break
             x, y = x + step * fx / size, y + step * fy / size
             count += 1
             if count % STRIDE == 0:
-                if hypot(x - before[0], y - before[1]) < MIN_PROGRESS * STRIDE * step:
+                if norm(x - before[0], y - before[1]) < MIN_PROGRESS * STRIDE * step:
                     step /= 2
                     if step < MIN_STEP:
                         return self.balance((x, y), (gx, gy))
@@ -206,8 +208,8 @@ class Potential(Description):
 
         found = root(force, given, tol=1e-12)
         x, y = map(float, found.x)
-        close = hypot(x - given[0], y - given[1]) < STEP
-        return (x, y) if close and hypot(*force((x, y))) < 1e-6 else given
+        close = norm(x - given[0], y - given[1]) < STEP
+        return (x, y) if close and norm(*force((x, y))) < 1e-6 else given
 
     @lru_cache(maxsize=64)  # noqa: B019 - see arrows
     def lead(self, start: Point, route: tuple[Point, ...], tolerance: float) -> tuple[int, Point]:
@@ -218,6 +220,6 @@ class Potential(Description):
         """
         for k, goal in enumerate(route):
             start = self.descend(start, goal, tolerance)
-            if hypot(goal[0] - start[0], goal[1] - start[1]) > tolerance:
+            if norm(goal[0] - start[0], goal[1] - start[1]) > tolerance:
                 return k, start
         return len(route), start

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arithmetic import norms
+
 __all__ = ["nodes"]
 
 Float = NDArray[np.float64]
@@ -29,7 +31,7 @@ def nodes(pieces: NDArray[Any], resolution: float) -> tuple[Float, Float, Index]
     a, b, c = np.moveaxis(triangles, 1, 0)
     ab, ac, bc = b - a, c - a, c - b
     area = np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]) / 2
-    longest = np.max([np.hypot(*side.T) for side in (ab, ac, bc)], axis=0)
+    longest = np.max([norms(*side.T) for side in (ab, ac, bc)], axis=0)
     parts = np.minimum(np.ceil(longest / resolution), MAX_DIVISIONS).astype(int)
     points, areas, of = [np.empty((2, 0))], [np.empty(0)], [np.empty(0, dtype=np.intp)]
     for count in np.unique(parts[area > 0]).tolist():

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mars2d.core.arithmetic import cosines_sines, norms
 from mars2d.core.plane import Outline, Point, edges_of
 
 __all__ = ["CORNER", "Fans"]
@@ -182,7 +183,7 @@ class Fans:
         # Things are the rings, then the discs; each lies within a circle about its middle.
         boxes = [np.array([np.min(ring, axis=0), np.max(ring, axis=0)]) for ring, _ in rings]
         middles = [box.mean(axis=0) for box in boxes] + [center for center, _, _ in discs]
-        halves = [np.hypot(*(box[1] - box[0])) / 2 for box in boxes]
+        halves = [norms(*(box[1] - box[0])) / 2 for box in boxes]
         self._middle = np.array(middles).reshape(-1, 2).T.copy()
         self._disc = self._middle[:, len(rings) :]
         self._radius = np.concatenate([np.array(halves), self._disc_radius])
@@ -207,7 +208,7 @@ class Fans:
         ends = [np.roll(ring, -1, axis=0)[:k] for ring, k in zip(corners, size, strict=True)]
         self._edge_b = _points(ends)
         self._edge = self._edge_b - self._edge_a
-        self._length = np.hypot(*self._edge)
+        self._length = norms(*self._edge)
         self._thin = (GRAZING * self._length) ** 2
         moving = int(size[:fixed].sum())
         self._moving = slice(moving, None)
@@ -218,7 +219,7 @@ class Fans:
     def place(self, pose: Float) -> None:
         """Move the bodies to poses (3, N): x, y [m], theta [rad]."""
         body, corners = self._body_of, len(self._next)
-        c, s = np.cos(pose[2])[body], np.sin(pose[2])[body]
+        c, s = (each[body] for each in cosines_sines(pose[2]))
         x = pose[0][body] + c * self._local[0] - s * self._local[1]
         y = pose[1][body] + s * self._local[0] + c * self._local[1]
         self._placed[0], self._placed[1] = x[corners:], y[corners:]
@@ -376,8 +377,8 @@ class Fans:
         c, s = beams.way_x[ray], beams.way_y[ray]
         beside_a, beside_b = c * ay - s * ax, c * by - s * bx
         along_a, along_b = c * ax + s * ay, c * bx + s * by
-        at_a = np.abs(beside_a) <= _aimed(np.hypot(ax, ay))
-        at_b = np.abs(beside_b) <= _aimed(np.hypot(bx, by))
+        at_a = np.abs(beside_a) <= _aimed(norms(ax, ay))
+        at_b = np.abs(beside_b) <= _aimed(norms(bx, by))
         between = np.minimum(beside_a, beside_b) <= 0
         between &= np.maximum(beside_a, beside_b) >= 0
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -425,7 +426,7 @@ def _table(bearings: bytes) -> _Table:
     order = np.argsort(turned)
     ahead = turned[order]
     bearing = np.concatenate([ahead - TURN, ahead, ahead + TURN])
-    return _Table(np.cos(given), np.sin(given), bearing, np.tile(order, 3))
+    return _Table(*cosines_sines(given), bearing, np.tile(order, 3))
 
 
 def _strips(poses: Float, reach: float, each: int) -> Iterator[Int]:
@@ -440,7 +441,7 @@ def _strips(poses: Float, reach: float, each: int) -> Iterator[Int]:
 def _beams(poses: Float, table: _Table, reach: float, ignore: Int) -> _Beams:
     """Return the rays of fans at poses (3, m), all with the same bearings."""
     x, y, theta = np.ascontiguousarray(poses)
-    c, s = np.cos(theta), np.sin(theta)
+    c, s = cosines_sines(theta)
     heading = np.arctan2(s, c)
     c, s = c[:, None], s[:, None]
     way_x, way_y = c * table.cos - s * table.sin, s * table.cos + c * table.sin

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache, cached_property, lru_cache
-from math import asinh, cos, hypot, pi, sin, sqrt
+from math import pi, sqrt
 from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core import checks
+from mars2d.core.arithmetic import arsinh, cosine_sine, norm, norms
 from mars2d.core.description import Description, entry, real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point
@@ -136,7 +137,7 @@ class Shape(Description):
     def reach(self) -> float:
         """The largest distance of its points from the frame's origin, at most, metres."""
         center, radius = self.bound
-        return hypot(*center) + radius
+        return norm(*center) + radius
 
     @cached_property
     def thickness(self) -> float:
@@ -330,14 +331,14 @@ def _distance_integral(p: Point, q: Point) -> float:
     angle.
     """
     ex, ey = q[0] - p[0], q[1] - p[1]
-    length = hypot(ex, ey)
+    length = norm(ex, ey)
     d = (p[0] * q[1] - p[1] * q[0]) / length
     if d * d == 0.0:
         return 0.0
 
     def until(x: float, y: float) -> float:
         s = (x * ex + y * ey) / length
-        return s * hypot(x, y) + d * d * asinh(s / abs(d))
+        return s * norm(x, y) + d * d * arsinh(s / abs(d))
 
     return d / 6 * (until(*q) - until(*p))
 
@@ -366,7 +367,8 @@ def _union(rims: Iterable[Rim]) -> list[Float]:
 
 def _circle(center: Point, radius: float, count: int) -> list[Point]:
     angles = [2 * pi * k / count for k in range(count)]
-    return [(center[0] + radius * cos(a), center[1] + radius * sin(a)) for a in angles]
+    ways = map(cosine_sine, angles)
+    return [(center[0] + radius * c, center[1] + radius * s) for c, s in ways]
 
 
 def _region(rim: Rim) -> Sequence[Point]:
@@ -374,7 +376,7 @@ def _region(rim: Rim) -> Sequence[Point]:
     if rim.radius == 0:
         return rim.points
     turn = 2 * pi / DISC_CORNERS
-    return _circle(rim.points[0], rim.radius * sqrt(turn / sin(turn)), DISC_CORNERS)
+    return _circle(rim.points[0], rim.radius * sqrt(turn / cosine_sine(turn)[1]), DISC_CORNERS)
 
 
 def _circle_round(pieces: Sequence[Piece]) -> tuple[Point, float]:
@@ -389,7 +391,7 @@ def _circle_round(pieces: Sequence[Piece]) -> tuple[Point, float]:
         corners += _circle(vertices[0], radius, 64) if radius else vertices
     middle = shapely.minimum_bounding_circle(shapely.MultiPoint(corners)).centroid
     x, y = (round(float(v), 12) + 0.0 for v in (middle.x, middle.y))  # alike on all processors
-    reach = max(hypot(px - x, py - y) + r for vertices, r in pieces for px, py in vertices)
+    reach = max(norm(px - x, py - y) + r for vertices, r in pieces for px, py in vertices)
     return (x, y), reach
 
 
@@ -399,7 +401,7 @@ def _width(piece: Piece) -> float:
         return 2 * piece.radius
     ring = np.array(piece.vertices)
     edges = np.roll(ring, -1, axis=0) - ring
-    normals = np.column_stack([-edges[:, 1], edges[:, 0]]) / np.hypot(*edges.T)[:, None]
+    normals = np.column_stack([-edges[:, 1], edges[:, 0]]) / norms(*edges.T)[:, None]
     heights = ((ring[None, :, :] - ring[:, None, :]) * normals[:, None, :]).sum(axis=2)
     return float(heights.max(axis=1).min())
 
@@ -429,7 +431,7 @@ def _convex_parts(outline: Outline) -> tuple[tuple[Point, ...], ...]:
 def _bend(a: Point, b: Point, c: Point) -> float:
     """Return the distance of b outside the line from a to c, metres; negative at a right turn."""
     turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
-    return turn / hypot(c[0] - a[0], c[1] - a[1])
+    return turn / norm(c[0] - a[0], c[1] - a[1])
 
 
 def _bends(ring: Sequence[Point]) -> list[float]:

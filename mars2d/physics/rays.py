@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from pymunk import batch
 from pymunk._chipmunk_cffi import ffi, lib
 
+from mars2d.core.arithmetic import cosines_sines, norm, norms
 from mars2d.core.plane import Point
 from mars2d.geometry.ray_casting import CORNER
 
@@ -52,7 +53,7 @@ def end_bars(a: Point, b: Point) -> list[tuple[Point, Point]]:
     A wall has no thickness, so the engine lets a ray along it pass. Such a ray meets the bar.
     """
     dx, dy = b[0] - a[0], b[1] - a[1]
-    apart = float(np.hypot(dx, dy))
+    apart = float(norm(dx, dy))
     ux, uy = BAR * -dy / apart, BAR * dx / apart
     return [((x - ux, y - uy), (x + ux, y + uy)) for x, y in (a, b)]
 
@@ -124,7 +125,7 @@ class Rays:
     ) -> tuple[Addresses, Float]:
         """Send rays at angles (k,); return the shapes they hit, 0 if none, and the distances."""
         far = np.asarray(reach, dtype=float)
-        c, s = np.cos(angles), np.sin(angles)
+        c, s = cosines_sines(angles)
         ends = np.empty((len(angles), 2))
         np.add(start[0], far * c, out=ends[:, 0])
         np.add(start[1], far * s, out=ends[:, 1])
@@ -168,10 +169,10 @@ class Rays:
         batch.get_space_bodies(self._public, POSE, buffer)
         pose = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, 3)
         at_x, at_y, angle = pose[self._corner_body].T
-        turn_c, turn_s = np.cos(angle), np.sin(angle)
+        turn_c, turn_s = cosines_sines(angle)
         dx = at_x + turn_c * self._corner[:, 0] - turn_s * self._corner[:, 1] - start[0]
         dy = at_y + turn_s * self._corner[:, 0] + turn_c * self._corner[:, 1] - start[1]
-        apart = np.hypot(dx, dy)
+        apart = norms(dx, dy)
         near = np.flatnonzero((apart <= far.max(initial=0.0)) & (self._corner_body != ignore))
         offset = np.column_stack([dy[near], -dx[near]])
         beside = offset @ np.array(way)  # rounding depends on the processor: checked again below
@@ -192,7 +193,7 @@ class Rays:
         near end. way: its direction.
         """
         own = pymunk.ShapeFilter(group=ignore + 1)
-        reach = float(np.hypot(end[0] - start[0], end[1] - start[1]))
+        reach = float(norm(end[0] - start[0], end[1] - start[1]))
         found = [(inf, 0, 0)]
         for info in self._public.segment_query(start, (float(end[0]), float(end[1])), 0.0, own):
             shape = info.shape
@@ -217,7 +218,7 @@ class Rays:
         """Return whether something stands before points (k, 2); see Surroundings."""
         points = np.asarray(points, dtype=float).reshape(-1, 2)
         dx, dy = points[:, 0] - start[0], points[:, 1] - start[1]
-        apart = np.hypot(dx, dy)
+        apart = norms(dx, dy)
         unit = np.where(apart > 0, apart, 1.0)
         shapes, distance = self._met(start, (dx / unit, dy / unit), apart, points, ignore)
         before = apart - distance > AT_THE_END

@@ -16,7 +16,9 @@ from pymunk import batch
 from pymunk._chipmunk_cffi import ffi, lib
 
 from mars2d.bodies.rigid import Rigid
+from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.plane import Outline, Point, edges_of
+from mars2d.physics.islands.chipmunk import bodies_are_as_thought, frame_of
 from mars2d.physics.rays import BODY, POSE, SIGHT, Rays, end_bars
 from mars2d.scenario.scenario import Scenario
 
@@ -61,6 +63,8 @@ class Space:
         self._rays = Rays(space, shapes | walls)
         self._poses = np.zeros((len(self._bodies) + 1 + len(self.obstacles), 3))
         self._buffer = batch.Buffer()
+        known = bodies_are_as_thought()
+        self._frames = [np.frombuffer(frame_of(body._body)) for body in self._bodies if known]
         return space
 
     def _body(
@@ -92,9 +96,18 @@ class Space:
             self._poses[: len(self._bodies)] = self._state[:, :3]
             self._buffer.set_float_buf(self._poses)
             batch.set_space_bodies(space, POSE, self._buffer)
+            self._turn()
             for body in self._bodies:
                 space.reindex_shapes_for_body(body)
         return space
+
+    def _turn(self) -> None:
+        """Turn bodies by sines that do not depend on the C library, as pymunk's do."""
+        x, y, theta = self._poses[: len(self._bodies)].T
+        c, s = cosines_sines(theta)
+        rows = np.column_stack([c, s, -s, c, x, y])
+        for frame, row in zip(self._frames, rows, strict=False):
+            frame[:] = row
 
     @property
     def rays(self) -> Rays:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import sqrt
+from math import pi, sqrt
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from mars2d.bodies.constraints import (
 from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid, Surface
+from mars2d.core.arithmetic import cosines_sines, norm
 from mars2d.core.materials import GRAVITY, MATERIALS, RULES, material_of
 from mars2d.physics import settings
 from mars2d.physics.islands import chipmunk, islands
@@ -178,7 +179,7 @@ def _seams(module: Any, wall: Wall, reach: float) -> Any:
     if not any(wall.seams):
         return None
     (x, y), (to_x, to_y) = wall.start, wall.end
-    far = sqrt((to_x - x) ** 2 + (to_y - y) ** 2)
+    far = norm(to_x - x, to_y - y)
     numbers = [x, y, (to_x - x) / far, (to_y - y) / far, far, reach]
     for seam in wall.seams:
         numbers += (0.0, 0.0, 0.0) if seam is None else (1.0 + (not seam.bulges), *seam.way)
@@ -227,6 +228,8 @@ def _accuracy(scenario: Scenario) -> dict[str, float]:
         "max_overlap": float(overlap),
         "entry": entry,
         "slop": slop,
+        "mend_rate": settings.MEND_RATE,
+        "joint_mend_rate": settings.JOINT_MEND_RATE,
         "swaying": settings.SWAYING,
         "pressed": settings.PRESSED * slop,
         "closed": min(settings.CLOSED, settings.MEETING * slop),
@@ -268,9 +271,24 @@ def _quadrature(count: int) -> tuple[Float, Float]:
 
     They are those of Gauss and Legendre in t, where the variable of the integrals is t^3.
     """
-    t, weight = np.polynomial.legendre.leggauss(count)
+    t, weight = _gauss(count)
     t = (t + 1) / 2
-    return t**3, 1.5 * weight * t**2
+    return t * t * t, 1.5 * weight * (t * t)
+
+
+def _gauss(count: int) -> tuple[Float, Float]:
+    """Return the nodes and weights of Gauss and Legendre from -1 to 1.
+
+    numpy's are eigenvalues, whose last bits depend on the processor.
+    """
+    x = -cosines_sines(pi * (np.arange(count) + 0.75) / (count + 0.5))[0]
+    for _ in range(8):  # Newton's method
+        before, value = np.ones(count), x
+        for k in range(2, count + 1):
+            before, value = value, ((2 * k - 1) * x * value - (k - 1) * before) / k
+        slope = count * (x * value - before) / (x * x - 1)
+        x = x - value / slope
+    return x, 2 / ((1 - x * x) * (slope * slope))
 
 
 def iterations_of(scenario: Scenario) -> int:
@@ -287,23 +305,22 @@ def _swing(joint: AttachedJoint, bodies: Sequence[Rigid]) -> float:
 
 def _translated(
     attached: AttachedJoint, constraint: Constraint
-) -> tuple[int, bool, tuple[float, float, float], float]:
-    """Return the engine's joint for a constraint: kind, whether b is first, numbers, and bias."""
-    bias = settings.JOINT_BIAS
+) -> tuple[int, bool, tuple[float, float, float]]:
+    """Return the engine's joint for a constraint: kind, whether b is first, and numbers."""
     turned = attached.turned if attached.b >= 0 else -attached.turned
     world_first = attached.b < 0  # it is a that turns against the world
     match constraint:
         case MaxDistance(length=length):
-            return chipmunk.SLIDE, False, (0.0, float(length) - settings.TAUT, 0.0), bias
+            return chipmunk.SLIDE, False, (0.0, float(length) - settings.TAUT, 0.0)
         case FixedDistance(length=length):
-            return chipmunk.PIN, False, (float(length), 0.0, 0.0), bias
+            return chipmunk.PIN, False, (float(length), 0.0, 0.0)
         case SpringDamper(length=length, stiffness=k, damping=c):
-            return chipmunk.DAMPED_SPRING, False, (float(length), float(k), float(c)), bias
+            return chipmunk.DAMPED_SPRING, False, (float(length), float(k), float(c))
         case Pin():
-            return chipmunk.PIVOT, False, (0.0, 0.0, 0.0), bias
+            return chipmunk.PIVOT, False, (0.0, 0.0, 0.0)
         case TurningRange(least=least, largest=largest):
             numbers = float(turned + least), float(turned + largest), 0.0
-            return chipmunk.ROTARY_LIMIT, world_first, numbers, bias
+            return chipmunk.ROTARY_LIMIT, world_first, numbers
         case TurningSpring(stiffness=k, damping=c):
-            return chipmunk.ROTARY_SPRING, world_first, (float(-turned), float(k), float(c)), bias
+            return chipmunk.ROTARY_SPRING, world_first, (float(-turned), float(k), float(c))
     raise TypeError(f"{constraint!r} is unknown to the physics")

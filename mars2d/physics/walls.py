@@ -10,12 +10,13 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
-from math import atan2, hypot, pi, sqrt
+from math import pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arithmetic import angle_of, norm, norms
 from mars2d.core.plane import Outline, Point, edges_of
 
 __all__ = ["MEET", "Seam", "Shade", "Surface", "Wall", "walls_of"]
@@ -157,7 +158,7 @@ def _near(points: Float, starts: Float, ends: Float) -> tuple[Whole, Whole]:
         return np.repeat(np.arange(m), n), np.tile(np.arange(n), m)
     low = np.minimum(starts.min(axis=0), ends.min(axis=0))
     wide, high = np.maximum(starts.max(axis=0), ends.max(axis=0)) - low
-    far = np.hypot(*(ends - starts).T)
+    far = norms(*(ends - starts).T)
     size = min(max((wide * high / n) ** 0.5, (wide + high) / n), 4 * float(np.median(far)))
     size = max(size, far.sum() / MOST_CELLS, 1e3 * MEET)
     rows = int(high / size) + 4
@@ -204,16 +205,16 @@ def _shade(end: Point, own: Point, other: Wall) -> Shade:
     """Return the shade of a wall at which one ends that leads from there in its own direction."""
     x, y = _line(other.start, other.end).way
     away = (y, -x) if _dot((y, -x), own) < 0 else (-y, x)
-    return Shade(end, away, min(hypot(*_to(end, other.start)), hypot(*_to(end, other.end))))
+    return Shade(end, away, min(norm(*_to(end, other.start)), norm(*_to(end, other.end))))
 
 
 def _ways(wall: Wall, point: Point) -> list[Point]:
     """Return the directions in which a wall leads away from a point on it."""
     ahead = _line(wall.start, wall.end).way
     back = -ahead[0], -ahead[1]
-    if hypot(*_to(wall.start, point)) <= MEET:
+    if norm(*_to(wall.start, point)) <= MEET:
         return [ahead]
-    return [back] if hypot(*_to(wall.end, point)) <= MEET else [ahead, back]
+    return [back] if norm(*_to(wall.end, point)) <= MEET else [ahead, back]
 
 
 def _first(own: Point, ways: Iterable[Point], turn: int) -> Seam | None:
@@ -222,7 +223,7 @@ def _first(own: Point, ways: Iterable[Point], turn: int) -> Seam | None:
     turn: 1 for counter-clockwise, -1 for clockwise. What leads in that direction itself is left
     out: it overlaps it.
     """
-    met = [(turn * atan2(_cross(own, way), _dot(own, way)) % (2 * pi), way) for way in ways]
+    met = [(turn * angle_of(_cross(own, way), _dot(own, way)) % (2 * pi), way) for way in ways]
     angle, way = min((each for each in met if 1e-9 < each[0] < 2 * pi - 1e-9), default=(0.0, own))
     return Seam(way, angle > pi + 1e-9) if angle else None
 
@@ -329,7 +330,7 @@ def _wall(run: Sequence[tuple[Point, Point, Edge]]) -> Wall:
     owners: list[tuple[float, int]] = []
     for low, _, owner in run:
         if not owners or owners[-1][1] != owner.obstacle:
-            owners.append((hypot(*_to(start, low)), owner.obstacle))
+            owners.append((norm(*_to(start, low)), owner.obstacle))
     return Wall(start, end, run[0][2].surface, tuple(owners), (), ())
 
 

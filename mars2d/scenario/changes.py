@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.rigid import Rigid
+from mars2d.core.arithmetic import norms
 from mars2d.core.errors import InputError, counted
 from mars2d.core.plane import Outline, lines_and_areas, outside_polygon
 from mars2d.scenario.scenario import Scenario
@@ -123,7 +124,7 @@ def _near(bodies: list[Rigid], body: int) -> list[int]:
     """Return the other bodies that may touch a body, the nearest first."""
     centers = np.array([rigid.bound[0] for rigid in bodies])
     radii = np.array([rigid.bound[1] for rigid in bodies])
-    gaps = np.hypot(*(centers - centers[body]).T) - radii - radii[body]
+    gaps = norms(*(centers - centers[body]).T) - radii - radii[body]
     gaps[body] = np.inf
     return [int(k) for k in np.argsort(gaps) if gaps[k] < 0]
 

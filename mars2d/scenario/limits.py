@@ -7,7 +7,7 @@ ends.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from math import hypot, isfinite
+from math import isfinite
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.joints.base import AttachedJoint, Joint
 from mars2d.bodies.props.base import MAX_SPEED
 from mars2d.bodies.rigid import Rigid
+from mars2d.core.arithmetic import norm
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.geometry.shapes import Disc, Shape
@@ -65,7 +66,7 @@ MIN_LENGTH = 1e-3
 def check_centred(name: str, shape: Shape) -> None:
     """Refuse the shape of a prop whose pose is not that of its centre of mass."""
     x, y = shape.centroid
-    if hypot(x, y) > 1e-6 * shape.reach:
+    if norm(x, y) > 1e-6 * shape.reach:
         raise InputError(
             f"{name}: its centre of mass lies at ({x:.4g}, {y:.4g}); expected (0, 0), as "
             "shape.moved(-x, -y) makes it"
@@ -130,7 +131,7 @@ def _check_motion(body: Rigid, fastest: float) -> None:
             "and <= 1000, or None",
         )  # fmt: skip
     vx, vy, omega = body.velocity
-    speed = hypot(vx, vy) + abs(omega) * body.shape.reach
+    speed = norm(vx, vy) + abs(omega) * body.shape.reach
     if not speed <= fastest:
         why = "" if fastest == MAX_SPEED else f", as max_overlap is {fastest * MIN_CROSSING:g} m"
         raise wrong(
@@ -205,7 +206,7 @@ def check_joint(where: str, attached: AttachedJoint, bodies: Sequence[Rigid]) ->
     """Refuse a joint that would pull its bodies at once, or too fast for the substeps."""
     for field, index in (("a", attached.a), ("b", attached.b)):
         anchor = getattr(attached.joint, f"anchor_{field}")
-        if index >= 0 and not hypot(*anchor) <= MAX_ARM * bodies[index].shape.reach:
+        if index >= 0 and not norm(*anchor) <= MAX_ARM * bodies[index].shape.reach:
             most = MAX_ARM * bodies[index].shape.reach
             raise wrong(
                 f"{where}.anchor_{field}", anchor,

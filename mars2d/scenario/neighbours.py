@@ -6,12 +6,12 @@ import functools
 import numbers
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
-from math import hypot
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arithmetic import norm, norms
 from mars2d.core.description import Description, entry, integer, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
 
@@ -139,10 +139,10 @@ def within(dx: Float, dy: Float, distance: float) -> NDArray[np.bool_]:
 
     Where rounding decides, Python's hypot is used: its result is the same on all processors.
     """
-    apart = np.hypot(dx, dy)
+    apart = norms(dx, dy)
     near = np.asarray(apart <= distance)
     for k in np.flatnonzero(np.abs(apart - distance) <= ROUNDING * distance).tolist():
-        near[k] = hypot(dx[k], dy[k]) <= distance
+        near[k] = norm(dx[k], dy[k]) <= distance
     return near
 
 
@@ -177,7 +177,7 @@ class Nearest(Neighbourhood):
         k = min(self.count, len(x) - 1)
         result = []
         for i, near in enumerate(_candidates(position, k)):
-            apart = np.hypot(x[near] - x[i], y[near] - y[i])
+            apart = norms(x[near] - x[i], y[near] - y[i])
             apart[near == i] = np.inf
             result.append(near[np.argsort(apart, kind="stable")[:k]].tolist())
         return result
@@ -227,8 +227,8 @@ def _delaunay_edges(position: Float) -> list[tuple[int, int]]:
     from scipy.spatial import Delaunay as Triangles
 
     x, y = position - position[:, :1]
-    far = int(np.argmax(np.hypot(x, y)))
-    length = float(np.hypot(x[far], y[far]))
+    far = int(np.argmax(norms(x, y)))
+    length = float(norm(x[far], y[far]))
     if np.abs(x * y[far] - y * x[far]).max() <= FLAT * length**2:  # all on one line
         order = np.argsort(x * x[far] + y * y[far], kind="stable").tolist()
         return list(pairwise(order))
@@ -250,9 +250,9 @@ def _without_flat(simplices: NDArray[Any], points: Float, least: float) -> list[
     for t, (a, b, c) in enumerate(np.sort(simplices).tolist()):
         (ax, ay), (bx, by), (cx, cy) = points[[a, b, c]].tolist()
         sides = {
-            (a, b): hypot(bx - ax, by - ay),
-            (b, c): hypot(cx - bx, cy - by),
-            (a, c): hypot(cx - ax, cy - ay),
+            (a, b): norm(bx - ax, by - ay),
+            (b, c): norm(cx - bx, cy - by),
+            (a, c): norm(cx - ax, cy - ay),
         }
         for edge in sides:
             owners.setdefault(edge, set()).add(t)

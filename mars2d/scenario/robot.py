@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from math import cos, sin
 from typing import Any, Self
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.drives.unicycle import Unicycle
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
+from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import Description, choice, entry, number, text, wrong
 from mars2d.core.materials import check_static, surface_friction, surface_restitution
 from mars2d.core.plane import Point
@@ -117,7 +117,8 @@ class Robot(Description):
     def center(self) -> Point:
         """The geometric centre at the start: `center_offset` behind the centre of rotation."""
         x, y, theta = self.pose
-        return x - self.center_offset * cos(theta), y - self.center_offset * sin(theta)
+        c, s = cosine_sine(theta)
+        return x - self.center_offset * c, y - self.center_offset * s
 
     @cached_property
     def chassis(self) -> Shape:

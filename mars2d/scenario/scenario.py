@@ -6,7 +6,7 @@ import numbers
 import sys
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from math import cos, floor, hypot, pi, sin
+from math import floor, pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,6 +18,7 @@ from mars2d.bodies.joints.base import AttachedJoint, Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
+from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import Description, choice, entry, number, snake_case, text, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.files import file_beside
@@ -223,9 +224,10 @@ class Scenario(Description):
         x, y = (xmin + xmax) / 2, (ymin + ymax) / 2
         radius = 0.7 * min(xmax - xmin, ymax - ymin) / 2 if count > 1 else 0.0
         angles = [2 * pi * i / count for i in range(count)]
+        ways = map(cosine_sine, angles)
         return tuple(
-            Robot(pose=(x + radius * cos(a), y + radius * sin(a), a + pi if count > 1 else 0.0))
-            for a in angles
+            Robot(pose=(x + radius * c, y + radius * s, a + pi if count > 1 else 0.0))
+            for a, (c, s) in zip(angles, ways, strict=True)
         )
 
     def _check_sensors(self) -> None:
@@ -265,7 +267,7 @@ class Scenario(Description):
             for index, anchor in ((attached.a, joint.anchor_a), (attached.b, joint.anchor_b)):
                 if 0 <= index < len(self.robots):
                     robot = self.robots[index]
-                    limits.check_drive(str(robot.name), robot.drive, hypot(*anchor))
+                    limits.check_drive(str(robot.name), robot.drive, norm(*anchor))
 
     def _check_starts(self) -> None:
         """Refuse bodies that start outside the workspace, in an obstacle or in each other."""

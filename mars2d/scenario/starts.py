@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mars2d.bodies.rigid import Rigid
+from mars2d.core.arithmetic import norms
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, distance_to_ring, lines_and_areas, outside_polygon
 
@@ -95,7 +96,7 @@ def check_apart(
     ends = np.searchsorted(along[order], along[order] + 2 * radii.max(), side="right")
     for place, i in enumerate(order):
         others = order[place + 1 : ends[place]]
-        gaps = np.hypot(*(centers[others] - centers[i]).T) - radii[others] - radii[i]
+        gaps = norms(*(centers[others] - centers[i]).T) - radii[others] - radii[i]
         for k in np.flatnonzero(gaps < -allowed):
             a, b = sorted((int(i), int(others[k])))
             if (a, b) in joined:

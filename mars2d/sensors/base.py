@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core import checks
+from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.delay import steps_until
 from mars2d.core.description import (
     Check,
@@ -407,7 +408,7 @@ class Sensor(Stateful):
         if self.mount == (0.0, 0.0, 0.0):
             return pose
         x, y, theta = pose
-        c, s = np.cos(theta), np.sin(theta)
+        c, s = cosines_sines(theta)
         return np.array([x + c * ahead - s * left, y + s * ahead + c * left, theta + turned])
 
     @cached_property

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections import deque
 from functools import cached_property
-from math import atan2, floor, pi
+from math import floor, pi
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arithmetic import angle_of, cosines_sines
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
@@ -93,7 +94,8 @@ class Bumper(Sensor):
         for angle, touched in zip(theta + self.angles, np.asarray(reading).tolist(), strict=True):
             arc = angle + across
             radius = 1.15 * self.radius
-            points = np.column_stack([x + radius * np.cos(arc), y + radius * np.sin(arc)])
+            c, s = cosines_sines(arc)
+            points = np.column_stack([x + radius * c, y + radius * s])
             if touched:
                 scene.line(points, stroke=LIT, width=4.0)
             else:
@@ -102,4 +104,4 @@ class Bumper(Sensor):
 
 def _bearing(point: list[float], pose: list[float]) -> float:
     """Return the bearing of a point from a pose, in [-pi, pi)."""
-    return (atan2(point[1] - pose[1], point[0] - pose[0]) - pose[2] + pi) % (2 * pi) - pi
+    return (angle_of(point[1] - pose[1], point[0] - pose[0]) - pose[2] + pi) % (2 * pi) - pi

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import sqrt
 from typing import Any, ClassVar
 
 import numpy as np
 
+from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import entry, real, wrong
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene
@@ -108,7 +109,7 @@ class Imu(Sensor):
         vx, vy, omega = robot.velocity.tolist()
         x, y = (self.placed(robot.pose) - robot.pose)[:2].tolist()
         vx, vy = vx - omega * y, vy + omega * x
-        c, s = cos(heading), sin(heading)
+        c, s = cosine_sine(heading)
         return c * vx + s * vy, c * vy - s * vx
 
     def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
@@ -119,8 +120,8 @@ class Imu(Sensor):
         """Draw the acceleration as an arrow, a metre for 5 m/s^2."""
         x, y, theta = self.placed(pose).tolist()
         ax, ay, _ = np.asarray(reading, dtype=float).tolist()
-        size = float(np.hypot(ax, ay))
+        size = float(norm(ax, ay))
         if 1e-3 < size < np.inf:
-            c, s = ARROW * cos(theta), ARROW * sin(theta)
+            c, s = (ARROW * each for each in cosine_sine(theta))
             tip = (x + c * ax - s * ay, y + s * ax + c * ay)
             scene.arrow((x, y), tip, fill="#d55e00", stroke="#ffffff", width=2.0)

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, color_of, faded, rgb
@@ -66,7 +67,7 @@ class LineCamera(Scanner):
             if name is not None:
                 angles = theta + self.angles[first : last + 1]
                 arc = np.concatenate([angles - step / 2, angles[-1:] + step / 2])
-                rim = np.column_stack([np.cos(arc), np.sin(arc)])
+                rim = np.column_stack(cosines_sines(arc))
                 strip = np.vstack([near * rim, far * rim[::-1]]) + np.array([x, y])
                 scene.polygon(strip, fill=name)
 

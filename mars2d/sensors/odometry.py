@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import sqrt
 from typing import Any, ClassVar
 
 import numpy as np
 
+from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import choice, entry, number, real, wrong
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene
@@ -150,7 +151,7 @@ def _moved(
     """
     x, y, theta = pose
     middle, chord = theta + spin / 2, sinc(spin / 2)
-    c, s = chord * cos(middle), chord * sin(middle)
+    c, s = (chord * each for each in cosine_sine(middle))
     return x + c * forward - s * left, y + s * forward + c * left, theta + spin
 
 
@@ -159,5 +160,5 @@ def _arc_of(dx: float, dy: float, theta: float, spin: float) -> tuple[float, flo
     middle, chord = theta + spin / 2, sinc(spin / 2)
     if abs(chord) < 1e-9:  # a whole turn: no arc leads there
         chord = 1.0
-    c, s = cos(middle) / chord, sin(middle) / chord
+    c, s = (each / chord for each in cosine_sine(middle))
     return c * dx + s * dy, c * dy - s * dx

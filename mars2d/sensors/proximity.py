@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, hypot, pi, sin
+from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
@@ -55,10 +56,10 @@ class Proximity(Sensor):
         half = self.field_of_view / 2
         # All surfaces are convex pieces: their point nearest to us within the sector is either the
         # nearest of all, or lies where an edge of the sector first meets them.
-        c, s = cos(theta), sin(theta)
+        c, s = cosine_sine(theta)
         for px, py in world.nearby((x, y), self.range, me):
             ahead, left = c * (px - x) + s * (py - y), c * (py - y) - s * (px - x)
-            if ahead >= hypot(ahead, left) * cos(half):
+            if ahead >= norm(ahead, left) * cosine_sine(half)[0]:
                 return True
         edges = (theta - half, theta + half)
         return any(world.ray((x, y), edge, self.range, me) <= self.range for edge in edges)

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene, faded
@@ -63,7 +64,8 @@ class RangeFinder(Scanner):
         x, y, theta = self.placed(pose).tolist()
         angles = theta + self.angles
         far = np.minimum(reading, self.range)
-        ends = np.column_stack([x + far * np.cos(angles), y + far * np.sin(angles)])
+        c, s = cosines_sines(angles)
+        ends = np.column_stack([x + far * c, y + far * s])
         area = ends if self.fan.closed else np.vstack([[x, y], ends])
         scene.polygon(area, fill=faded(color, 0.07))
         hits = ends[np.isfinite(reading)]

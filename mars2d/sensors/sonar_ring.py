@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from math import cos, inf, pi
+from math import inf, pi
 from typing import Any, ClassVar
 
 import numpy as np
 
+from mars2d.core.arithmetic import cosine_sine, cosines_sines, norms
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import Point
@@ -69,8 +70,9 @@ class SonarRing(Scanner):
         axes = theta + self.angles
         near = np.array(list(points)).reshape(-1, 2)
         dx, dy = near[:, :1] - x, near[:, 1:] - y
-        distance = np.hypot(dx, dy)
-        inside = dx * np.cos(axes) + dy * np.sin(axes) >= distance * cos(self.cone / 2)
+        distance = norms(dx, dy)
+        c, s = cosines_sines(axes)
+        inside = dx * c + dy * s >= distance * cosine_sine(self.cone / 2)[0]
         return np.asarray(np.where(inside, distance, inf).min(axis=0, initial=inf))
 
     @property
@@ -87,5 +89,6 @@ class SonarRing(Scanner):
             scene.sector((x, y, angle), far, self.cone, fill=faded(color, 0.1))
             if distance <= self.range:
                 arc = angle + steps
-                ends = np.column_stack([x + far * np.cos(arc), y + far * np.sin(arc)])
+                c, s = cosines_sines(arc)
+                ends = np.column_stack([x + far * c, y + far * s])
                 scene.line(ends, stroke=faded(color, 0.9), width=2.0)

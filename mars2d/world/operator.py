@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from math import ceil, cos, dist, hypot, sin, sqrt
+from math import ceil, dist, sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core import checks
+from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
@@ -260,8 +261,8 @@ class Operator:
     def _tug(self, engine: Engine, pull: Pull, pose: Float, velocity: Float) -> None:
         """Let a spring act on a body."""
         fx, fy, torque = self._spring(pull, pose, velocity)
-        self._force[pull.body] = hypot(fx, fy)
-        if not engine.bears(pull.body, hypot(fx, fy), abs(torque)):
+        self._force[pull.body] = norm(fx, fy)
+        if not engine.bears(pull.body, norm(fx, fy), abs(torque)):
             engine.pull(pull.body, (fx, fy), torque)
 
     def _spring(self, pull: Pull, pose: Float, velocity: Float) -> tuple[float, float, float]:
@@ -270,18 +271,18 @@ class Operator:
         mass, moment = self._world.scenario.bodies[pull.body].inertia
         x, y, theta = pose.tolist()
         vx, vy, spin = velocity.tolist()
-        c, s = cos(theta), sin(theta)
+        c, s = cosine_sine(theta)
         ax, ay = c * pull.grip[0] - s * pull.grip[1], s * pull.grip[0] + c * pull.grip[1]
         lead = self._world.scenario.bodies[pull.body].lead
         lx, ly = ax - c * lead, ay - s * lead
         wx, wy = pull.target[0] - x - ax, pull.target[1] - y - ay
-        way = max(hypot(wx, wy), TINY)
+        way = max(norm(wx, wy), TINY)
         felt = 1.0 / (1.0 / mass + (lx * lx + ly * ly) / moment)  # at the grip, across the arm
         # No faster than it can brake before the target.
         speed = min(STIFFNESS / 2 * way, pull.speed, sqrt(pull.force / felt * way))
         fx = 2 * STIFFNESS * felt * (speed / way * wx - (vx - spin * ay))
         fy = 2 * STIFFNESS * felt * (speed / way * wy - (vy + spin * ax))
-        share = min(1.0, pull.force / max(hypot(fx, fy), TINY))
+        share = min(1.0, pull.force / max(norm(fx, fy), TINY))
         return share * fx, share * fy, share * (ax * fy - ay * fx)
 
 

@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.record.frame import Frame
@@ -137,7 +138,8 @@ class WorldView:
         """The geometric centres (2, n) [m]: `Robot.center_offset` behind those of rotation."""
         offset = np.array([robot.center_offset for robot in self.scenario.robots])
         x, y, theta = self.pose
-        return np.array([x - offset * np.cos(theta), y - offset * np.sin(theta)])
+        c, s = cosines_sines(theta)
+        return np.array([x - offset * c, y - offset * s])
 
     @property
     def command(self) -> Float:

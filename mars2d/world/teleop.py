@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from math import hypot
 from typing import NamedTuple
 
 from mars2d.addons.contest import Contest
 from mars2d.bodies.drives.base import Drive
+from mars2d.core.arithmetic import norm
 from mars2d.core.errors import InputError, nearest
 from mars2d.scenario.scenario import Scenario
 
@@ -24,7 +24,7 @@ class Stick(NamedTuple):
 
     def within(self, most: float = 1.0) -> Stick:
         """Return the same direction with a deflection of at most `most`."""
-        share = most / max(hypot(*self), most)
+        share = most / max(norm(*self), most)
         return Stick(share * self.across, share * self.ahead)
 
 

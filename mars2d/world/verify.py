@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.map import Map
+from mars2d.core.arithmetic import norms
 from mars2d.core.errors import InputError, counted
 from mars2d.physics.settings import versions
 from mars2d.record.contact import CONTACT, rows_of
@@ -127,7 +128,7 @@ def _departs(row: int, world: World, record: Record) -> Departure | None:
     pose = np.hstack([world.pose, world.prop_pose])
     if not _same(recorded, pose):
         off = np.abs(pose - recorded)
-        metres = np.hypot(off[0], off[1])
+        metres = norms(off[0], off[1])
         departing = np.flatnonzero(off.any(axis=0))
         if not len(departing):
             how = ": a zero has another sign"

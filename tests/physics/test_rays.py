@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
+from mars2d.core.arithmetic import cosines_sines
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.sensors import RangeFinder
 from mars2d.sensors.base import NOTHING
@@ -484,7 +485,8 @@ def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
     for robot in range(5):
         x, y, _ = rng.uniform(-5, 5, 3)
         angles, reach = rng.uniform(-4, 4, 400), rng.uniform(1, 9)
-        ends_x, ends_y = x + reach * np.cos(angles), y + reach * np.sin(angles)
+        c, s = cosines_sines(angles)
+        ends_x, ends_y = x + reach * c, y + reach * s
         own = pymunk.ShapeFilter(group=robot + 1)
         hits = [
             space.segment_query_first((x, y), end, 0.0, own)

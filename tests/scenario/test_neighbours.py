@@ -3,7 +3,7 @@
 import inspect
 import time
 from itertools import combinations, pairwise
-from math import cos, hypot, inf, pi, sin
+from math import cos, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -25,6 +25,7 @@ from mars2d import (
     World,
 )
 from mars2d.addons import Communication
+from mars2d.core.arithmetic import norm, norms
 
 SEEDS = range(12)
 
@@ -73,7 +74,7 @@ def test_everyone_of_ten_thousand_takes_no_room():
 def test_within_is_whoever_is_no_farther(seed):
     x, y = position = scattered(seed)
     assert lists(Within(2.5).of(position)) == [
-        [j for j in range(25) if j != i and hypot(x[i] - x[j], y[i] - y[j]) <= 2.5]
+        [j for j in range(25) if j != i and norm(x[i] - x[j], y[i] - y[j]) <= 2.5]
         for i in range(25)
     ]
 
@@ -85,7 +86,7 @@ def test_the_bound_of_within_is_included_however_it_is_rounded(points, distance)
         (i, j)
         for i in range(len(x))
         for j in range(len(x))
-        if i != j and hypot(x[i] - x[j], y[i] - y[j]) <= distance
+        if i != j and norm(x[i] - x[j], y[i] - y[j]) <= distance
     }
 
 
@@ -120,7 +121,7 @@ def test_nearest_are_the_first_by_distance(seed, count):
     x, y = position = scattered(seed)
     for i, found in enumerate(Nearest(count).of(position)):
         others = [j for j in range(25) if j != i]
-        others.sort(key=lambda j: (hypot(x[i] - x[j], y[i] - y[j]), j))
+        others.sort(key=lambda j: (norm(x[i] - x[j], y[i] - y[j]), j))
         assert found == others[:count]
 
 
@@ -136,7 +137,7 @@ def brute_nearest(position, count):
     x, y = position
     found = []
     for i in range(len(x)):
-        apart = np.hypot(x - x[i], y - y[i])
+        apart = norms(x - x[i], y - y[i])
         apart[i] = inf
         found.append(np.argsort(apart, kind="stable")[: min(count, len(x) - 1)].tolist())
     return found
@@ -205,7 +206,7 @@ def shared_edges(position, least=1e-9):
                 low = max(low, room / slope)
             elif room < 0:
                 low, high = inf, -inf
-        if (high - low) * hypot(*d) > least:
+        if (high - low) * norm(*d) > least:
             found.add((i, j))
     return found
 
@@ -261,7 +262,7 @@ def test_robots_in_ranks_have_no_neighbours_beyond_the_next_in_their_rank(turn, 
     ranks = np.array([c * x.ravel() - s * (y.ravel() + across),
                       s * x.ravel() + c * (y.ravel() + across)])  # fmt: skip
     found = edges(Delaunay().of(ranks))
-    apart = {(i, j): hypot(*(ranks[:, i] - ranks[:, j])) for i in range(18) for j in range(18)}
+    apart = {(i, j): norm(*(ranks[:, i] - ranks[:, j])) for i in range(18) for j in range(18)}
     assert {pair for pair, d in apart.items() if 0.9 < d < 1.1} <= found
     assert max(apart[pair] for pair in found) < 1.5  # the diagonals of squares: one of the two
 

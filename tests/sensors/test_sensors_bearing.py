@@ -14,6 +14,7 @@ import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World, addons, sensors
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
+from mars2d.core.arithmetic import angle_of, norm
 from mars2d.core.plane import wrap
 from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.geometry.bearings import hold_missing, sighted
@@ -53,8 +54,8 @@ def all_sighted(pose, points, reach, field_of_view):
     x, y, theta = pose
     found = np.full((len(points), 2), (inf, nan))
     for row, (u, v) in zip(found, points, strict=True):
-        distance = np.hypot(u - x, v - y)
-        bearing = float(wrap(atan2(v - y, u - x) - theta)) + 0.0
+        distance = norm(u - x, v - y)
+        bearing = float(wrap(angle_of(v - y, u - x) - theta)) + 0.0
         if distance <= reach and (field_of_view == 2 * pi or abs(bearing) <= field_of_view / 2):
             row[:] = distance, bearing
     return found

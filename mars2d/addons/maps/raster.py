@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import cos, isfinite, pi, sin
+from math import isfinite, pi
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.maps.drawing import Drawing, Piece, Unit, broken, check_bytes
+from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.picture import opened_image
@@ -103,7 +104,7 @@ def _drawing(name: str, kind: str, occupied: Mask, cell: float, origin: Pose) ->
 
     with broken(name, kind):
         x, y, yaw = origin
-        c, s = cell * cos(yaw), cell * sin(yaw)
+        c, s = (cell * each for each in cosine_sine(yaw))
         turn = np.array([[c, s], [-s, c]])
         found = _cells(name, occupied)
         if not found:

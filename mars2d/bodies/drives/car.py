@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mars2d.bodies.drives.base import ROUNDING, Drive, Float
+from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.description import number
 from mars2d.core.quantity import Quantity
 
@@ -77,5 +78,6 @@ class Car(Drive):
     def twist(self, command: Float) -> Float:
         """Return (v, 0, v tan(delta) / wheelbase)."""
         v, delta = command
-        tangent = np.sin(delta) / np.cos(delta)
+        c, s = cosines_sines(delta)
+        tangent = s / c
         return np.array([v, np.zeros(command.shape[1]), v * tangent / self.wheelbase])

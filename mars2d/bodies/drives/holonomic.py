@@ -8,6 +8,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from mars2d.bodies.drives.base import ROUNDING, Drive, Float, reached
+from mars2d.core.arithmetic import norms
 from mars2d.core.quantity import Quantity
 
 __all__ = ["Holonomic"]
@@ -31,7 +32,7 @@ class Holonomic(Drive):
 
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) shortened to max_linear_speed where they are faster."""
-        speed = np.hypot(command[0], command[1])
+        speed = norms(command[0], command[1])
         over = speed > self.max_linear_speed * (1 + ROUNDING)
         if not np.count_nonzero(over):
             return command
@@ -45,9 +46,9 @@ class Holonomic(Drive):
         if self.max_acceleration is None:
             return command
         change = command - last
-        size = np.hypot(change[0], change[1])
+        size = norms(change[0], change[1])
         most = self.max_acceleration * duration
-        over = size > most + ROUNDING * (most + np.hypot(last[0], last[1]))
+        over = size > most + ROUNDING * (most + norms(last[0], last[1]))
         if not np.count_nonzero(over):
             return command
         return np.where(over, last + change * (most / np.where(over, size, 1.0)), command)
@@ -59,7 +60,7 @@ class Holonomic(Drive):
         """
         change = command - last
         most = inf if self.max_acceleration is None else self.max_acceleration
-        takes = np.hypot(change[0], change[1]) / most
+        takes = norms(change[0], change[1]) / most
         return np.asarray(last + reached(takes, start, end) * change)
 
     def disturb(self, command: Float, normal: Float) -> Float:
@@ -67,7 +68,7 @@ class Holonomic(Drive):
 
         normal: (2, n), as in `Drive.disturb`.
         """
-        return np.asarray(command + self.noise * np.hypot(command[0], command[1]) * normal)
+        return np.asarray(command + self.noise * norms(command[0], command[1]) * normal)
 
     def twist(self, command: Float) -> Float:
         """Return (vx, vy, 0)."""

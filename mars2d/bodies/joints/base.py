@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import hypot, sqrt
+from math import sqrt
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -19,6 +19,7 @@ from mars2d.bodies.constraints import (
 )
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
+from mars2d.core.arithmetic import norm
 from mars2d.core.description import Description, entry, text
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
@@ -115,7 +116,7 @@ class AttachedJoint(NamedTuple):
     def apart(self, bodies: Sequence[Rigid]) -> float:
         """Return how far its ends are apart at the start, metres."""
         (ax, ay), (bx, by) = self.ends(bodies)
-        return hypot(bx - ax, by - ay)
+        return norm(bx - ax, by - ay)
 
     def frequency(self, spring: SpringDamper | TurningSpring, bodies: Sequence[Rigid]) -> float:
         """Return the angular frequency of its bodies on one of its springs, rad/s."""
@@ -138,6 +139,6 @@ class AttachedJoint(NamedTuple):
 def beside(start: Float, end: Float, share: Float, side: Float) -> Float:
     """Return points (k, 2) at shares of the way from start to end, and metres to its left."""
     along = end - start
-    apart = float(np.hypot(*along))
+    apart = float(norm(*along))
     normal = np.array([-along[1], along[0]]) / apart if apart > 0 else np.array([0.0, 1.0])
     return np.asarray(start + share[:, None] * along + side[:, None] * normal)

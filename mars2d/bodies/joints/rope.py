@@ -8,6 +8,7 @@ import numpy as np
 
 from mars2d.bodies.constraints import Constraint, MaxDistance
 from mars2d.bodies.joints.base import Float, Joint, beside
+from mars2d.core.arithmetic import cosines_sines, norm
 from mars2d.core.description import number
 from mars2d.core.scene import Scene, faded
 
@@ -36,7 +37,7 @@ class Rope(Joint):
 
     def draw(self, scene: Scene, start: Float, end: Float, length: float) -> None:
         """Draw a straight line, or while the rope is slack, a wave."""
-        slack = length - float(np.hypot(*(end - start))) > STRAIGHT * length
+        slack = length - float(norm(*(end - start))) > STRAIGHT * length
         points = _wave(start, end, length) if slack else [start, end]
         scene.line(points, stroke=faded(COLOR, 0.75) if slack else COLOR, width=2.0)
         for point in (start, end):
@@ -45,8 +46,8 @@ class Rope(Joint):
 
 def _wave(start: Float, end: Float, length: float) -> Float:
     """Return two periods of a wave that is as long as the rope [m], within a few percent."""
-    apart = float(np.hypot(*(end - start)))
+    apart = float(norm(*(end - start)))
     height = sqrt(max(length**2 - apart**2, 0.0)) / 8  # of a zigzag; a wave's is a little less
     height *= 1 - 0.1 * apart / length
     share = np.linspace(0.0, 1.0, 49)
-    return beside(start, end, share, height * np.sin(4 * pi * share))
+    return beside(start, end, share, height * cosines_sines(4 * pi * share)[1])

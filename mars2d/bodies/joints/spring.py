@@ -6,6 +6,7 @@ import numpy as np
 
 from mars2d.bodies.constraints import Constraint, SpringDamper
 from mars2d.bodies.joints.base import STEEL, Float, Joint, beside
+from mars2d.core.arithmetic import norm
 from mars2d.core.description import number
 from mars2d.core.scene import Scene
 
@@ -39,7 +40,7 @@ class Spring(Joint):
 
 def _zigzag(start: Float, end: Float, length: float) -> Float:
     """Return a spring's coils between two short straight ends."""
-    apart = float(np.hypot(*(end - start)))
+    apart = float(norm(*(end - start)))
     height = 0.1 * max(length, 0.6)
     lead = min(0.1 * max(length, apart), 0.2 * apart) / max(apart, 1e-9)
     coils = lead + (1 - 2 * lead) * (np.arange(2 * COILS) + 0.5) / (2 * COILS)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import cos, pi, sin
+from math import pi
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.joints.hinge import Hinge, turning_limits
 from mars2d.bodies.props.base import Prop
+from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import entry, number
 from mars2d.geometry.shapes import Shape, rectangle
 
@@ -44,11 +45,12 @@ class Gate(Prop):
         """Return the hinge."""
         x, y, theta = self.pose
         end = -self.length / 2
+        c, s = cosine_sine(theta)
         return (
             Hinge(
                 a=str(self.name),
                 anchor_a=(end, 0.0),
-                anchor_b=(x + end * cos(theta), y + end * sin(theta)),
+                anchor_b=(x + end * c, y + end * s),
                 limits=self.limits,
                 limit_restitution=self.limit_restitution,
                 stiffness=self.stiffness,

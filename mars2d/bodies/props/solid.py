@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from math import hypot
-
 from mars2d.bodies.props.base import Prop
+from mars2d.core.arithmetic import norm
 from mars2d.core.description import entry
 from mars2d.geometry.shapes import Shape, known_shape
 
@@ -18,7 +17,7 @@ def _centred(name: str, value: object) -> Shape:
     shape = known_shape(name, value, "Polygon([(0, 0), (0.4, 0), (0.2, 0.3)])")
     for _ in range(2):  # after the first move, rounding is left of a shape that was far away
         x, y = shape.centroid
-        if hypot(x, y) <= CENTRED * shape.reach:
+        if norm(x, y) <= CENTRED * shape.reach:
             break
         shape = shape.moved(-x, -y)
     return shape

@@ -56,12 +56,19 @@ def difference() -> str:
     """Return how pymunk differs from what the islands can be compiled for; empty if it does not."""
     from pymunk._chipmunk_cffi import ffi, lib
 
-    from mars2d.physics.islands.chipmunk import impulses_are_where_thought
+    from mars2d.physics.islands.chipmunk import (
+        bodies_are_as_thought,
+        impulses_are_where_thought,
+    )
 
     version = importlib.metadata.version("pymunk")
     found = (f"pymunk {version} is not as it was written for: {what}" for what in changes(ffi, lib))
-    elsewhere = "" if impulses_are_where_thought() else "its joints have their impulses elsewhere"
-    return next(found, "") or elsewhere
+    known = {
+        "its joints have their impulses elsewhere": impulses_are_where_thought,
+        "its bodies have their poses elsewhere": bodies_are_as_thought,
+    }
+    elsewhere = (what for what, is_as_thought in known.items() if not is_as_thought())
+    return next(found, "") or next(elsewhere, "")
 
 
 FIELDS: dict[str, dict[str, tuple[int, str]]] = {

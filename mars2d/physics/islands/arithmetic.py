@@ -10,7 +10,7 @@ from math import floor, fmod, sqrt
 
 from mars2d.physics.islands import shadow as cython
 
-__all__ = ["chord_share", "cosine_sine", "length", "power", "sine"]
+__all__ = ["chord_share", "cosine_sine", "decay_base", "length", "power", "sine"]
 
 
 @cython.cfunc
@@ -84,6 +84,61 @@ def sine(angle: cython.double) -> cython.double:
 def chord_share(half: cython.double) -> cython.double:
     """Return how long the chord of an arc is, in parts of the arc that turns by twice an angle."""
     return 1.0 if half == 0.0 else sine(half) / half
+
+
+@cython.cfunc
+def _product(a: cython.double, b: cython.double) -> tuple[cython.double, cython.double]:
+    """Return a product and its rounding error.
+
+    Source: T. J. Dekker, Numer. Math. 18, 224 (1971).
+    """
+    p: cython.double = a * b
+    c: cython.double = 134217729.0 * a
+    high_a: cython.double = c - (c - a)
+    low_a: cython.double = a - high_a
+    c = 134217729.0 * b
+    high_b: cython.double = c - (c - b)
+    low_b: cython.double = b - high_b
+    error: cython.double = high_a * high_b - p
+    error = error + high_a * low_b
+    error = error + low_a * high_b
+    return p, error + low_a * low_b
+
+
+@cython.cfunc
+def decay_base(rate: cython.double, h: cython.double) -> cython.double:
+    """Return a number near exp(-rate) whose power of h any C library rounds to the same number.
+
+    The engine asks its C library for it in each step. Powers that are nearly in the middle between
+    two numbers are rounded to one by some libraries, and to the other by others; here exp(-rate h)
+    is worked out to twice the digits, and the base is shifted until its power is a number itself.
+    """
+    p: cython.double
+    error: cython.double
+    p, error = _product(rate, h)
+    n: cython.double = floor(p * 1.4426950408889634 + 0.5)
+    r: cython.double = n * 6.93147180369123816490e-01 - p
+    low: cython.double = n * 1.90821492927058770002e-10 - error
+    high: cython.double = r + low
+    low = low - (high - r)
+    # exp(x) - 1 of x = -rate h + n ln 2, from that of x / 256 by eight doublings
+    x: cython.double = high / 256.0
+    rest: cython.double = low / 256.0 + x * x * (
+        0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x / 120.0))
+    )
+    high = x + rest
+    low = rest - (high - x)
+    for _ in range(8):
+        p, error = _product(high, high)
+        error = error + 2.0 * high * low + 2.0 * low
+        twice: cython.double = 2.0 * high
+        x = twice + p
+        rest = (p - (x - twice)) + error
+        high = x + rest
+        low = rest - (high - x)
+    near: cython.double = 1.0 + high
+    beside: cython.double = (high - (near - 1.0)) + low
+    return power(0.36787944117144233, rate) * (1.0 - beside / near / h)
 
 
 @cython.cfunc

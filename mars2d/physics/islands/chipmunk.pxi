@@ -16,6 +16,7 @@ cdef extern from *:
         void (*cpSpaceSetCurrentTimeStep)(void *, double);
         void (*cpSpaceSetIterations)(void *, int);
         void (*cpSpaceSetCollisionSlop)(void *, double);
+        void (*cpSpaceSetCollisionBias)(void *, double);
         void (*cpSpaceSetCollisionPersistence)(void *, unsigned int);
         void *(*cpSpaceGetStaticBody)(void *);
         void *(*cpBodyNew)(double, double);
@@ -38,8 +39,7 @@ cdef extern from *:
         void (*cpSpaceRemoveConstraint)(void *, void *);
         void (*cpConstraintFree)(void *);
         void (*cpBodySetCenterOfGravity)(void *, Vector);
-        void (*cpBodySetPosition)(void *, Vector);
-        void (*cpBodySetAngle)(void *, double);
+        void (*cpBodySetPositionUpdateFunc)(void *, void (*)(void *, double));
         void (*cpBodySetVelocity)(void *, Vector);
         void (*cpBodySetAngularVelocity)(void *, double);
         Vector (*cpBodyGetPosition)(void *);
@@ -236,6 +236,32 @@ cdef extern from *:
         ((Handler_ *)handler)->pre_solve = before;
         ((Handler_ *)handler)->data = data;
     }
+    /* Bodies: the numbers are where bodies_are_as_thought in chipmunk.py finds them. */
+    enum { LEAD = 6, CENTER = 8, FAST = 10, ANGLE = 14, SPIN = 15, TURN = 17, MENDED = 24,
+           TURNED = 26 };
+    static void turn_to(void *body, double angle, double c, double s) {
+        double *n = body;
+        n[ANGLE] = angle;
+        n[TURN] = c; n[TURN + 1] = s; n[TURN + 2] = -s; n[TURN + 3] = c;
+        n[TURN + 4] = n[CENTER] - (n[LEAD] * c - n[LEAD + 1] * s);
+        n[TURN + 5] = n[CENTER + 1] - (n[LEAD] * s + n[LEAD + 1] * c);
+    }
+    static void put_at(void *body, double x, double y, double angle, double c, double s) {
+        double *n = body;
+        n[CENTER] = (c * n[LEAD] - s * n[LEAD + 1]) + x;
+        n[CENTER + 1] = (s * n[LEAD] + c * n[LEAD + 1]) + y;
+        turn_to(body, angle, c, s);
+    }
+    static double move_by(void *body, double h) {
+        double *n = body;
+        for (int k = 0; k < 2; k++) {
+            n[CENTER + k] += (n[FAST + k] + n[MENDED + k]) * h;
+            n[MENDED + k] = 0.0;
+        }
+        double angle = n[ANGLE] + (n[SPIN] + n[TURNED]) * h;
+        n[TURNED] = 0.0;
+        return angle;
+    }
     static void *first_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_a; }
     static void *second_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_b; }
     static Vector drag(void *joint) { return vector(((double *)joint)[25], ((double *)joint)[26]); }
@@ -259,6 +285,7 @@ cdef extern from *:
         void (*cpSpaceSetCurrentTimeStep)(void *, double) noexcept
         void (*cpSpaceSetIterations)(void *, int) noexcept
         void (*cpSpaceSetCollisionSlop)(void *, double) noexcept
+        void (*cpSpaceSetCollisionBias)(void *, double) noexcept
         void (*cpSpaceSetCollisionPersistence)(void *, unsigned int) noexcept
         void *(*cpSpaceGetStaticBody)(void *) noexcept
         void *(*cpBodyNew)(double, double) noexcept
@@ -281,8 +308,8 @@ cdef extern from *:
         void (*cpSpaceRemoveConstraint)(void *, void *) noexcept
         void (*cpConstraintFree)(void *) noexcept
         void (*cpBodySetCenterOfGravity)(void *, Vector) noexcept
-        void (*cpBodySetPosition)(void *, Vector) noexcept
-        void (*cpBodySetAngle)(void *, double) noexcept
+        void (*cpBodySetPositionUpdateFunc)(
+            void *, void (*)(void *, double) noexcept) noexcept
         void (*cpBodySetVelocity)(void *, Vector) noexcept
         void (*cpBodySetAngularVelocity)(void *, double) noexcept
         Vector (*cpBodyGetPosition)(void *) noexcept
@@ -341,6 +368,9 @@ cdef extern from *:
     void scale_contacts(void *, double) noexcept
     void set_handler(void *, void (*)(void *, void *, void *) noexcept, void *) noexcept
     Contact_ *contact_at(void *, int) noexcept
+    void turn_to(void *, double, double, double) noexcept
+    void put_at(void *, double, double, double, double, double) noexcept
+    double move_by(void *, double) noexcept
     void *first_body(void *) noexcept
     void *second_body(void *) noexcept
     Vector drag(void *) noexcept
@@ -378,7 +408,8 @@ cdef inline void set_iterations(Handle space, int count) noexcept:
 cdef inline Handle ground_of(Handle space) noexcept:
     return engine.cpSpaceGetStaticBody(space)
 
-cdef inline void step(Handle space, double h) noexcept:
+cdef inline void step(Handle space, double h, double bias) noexcept:
+    engine.cpSpaceSetCollisionBias(space, bias)
     engine.cpSpaceSetCurrentTimeStep(space, h)
     engine.cpSpaceStep(space, h)
 
@@ -392,6 +423,7 @@ cdef Handle new_body(double mass, double moment, int number) except NULL:
     if body == NULL:
         raise MemoryError
     engine.cpBodySetUserData(body, <void *><intptr_t>number)
+    engine.cpBodySetPositionUpdateFunc(body, move)
     return body
 
 cdef Handle new_ground(int number) except NULL:
@@ -453,8 +485,14 @@ cdef inline void weight_at(Handle body, double ahead) noexcept:
     engine.cpBodySetCenterOfGravity(body, vector(ahead, 0.0))
 
 cdef inline void put(Handle body, double x, double y, double angle) noexcept:
-    engine.cpBodySetAngle(body, angle)
-    engine.cpBodySetPosition(body, vector(x, y))
+    cdef double c, s
+    c, s = cosine_sine(angle)
+    put_at(body, x, y, angle, c, s)
+
+cdef void move(void *body, double h) noexcept:
+    cdef double c, s, angle = move_by(body, h)
+    c, s = cosine_sine(angle)
+    turn_to(body, angle, c, s)
 
 cdef inline void aim(Handle body, double vx, double vy, double spin) noexcept:
     engine.cpBodySetVelocity(body, vector(vx, vy))

@@ -45,6 +45,8 @@ class Accuracy:
     max_overlap: cython.double
     entry: cython.double
     slop: cython.double
+    mend_rate: cython.double
+    joint_mend_rate: cython.double
     pressed: cython.double
     closed: cython.double
     touch: cython.double
@@ -77,6 +79,7 @@ class Accuracy:
         self.growth, self.linger, self.slack = (
             numbers["growth"], numbers["linger"], numbers["slack"],
         )  # fmt: skip
+        self.mend_rate, self.joint_mend_rate = numbers["mend_rate"], numbers["joint_mend_rate"]
         self.closed, self.touch = numbers["closed"], numbers["touch"]
         self.swaying = numbers["swaying"]
         self.taut, self.stretch, self.give = numbers["taut"], numbers["stretch"], numbers["give"]
@@ -270,7 +273,12 @@ class Island:
             solver = self.spare.pop()
             solver.idle = False
         else:
-            solver = Solver(self.accuracy.slop, self.surfaces)
+            solver = Solver(
+                self.accuracy.slop,
+                self.accuracy.mend_rate,
+                self.accuracy.joint_mend_rate,
+                self.surfaces,
+            )
             self.solvers.append(solver)
         return solver
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.arithmetic import length
+from mars2d.physics.islands.arithmetic import decay_base, length
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.chipmunk import (
     GEAR,
@@ -90,15 +90,24 @@ class Solver:
     used: cython.bint  # in this control step
     idle: cython.bint  # whether it waits for an island
     stale: cython.bint  # whether bodies have moved without it since its last step
+    mend_rate: cython.double
+    joint_mend_rate: cython.double
+    mend: cython.double  # what the engine is told for steps as long as the last one
+    joint_mend: cython.double
     surfaces: object  # kept for the space, which knows its address
 
-    def __init__(self, slop: float, surfaces: Any) -> None:
+    def __init__(
+        self, slop: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
+    ) -> None:
         """Make an empty one.
 
-        slop: the overlap that is left in steady contact, metres. surfaces: what settles friction
-        and restitution; None: they are products.
+        slop: the overlap that is left in steady contact, metres. mend_rate, joint_mend_rate: how
+        what is beyond decays, and what joints are off by, 1/s. surfaces: what settles friction and
+        restitution; None: they are products.
         """
         self.space = new_space(slop)
+        self.mend_rate, self.joint_mend_rate = mend_rate, joint_mend_rate
+        self.mend = self.joint_mend = 0.0
         self.surfaces = surfaces
         if surfaces is not None:
             watch(self.space, surfaces)
@@ -150,6 +159,8 @@ class Solver:
         """Make the joints of a body begin anew: they make it move as its holder does."""
         body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
         body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
+        set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
+        set_joint(body.gear, 0.0, True)
         if body.is_robot:
             self.limit(body, body.bound, body.torque)
         else:
@@ -243,13 +254,15 @@ class Solver:
     @cython.cfunc
     def make_parts(self, tie: Tie) -> cython.void:
         """Make the parts of a joint begin anew."""
+        if self.joint_mend == 0.0 and self.last_step < 1e300:
+            self.joint_mend = decay_base(self.joint_mend_rate, self.last_step)
         k: cython.int
         a: Handle = tie.a.handle
         b: Handle = ground_of(self.space) if tie.to_world else tie.b.handle
         ends = ((tie.anchor_ax, tie.anchor_ay), (tie.anchor_bx, tie.anchor_by))
         part: Held
         for k in range(len(tie.parts)):
-            kind, turned, numbers, settings = tie.parts[k]
+            kind, turned, numbers = tie.parts[k]
             if len(tie.joints) <= k:
                 tie.joints.append(Held())
             part = tie.joints[k]
@@ -257,7 +270,7 @@ class Solver:
             first: Handle = b if turned else a
             second: Handle = a if turned else b
             part.handle = make_joint(kind, part.handle, first, second, ends, p, q, r)
-            set_joint(part.handle, 0.0 if kind == ROTARY_LIMIT else settings, not tie.pinned)
+            set_joint(part.handle, 0.0 if kind == ROTARY_LIMIT else self.joint_mend, not tie.pinned)
             if tie.is_rope and k == 0:
                 set_max_bias(part.handle, 0.0)
 
@@ -327,6 +340,9 @@ class Solver:
         ratio: cython.double = 0.0 if self.stale else h / self.last_step
         self.stale = False
         k: cython.int
+        if h != self.last_step:
+            self.last_step = h
+            self.mend, self.joint_mend = decay_base(self.mend_rate, h), 0.0
         if ratio != 1.0:
             for k in range(self.find_contacts()):
                 scale(self.arbiters.at(k), ratio)
@@ -335,7 +351,6 @@ class Solver:
                 self.remove_parts(tie)
                 self.make_parts(tie)
                 self.add_parts(tie)
-        self.last_step = h
 
     @cython.cfunc
     def find_contacts(self) -> cython.int:
@@ -385,7 +400,7 @@ class Solver:
                 self.rebound(tie, h)
         for body in self.bodies:
             self.prepare(body, h)
-        step(self.space, h)
+        step(self.space, h, self.mend)
         self.used = True
         for body in self.bodies:
             where: Vector = position_of(body.handle)
