@@ -14,6 +14,7 @@ from pathlib import Path
 
 from mars2d.cli.films import Film, save_film_of
 from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.files import why_unwritable
 from mars2d.core.interrupt import held_back
 from mars2d.output import formats
 from mars2d.output.figures import figure
@@ -63,12 +64,11 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
             raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
         if not path.parent.is_dir():
             raise InputError(f"--{name} {path}: there is no folder {path.parent}")
-        if path.is_dir():
-            raise InputError(f"--{name} {path}: this is a folder")
         if not os.access(path.parent, os.W_OK):
             raise InputError(f"--{name} {path}: nothing can be written in {path.parent.absolute()}")
-        if path.exists() and not os.access(path, os.W_OK):
-            raise InputError(f"--{name} {path}: can't be written: it may only be read")
+        why = why_unwritable(path)
+        if why:
+            raise InputError(f"--{name} {path}: can't be written: {why}")
         if name == "video":
             require_pygame("a film")
             if path.suffix.lower() == ".mp4":
