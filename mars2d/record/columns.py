@@ -14,7 +14,7 @@ from weakref import finalize
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.arrays import locked
+from mars2d.core.arrays import sealed
 from mars2d.core.errors import InputError
 
 __all__ = ["Column", "DiskError", "Scratch", "Storage", "Texts", "blocks"]
@@ -72,7 +72,7 @@ class Column:
 
     def upto(self, count: int) -> NDArray[Any]:
         """Return the first `count` rows, as a view that can't be written."""
-        return locked(self._rows[:count])
+        return sealed(self._rows[:count])
 
     def _grow(self, filled: int, rows: int) -> None:
         """Make room for `rows` rows, and keep the first `filled` ones."""

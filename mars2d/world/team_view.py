@@ -18,6 +18,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.world.simulation import Simulation
 from mars2d.world.state import Addons
 from mars2d.world.surroundings import Around
+from mars2d.world.uncopied import Uncopied
 from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknown, unseen
 
 __all__ = ["RobotPositionView", "TeamPositionsView", "WorldView"]
@@ -25,7 +26,7 @@ __all__ = ["RobotPositionView", "TeamPositionsView", "WorldView"]
 Float = NDArray[np.float64]
 
 
-class WorldView:
+class WorldView(Uncopied):
     """A running world, as a law with full information sees and uses it.
 
     A law can stop the world and hold a robot; nothing here leads to the machinery that changes it.
