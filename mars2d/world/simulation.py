@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.communication import Communication
 from mars2d.bodies.team import Drives
-from mars2d.core.arrays import sealed
+from mars2d.core.arrays import locked
 from mars2d.core.delay import DelayLine
 from mars2d.core.errors import InputError, LawError, described
 from mars2d.core.interfaces import WorldLike
@@ -234,7 +234,7 @@ class Simulation(State):
             wanted = asked if command is None else wanted
         if ask:
             asked = self._saturate(self.operator.command(asked))
-        self.command = sealed(self._saturate(self.operator.command(wanted)))
+        self.command = locked(self._saturate(self.operator.command(wanted)))
         self._write_row()
         self._check_workspace()
         if self.iteration >= self.scenario.last_iteration:
@@ -303,10 +303,10 @@ class Simulation(State):
         if reached is not None:
             self.engine.ask(reached)
         self.engine_seconds += perf_counter() - start
-        self.contacts = sealed(self.engine.take_contacts())
+        self.contacts = locked(self.engine.take_contacts())
         self.recorder.write_contacts(self.contacts)
         self.take_poses()
-        self.effort = sealed(self.engine.take_effort())
+        self.effort = locked(self.engine.take_effort())
         self.iteration += 1
 
     # -- changes while it runs -------------------------------------------------------------------

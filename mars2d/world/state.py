@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import HOOKS, Addon, hooks_of
-from mars2d.core.arrays import sealed
+from mars2d.core.arrays import locked, sealed
 from mars2d.core.errors import UnknownNameError, nearest
 from mars2d.core.streams import stream
 from mars2d.core.usercode import called
@@ -104,9 +104,9 @@ class State(Uncopied):
         self.history = History(self.recorder)
         self.addons = Addons()
         n = len(scenario.robots)
-        self.command: Float = sealed(np.zeros((2, n)))
+        self.command: Float = locked(np.zeros((2, n)))
         self.contacts: NDArray[np.void] = np.empty(0, dtype=CONTACT)
-        self.effort: Float = sealed(np.zeros(n))
+        self.effort: Float = locked(np.zeros(n))
         self.driven: list[tuple[float, Float]] = []
         self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
         self._robots, self._props = slice(n), slice(n, None)  # columns of all bodies' arrays

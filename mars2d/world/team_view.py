@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.arrays import sealed
 from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.record.frame import Frame
@@ -131,7 +132,7 @@ class WorldView(Uncopied):
 
         It is 0 for a robot that nothing holds or pushes. At 1 the wheels slip.
         """
-        return self._simulation.effort
+        return sealed(self._simulation.effort)
 
     @property
     def geometric_center(self) -> Float:
@@ -143,12 +144,12 @@ class WorldView(Uncopied):
     @property
     def command(self) -> Float:
         """The last command (2, n) that was issued, after saturation; zeros at first. Read only."""
-        return self._simulation.command
+        return sealed(self._simulation.command)
 
     @property
     def contacts(self) -> NDArray[np.void]:
         """The contacts since the last step, one row a pair, of dtype `mars2d.record.CONTACT`."""
-        return self._simulation.contacts
+        return sealed(self._simulation.contacts)
 
     def neighbour_indices(self, robot: int) -> Sequence[int]:
         """Return the robots that ``Scenario.neighbours`` makes a robot's neighbours now."""
