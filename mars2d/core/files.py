@@ -33,6 +33,10 @@ REPLACED_OPEN = sys.platform != "win32"
 """Whether the system lets a file be replaced while it is open."""
 
 
+DESCRIPTORS = Path("/proc/self/fd")
+"""Where Linux has the open files of this process, also those without a name."""
+
+
 def why_unwritable(target: Path) -> str:
     """Return why a file can't be written, as far as it can be told before, or an empty text."""
     try:
@@ -74,7 +78,7 @@ def atomic_write(target: Path) -> Iterator[BinaryIO]:
     """
     refuse_unwritable(target)
     with writing(target), closing(_Part(Path(os.path.realpath(target)))) as part:
-        with os.fdopen(part.descriptor, "w+b", closefd=False) as file:
+        with part.path.open("r+b") as file:
             yield file
         part.replace()
 
@@ -82,22 +86,23 @@ def atomic_write(target: Path) -> Iterator[BinaryIO]:
 class _Part:
     """A file that is being written, beside that of which it takes the place.
 
-    It gets a name when it is complete. So a process that is killed leaves nothing behind, unless
-    the system has no files without names: there it has a name that nobody can guess.
+    path: where it can be opened, by FFmpeg once more. It gets a name when it is complete. So a
+    process that is killed leaves nothing behind, unless the system has no files without names:
+    there it has a name that nobody can guess.
     """
 
     def __init__(self, target: Path) -> None:
         self._target = target
         self._name = target.with_name(f".mars2d-{token_hex(8)}.part")
         self._named = False
-        self._folder_of_descriptors = -1
         try:
-            self._folder_of_descriptors = os.open("/proc/self/fd", os.O_RDONLY)
+            DESCRIPTORS.stat()
             self.descriptor = os.open(target.parent, os.O_RDWR | os.O_TMPFILE, 0o666)
+            self.path = DESCRIPTORS / str(self.descriptor)
         except (AttributeError, OSError):  # not Linux, or not on this file system
             flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
             self.descriptor = os.open(self._name, flags, 0o666)
-            self._named = True
+            self.path, self._named = self._name, True
         self._keep_permissions()
 
     def _keep_permissions(self) -> None:
@@ -112,10 +117,11 @@ class _Part:
         """Take the place of the other file."""
         if not self._named:
             self._named = True
-            os.link(
-                str(self.descriptor), self._name, src_dir_fd=self._folder_of_descriptors,
-                follow_symlinks=True,
-            )  # fmt: skip
+            folder = os.open(DESCRIPTORS, os.O_RDONLY)  # Python follows links from a folder only
+            try:
+                os.link(self.path.name, self._name, src_dir_fd=folder, follow_symlinks=True)
+            finally:
+                os.close(folder)
         os.close(self.descriptor)
         self.descriptor = -1
         self._name.replace(self._target)
@@ -123,9 +129,8 @@ class _Part:
 
     def close(self) -> None:
         """Leave nothing behind."""
-        for each in (self.descriptor, self._folder_of_descriptors):
-            if each >= 0:
-                os.close(each)
+        if self.descriptor >= 0:
+            os.close(self.descriptor)
         if self._named:
             self._name.unlink(missing_ok=True)
 

@@ -37,10 +37,11 @@ class Dying:
             os.kill(os.getpid(), signal.SIGKILL)
         return len(data)
 
-opened = os.fdopen
-def dying(*words, **more):
-    return Dying(opened(*words, **more), MOST)
-os.fdopen = dying
+opened = Path.open
+def dying(self, *words, **more):
+    file = opened(self, *words, **more)
+    return Dying(file, MOST) if self.is_relative_to("/proc/self/fd") else file
+Path.open = dying
 
 Dying.__enter__ = lambda self: self
 Dying.__exit__ = lambda self, *error: self.file.close()
