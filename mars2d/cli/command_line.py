@@ -69,10 +69,21 @@ def _outcome(argv: Sequence[str] | None) -> int:
         if isinstance(error, OSError) and error.errno in UNUSABLE and error.filename:
             warn(f"{error.filename}: {error.strerror}")
             return BAD_INPUT
+        if isinstance(error, FileNotFoundError) and not _has_folder():
+            warn("the current folder is gone: go to another one, by cd")
+            return BAD_INPUT
         traceback.print_exc()
         warn("this is a fault of MARS2D's; please report it as above")
         return FAULT
     return OK
+
+
+def _has_folder() -> bool:
+    """Return whether the current folder is still there."""
+    try:
+        return Path.cwd().is_dir()
+    except FileNotFoundError:
+        return False
 
 
 def _stop_telling() -> None:

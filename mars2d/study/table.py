@@ -283,6 +283,7 @@ def parse_table(data: bytes, path: Path) -> Table:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: expected a table in UTF-8; {error.reason}") from error
+    csv.field_size_limit(max(csv.field_size_limit(), len(text)))  # no cell is longer than the text
     reader = csv.reader(io.StringIO(text, newline=""), strict=True)
     try:
         header = next(reader, [])

@@ -148,6 +148,20 @@ def test_half_a_character_in_a_message_breaks_no_record(tmp_path) -> None:
     assert record.over_message.endswith("well?")
 
 
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="folders that can be removed while in use")
+def test_a_current_folder_that_is_gone_is_one_line() -> None:
+    code = (
+        "import os, sys, tempfile\n"
+        "folder = tempfile.mkdtemp(); os.chdir(folder); os.rmdir(folder)\n"
+        "from mars2d.cli.command_line import main\n"
+        "sys.exit(main(['sweep', 'random_walk', '--set', 'stop_time=1']))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
+    assert (done.returncode, done.stderr.count(b"\n")) == (2, 1), done.stderr
+    assert done.stderr.startswith(b"mars2d: ")
+
+
 # -- the writer itself -----------------------------------------------------------------------------
 
 

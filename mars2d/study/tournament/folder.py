@@ -64,12 +64,12 @@ class Folder:
     """
 
     def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
-        self._path = path
+        self._path, self._schedule, self._replays = path, schedule, replays
         self._head = _head(schedule)
         self._prints = _prints(schedule, limits)
         _make(path)
-        before = _known(path, schedule, self._prints)
-        self.before = tuple(p for p in before if p.replay or not (replays and p.steps))
+        _known(path, schedule, self._prints)  # raises for a folder that holds anything else
+        self.before: tuple[Played, ...] = ()
 
     def keep(self, played: Played) -> None:
         """Write a match that is done."""
@@ -85,10 +85,16 @@ class Folder:
                 self._write(self._head)
             elif not data.endswith(b"\n"):
                 self._file.write(b"\n")  # after a line that was not written to its end
+            self.before = self._found()
         except BaseException:
             self._file.close()
             raise
         return self
+
+    def _found(self) -> tuple[Played, ...]:
+        """Return the matches in the file, now that no other process adds any."""
+        found = _known(self._path, self._schedule, self._prints)
+        return tuple(p for p in found if p.replay or not (self._replays and p.steps))
 
     def __exit__(self, *_: object) -> None:
         with suppress(OSError):  # a full disk, which `keep` has reported already
