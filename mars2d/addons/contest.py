@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mars2d.addons.base import Addon
+from mars2d.core import checks
 from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike
@@ -70,10 +71,11 @@ def _robots(name: str, value: object) -> tuple[str | int, ...]:
         raise wrong(name, value, expected)
     if not value:
         raise wrong(name, value, f"{expected}; nobody has this role")
-    for item in value:
+    items = checks.items_of(name, value, expected)
+    for item in items:
         if isinstance(item, bool) or not isinstance(item, (str, int, np.integer)):
             raise wrong(name, value, expected)
-    return tuple(item if isinstance(item, str) else int(item) for item in value)
+    return tuple(item if isinstance(item, str) else int(item) for item in items)
 
 
 class Contest(Addon):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,14 @@ from mars2d.core import checks
 from mars2d.core.description import entry
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.picture import Bounds, Picture, image_bounds, image_file, read_picture
+from mars2d.core.picture import (
+    Bounds,
+    Picture,
+    image_bounds,
+    image_file,
+    picture_name,
+    read_picture,
+)
 from mars2d.core.plane import Outline, bounds_of, rectangle
 from mars2d.core.scene import Scene, color, rgb
 from mars2d.core.usercode import called
@@ -90,7 +96,7 @@ class Density(Addon, Weight):
     def _of_image(self, x: Float, y: Float) -> Float:
         assert self.bounds is not None
         xmin, xmax, ymin, ymax = self.bounds
-        dark = self._picture.darkness
+        dark = self.picture.darkness
         rows, columns = dark.shape
         across = np.clip((x - xmin) / (xmax - xmin) * columns - 0.5, 0, columns - 1)
         down = np.clip((ymax - y) / (ymax - ymin) * rows - 0.5, 0, rows - 1)
@@ -103,7 +109,8 @@ class Density(Addon, Weight):
         return np.asarray(np.where(inside, upper * (1 - v) + lower * v, 0.0))
 
     @cached_property
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
+        """The picture. Raises InputError where its file can't be read."""
         assert self.image is not None
         return read_picture("Density.image", self.image)
 
@@ -138,7 +145,7 @@ class Density(Addon, Weight):
         except InputError:
             if self.image is None:
                 raise
-            name = Path(self.image).name
+            name = picture_name(self.image)
             scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), f"{name} is not there")
             return
         pixels = np.zeros((*inside.shape, 4), dtype=np.uint8)

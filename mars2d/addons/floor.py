@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +13,15 @@ from mars2d.core import checks
 from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.picture import Bounds, Picture, Pixels, image_bounds, image_file, read_picture
+from mars2d.core.picture import (
+    Bounds,
+    Picture,
+    Pixels,
+    image_bounds,
+    image_file,
+    picture_name,
+    read_picture,
+)
 from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectangle
 from mars2d.core.scene import Scene, rgb
 from mars2d.core.scene import color as checked_color
@@ -90,10 +97,11 @@ class Floor(Addon):
 
         Raises InputError if the file is not there, is no such image, or is too large.
         """
-        return self._picture.pixels
+        return self.picture.pixels
 
     @cached_property
-    def _picture(self) -> Picture:
+    def picture(self) -> Picture:
+        """The picture. Raises InputError where its file can't be read."""
         assert self.image is not None
         return read_picture("Floor.image", self.image, self.color)
 
@@ -148,7 +156,7 @@ class Floor(Addon):
             except InputError:
                 xmin, xmax, ymin, ymax = self.bounds
                 scene.polygon(rectangle(*self.bounds), fill="#e6e9ed")
-                name = Path(str(self.image)).name
+                name = picture_name(str(self.image))
                 scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), f"{name} is not there")
         for outline, color in self.patches:
             scene.polygon(outline, fill=color)

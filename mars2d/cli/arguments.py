@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor
@@ -12,6 +11,7 @@ from typing import Any
 
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
+from mars2d.core.terminal import warn
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
@@ -162,5 +162,5 @@ def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None,
             warnings.simplefilter("always", UserWarning)
             executor = stack.enter_context(cluster(arguments.cluster))
         for warning in caught:
-            print(f"mars2d: {warning.message}", file=sys.stderr)
+            warn(warning.message)
         yield executor, None

@@ -18,8 +18,9 @@ from typing import NoReturn
 
 from mars2d import __version__
 from mars2d.cli.verbs import VERBS
-from mars2d.core.errors import InputError, Mars2dError, likely, one_line
+from mars2d.core.errors import InputError, Mars2dError, likely
 from mars2d.core.interrupt import INTERRUPTED, ending, raised_once, unwrapped, was_interrupted
+from mars2d.core.terminal import legible, warn
 
 __all__ = ["main", "parser"]
 
@@ -36,10 +37,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     closed.
     """
     try:
-        with raised_once(), unwrapped(), hang_up_as_interrupt():
+        with legible(), raised_once(), unwrapped(), hang_up_as_interrupt():
             return _outcome(argv)
     except KeyboardInterrupt as interrupt:
-        print(f"mars2d: {str(interrupt) or 'interrupted'}", file=sys.stderr)
+        warn(str(interrupt) or "interrupted")
         return INTERRUPTED
     finally:
         ending()
@@ -55,10 +56,10 @@ def _outcome(argv: Sequence[str] | None) -> int:
         if sys.stdout is not None:  # it is None if it was closed
             sys.stdout.flush()
     except InputError as error:
-        print(f"mars2d: {one_line(error)}", file=sys.stderr)
+        warn(error)
         return BAD_INPUT
     except Mars2dError as error:
-        print(f"mars2d: {one_line(error)}", file=sys.stderr)
+        warn(error)
         return FAULT
     except BrokenPipeError:
         _stop_telling()  # the reader of our output, such as `head`, has ended
@@ -66,12 +67,23 @@ def _outcome(argv: Sequence[str] | None) -> int:
         if was_interrupted(error):
             raise
         if isinstance(error, OSError) and error.errno in UNUSABLE and error.filename:
-            print(f"mars2d: {one_line(error.filename)}: {error.strerror}", file=sys.stderr)
+            warn(f"{error.filename}: {error.strerror}")
+            return BAD_INPUT
+        if isinstance(error, FileNotFoundError) and not _has_folder():
+            warn("the current folder is gone: go to another one, by cd")
             return BAD_INPUT
         traceback.print_exc()
-        print("mars2d: this is a fault of MARS2D's; please report it as above", file=sys.stderr)
+        warn("this is a fault of MARS2D's; please report it as above")
         return FAULT
     return OK
+
+
+def _has_folder() -> bool:
+    """Return whether the current folder is still there."""
+    try:
+        return Path.cwd().is_dir()
+    except FileNotFoundError:
+        return False
 
 
 def _stop_telling() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import os
 import re
-import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -13,8 +12,10 @@ from itertools import count
 from pathlib import Path
 
 from mars2d.cli.films import Film, save_film_of
-from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.errors import InputError, Mars2dError, one_line
+from mars2d.core.files import why_unwritable
 from mars2d.core.interrupt import held_back
+from mars2d.core.terminal import warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
@@ -63,12 +64,11 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
             raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
         if not path.parent.is_dir():
             raise InputError(f"--{name} {path}: there is no folder {path.parent}")
-        if path.is_dir():
-            raise InputError(f"--{name} {path}: this is a folder")
         if not os.access(path.parent, os.W_OK):
             raise InputError(f"--{name} {path}: nothing can be written in {path.parent.absolute()}")
-        if path.exists() and not os.access(path, os.W_OK):
-            raise InputError(f"--{name} {path}: can't be written: it may only be read")
+        why = why_unwritable(path)
+        if why:
+            raise InputError(f"--{name} {path}: can't be written: {why}")
         if name == "video":
             require_pygame("a film")
             if path.suffix.lower() == ".mp4":
@@ -89,7 +89,7 @@ def run_and_save(
     ended: Mars2dError | Interrupted | None = None
     film: Film | None = None
     target: Path | None = arguments.record
-    with held_back("" if target is None else f"the run is being saved in {target}"):
+    with held_back("" if target is None else f"the run is being saved in {one_line(target)}"):
         try:
             record, film = run()
         except (Mars2dError, Interrupted) as error:
@@ -109,7 +109,7 @@ def run_and_save(
     say(troubles)
     if made:
         what = f"what was recorded until {record.time[-1]:g} s is in {', '.join(map(str, made))}"
-        print(f"mars2d: {what}", file=sys.stderr)
+        warn(f"{what}")
     raise ended
 
 
@@ -134,7 +134,7 @@ def _tried(
 def say(troubles: Iterable[Mars2dError]) -> None:
     """Print errors of saving, unless the command ends with them."""
     for trouble in troubles:
-        print(f"mars2d: {trouble}", file=sys.stderr)
+        warn(trouble)
 
 
 def save_record(arguments: argparse.Namespace, record: Record) -> None:
@@ -152,7 +152,7 @@ def save_record(arguments: argparse.Namespace, record: Record) -> None:
     for branch in record.branches:
         saved = branch.save(_free_beside(target))
         end = f"left at {branch.time[-1]:g} s" if len(branch) else "empty"
-        print(f"mars2d: another branch, {end}, is in {saved}", file=sys.stderr)
+        warn(f"another branch, {end}, is in {saved}")
 
 
 def _save_figure(arguments: argparse.Namespace, record: Record) -> None:
@@ -175,7 +175,7 @@ def naming_lost_letters() -> Iterator[None]:
         else:
             warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
     if lost:
-        print(f"mars2d: no font has {', '.join(lost)}: boxes stand for them", file=sys.stderr)
+        warn(f"no font has {', '.join(lost)}: boxes stand for them")
 
 
 def _free_beside(path: Path) -> Path:
@@ -191,5 +191,5 @@ def _times_within(times: list[float] | None, record: Record) -> list[float] | No
     end = float(record.time[-1])
     within = [moment for moment in times if moment <= end]
     if len(within) < len(times):
-        print(f"mars2d: the run ended at {end:g} s: no snapshots after it", file=sys.stderr)
+        warn(f"the run ended at {end:g} s: no snapshots after it")
     return within or None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ from mars2d.cli.arguments import preferences_of
 from mars2d.cli.outputs import run_and_save, say
 from mars2d.cli.runs import has_display, run_headless, show
 from mars2d.core.errors import InputError, shown
+from mars2d.core.terminal import tell, warn
 from mars2d.output.formats import log_to
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
@@ -29,11 +29,11 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
     table = load_table(path)
     then = _row(table, arguments.row, path)
     experiment = open_experiment(_source(table, path), dict(then.options), seed=then.seed)
-    print(f"row {then.row} of {path}: {table.experiment}, {_said(then)}", flush=True)
+    tell(f"row {then.row} of {path}: {table.experiment}, {_said(then)}")
     if then.error:
-        print(f"then: {then.error}", flush=True)
+        tell(f"then: {then.error}")
     if then.code and code_of(experiment, then.code) != then.code:
-        print(f"mars2d: {table.experiment}, what it reads, or MARS2D has changed", file=sys.stderr)
+        warn(f"{table.experiment}, what it reads, or MARS2D has changed")
     arguments.video = arguments.at = None
 
     def run() -> tuple[Record, None]:
@@ -53,10 +53,10 @@ def _report(record: Record, table: Table, then: Result, experiment: Experiment) 
     """Print a comparison of the run with the row."""
     if not record.finished or record.interventions:
         what = "changed by hand" if record.interventions else "cut short"
-        print(f"the run was {what}, so there is nothing to compare")
+        tell(f"the run was {what}, so there is nothing to compare")
         return
     now = {name: _measure(name, experiment.functions, record) for name in table.measures}
-    print(_compared(then, now, record))
+    tell(_compared(then, now, record))
 
 
 def _row(table: Table, number: int, path: Path) -> Result:
@@ -89,7 +89,7 @@ def _said(result: Result) -> str:
 def _has_window() -> bool:
     if has_display():
         return True
-    print("mars2d: there is no display, so this runs without a window", file=sys.stderr)
+    warn("there is no display, so this runs without a window")
     return False
 
 

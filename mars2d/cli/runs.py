@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
+from mars2d.core.terminal import tell, warn
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, examples
 from mars2d.scenario.prediction import Prediction, table
@@ -89,21 +89,21 @@ def print_predictions(experiment: Experiment, record: Record) -> None:
     predictions = predictions_of(experiment, record)
     if predictions:
         title = [experiment.summary] if experiment.summary else []
-        print("", *title, table(predictions), sep="\n")
+        tell("", *title, table(predictions), sep="\n")
 
 
 def warn_unchecked(experiment: Experiment, happened: str) -> None:
     """Print why an experiment's checks were not made, if it has any."""
     if experiment.checks is not None:
-        print(f"mars2d: the run was {happened}, so its checks were not made", file=sys.stderr)
+        warn(f"the run was {happened}, so its checks were not made")
 
 
 def print_table(title: str, lines: Mapping[str, str]) -> None:
     """Print names and their descriptions in two columns."""
-    print(f"{title}:")
+    tell(f"{title}:")
     width = max((len(name) for name in lines), default=0)
     for name, line in lines.items():
-        print(f"  {name:<{width}}  {line}")
+        tell(f"  {name:<{width}}  {line}")
 
 
 def print_examples() -> None:

@@ -6,12 +6,13 @@ import inspect
 import keyword
 from collections import Counter
 from collections.abc import Callable, Iterable
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import Any
 
 import numpy as np
 
 from mars2d.core.arithmetic import norms
+from mars2d.core.arrays import is_masked
 from mars2d.core.description import Check, real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point
@@ -21,6 +22,7 @@ __all__ = [
     "function",
     "identifier",
     "instance",
+    "items_of",
     "law",
     "listing",
     "names",
@@ -33,17 +35,26 @@ __all__ = [
     "unique",
 ]
 
+MAX_ITEMS = 1_000_000
+"""The longest list that a field may have; what yields items may have no end."""
+
 MAX_COORDINATE = 1e6
 """The largest coordinate, metres: beyond it a double can't resolve a nanometre."""
 
 
-def _items(name: str, value: object, expected: str) -> list[Any]:
+def items_of(name: str, value: object, expected: str, most: int = MAX_ITEMS) -> list[Any]:
+    """Return the items of a list, an array or anything that yields them; no more than `most`."""
     if isinstance(value, (str, bytes, dict)) or not isinstance(value, (Iterable, np.ndarray)):
         raise wrong(name, value, expected)
+    if is_masked(value):
+        raise wrong(name, value, f"{expected}, none of them masked")
     try:
-        return list(value)
+        items = list(islice(value, most + 1))
     except TypeError:
         raise wrong(name, value, expected) from None
+    if len(items) > most:
+        raise wrong(name, value, f"{expected}, at most {most:,}: it has more, or no end")
+    return items
 
 
 def _coordinates(name: str, value: object, items: list[Any], expected: str) -> list[float]:
@@ -59,7 +70,7 @@ def _coordinates(name: str, value: object, items: list[Any], expected: str) -> l
 def point(name: str, value: object) -> Point:
     """Check a point (x, y) in metres."""
     expected = "a point (x, y) in metres"
-    items = _items(name, value, expected)
+    items = items_of(name, value, expected)
     if len(items) != 2:
         raise wrong(name, value, expected)
     x, y = _coordinates(name, value, items, expected)
@@ -69,7 +80,7 @@ def point(name: str, value: object) -> Point:
 def pose(name: str, value: object) -> tuple[float, float, float]:
     """Check a pose (x [m], y [m], theta [rad]); a point (x, y) has theta 0."""
     expected = "a pose (x, y, theta) in metres and radians"
-    items = _items(name, value, expected)
+    items = items_of(name, value, expected)
     if len(items) not in (2, 3):
         raise wrong(name, value, expected)
     x, y, theta = _coordinates(name, value, [*items, 0.0][:3], expected)
@@ -80,7 +91,7 @@ def outline(name: str, value: object, least: int = 2) -> Outline:
     """Check an outline: a wall of two vertices, or a closed polygon that does not cross itself."""
     what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
     expected = f"{what}, as [(x, y), ...] in metres"
-    items = _items(name, value, expected)
+    items = items_of(name, value, expected)
     points = [point(f"{name}[{i}]", item) for i, item in enumerate(items)]
     if len(points) > 2 and points[0] == points[-1]:
         points.pop()  # the ring was given closed
@@ -120,7 +131,7 @@ def _check_ring(name: str, points: list[Point]) -> None:
 
 def polylines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of open lines, each of two or more vertices."""
-    items = _items(name, value, "a list of walls, each [(x, y), ...] in metres")
+    items = items_of(name, value, "a list of walls, each [(x, y), ...] in metres")
     if items and _is_point(items[0]):
         raise wrong(name, value, "a list of walls: put one more pair of brackets round it")
     return tuple(_polyline(f"{name}[{i}]", item) for i, item in enumerate(items))
@@ -128,7 +139,7 @@ def polylines(name: str, value: object) -> tuple[Outline, ...]:
 
 def _polyline(name: str, value: object) -> Outline:
     expected = "a wall's vertices, as [(x, y), ...] in metres, at least 2"
-    points = [point(f"{name}[{i}]", p) for i, p in enumerate(_items(name, value, expected))]
+    points = [point(f"{name}[{i}]", p) for i, p in enumerate(items_of(name, value, expected))]
     if len(points) < 2:
         raise wrong(name, value, expected)
     _check_apart(name, points)
@@ -137,7 +148,7 @@ def _polyline(name: str, value: object) -> Outline:
 
 def outlines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of outlines."""
-    items = _items(name, value, "a list of outlines, each [(x, y), ...] in metres")
+    items = items_of(name, value, "a list of outlines, each [(x, y), ...] in metres")
     if items and _is_point(items[0]):
         raise wrong(name, value, "a list of outlines: put one more pair of brackets round it")
     return tuple(outline(f"{name}[{i}]", item) for i, item in enumerate(items))
@@ -182,7 +193,7 @@ def listing(kind: type, example: str) -> Check:
     def check(name: str, value: object) -> tuple[Any, ...]:
         if isinstance(value, kind):
             raise InputError(f"{name} = {shown(value)}: expected a list; write [{shown(value)}]")
-        items = _items(name, value, f"a list, as [{example}]")
+        items = items_of(name, value, f"a list, as [{example}]")
         each = instance(kind, example)
         return tuple(each(f"{name}[{i}]", item) for i, item in enumerate(items))
 

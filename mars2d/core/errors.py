@@ -21,6 +21,14 @@ __all__ = [
 CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
 """Line breaks and the control characters of terminals."""
 
+UNSEEN = re.compile(
+    r"[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff]"
+)
+"""`CONTROLS`, and what turns text round; halves of characters; byte order marks."""
+
+MAX_TEXT = 2000
+"""The most characters of a text that are printed in one line."""
+
 
 class Mars2dError(Exception):
     """The base of all errors of this package.
@@ -108,13 +116,23 @@ def ordinal(number: int) -> str:
     return f"{number}{'th' if teens else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"
 
 
-def one_line(text: object) -> str:
+def escaped(text: str) -> str:
+    """Return a text in which everything that a terminal would obey, or not show, is escaped."""
+    shown = UNSEEN.sub(lambda found: ascii(found[0])[1:-1], text)
+    return shown.replace(r"\x7f", r"\u007f")  # JSON leaves this one as it is, and has no \x
+
+
+def one_line(text: object, most: int = MAX_TEXT) -> str:
     r"""Return a text as one line, its line breaks and control characters escaped.
+
+    most: of a longer text the end is left out.
 
     >>> one_line("two\nlines")
     'two\\nlines'
     """
-    return CONTROLS.sub(lambda found: ascii(found[0])[1:-1], str(text))
+    whole = str(text)
+    rest = len(whole) - most
+    return escaped(whole) if rest <= 0 else f"{escaped(whole[:most])}... ({rest:,} letters more)"
 
 
 def shown(value: Any, limit: int = 60) -> str:

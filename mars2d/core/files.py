@@ -3,38 +3,169 @@
 from __future__ import annotations
 
 import os
+import stat
+import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager, suppress
 from contextvars import ContextVar
+from io import BufferedRandom
 from pathlib import Path
+from secrets import token_hex
 from typing import BinaryIO
 
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.lock import lock
 
-__all__ = ["atomic_write", "file_beside", "files_read", "note_file"]
+__all__ = [
+    "REPLACED_OPEN",
+    "atomic_write",
+    "file_beside",
+    "files_read",
+    "growing",
+    "note_file",
+    "refuse_unwritable",
+    "why_unwritable",
+    "writing",
+]
+
+
+REPLACED_OPEN = sys.platform != "win32"
+"""Whether the system lets a file be replaced while it is open."""
+
+
+DESCRIPTORS = Path("/proc/self/fd")
+"""Where Linux has the open files of this process, also those without a name."""
+
+
+def why_unwritable(target: Path) -> str:
+    """Return why a file can't be written, as far as it can be told before, or an empty text."""
+    try:
+        mode = target.stat().st_mode
+    except FileNotFoundError:
+        return ""
+    except OSError as error:
+        return error.strerror or str(error)
+    if stat.S_ISDIR(mode):
+        return "this is a folder"
+    if not stat.S_ISREG(mode):
+        return "this is a pipe or a device; expected a file"
+    return "" if os.access(target, os.W_OK) else "it may only be read"
+
+
+def refuse_unwritable(target: Path) -> None:
+    """Raise InputError for a file that can't be written."""
+    why = why_unwritable(target)
+    if why:
+        raise InputError(f"{target}: can't be written: {why}")
+
+
+@contextmanager
+def writing(target: Path) -> Iterator[None]:
+    """Turn errors of the system while a file is written into one line that names the file."""
+    try:
+        yield
+    except OSError as error:
+        raise InputError(f"{target}: can't be written: {error.strerror or error}") from error
 
 
 @contextmanager
 def atomic_write(target: Path) -> Iterator[BinaryIO]:
-    """Open a temporary file beside `target`, which replaces it once everything is written.
+    """Open a new file, which takes the place of `target` once everything is written.
 
-    If writing fails, the previous file is left untouched. Raises InputError if the file can't be
-    written, for example because the disk is full.
+    If writing fails, the previous file is left untouched. Its permissions are kept, and a symbolic
+    link still points to it. Raises InputError if the file can't be written, for example because the
+    disk is full.
     """
-    if target.is_dir():
-        raise InputError(f"{target}: can't be written: this is a folder")
-    if target.exists() and not os.access(target, os.W_OK):
-        raise InputError(f"{target}: can't be written: it may only be read")
-    part = target.with_name(f".{target.name}.part")
-    try:
+    refuse_unwritable(target)
+    with writing(target), closing(_Part(Path(os.path.realpath(target)))) as part:
+        with part.path.open("r+b") as file:
+            yield file
+        part.replace()
+
+
+class _Part:
+    """A file that is being written, beside that of which it takes the place.
+
+    path: where it can be opened, by FFmpeg once more. It gets a name when it is complete. So a
+    process that is killed leaves nothing behind, unless the system has no files without names:
+    there it has a name that nobody can guess.
+    """
+
+    def __init__(self, target: Path) -> None:
+        self._target = target
+        self._name = target.with_name(f".mars2d-{token_hex(8)}.part")
+        self._named = False
         try:
-            with part.open("w+b") as file:
-                yield file
-            part.replace(target)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise InputError(f"{target}: can't be written: {error.strerror or error}") from error
+            DESCRIPTORS.stat()
+            self.descriptor = os.open(target.parent, os.O_RDWR | os.O_TMPFILE, 0o666)
+            self.path = DESCRIPTORS / str(self.descriptor)
+        except (AttributeError, OSError):  # not Linux, or not on this file system
+            flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+            self.descriptor = os.open(self._name, flags, 0o666)
+            self.path, self._named = self._name, True
+        self._keep_permissions()
+
+    def _keep_permissions(self) -> None:
+        """Take over the owner and the permissions of the file that is to be replaced."""
+        with suppress(AttributeError, OSError):  # not on Windows; only root gives files away
+            before = self._target.stat()
+            with suppress(OSError):
+                os.fchown(self.descriptor, before.st_uid, before.st_gid)
+            os.fchmod(self.descriptor, stat.S_IMODE(before.st_mode))
+
+    def replace(self) -> None:
+        """Take the place of the other file."""
+        if not self._named:
+            self._named = True
+            folder = os.open(DESCRIPTORS, os.O_RDONLY)  # Python follows links from a folder only
+            try:
+                os.link(self.path.name, self._name, src_dir_fd=folder, follow_symlinks=True)
+            finally:
+                os.close(folder)
+        os.close(self.descriptor)
+        self.descriptor = -1
+        self._name.replace(self._target)
+        self._named = False
+
+    def close(self) -> None:
+        """Leave nothing behind."""
+        if self.descriptor >= 0:
+            os.close(self.descriptor)
+        if self._named:
+            self._name.unlink(missing_ok=True)
+
+
+def growing(path: Path, *, afresh: bool = False) -> BufferedRandom:
+    """Open a file to which data are added for a long time, and lock it until it is closed.
+
+    It is made if it is not there. afresh: drop what it holds. Raises InputError where it can't be
+    written, and where something else is writing to it.
+    """
+    refuse_unwritable(path)
+    flags = os.O_RDWR | os.O_CREAT | (0 if afresh else os.O_APPEND)
+    for name in ("O_BINARY", "O_NONBLOCK"):  # on Windows; elsewhere, lest a new pipe hangs it
+        flags |= getattr(os, name, 0)
+    while True:
+        with writing(path):
+            file = os.fdopen(os.open(path, flags, 0o666), "w+b" if afresh else "a+b")
+        try:
+            lock(file, path)
+            if _is_at(path, file):
+                if afresh:
+                    file.truncate(0)
+                return file
+        except BaseException:
+            file.close()
+            raise
+        file.close()  # it was replaced before it was locked
+
+
+def _is_at(path: Path, file: BinaryIO) -> bool:
+    """Return whether an open file is the one that has this name."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(file.fileno()))
+    except FileNotFoundError:
+        return False
 
 
 _files: ContextVar[tuple[set[Path], ...]] = ContextVar("files", default=())

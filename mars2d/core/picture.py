@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import os
 import warnings
+from base64 import b64decode, b64encode
 from collections.abc import Iterator
 from functools import cached_property, lru_cache
+from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +23,15 @@ from mars2d.core.scene import LARGEST_IMAGE, rgb
 __all__ = [
     "Bounds",
     "Picture",
+    "Pictured",
     "Pixels",
+    "holds_pixels",
     "image_bounds",
     "image_file",
     "opened_image",
+    "picture_name",
     "read_picture",
+    "without_pixels",
 ]
 
 Pixels = NDArray[np.uint8]
@@ -33,10 +39,31 @@ Bounds = tuple[float, float, float, float]
 """The place of an image: (xmin, xmax, ymin, ymax), metres."""
 
 
+INSIDE, DATA = "data:image/png;name=", ";base64,"
+"""What a picture that is in a record has before its name, and between its name and itself."""
+
+
+def holds_pixels(image: str) -> bool:
+    """Return whether a text is a picture itself, not the name of its file."""
+    return image.startswith(INSIDE) and DATA in image
+
+
+def without_pixels(image: str) -> str:
+    """Return the text of a picture that is not there."""
+    return f"{INSIDE}{picture_name(image)}{DATA}"
+
+
+def picture_name(image: str) -> str:
+    """Return the name of a picture's file without its folder, also of one that is in a record."""
+    if holds_pixels(image):
+        image = image.removeprefix(INSIDE).rpartition(DATA)[0]
+    return Path(image).name
+
+
 def image_file(name: str, value: object) -> str | None:
-    """Check the name of a PNG file, or None."""
-    if value is None:
-        return None
+    """Check the name of a PNG file, a picture in a record, or None."""
+    if value is None or (isinstance(value, str) and holds_pixels(value)):
+        return value
     if not isinstance(value, (str, os.PathLike)) or Path(value).suffix.lower() != ".png":
         raise wrong(name, value, "the name of a file that ends in .png, or None")
     return str(value)
@@ -66,6 +93,18 @@ class Picture:
     def __deepcopy__(self, memo: object) -> Picture:
         return self
 
+    def as_text(self, name: str) -> str:
+        """Return the picture as a text with the name of its file, which is read as its file is."""
+        return without_pixels(name) + self._base64
+
+    @cached_property
+    def _base64(self) -> str:
+        from PIL import Image
+
+        file = BytesIO()
+        Image.fromarray(self.pixels).save(file, "PNG")
+        return b64encode(file.getvalue()).decode()
+
     @cached_property
     def darkness(self) -> NDArray[np.float64]:
         """The darkness of each pixel (rows, columns) by Rec. 601 luma: 1 is black, 0 is white."""
@@ -75,12 +114,24 @@ class Picture:
         return np.asarray(dark)
 
 
+@runtime_checkable
+class Pictured(Protocol):
+    """A part that has a picture from a file."""
+
+    @property
+    def picture(self) -> Picture:
+        """The picture. Raises InputError where its file can't be read."""
+
+
 def read_picture(name: str, image: str, color: str | None = None) -> Picture:
     """Return the picture in a PNG file; its transparent parts show `color`, or white.
 
     The file is read again only if it has changed. Raises InputError, beginning with `name`, if the
-    file is missing, is not a PNG with 8 bits per channel, or is too large.
+    file is missing, is not a PNG with 8 bits per channel, or is too large. No file is opened for a
+    picture in a record.
     """
+    if holds_pixels(image):
+        return _inside(name, image, color)
     path = Path(image)
     return _read(name, path, _version(path), color)
 
@@ -97,6 +148,21 @@ def _read_png(name: str, path: Path) -> Pixels:
         raise InputError(
             f"{name}: there is no such file{where}; beside the experiment it is {beside}"
         ) from None
+
+
+@lru_cache(maxsize=4)
+def _inside(name: str, image: str, color: str | None) -> Picture:
+    """Return the picture in a text, laid over a colour."""
+    name = f"{name} = {picture_name(image)!r}"
+    data = image.rpartition(DATA)[2]
+    if not data:
+        raise InputError(f"{name}: the record does not hold this picture")
+    try:
+        file = BytesIO(b64decode(data, validate=True))
+    except ValueError:
+        raise InputError(f"{name}: this is no PNG image") from None
+    with opened_image(name, file, "PNG") as opened:
+        return Picture(_over(np.asarray(opened.convert("RGBA")), color))
 
 
 def _version(path: Path) -> tuple[str, int, int]:
@@ -127,20 +193,22 @@ def _over(pixels: Pixels, color: str | None) -> Pixels:
 
 
 @contextlib.contextmanager
-def opened_image(name: str, path: Path, kind: str) -> Iterator[Any]:
+def opened_image(name: str, file: Path | BytesIO, kind: str) -> Iterator[Any]:
     """Open an image with 8 bits per channel as an image of Pillow, whose pixels are not read yet.
 
-    kind: Pillow's name of the file's format, such as ``PNG``. Raises FileNotFoundError if the file
-    is missing. Raises InputError, beginning with `name`, for anything else wrong with it, also
-    while its pixels are read within the block.
+    file: its path, or what is in it. kind: Pillow's name of its format, such as ``PNG``. Raises
+    FileNotFoundError if the file is missing. Raises InputError, beginning with `name`, for anything
+    else wrong with it, also while its pixels are read within the block.
     """
     from PIL import Image, UnidentifiedImageError
 
-    what = path.suffix[1:].upper()
+    what = file.suffix[1:].upper() if isinstance(file, Path) else kind
+    if isinstance(file, Path) and file.exists() and not file.is_file():  # a pipe may never end
+        raise InputError(f"{name}: not a file; expected a {what} image")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about sizes, which are checked here
-            with Image.open(path, formats=[kind]) as image:
+            with Image.open(file, formats=[kind]) as image:
                 _check(name, image.size, image.mode)
                 yield image
     except (InputError, FileNotFoundError):

@@ -78,7 +78,10 @@ def _is_users(path: Path) -> bool:
 
 
 def _is_ours(path: Path) -> bool:
-    return path.is_relative_to(_PACKAGE) and not path.is_relative_to(_PACKAGE / "examples")
+    command = path.name == "mars2d"  # the file in bin/ that starts the command line
+    return command or (
+        path.is_relative_to(_PACKAGE) and not path.is_relative_to(_PACKAGE / "examples")
+    )
 
 
 def name_of(function: Callable[..., Any]) -> str:

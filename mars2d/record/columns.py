@@ -14,7 +14,7 @@ from weakref import finalize
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.arrays import locked
+from mars2d.core.arrays import sealed
 from mars2d.core.errors import InputError
 
 __all__ = ["Column", "DiskError", "Scratch", "Storage", "Texts", "blocks"]
@@ -72,7 +72,7 @@ class Column:
 
     def upto(self, count: int) -> NDArray[Any]:
         """Return the first `count` rows, as a view that can't be written."""
-        return locked(self._rows[:count])
+        return sealed(self._rows[:count])
 
     def _grow(self, filled: int, rows: int) -> None:
         """Make room for `rows` rows, and keep the first `filled` ones."""
@@ -102,7 +102,10 @@ class Scratch:
 
 
 class _FileColumn(Column):
-    """A column in a file that is mapped into memory, of which only the end stays there."""
+    """A column in a file that is mapped into memory, of which only the end stays there.
+
+    A short one is in memory: it needs no file, of which a process may have only so many.
+    """
 
     def __init__(self, folder: Path, shape: tuple[int, ...], dtype: Any) -> None:
         self.shape, self.dtype = shape, np.dtype(dtype)
@@ -111,13 +114,18 @@ class _FileColumn(Column):
         self._rows = np.zeros((0, *shape), dtype=dtype)
         self._size = 0
 
-    def _grow(self, filled: int, rows: int) -> None:  # noqa: ARG002
+    def _grow(self, filled: int, rows: int) -> None:
+        if self._size == 0 and 2 * rows * self._row <= FIRST:
+            super()._grow(filled, rows)
+            return
+        in_memory = self._rows[: filled if self._size == 0 else 0]
         if rows * self._row > self._size:
             self._extend(rows * self._row)
         _let_go(self._map)
         # The array ends a window further on, so that this is called again after each window.
         end = min(self._size // self._row, rows + WINDOW // self._row)
         self._rows = np.ndarray((end, *self.shape), self.dtype, self._map)
+        self._rows[: len(in_memory)] = in_memory
 
     def _extend(self, least: int) -> None:
         """Make the file longer and map it anew. Views of the former map show the same file."""
@@ -162,8 +170,8 @@ def _let_go(mapped: mmap.mmap) -> None:
 def blocks(column: NDArray[Any]) -> Iterator[NDArray[Any]]:
     """Yield an array piece by piece. If it is kept in a file, only a piece stays in memory."""
     mapped: Any = column
-    while isinstance(mapped, np.ndarray):
-        mapped = mapped.base
+    while isinstance(mapped, (np.ndarray, memoryview)):
+        mapped = mapped.base if isinstance(mapped, np.ndarray) else mapped.obj
     row = prod(column.shape[1:]) * column.dtype.itemsize
     count = max(1, BLOCK // max(1, row))
     for start in range(0, len(column), count):

@@ -12,7 +12,7 @@ from math import isfinite
 from typing import Any
 
 from mars2d.core.plane import Point
-from mars2d.scenario import serialize
+from mars2d.scenario import pictures, serialize
 from mars2d.scenario.scenario import Scenario
 
 __all__ = ["Change", "Intervention", "Place", "Pull", "Steer", "check", "of_plain", "to_plain"]
@@ -81,7 +81,10 @@ Intervention = Place | Pull | Steer | Change
 def to_plain(intervention: Intervention) -> dict[str, Any]:
     """Return an intervention as dicts, lists, text and numbers."""
     kept = [each.name for each in fields(intervention) if each.name != "control"]
-    values = {name: serialize.from_description(getattr(intervention, name)) for name in kept}
+    values = {
+        name: serialize.from_description(pictures.enclosed(getattr(intervention, name)))
+        for name in kept
+    }
     return {"type": type(intervention).__name__, **values}
 
 
@@ -130,7 +133,7 @@ def _are_numbers(values: object, count: int) -> bool:
 
 def _read(value: Any) -> Any:
     if isinstance(value, dict):
-        return serialize.to_scenario(value)[0]
+        return serialize.to_scenario(pictures.of_record(value, []))[0]
     return tuple(map(_read, value)) if isinstance(value, list) else value
 
 

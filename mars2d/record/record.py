@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.arrays import frozen
+from mars2d.core.arrays import sealed
 from mars2d.core.errors import counted
 from mars2d.core.scene import Scene
 from mars2d.record.columns import Texts, blocks
@@ -101,8 +101,8 @@ class Record:
     def __post_init__(self) -> None:
         self._complete()
         for name in (*COLUMNS, "contacts", "messages"):
-            object.__setattr__(self, name, frozen(getattr(self, name)))
-        sensors = {name: frozen(values) for name, values in self.sensors.items()}
+            object.__setattr__(self, name, sealed(getattr(self, name)))
+        sensors = {name: sealed(values) for name, values in self.sensors.items()}
         object.__setattr__(self, "sensors", sensors)
 
     def _complete(self) -> None:
@@ -115,6 +115,19 @@ class Record:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def __copy__(self) -> Record:
+        return self  # nothing in it can be changed
+
+    def __deepcopy__(self, memo: object) -> Record:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what is pickled: what files keep, without laws, and also drawing and branches."""
+        from mars2d.output.formats import header
+
+        kept = header.of_record(self), self.columns()
+        return header.to_record, kept, {"drawn": self.drawn, "branches": self.branches}
 
     def __repr__(self) -> str:
         size = f"{counted(len(self), 'row')}, {counted(len(self.scenario.robots), 'robot')}"

@@ -84,6 +84,16 @@ def kinds_of(base: type[Description]) -> dict[str, type[Description]]:
     return {kind.__name__: kind for kind in _kinds().values() if issubclass(kind, base)}
 
 
+def kind_of(plain: dict[str, Any]) -> type[Description] | None:
+    """Return the class of a part that `from_description` made plain; None if it is not known."""
+    name, own = plain.get("type"), plain.get("own")
+    if not isinstance(name, str):
+        return None
+    if "from" in plain and own in _OWN:
+        return plugin(_OWN[own].family, name, plain["from"])
+    return _kinds().get(name)
+
+
 def changed(part: Description, index: int = 0) -> dict[str, Any]:
     """Return the fields of a part that differ from their defaults, in order.
 

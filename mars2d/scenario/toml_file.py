@@ -17,7 +17,7 @@ from mars2d.core.description import Check, Description, wrong
 from mars2d.core.errors import InputError, described, nearest, shown
 from mars2d.core.files import atomic_write, file_beside
 from mars2d.core.materials import Coefficient
-from mars2d.core.picture import image_file
+from mars2d.core.picture import holds_pixels, image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
 from mars2d.scenario.experiment import law_in
@@ -351,7 +351,7 @@ class _Reader:
             return self._parts(place, value, at) if place.many else self._part(place, value, at)
         if field.name == "controller" and issubclass(kind, Robot):
             return self._law(at, value, "the robot")
-        if check is image_file and isinstance(value, str):
+        if check is image_file and isinstance(value, str) and not holds_pixels(value):
             return self._image(value)
         return self._plain(value, at)
 

@@ -10,8 +10,8 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.arrays import locked
-from mars2d.core.errors import UnknownNameError, nearest
+from mars2d.core.arrays import is_masked, sealed
+from mars2d.core.errors import InputError, UnknownNameError, nearest
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.usercode import called
 from mars2d.sensors.base import Sensor, Surroundings
@@ -137,7 +137,7 @@ class Device:
 
     def _measured(self, rng: np.random.Generator) -> Any:
         try:
-            reading = self.sensor.read(self.view, self.world, rng)
+            reading = _unmasked(self.sensor.read(self.view, self.world, rng))
             return _kept(self.sensor.measured(reading, rng))
         except BaseException as error:
             self.reading_it.blame(error)
@@ -178,14 +178,14 @@ class _Team:
     def _measured(self) -> Sequence[Any]:
         first = self._first
         try:
-            found = first.sensor.read_all(self._robots, first.world, self._rngs)
+            found = _unmasked(first.sensor.read_all(self._robots, first.world, self._rngs))
             measured = first.sensor.measured_all(found, self._rngs)
             if not isinstance(measured, np.ndarray):
                 return [_kept(reading) for reading in measured]
         except BaseException as error:
             first.reading_it.blame(error)
             raise
-        block = locked(np.array(measured))
+        block = sealed(np.array(measured))
         self.readings = block if first.age == 0 else None
         return block.tolist() if block.ndim == 1 else [*block]  # numbers are Python's own
 
@@ -258,6 +258,13 @@ def _may_join(device: Device) -> bool:
     return True
 
 
+def _unmasked(reading: Any) -> Any:
+    """Return a reading. Raises InputError where numbers are masked: they would count."""
+    if is_masked(reading):
+        raise InputError("masked numbers: fill them, as by reading.filled(numpy.nan)")
+    return reading
+
+
 def _kept(reading: Any) -> Any:
     """Return a reading as an array that can't be written, if it is one at all."""
     if not isinstance(reading, (np.ndarray, list, tuple)):
@@ -266,4 +273,4 @@ def _kept(reading: Any) -> Any:
         kept: NDArray[Any] = np.array(reading)
     except ValueError:  # rows of different lengths: the recorder refuses it
         return reading
-    return locked(kept)
+    return sealed(kept)

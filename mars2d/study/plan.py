@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mars2d.core.checks import items_of
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.streams import check_seed
@@ -82,7 +83,8 @@ def settings_of(given: Mapping[str, Any] | None) -> dict[str, tuple[Any, ...]]:
         if not isinstance(name, str):
             raise wrong("settings", name, "names as the keys, as {'gain': [0.1, 0.2]}")
         several = value if isinstance(value, (list, range)) or _is_array(value) else [value]
-        values = tuple(_plain(name, each) for each in several)
+        listed = items_of(f"settings[{name!r}]", several, "values", MAX_RUNS)
+        values = tuple(_plain(name, each) for each in listed)
         if not values:
             raise wrong(f"settings[{name!r}]", value, "at least one value")
         _refuse_twice(name, values)
@@ -126,9 +128,8 @@ def seeds_of(seeds: int | Iterable[int], first: int = 0) -> tuple[int, ...]:
         start = check_seed(first)
         check_seed(start + int(seeds) - 1)
         return tuple(range(start, start + int(seeds)))
-    if isinstance(seeds, (str, bytes, bool)) or not isinstance(seeds, Iterable):
-        raise wrong("seeds", seeds, "how many, or a list of them")
-    listed = tuple(check_seed(seed) for seed in seeds)
+    given = items_of("seeds", seeds, "how many, or a list of them", MAX_RUNS)
+    listed = tuple(check_seed(seed) for seed in given)
     if not listed or len({*listed}) < len(listed):
         raise wrong("seeds", seeds, "at least one, and each once")
     return listed

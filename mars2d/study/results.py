@@ -6,19 +6,14 @@ process is killed in the middle of a line, that line is left out.
 
 from __future__ import annotations
 
-import os
-import sys
 from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO
 
 from mars2d.core.errors import InputError
-from mars2d.study.table import Result, Table, file_header, file_line, parse_table
+from mars2d.core.files import REPLACED_OPEN, growing, writing
+from mars2d.study.table import Result, Table, file_header, file_line, parse_table, save_table
 
-__all__ = ["Results", "another", "lock"]
-
-LOCKED_BYTE = 2**40
-"""The byte to lock on systems that lock bytes: far behind the end of any file."""
+__all__ = ["Results", "another"]
 
 
 class Results:
@@ -33,14 +28,8 @@ class Results:
         self.known: tuple[Result, ...] = ()
 
     def __enter__(self) -> Results:
-        if self._path.exists() and not self._path.is_file():
-            raise InputError(f"{self._path}: expected a file; this is a device or a folder")
+        self._file = growing(self._path)
         try:
-            self._file: BinaryIO = self._path.open("a+b")
-        except OSError as error:
-            raise _unwritable(self._path, error) from error
-        try:
-            lock(self._file, self._path)
             self._resume()
         except BaseException:
             self._file.close()
@@ -54,6 +43,12 @@ class Results:
     def add(self, result: Result) -> None:
         """Write one row, and hand it to the operating system before returning."""
         self._write(file_line(self._blank, result))
+
+    def put_in_order(self, table: Table) -> None:
+        """Replace the file by a whole table; nothing can be added afterwards."""
+        if not REPLACED_OPEN:
+            self._file.close()
+        save_table(table, self._path)
 
     def _resume(self) -> None:
         """Read the rows; cut off an incomplete line, and begin an empty file with the header."""
@@ -70,11 +65,9 @@ class Results:
         self.known = there.results
 
     def _write(self, line: bytes) -> None:
-        try:
+        with writing(self._path):
             self._file.write(line)
             self._file.flush()
-        except OSError as error:
-            raise _unwritable(self._path, error) from error
 
 
 def _refuse_another(there: Table, wanted: Table, path: Path) -> None:
@@ -93,30 +86,3 @@ def _refuse_another(there: Table, wanted: Table, path: Path) -> None:
 def another(path: Path, why: str) -> InputError:
     """Return the error for a file that holds another study."""
     return InputError(f"{path}: holds another study; {why}. Give another --out, or delete it")
-
-
-def _unwritable(path: Path, error: OSError) -> InputError:
-    return InputError(f"{path}: can't be written: {error.strerror or error}")
-
-
-def lock(file: BinaryIO, path: Path) -> None:
-    """Lock a file for this process until it is closed or the process ends.
-
-    Raises InputError if another process has locked it. Does nothing on file systems without locks.
-    """
-    try:
-        if sys.platform == "win32":
-            import msvcrt
-
-            os.lseek(file.fileno(), LOCKED_BYTE, os.SEEK_SET)
-            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-        else:
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except (BlockingIOError, PermissionError):
-        raise InputError(
-            f"{path}: another process is writing to it: wait for its end, or give another --out"
-        ) from None
-    except OSError:
-        return

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Generator, Iterator
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -16,7 +16,7 @@ from mars2d.core.progress import Progress
 from mars2d.study.job import Job, code_of, opened, run_job
 from mars2d.study.prepare import Study
 from mars2d.study.results import Results, another
-from mars2d.study.table import Result, Table, cell, cells_of, save_table
+from mars2d.study.table import Result, Table, cell, cells_of
 from mars2d.study.work import Failure, each_done, worker_count
 
 __all__ = ["CountingBar", "StudyInterrupted", "duration", "run_study"]
@@ -48,22 +48,23 @@ def run_study(
         worker_count(workers)
     if out is not None and out.suffix.lower() != ".csv":
         raise InputError(f"{out}: expected a name that ends in .csv")
-    with _kept(study, out, retry) as (known, keep):
+    with _kept(study, out, retry) as (known, file):
         run = _Run(study, known)
         try:
             todo = run.results(executor, workers, show_progress)
             with noted_interrupts() as check, closing(todo) as results:
                 for result in results:
-                    keep(result)
+                    if file is not None:
+                        file.add(result)
                     check()
         except KeyboardInterrupt:
             table = run.table()
             where = "were made" if out is None else f"are in {out}; the same command goes on"
             said = f"{len(table)} of {len(study.plan)} runs {where}"
             raise StudyInterrupted(said, table) from None
-    table = run.table()
-    if out is not None:
-        save_table(table, out)
+        table = run.table()
+        if file is not None:
+            file.put_in_order(table)
     return table
 
 
@@ -76,23 +77,23 @@ def _table(study: Study, rows: dict[int, Result]) -> Table:
 @contextmanager
 def _kept(
     study: Study, out: Path | None, retry: bool
-) -> Iterator[tuple[dict[int, Result], Callable[[Result], None]]]:
-    """Yield the rows that the file holds, by number, and a function that adds a row to it.
+) -> Iterator[tuple[dict[int, Result], Results | None]]:
+    """Yield the rows that the file holds, by number, and the file, which is locked.
 
     Before any row is added, the rows in the file get their numbers in this study.
     """
     if out is None:
-        yield {}, lambda _: None
+        yield {}, None
         return
     blank = _table(study, {})
     with Results(out, blank) as file:
         rows = _rows_of(study, file.known, out)
-    if retry:
-        rows = {row: result for row, result in rows.items() if not result.error}
-    if tuple(rows.values()) != file.known:
-        save_table(_table(study, rows), out)
+        if retry:
+            rows = {row: result for row, result in rows.items() if not result.error}
+        if tuple(rows.values()) != file.known:
+            file.put_in_order(_table(study, rows))
     with Results(out, blank) as file:
-        yield rows, file.add
+        yield rows, file
 
 
 def _rows_of(study: Study, known: tuple[Result, ...], out: Path) -> dict[int, Result]:

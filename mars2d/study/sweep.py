@@ -7,6 +7,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from mars2d.core.checks import items_of
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError
 from mars2d.scenario.scenario import Scenario
@@ -91,9 +92,7 @@ def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Me
     if isinstance(measures, str) or callable(measures):
         return (measures,)
     expected = "names of measures, or functions of a record"
-    if not isinstance(measures, Iterable):
-        raise wrong("measures", measures, expected)
-    listed = tuple(measures)
+    listed = tuple(items_of("measures", measures, expected))
     for measure in listed:
         if not isinstance(measure, str) and not callable(measure):
             raise wrong("measures", measure, expected)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, MissingExtraError, counted, shown
+from mars2d.core.errors import InputError, MissingExtraError, counted, one_line, shown
 from mars2d.core.files import atomic_write
 from mars2d.scenario.options import parse_setting
 
@@ -238,7 +238,7 @@ def file_line(table: Table, result: Result) -> bytes:
             *(_measure_cell(value) for value in measured),
             result.digest,
             result.code,
-            word_cell(" ".join(result.error.split())),
+            word_cell(one_line(" ".join(result.error.split()))),
         ]
     )
 
@@ -283,6 +283,7 @@ def parse_table(data: bytes, path: Path) -> Table:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: expected a table in UTF-8; {error.reason}") from error
+    csv.field_size_limit(max(csv.field_size_limit(), len(text)))  # no cell is longer than the text
     reader = csv.reader(io.StringIO(text, newline=""), strict=True)
     try:
         header = next(reader, [])

@@ -346,14 +346,15 @@ class _EndedError(BaseException):
 def _serve(connection: Connection) -> None:
     """Do tasks, in a process of its own, until the connection closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, _end)
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with suppress(_EndedError, EOFError, BrokenPipeError, ConnectionResetError):
+        signal.signal(signal.SIGTERM, _end)
         connection.send_bytes(b"")
         while True:
             returned = attempt_packed(connection.recv_bytes(), connection.recv_bytes())
             sys.stdout.flush()
             connection.send_bytes(returned)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # what is left to do may end at once
 
 
 def _end(_number: int, _frame: FrameType | None) -> None:

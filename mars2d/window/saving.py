@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pygame
 
 from mars2d.core.errors import InputError
+from mars2d.core.files import atomic_write
 from mars2d.core.scene import Scene
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
@@ -137,11 +138,8 @@ def save_python(
     """
     text = as_python(scenario, control, folder)
     path = free_name(folder, stem, ".py")
-    with _removed_on_failure(path):
-        try:
-            path.write_text(text, encoding="utf-8", newline="\n", errors="replace")
-        except OSError as error:
-            raise InputError(f"{path}: can't be written, {error.strerror or error}") from None
+    with _removed_on_failure(path), atomic_write(path) as file:
+        file.write(text.encode(errors="replace"))
     return path, _copied(text)
 
 

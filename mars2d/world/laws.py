@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core import checks
-from mars2d.core.arrays import within
+from mars2d.core.arrays import is_masked, within
 from mars2d.core.errors import LawError, shown
 from mars2d.core.usercode import called, definition, name_of
 
@@ -73,7 +73,7 @@ def robot_command(law: Law, value: Any) -> tuple[float, float]:
         plain = type(first) in PLAIN and type(second) in PLAIN
         if plain and abs(first) <= LARGEST and abs(second) <= LARGEST:
             return first, second
-    command = _numbers(value)
+    command = _numbers(value, law.refuse)
     if command is None or command.shape not in ((2,), (2, 1)):
         law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
     first, second = command.ravel().tolist()
@@ -87,7 +87,7 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     if value is None:
         refuse("returned nothing: a law returns its command, an array (2, n)")
     expected = f"expected two rows and a column for each robot, shape (2, {robots})"
-    command = _numbers(value)
+    command = _numbers(value, refuse)
     if command is None:
         refuse(f"returned {shown(value)}: {expected}")
     if command.shape == (2,) and robots == 1:
@@ -101,11 +101,14 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     return command
 
 
-def _numbers(value: Any) -> Float | None:
+def _numbers(value: Any, refuse: Callable[[str], NoReturn]) -> Float | None:
     """Return a new array of floats, or None if `value` holds anything but real numbers.
 
-    Text, truth values, complex numbers and integers beyond a float are none.
+    Text, truth values, complex numbers and integers beyond a float are none. Masked ones are
+    refused.
     """
+    if is_masked(value):
+        refuse("returned an array with masked numbers: fill them, as by command.filled(0)")
     try:
         found = np.asarray(value)
     except (TypeError, ValueError):  # such as rows of different lengths

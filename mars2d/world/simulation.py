@@ -14,6 +14,7 @@ from mars2d.addons.communication import Communication
 from mars2d.bodies.team import Drives
 from mars2d.core.arrays import locked
 from mars2d.core.delay import DelayLine
+from mars2d.core.description import whole
 from mars2d.core.errors import InputError, LawError, described
 from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene
@@ -51,7 +52,7 @@ class Simulation(State):
     def __init__(self, scenario: Scenario, seed: int, filename: str, storage: Storage) -> None:
         """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
         super().__init__(scenario, seed, storage)
-        self.filename = filename
+        self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
         self.engine_seconds = 0.0
         self._drawn = Scene()  # by the add-ons, at the end
@@ -184,14 +185,14 @@ class Simulation(State):
     def stop(self, why: str) -> None:
         """End the experiment with the present control step."""
         if not self.over:
-            self.over, self.over_message = True, str(why)
+            self.over, self.over_message = True, whole(str(why))
             if not self._stepping:
                 self._close()
 
     def break_off(self, why: str) -> None:
         """End the experiment at once, without a last control step, as after an error."""
         if not self.over:
-            self.over, self.over_message, self.broken_off = True, str(why), True
+            self.over, self.over_message, self.broken_off = True, whole(str(why)), True
 
     def _alone(self, act: Callable[..., T], *arguments: Any, **options: Any) -> T:
         """Act on the world. Refuse to from within such an act; an error ends the experiment."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import HOOKS, Addon, hooks_of
-from mars2d.core.arrays import locked
+from mars2d.core.arrays import locked, sealed
 from mars2d.core.errors import UnknownNameError, nearest
 from mars2d.core.streams import stream
 from mars2d.core.usercode import called
@@ -24,6 +24,7 @@ from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
 from mars2d.record.recorder import History, Recorder
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.uncopied import Uncopied
 
 __all__ = ["Addons", "Hooks", "State"]
 
@@ -80,7 +81,7 @@ class Hooks:
                 method(*args)
 
 
-class State:
+class State(Uncopied):
     """The state of a world at this instant; `Simulation` makes it go on.
 
     All arrays are read only, and new at each control step. n robots, p props.
@@ -131,7 +132,7 @@ class State:
 
     def take_poses(self) -> None:
         """Take the poses of robots and props from the engine."""
-        pose = locked(self.engine.pose)
+        pose = sealed(self.engine.pose)
         self.pose, self.prop_pose = pose[:, self._robots], pose[:, self._props]
 
     @property
@@ -163,7 +164,7 @@ class State:
     def _velocities(self) -> Float:
         """The velocities of all bodies, asked of the engine once a control step."""
         if self._velocity_at[0] != self.iteration:
-            self._velocity_at = self.iteration, locked(self.engine.velocity)
+            self._velocity_at = self.iteration, sealed(self.engine.velocity)
         return self._velocity_at[1]
 
     def look(self) -> tuple[Float, Float, Float]:

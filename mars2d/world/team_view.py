@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arithmetic import cosines_sines
+from mars2d.core.arrays import sealed
 from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.record.frame import Frame
@@ -19,6 +20,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.world.simulation import Simulation
 from mars2d.world.state import Addons
 from mars2d.world.surroundings import Around
+from mars2d.world.uncopied import Uncopied
 from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknown, unseen
 
 __all__ = ["RobotPositionView", "TeamPositionsView", "WorldView"]
@@ -26,7 +28,7 @@ __all__ = ["RobotPositionView", "TeamPositionsView", "WorldView"]
 Float = NDArray[np.float64]
 
 
-class WorldView:
+class WorldView(Uncopied):
     """A running world, as a law with full information sees and uses it.
 
     A law can stop the world and hold a robot; nothing here leads to the machinery that changes it.
@@ -131,7 +133,7 @@ class WorldView:
 
         It is 0 for a robot that nothing holds or pushes. At 1 the wheels slip.
         """
-        return self._simulation.effort
+        return sealed(self._simulation.effort)
 
     @property
     def geometric_center(self) -> Float:
@@ -144,12 +146,12 @@ class WorldView:
     @property
     def command(self) -> Float:
         """The last command (2, n) that was issued, after saturation; zeros at first. Read only."""
-        return self._simulation.command
+        return sealed(self._simulation.command)
 
     @property
     def contacts(self) -> NDArray[np.void]:
         """The contacts since the last step, one row a pair, of dtype `mars2d.record.CONTACT`."""
-        return self._simulation.contacts
+        return sealed(self._simulation.contacts)
 
     def neighbour_indices(self, robot: int) -> Sequence[int]:
         """Return the robots that ``Scenario.neighbours`` makes a robot's neighbours now."""

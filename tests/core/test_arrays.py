@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from mars2d.core.arrays import frozen, locked, within
+from mars2d.core.arrays import locked, sealed, within
 
 
 def test_a_locked_array_is_the_same_one_and_can_not_be_written():
@@ -16,13 +16,17 @@ def test_a_locked_array_is_the_same_one_and_can_not_be_written():
         array[0] = 1.0
 
 
-def test_a_frozen_array_is_a_view_of_one_that_can_still_be_written():
-    array = np.zeros(3)
-    view = frozen(array)
-    array[0] = 1.0
-    assert view[0] == 1.0
-    with pytest.raises(ValueError, match="read-only"):
-        view[0] = 2.0
+@pytest.mark.parametrize("kind", [float, bool, [("a", np.int32), ("b", float, (2,))]])
+@pytest.mark.parametrize("shape", [(0,), (3,), (2, 3), (3, 0)])
+def test_a_sealed_array_is_a_view_that_can_not_be_made_writable(kind, shape):
+    array = np.zeros(shape, dtype=kind)
+    view = sealed(array)
+    assert (view.dtype, view.shape) == (array.dtype, array.shape)
+    array[...] = np.ones(shape, dtype=kind)
+    assert np.array_equal(view, array)
+    for each in (view, view[:1], view.view()):
+        with pytest.raises(ValueError, match="WRITEABLE"):
+            each.flags.writeable = True
 
 
 @pytest.mark.parametrize("most", [1.0, 1e6, 1e300, sys.float_info.max])

@@ -1,12 +1,13 @@
 """An error is shown with the lines of code that it points at."""
 
 import functools
+import traceback
 
 import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.core.errors import InputError, LawError
-from mars2d.core.usercode import Excerpt, excerpt_of
+from mars2d.core.usercode import Excerpt, excerpt_of, users_line
 from mars2d.scenario.experiment import load_law, open_experiment
 
 LAW = """\
@@ -70,6 +71,13 @@ def test_an_error_of_python_itself_has_the_users_innermost_line():
     with pytest.raises(ZeroDivisionError) as caught:
         functools.reduce(lambda a, b: a / b, [1, 0])
     assert "reduce" in excerpt_of(caught.value).lines[2]
+
+
+def test_the_file_that_starts_the_command_line_is_no_code_of_the_user():
+    outer = traceback.FrameSummary("/usr/local/bin/mars2d", 6, "<module>", lookup_line=False)
+    law = traceback.FrameSummary("/home/ada/walk.py", 12, "control", lookup_line=False)
+    assert users_line(traceback.StackSummary.from_list([outer])) is None
+    assert users_line(traceback.StackSummary.from_list([outer, law])) == "walk.py, line 12"
 
 
 def test_without_a_place_there_is_no_excerpt():

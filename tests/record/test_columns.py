@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -48,7 +49,29 @@ def test_files_of_columns_have_no_name(tmp_path) -> None:
 def test_a_column_without_room_says_where(tmp_path) -> None:
     column = Scratch(tmp_path / "nowhere")((), float, 10)
     with pytest.raises(DiskError, match="nowhere: no room for the columns of the run"):
-        column.write(0, 1.0)
+        column.write_block(0, np.zeros(10_000))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="descriptors of Linux")
+def test_short_columns_are_no_open_files(tmp_path) -> None:
+    there = len([*Path("/proc/self/fd").iterdir()])
+    kept = [Scratch(tmp_path)((3, 2), float, 10) for _ in range(300)]
+    for column in kept:
+        for k in range(100):
+            column.write(k, k)
+    assert len([*Path("/proc/self/fd").iterdir()]) <= there + 1
+    assert all(column.upto(100)[99, 0, 0] == 99 for column in kept)
+
+
+def test_blocks_of_a_file_leave_the_memory_again(tmp_path, monkeypatch) -> None:
+    left = []
+    monkeypatch.setattr("mars2d.record.columns._let_go", left.append)
+    for kind in (float, MESSAGE):
+        column = Scratch(tmp_path)((), kind, 10)
+        column.write_block(0, np.zeros(400_000, kind))
+        left.clear()
+        count = sum(1 for _ in blocks(column.upto(400_000)))
+        assert len(left) == count > 1
 
 
 def test_blocks_are_all_of_an_array(storage) -> None:

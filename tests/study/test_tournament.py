@@ -233,6 +233,16 @@ def test_what_was_not_written_to_its_end_is_played_again(evening, tmp_path):
     assert played_before(tmp_path, planned, LIMITS) == evening.result.matches
 
 
+def test_matches_that_another_process_played_meanwhile_are_not_played_again(evening, tmp_path):
+    planned = planned_as_before(evening)
+    mine, other = (Folder(tmp_path, planned, LIMITS, replays=True) for _ in range(2))
+    with other:
+        for played in evening.result.matches:
+            other.keep(played)
+    with mine:
+        assert mine.before == evening.result.matches
+
+
 def planned_as_before(evening, **more):
     folder = evening.folder
     laws = {"pursuer": folder / "pursuers", "evader": folder / "evaders"}
@@ -271,8 +281,9 @@ def test_replays_that_are_missing_are_made(evening, tmp_path):
     with Folder(tmp_path, planned, LIMITS, replays=False) as folder:
         folder.keep(replace(evening.result.matches[0], replay=""))
         folder.keep(evening.result.matches[1])
-    assert len(Folder(tmp_path, planned, LIMITS, replays=False).before) == 2
-    assert len(Folder(tmp_path, planned, LIMITS, replays=True).before) == 1
+    for replays, there in ((False, 2), (True, 1)):
+        with Folder(tmp_path, planned, LIMITS, replays=replays) as folder:
+            assert len(folder.before) == there
 
 
 @pytest.mark.slow

@@ -171,6 +171,17 @@ def test_each_task_comes_once_whatever_becomes_of_it(do, tmp_path):
     assert found[9].error.startswith("what it returned can't be read: ValueError")
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_a_worker_that_is_ended_when_it_has_ended_says_nothing(child):
+    done = child(
+        "import multiprocessing, os, signal\n"
+        "from mars2d.study.workers import _serve\n"
+        "ours, theirs = multiprocessing.Pipe(); ours.close(); _serve(theirs)\n"
+        "os.kill(os.getpid(), signal.SIGTERM)"
+    )
+    assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")
+
+
 def test_tasks_are_made_as_they_are_needed_and_workers_end_with_the_iterator(do):
     tasks = Counted(100_000)
     done = each_done(do, tasks, workers=2)

@@ -80,12 +80,13 @@ def read_dxf(path: Path, unit: Unit | None) -> Drawing:
         import ezdxf
 
         _quiet()
-        if sum(1 for _ in ENTITY.finditer(path.read_bytes())) > MAX_ENTITIES:
+        data = path.read_bytes()
+        if sum(1 for _ in ENTITY.finditer(data)) > MAX_ENTITIES:
             raise InputError(f"{name}: more than {MAX_ENTITIES} entities; save a part of it")
         document = ezdxf.filemanagement.readfile(path)
         reader = _Reader(name, document)
         shapes = reader.layout()
-        unit = unit or _unit(document)
+        unit = unit or _unit(document, named=b"$INSUNITS" in data)
         hidden = {
             layer_name(layer.dxf.name)
             for layer in document.layers
@@ -105,9 +106,12 @@ def _quiet() -> None:
         log.addHandler(logging.NullHandler())
 
 
-def _unit(document: Document) -> Unit:
-    """Return the unit that the header names; metres if it names none."""
-    code = int(document.header.get("$INSUNITS", 0))
+def _unit(document: Document, *, named: bool) -> Unit:
+    """Return the unit that the header names; metres if it names none.
+
+    named: whether the file names one; if not, the library supposes metres.
+    """
+    code = int(document.header.get("$INSUNITS", 0)) if named else 0
     if code in UNITS:
         return Unit.named(UNITS[code], f"as the header says ($INSUNITS = {code})")
     if code == 0:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from mars2d.cli.outputs import check_outputs
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.terminal import tell
 from mars2d.reports.bench import suite
 from mars2d.reports.bench.report import Change, Report, Row, load_report
 
@@ -39,9 +40,9 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.save is not None:
         report.save(arguments.save)
     if arguments.json:
-        print(_as_json(report, old))
+        tell(_as_json(report, old))
     else:
-        print(_foot(report, old, arguments.compare))
+        tell(_foot(report, old, arguments.compare))
 
 
 def _parts(given: list[str]) -> list[str]:
@@ -58,13 +59,13 @@ def _measured(names: list[str], effort: suite.Effort, old: Report | None, *, say
     jobs = suite.jobs(names)
     rows: list[Row] = []
     if say and names != [suite.START]:
-        print(HEAD)
+        tell(HEAD)
     for number, (name, job) in enumerate(jobs.items(), 1):
         with _announced(f"{number} of {len(jobs)}: {name} ..."):
             rows.append(job(effort))
         if say:
             change = None if old is None else old.change(rows[-1])
-            print(_line(rows[-1], change), flush=True)
+            tell(_line(rows[-1], change))
     return Report(tuple(rows))
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -15,8 +14,9 @@ from mars2d.bodies.joints import Joint
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import run_headless
 from mars2d.core.deadline import PATIENCE, Deadline, Late
-from mars2d.core.errors import InputError, Mars2dError, counted, nearest
+from mars2d.core.errors import InputError, Mars2dError, counted, nearest, one_line
 from mars2d.core.progress import Progress
+from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.figures.map import save_map
@@ -86,9 +86,9 @@ def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> No
     tolerance = settings.pop("tolerance", maps.TOLERANCE)
     drawing = maps.read(path, **settings)
     for name, text in maps.described(drawing, maps.obstacles(drawing, tolerance), tolerance):
-        print(f"{name:<12}{text}")
+        tell(f"{name:<12}{text}")
     if picture is not None:
-        print(f"picture     {save_map(drawing, picture)}")
+        tell(f"picture     {save_map(drawing, picture)}")
 
 
 def _check_code(source: str) -> None:
@@ -97,7 +97,7 @@ def _check_code(source: str) -> None:
     limit = Deadline(PATIENCE, _give_up(source))
     if experiment is not None:
         for name, text in _description(experiment):
-            print(f"{name:<12}{text}")
+            tell(f"{name:<12}{text}")
     wrong = _try_all(module, experiment, limit)
     if len(wrong) == 1:
         name = Path(source).name
@@ -106,7 +106,7 @@ def _check_code(source: str) -> None:
     if wrong:
         raise InputError(f"{source}: {len(wrong)} things are wrong, as said above")
     if experiment is not None:
-        print(f"sound: {counted(_run(experiment, source, limit), 'control step')} done")
+        tell(f"sound: {counted(_run(experiment, source, limit), 'control step')} done")
 
 
 def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
@@ -129,7 +129,7 @@ def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline)
     wrong: list[Finding] = []
     said: set[Finding] = set()
     for trial in trials(module, experiment, limit):
-        print(f"{trial.name} {trial.where}".rstrip(), end=": ", flush=True)
+        tell(f"{trial.name} {trial.where}".rstrip(), end=": ")
         found = trial.findings()
         findings = [finding for finding in found if finding not in said]
         said |= {*findings}
@@ -138,9 +138,9 @@ def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline)
         verdict = "not tried to the end" if any(f.untried for f in found) else "sound"
         if faults:
             verdict = f"{counted(len(faults), 'thing')} wrong"
-        print(trial.untried or ", ".join([verdict, *([counted(hints, "hint")] if hints else [])]))
+        tell(trial.untried or ", ".join([verdict, *([counted(hints, "hint")] if hints else [])]))
         for finding in findings:
-            print(f"  {'wrong' if finding in faults else 'hint':<6}{finding.text}")
+            tell(f"  {'wrong' if finding in faults else 'hint':<6}{finding.text}")
         wrong += faults
     return wrong
 
@@ -167,8 +167,8 @@ def _give_up(source: str) -> Callable[[str], None]:
 
     def leave(where: str) -> None:
         place = f" at {where}" if where else ""
-        print(f"\nmars2d: {source}: does not come to an end{place}", file=sys.stderr, flush=True)
-        sys.stdout.flush()
+        tell()  # ends the line of what is tried
+        warn(f"{source}: does not come to an end{place}")
         os._exit(BAD_INPUT)
 
     return leave
@@ -227,16 +227,17 @@ def _robot(robot: Robot) -> str:
 def _check_record(path: Path) -> None:
     record = load(path)
     versions = ", ".join(f"{name} {version}" for name, version in record.versions.items())
-    print(f"record of   {record.scenario.title} ({record.filename or 'a Scenario'})")
-    print(f"seed        {record.seed}")
-    print(f"rows        {len(record)}, up to {record.time[-1] if len(record) else 0:g} s")
-    print(f"ended       {record.over_message}")
-    print(f"made with   {versions}")
-    print(f"digest      {record.digest}")
+    source = one_line(record.filename) or "a Scenario"
+    tell(f"record of   {record.scenario.title} ({source})")
+    tell(f"seed        {record.seed}")
+    tell(f"rows        {len(record)}, up to {record.time[-1] if len(record) else 0:g} s")
+    tell(f"ended       {one_line(record.over_message)}")
+    tell(f"made with   {one_line(versions)}")
+    tell(f"digest      {record.digest}")
     if record.missing:
-        print(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
+        tell(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
     if not len(record):
-        print("run again   nothing: it has no rows")
+        tell("run again   nothing: it has no rows")
         return
     bar = Progress(len(record), "rows")
     try:
@@ -247,7 +248,7 @@ def _check_record(path: Path) -> None:
         bar.close()
     if departure is not None:
         raise Mars2dError(f"{path}: run again, it departs at {departure}{_likely_reason(record)}")
-    print("run again   bit-identical")
+    tell("run again   bit-identical")
 
 
 def _likely_reason(record: Record) -> str:

@@ -18,6 +18,7 @@ from mars2d.cli.runs import make_folder, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
 from mars2d.core.streams import check_seed
+from mars2d.core.terminal import tell
 from mars2d.output.figures import figure
 from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.output.films import film
@@ -78,10 +79,10 @@ def execute(arguments: argparse.Namespace) -> None:
             reels[mode] = footage, world.frame
     comparison = Comparison(**records)
     if not arguments.json:
-        print(_as_table(comparison), flush=True)
+        tell(_as_table(comparison))
     _save(comparison, reels, paths, say=not arguments.json)
     if arguments.json:
-        print(_as_json(comparison, paths, time.perf_counter() - start))
+        tell(_as_json(comparison, paths, time.perf_counter() - start))
 
 
 def _options(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -128,7 +129,7 @@ def _save(
     if "figure" in paths:
         comparison.save_figure(paths["figure"])
         if say:
-            print(f"picture: {paths['figure']}", flush=True)
+            tell(f"picture: {paths['figure']}")
     if "video" in paths:
         from mars2d.output.films.triptych import save_triptych
 
@@ -138,7 +139,7 @@ def _save(
         finally:
             progress.close()
         if say:
-            print(f"film:    {paths['video']}")
+            tell(f"film:    {paths['video']}")
 
 
 def _rows(comparison: Comparison) -> list[dict[str, Any]]:

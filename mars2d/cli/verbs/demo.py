@@ -24,8 +24,9 @@ from mars2d.cli.runs import (
     show,
     warn_unchecked,
 )
-from mars2d.core.errors import InputError, nearest
+from mars2d.core.errors import InputError, nearest, one_line
 from mars2d.core.streams import check_seed
+from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
@@ -49,7 +50,7 @@ def execute(arguments: argparse.Namespace) -> None:
     name = arguments.name
     if name is None:
         print_examples()
-        print("\nPlay one:  mars2d demo random_walk")
+        tell("\nPlay one:  mars2d demo random_walk")
         return
     known = examples()
     if name not in known:
@@ -77,9 +78,9 @@ def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
     footage = Footage(experiment.scenario, experiment.scenario.stop_time / DURATION, FPS)
     world = run_headless(experiment, seed, [footage])
     record = world.record
-    print(f"{record.scenario.title}: {record.over_message}")
-    print(f"picture: {save_figure(record, FOLDER / f'{name}.png')}", flush=True)
+    tell(f"{record.scenario.title}: {one_line(record.over_message)}")
+    tell(f"picture: {save_figure(record, FOLDER / f'{name}.png')}")
     film = FOLDER / f"{name}.gif"
     save_footage(footage, world.frame, film, FILM_SIZE)
-    print(f"film:    {film}", flush=True)
+    tell(f"film:    {film}")
     return record

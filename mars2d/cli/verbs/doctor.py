@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from mars2d.core.errors import Mars2dError
+from mars2d.core.terminal import tell
 from mars2d.reports.doctor import examine
 
 MARKS = {True: "ok", None: "--", False: "NO"}
@@ -18,7 +19,7 @@ def execute(_: argparse.Namespace) -> None:
     """Show what this machine offers, and test the installation."""
     broken = []
     for finding in examine():
-        print(f"{MARKS[finding.ok]}  {finding.name:<12}{finding.text}")
+        tell(f"{MARKS[finding.ok]}  {finding.name:<12}{finding.text}")
         if finding.ok is False:
             broken.append(finding.name)
     if broken:

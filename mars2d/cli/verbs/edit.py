@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from mars2d.cli.arguments import add_preferences, preferences_of
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
+from mars2d.core.terminal import warn
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
 from mars2d.scenario.options import parse_setting
@@ -56,7 +56,7 @@ def execute(arguments: argparse.Namespace) -> None:
     except BaseException:  # Ctrl-C, a lost display, a fault: too late to ask for a name
         kept = editor.dialogs.rescue()
         if kept is not None:
-            print(f"mars2d: what was drawn and not saved is in {kept}", file=sys.stderr)
+            warn(f"what was drawn and not saved is in {kept}")
         raise
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.progress import Progress
 from mars2d.core.streams import check_seed
+from mars2d.core.terminal import tell
 from mars2d.reports.paper.figure import Figure, Result
 from mars2d.reports.paper.figures import FIGURES
 from mars2d.reports.paper.folder import prepare, remove, write_page
@@ -65,17 +66,17 @@ def _report(figures: Sequence[Figure], done: dict[int, Result], path: Path) -> N
     for figure in figures:
         result = done.get(figure.number)
         words = "not made" if result is None else verdict(result)
-        print(f"figure {figure.number}  {figure.title:<{width}}  {words}")
+        tell(f"figure {figure.number}  {figure.title:<{width}}  {words}")
         if result is None:
             continue
         for problem in result.problems:
-            print(f"          {problem}")
+            tell(f"          {problem}")
         for picture in result.pictures:
             for p in picture.predictions:
                 if not p.ok:
-                    print(f"          NOT OK: {picture.title}: {p.name}")
+                    tell(f"          NOT OK: {picture.title}: {p.name}")
     failed = sum(result.failed for result in done.values())
     if failed:
         verb = "does" if failed == 1 else "do"
-        print(f"{counted(failed, 'prediction')} {verb} not hold")
-    print(f"page: {path}", flush=True)
+        tell(f"{counted(failed, 'prediction')} {verb} not hold")
+    tell(f"page: {path}")

@@ -11,6 +11,7 @@ from typing import Any
 from mars2d.cli.arguments import times
 from mars2d.cli.outputs import check_outputs, naming_lost_letters
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.terminal import tell
 from mars2d.output.figures import figure
 from mars2d.output.figures.style import STYLES, style_of
 from mars2d.output.formats import SUFFIXES
@@ -61,7 +62,7 @@ def execute(arguments: argparse.Namespace) -> None:
     draw = _drawing(arguments, record)
     target = arguments.figure or _free(f"{path.stem}_{kind}")
     with naming_lost_letters():
-        print(figure.save_drawing(draw, target, trim=look.trim, dpi=look.dpi))
+        tell(figure.save_drawing(draw, target, trim=look.trim, dpi=look.dpi))
 
 
 def _refuse_experiments(path: Path) -> None:

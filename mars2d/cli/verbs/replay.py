@@ -11,6 +11,7 @@ from mars2d.cli.films import add_film, check_film, save_film_of
 from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
+from mars2d.core.terminal import tell
 from mars2d.output.formats import SUFFIXES
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record, load
@@ -46,9 +47,9 @@ def execute(arguments: argparse.Namespace) -> None:
     last = float(record.time[-1]) if len(record) else 0.0
     check_film(arguments, record.scenario, last)
     if arguments.video is not None:
-        print(f"film: {save_film_of(record, arguments)}")
+        tell(f"film: {save_film_of(record, arguments)}")
     if arguments.html is not None:
-        print(f"page: {record.save_html(arguments.html)}")
+        tell(f"page: {record.save_html(arguments.html)}")
     if arguments.video is None and arguments.html is None:
         _play(record, arguments)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -32,8 +31,9 @@ from mars2d.cli.runs import (
     show,
     warn_unchecked,
 )
-from mars2d.core.errors import InputError, counted
+from mars2d.core.errors import InputError, counted, one_line
 from mars2d.core.streams import check_seed
+from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
@@ -90,12 +90,12 @@ def execute(arguments: argparse.Namespace) -> None:
         robot.controller for robot in experiment.scenario.robots
     )
     if lawless and not experiment.scenario.props:
-        print("mars2d: there is no law, so all robots stood still", file=sys.stderr)
+        warn("there is no law, so all robots stood still")
     if arguments.json:
         predictions = predictions_of(experiment, record)
-        print(_as_json(record, predictions, time.perf_counter() - start))
+        tell(_as_json(record, predictions, time.perf_counter() - start))
     else:
-        print(_as_text(record), flush=True)
+        tell(_as_text(record))
         print_predictions(experiment, record)
     if troubles:
         say(troubles[:-1])
@@ -117,7 +117,7 @@ def _wants_window(arguments: argparse.Namespace) -> bool:
         why = "it needs a window, not --headless" if arguments.headless else "there is no display"
         raise InputError(f"--speed 0 makes one step a key press: {why}")
     if not arguments.headless:
-        print("mars2d: there is no display, so this runs without a window", file=sys.stderr)
+        warn("there is no display, so this runs without a window")
     return False
 
 
@@ -156,16 +156,15 @@ def _advise_to_compile(seconds: float) -> None:
         return
     from mars2d.reports.remedy import remedy
 
-    print(
-        f"mars2d: the engine took {seconds:.0f} s, since {reason_without()}. "
-        f"Compiled it is many times quicker: {remedy()}",
-        file=sys.stderr,
+    warn(
+        f"the engine took {seconds:.0f} s, since {reason_without()}. "
+        f"Compiled it is many times quicker: {remedy()}"
     )
 
 
 def _as_text(record: Record) -> str:
     done = f"{counted(_ticks(record), 'step')}, {counted(record.collisions, 'collision')}"
-    message = f"{record.scenario.title}: {record.over_message}"
+    message = f"{record.scenario.title}: {one_line(record.over_message)}"
     return f"{message}. {done}, digest {record.digest[:16]}"
 
 

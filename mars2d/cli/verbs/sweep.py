@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ from mars2d.cli.arguments import add_preferences, add_workers, workers_of
 from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, naming_lost_letters
 from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.terminal import tell, warn
 from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
 from mars2d.study.prepare import prepared
 from mars2d.study.run import run_study
@@ -127,11 +127,9 @@ def _run(arguments: argparse.Namespace) -> None:
     with workers_of(arguments) as (executor, workers):
         study = prepared(arguments.experiment, plan, tuple(names), time_limit=arguments.time_limit)
         for trouble in study.troubles[:3]:
-            print(f"mars2d: {trouble}", file=sys.stderr)
+            warn(trouble)
         if study.troubles:
-            print(
-                "mars2d: such runs are rows with their error; the others are made", file=sys.stderr
-            )
+            warn("such runs are rows with their error; the others are made")
         table = run_study(study, out, executor=executor, workers=workers, retry=arguments.retry)
     _report(arguments, table, out)
 
@@ -158,13 +156,13 @@ def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
         points = table.points()
         counts = {n: len({p[k] for p in points}) for k, n in enumerate(table.settings)}
         _check_compared(arguments.compare, counts)
-    print(table.summary(arguments.confidence))
+    tell(table.summary(arguments.confidence))
     if arguments.compare is not None:
-        print("", table.compare(arguments.compare, arguments.confidence), sep="\n")
-    print(f"\ntable:  {path}", flush=True)
+        tell("", table.compare(arguments.compare, arguments.confidence), sep="\n")
+    tell(f"\ntable:  {path}")
     if arguments.figure is not None:
         from mars2d.study.figure import save_study_figure
 
         with naming_lost_letters():
             save_study_figure(table, arguments.figure, confidence=arguments.confidence)
-        print(f"figure: {arguments.figure}")
+        tell(f"figure: {arguments.figure}")

@@ -9,7 +9,8 @@ from pathlib import Path
 from mars2d.cli.arguments import add_preferences, add_workers, preferences_of, workers_of
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import has_display
-from mars2d.core.errors import InputError, counted
+from mars2d.core.errors import InputError, counted, one_line
+from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
@@ -134,7 +135,7 @@ def _roles(arguments: argparse.Namespace) -> dict[str, list[str]]:
 
 def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
     """Play the matches not played yet, and print the league, also after Ctrl-C."""
-    print(_announced(planned, len(played_before(path, planned, limits))), flush=True)
+    tell(_announced(planned, len(played_before(path, planned, limits))))
     with workers_of(arguments) as (executor, workers):
         try:
             result = play_schedule(
@@ -162,8 +163,8 @@ def _announced(planned: Schedule, before: int) -> str:
 def _report(result: Tournament, path: Path) -> None:
     """Print the league, and the path of the page."""
     if result.matches:
-        print(f"\n{league_text(result)}\n")
-        print(f"page: {path / PAGE}", flush=True)
+        tell(f"\n{league_text(result)}\n")
+        tell(f"page: {path / PAGE}")
 
 
 # -- one match -------------------------------------------------------------------------------------
@@ -175,13 +176,13 @@ def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     if not 1 <= arguments.match <= count:
         raise InputError(f"--match {arguments.match}: expected a number from 1 to {count}")
     match = planned.matches[arguments.match - 1]
-    print(_described(match), flush=True)
+    tell(_described(match))
     played, record = replayed(match, limits)
     steps = counted(played.steps, "step")
-    print(f"{played.message}. {steps}, digest {played.digest[:16]}")
-    print(_compared(played, planned, path, limits), flush=True)
+    tell(f"{one_line(played.message)}. {steps}, digest {played.digest[:16]}")
+    tell(_compared(played, planned, path, limits))
     for role, text in played.output.items():
-        print(f"{match.laws[role]} printed:\n{text.rstrip()}")
+        tell(f"{match.laws[role]} printed:\n{text.rstrip()}")
     if arguments.record is not None:
         record.save(arguments.record)
     if arguments.view:

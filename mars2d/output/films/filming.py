@@ -9,9 +9,10 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple, cast
 
 from mars2d.core.errors import InputError
+from mars2d.core.files import growing
 from mars2d.output.films.gif import write_gif
 from mars2d.output.films.mp4 import require_av, rewrapped, write_mp4
 
@@ -62,10 +63,8 @@ class Filming:
         self._start: float | None = None
         self._shots: queue.Queue[_Shot | None] = queue.Queue(MAX_WAITING)
         self._problem: str | None = None
-        try:
-            self._file = path.open("w+b", buffering=0)  # so that nothing is lost
-        except OSError as error:
-            raise InputError(f"{path}: can't be written, {error.strerror or error}") from None
+        without_buffer = growing(path, afresh=True).detach()  # so that nothing is lost
+        self._file = cast("BinaryIO", without_buffer)
         self._thread = threading.Thread(target=self._write, name="filming", daemon=True)
         self._thread.start()
 

@@ -56,6 +56,9 @@ FORMATS = {
 
 SUFFIXES = tuple(FORMATS)
 
+MAX_STEM = 50
+"""How many letters of a name are kept in the new name of a record that is kept elsewhere."""
+
 
 def save(record: Record, path: str | Path) -> Path:
     """Write a record in the format that the path's ending names; see `Record.save`."""
@@ -145,7 +148,7 @@ def rescued(record: Record, path: Path) -> Path | None:
     """
     for folder in _folders():
         with suppress(OSError, InputError):
-            file, name = tempfile.mkstemp(".npz", f"{path.stem}_", folder)
+            file, name = tempfile.mkstemp(".npz", f"{path.stem[:MAX_STEM]}_", folder)
             os.close(file)
             place = Path(name)
             try:

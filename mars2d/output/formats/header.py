@@ -19,7 +19,7 @@ from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE, STATUS
 from mars2d.record.record import COLUMNS, FORMER, Record, digest_of
-from mars2d.scenario import serialize
+from mars2d.scenario import pictures, serialize
 
 __all__ = [
     "FORMAT",
@@ -78,7 +78,7 @@ def of_record(record: Record) -> dict[str, Any]:
     """Return everything in a record but its columns, as dicts, lists, text and numbers."""
     return {
         "format": FORMAT if record.kept == COLUMNS else FORMER_FORMAT,
-        "scenario": serialize.from_description(record.scenario),
+        "scenario": serialize.from_description(pictures.enclosed(record.scenario)),
         "seed": record.seed,
         "over_message": record.over_message,
         "finished": record.finished,
@@ -203,7 +203,8 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
     header states, and various exceptions where this is no record.
     """
     talked = header["messages"]
-    scenario, missing = serialize.to_scenario(header["scenario"])
+    lost: list[str] = []
+    scenario, missing = serialize.to_scenario(pictures.of_record(header["scenario"], lost))
     robots = {name: tuple(indices) for name, indices in header["sensor_robots"].items()}
     record = Record(
         scenario=scenario,
@@ -226,7 +227,7 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
         finished=header["finished"],
         filename=header["filename"],
         versions=dict(header["versions"]),
-        missing=missing,
+        missing=(*missing, *dict.fromkeys(lost)),
         interventions=tuple(interventions.of_plain(each) for each in header["interventions"]),
     )
     _check_kinds(header)

@@ -73,6 +73,7 @@ def read(path: Path, largest: int) -> Record:
     with reading(path), path.open(encoding="utf-8-sig", newline="") as file:
         size = path.stat().st_size
         check_size(path, size, largest)
+        csv.field_size_limit(max(csv.field_size_limit(), size))  # no cell is longer than the file
         text = "".join(_pieces(csv.reader(file, strict=True)))
         header = headers.of_text(path, text, largest)
         check_size(path, 8 * _claimed(header, size), largest)

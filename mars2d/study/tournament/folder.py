@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError
+from mars2d.core.files import growing, writing
 from mars2d.physics.settings import versions
 from mars2d.study.isolation.limits import Limits, Verdict
-from mars2d.study.results import lock
 from mars2d.study.tournament.match import Match, Played
 from mars2d.study.tournament.schedule import Schedule, law_code
 
@@ -64,12 +64,12 @@ class Folder:
     """
 
     def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
-        self._path = path
+        self._path, self._schedule, self._replays = path, schedule, replays
         self._head = _head(schedule)
         self._prints = _prints(schedule, limits)
         _make(path)
-        before = _known(path, schedule, self._prints)
-        self.before = tuple(p for p in before if p.replay or not (replays and p.steps))
+        _known(path, schedule, self._prints)  # raises for a folder that holds anything else
+        self.before: tuple[Played, ...] = ()
 
     def keep(self, played: Played) -> None:
         """Write a match that is done."""
@@ -77,28 +77,31 @@ class Folder:
         self._write({"print": self._prints[played.match.number], **row})
 
     def __enter__(self) -> Folder:
-        log = self._path / PLAYED
-        with _writing(log):
-            self._file = log.open("a+b")
+        self._file = growing(self._path / PLAYED)
         try:
-            lock(self._file, log)
             self._file.seek(0)
             data = self._file.read()
             if not data:
                 self._write(self._head)
             elif not data.endswith(b"\n"):
                 self._file.write(b"\n")  # after a line that was not written to its end
+            self.before = self._found()
         except BaseException:
             self._file.close()
             raise
         return self
+
+    def _found(self) -> tuple[Played, ...]:
+        """Return the matches in the file, now that no other process adds any."""
+        found = _known(self._path, self._schedule, self._prints)
+        return tuple(p for p in found if p.replay or not (self._replays and p.steps))
 
     def __exit__(self, *_: object) -> None:
         with suppress(OSError):  # a full disk, which `keep` has reported already
             self._file.close()
 
     def _write(self, row: Mapping[str, Any]) -> None:
-        with _writing(self._path / PLAYED):
+        with writing(self._path / PLAYED):
             self._file.write(json.dumps(row).encode() + b"\n")
             self._file.flush()
 
@@ -119,7 +122,7 @@ def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[P
                 "Name a new folder by --out, or an empty one"
             )
         return ()
-    with _writing(log):
+    with writing(log):
         lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
     head = _json(lines[0]) if lines else _head(schedule)
     if head != _head(schedule):
@@ -147,16 +150,8 @@ def _make(path: Path) -> None:
         raise InputError(f"{path}: this is a file; expected a folder")
     if not path.absolute().parent.is_dir():
         raise InputError(f"{path}: there is no folder {path.parent}")
-    with _writing(path):
+    with writing(path):
         path.mkdir(exist_ok=True)
-
-
-@contextmanager
-def _writing(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        raise InputError(f"{path}: can't be written: {error.strerror or error}") from error
 
 
 def _named(match: Match) -> Match:

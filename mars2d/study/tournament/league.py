@@ -12,7 +12,7 @@ from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
-from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.errors import InputError, MissingExtraError, one_line
 from mars2d.core.files import atomic_write
 from mars2d.study.statistics import Interval, proportion
 from mars2d.study.table import cell, word_cell
@@ -285,7 +285,7 @@ def _cell(value: Any) -> str:
     """Return a value as a cell of a table; words that look like formulas are quoted."""
     if value is None or value != value:  # noqa: PLR0124 - nan
         return ""
-    return word_cell(" ".join(value.split())) if isinstance(value, str) else cell(value)
+    return word_cell(one_line(" ".join(value.split()))) if isinstance(value, str) else cell(value)
 
 
 def _write(path: Path, text: str) -> Path:

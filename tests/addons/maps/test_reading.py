@@ -172,6 +172,15 @@ def test_without_a_unit_metres_are_supposed_and_said(plan):
     assert rows["unit"] == "m, supposed: the header names no unit"
 
 
+def test_a_drawing_without_a_header_names_no_unit(plan):
+    line = (
+        "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n12\n21\n0\n0\nENDSEC\n0\nEOF\n"
+    )
+    plan.write_text(line)
+    rows = dict(described(read(plan), obstacles(read(plan)), 0.02))
+    assert rows["unit"] == "m, supposed: the header names no unit"
+
+
 def test_a_size_that_is_implausible_has_a_hint_which_unit_would_fit(plan):
     document, space = dxf(plan, units=4)
     space.add_line((0, 0), (900, 500))

@@ -235,6 +235,11 @@ def test_a_header_that_lies_about_a_column_is_refused(suffix, column, tmp_path):
     refused(path, "not a record of MARS2D, or damaged|digest")
 
 
+def test_a_record_of_a_robot_with_a_long_name_comes_back(tmp_path):
+    record = mars2d.run(mars2d.Scenario(robots=[mars2d.Robot(name="r" * 140_000)], stop_time=0.2))
+    assert mars2d.load(record.save(tmp_path / "run.csv")).digest == record.digest
+
+
 def _header(path: Path) -> dict:
     if path.suffix == ".npz":
         with np.load(path) as data:

@@ -13,6 +13,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from mars2d.core.errors import InputError
+from mars2d.core.files import REPLACED_OPEN, growing
 from mars2d.core.interrupt import noted_interrupts, unbroken
 from mars2d.core.scene import Scene
 from mars2d.output.formats import header as headers
@@ -99,8 +100,6 @@ class Log:
         require(self.path)
         from mcap.writer import IndexType, Writer
 
-        if self.path.is_dir():
-            raise InputError(f"{self.path}: can't be written: this is a folder")
         if not self.path.parent.is_dir():
             raise InputError(f"{self.path}: there is no folder {self.path.parent}")
         self.storage = Scratch(self.path.parent)
@@ -199,10 +198,16 @@ class Log:
                 self._writer.finish()
                 self._do(self._file.take)
                 self._do(self._file.check)
-            finally:
+            except BaseException:
                 self._shut()
-        if self._world is not None:
-            self._do(lambda: pack(self.path, self._header, self._begun))
+                raise
+        try:
+            if self._world is not None:
+                if not REPLACED_OPEN:
+                    self._shut()
+                self._do(lambda: pack(self.path, self._header, self._begun))
+        finally:
+            self._shut()
 
     def _do(self, act: Callable[[], None]) -> None:
         """Do something with the file. If it fails, close the log and give the error the record."""
@@ -239,16 +244,14 @@ class _File:
     """A file that collects what is written to it, and hands it to the system when told to.
 
     What the system has is kept when the process is killed. Raises DiskError where the file can't be
-    written, or where somebody has moved or deleted it; what was there before is kept.
+    written, or where somebody has moved or deleted it; what was there before is kept. It is locked:
+    nothing else logs to it meanwhile.
     """
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        flags = os.O_RDWR | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
-        try:
-            self._file = os.open(path, flags, 0o666)
-        except OSError as error:
-            raise self._error(error) from error
+        self._held = growing(path, afresh=True)
+        self._file = self._held.fileno()
         self._pending = bytearray()
         self._taken = 0
         self._broken = False
@@ -294,7 +297,7 @@ class _File:
 
     def close(self) -> None:
         """Close the file as it is, without what was not handed over."""
-        os.close(self._file)
+        self._held.close()
 
     def _drop(self) -> None:
         """Forget what could not be written whole."""

@@ -1,0 +1,62 @@
+"""What is printed for people: no text and no terminal can break it."""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import TextIO
+
+from mars2d.core.errors import InputError, escaped, one_line
+
+__all__ = ["legible", "tell", "warn"]
+
+
+def tell(*values: object, sep: str = " ", end: str = "\n") -> None:
+    """Print values on stdout, as `print` does, without codes of a terminal that may be in them.
+
+    Raises InputError where stdout can't be written, BrokenPipeError where its reader has ended.
+    """
+    try:
+        _write(sys.stdout, sep.join(map(str, values)) + end)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise InputError(f"stdout can't be written: {error.strerror or error}") from error
+
+
+def warn(text: object) -> None:
+    """Print one line on stderr, if it can be written."""
+    with suppress(OSError, ValueError):
+        _write(sys.stderr, f"mars2d: {one_line(text)}\n")
+
+
+def _write(stream: TextIO | None, text: str) -> None:
+    if stream is not None:  # it is None where it was closed before the start
+        lines = (escaped(line) for line in text.split("\n"))
+        encoding = stream.encoding or "utf-8"
+        stream.write("\n".join(lines).encode(encoding, "backslashreplace").decode(encoding))
+        stream.flush()
+
+
+@contextmanager
+def legible() -> Iterator[None]:
+    r"""Let stdout and stderr escape, within the block, what a terminal has no letters for.
+
+    So a law's own `print` does not fail on a terminal for ASCII: it prints ``\u4e2d``.
+    """
+    streams = [s for s in (sys.stdout, sys.stderr) if isinstance(s, io.TextIOWrapper)]
+    before = [stream.errors or "strict" for stream in streams]
+    try:
+        for stream in streams:
+            _reconfigure(stream, "backslashreplace")
+        yield
+    finally:
+        for stream, errors in zip(streams, before, strict=True):
+            _reconfigure(stream, errors)
+
+
+def _reconfigure(stream: io.TextIOWrapper, errors: str) -> None:
+    with suppress(OSError, ValueError):  # it is closed, or can't be flushed
+        stream.reconfigure(errors=errors)

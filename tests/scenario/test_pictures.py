@@ -1,0 +1,113 @@
+"""Pictures in records: they are inside, and no other file is opened."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import mars2d
+from mars2d import InputError, Scenario
+from mars2d.addons import Density, Floor
+from mars2d.output.formats import SUFFIXES
+from mars2d.output.formats.header import as_text
+
+BOUNDS = (0, 3, 0, 2)
+
+
+@pytest.fixture
+def scenario(tmp_path, monkeypatch) -> Scenario:
+    """A floor and a density, each with a picture in the current folder."""
+    monkeypatch.chdir(tmp_path)
+    values = np.random.default_rng(0).integers(0, 256, (4, 6, 4), dtype=np.uint8)
+    Image.fromarray(values).save("a b;c.png")
+    floor = Floor(image="a b;c.png", bounds=BOUNDS, color="#0000ff")
+    return Scenario(addons=[floor, Density(image="a b;c.png", bounds=BOUNDS)], stop_time=0.2)
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_a_record_holds_its_pictures(scenario, suffix) -> None:
+    for library in {".nc": ("xarray",), ".mcap": ("mcap",)}.get(suffix, ()):
+        pytest.importorskip(library)
+    record = mars2d.run(scenario, record=f"run{suffix}")
+    pixels = [addon.picture.pixels for addon in scenario.addons]
+    Path("a b;c.png").unlink()
+    loaded = mars2d.load(f"run{suffix}")
+    assert loaded.digest == record.digest
+    assert loaded.missing == ()
+    for addon, before in zip(loaded.scenario.addons, pixels, strict=True):
+        assert np.array_equal(addon.picture.pixels, before)
+    again = mars2d.load(loaded.save(f"again{suffix}"))
+    assert again.scenario == loaded.scenario
+
+
+def test_a_scenario_of_a_record_is_saved_with_its_pictures(scenario) -> None:
+    mars2d.run(scenario, record="run.npz")
+    Path("a b;c.png").unlink()
+    mars2d.load("run.npz").scenario.save("run.toml")
+    again = mars2d.run("run.toml")
+    assert again.scenario.addons[0].pixels.shape == (4, 6, 3)
+
+
+def foreign(record: mars2d.Record, image: str) -> Path:
+    """Save a record whose pictures are said to be in another file."""
+    with np.load(record.save("run.npz")) as kept:
+        columns = dict(kept)
+    header = json.loads(columns["header"].tobytes())
+    for addon in header["scenario"]["addons"]:
+        addon["image"] = image
+    columns["header"] = np.frombuffer(as_text(header).encode(), dtype=np.uint8)
+    np.savez("foreign.npz", **columns)
+    return Path("foreign.npz")
+
+
+OPENED = """
+import sys, mars2d
+from mars2d.core.scene import Scene
+opened = []
+sys.addaudithook(lambda event, words: opened.append(str(words[0])) if event == "open" else None)
+loaded = mars2d.load("foreign.npz")
+loaded.save_html("run.html")
+scene = Scene()
+for addon in loaded.scenario.addons:
+    addon.paint(scene, ((0, 0), (1, 0), (1, 1)))
+print([shape.text for shape in scene.shapes if hasattr(shape, "text")])
+print([name for name in opened if "secret" in name], loaded.missing)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
+@pytest.mark.parametrize("kind", ["picture", "pipe"])
+def test_a_foreign_record_opens_no_picture(scenario, child, kind) -> None:
+    record = mars2d.run(scenario)
+    if kind == "pipe":
+        os.mkfifo("secret.png")
+    else:
+        Path("a b;c.png").rename("secret.png")
+    foreign(record, str(Path("secret.png").absolute()))
+    done = child(OPENED)
+    missing = ("picture secret.png of Floor", "picture secret.png of Density")
+    assert done.stdout == f"{['secret.png is not there'] * 2}\n[] {missing}\n", done.stderr
+
+
+def test_what_is_no_picture_is_named_when_it_is_needed(scenario) -> None:
+    record = mars2d.run(scenario)
+    for data in ("%%", "aaaa"):
+        loaded = mars2d.load(foreign(record, f"data:image/png;name=p.png;base64,{data}"))
+        with pytest.raises(InputError, match=r"^Floor\.image = 'p\.png': this is no PNG image"):
+            mars2d.run(loaded.scenario)
+    loaded = mars2d.load(foreign(record, "p.png"))
+    with pytest.raises(InputError, match=r"'p\.png': the record does not hold this picture"):
+        mars2d.run(loaded.scenario)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
+def test_a_pipe_is_no_picture(tmp_path) -> None:
+    os.mkfifo(tmp_path / "p.png")
+    with pytest.raises(InputError, match=r"p\.png': not a file; expected a PNG image"):
+        mars2d.run(Scenario(addons=[Floor(image=tmp_path / "p.png", bounds=BOUNDS)]))

@@ -1,0 +1,146 @@
+"""What Python lets a law do behind the simulator's back: refused by one error, or it works."""
+
+from __future__ import annotations
+
+import copy
+import itertools
+import pickle
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import InputError, LawError, Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.bodies import Ball
+from mars2d.sensors import RangeFinder, Sensor
+from mars2d.study.plan import seeds_of, settings_of
+
+ROBOTS = [
+    Robot(pose=(x, 0, 0), sensors=[RangeFinder(beams=3, name="r0")]) for x in (-0.31, 0, 0.31)
+]
+SCENARIO = Scenario(robots=ROBOTS, props=[Ball(pose=(0.5, 0.2))], stop_time=0.5)
+
+
+def go(world):
+    return np.full((2, len(world.robots)), 0.3)
+
+
+# -- arrays that are written all the same ----------------------------------------------------------
+
+ARRAYS = [
+    "pose", "velocity", "position", "prop_pose", "prop_velocity", "command", "effort", "contacts",
+    "history.pose", "history.time", "history.command", "record.pose", "record.contacts",
+    "record.messages", "props[0].pose", "record.sensors.get('r0')", "robots[0].sense.r0",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ARRAYS)
+def test_an_array_of_the_world_stays_as_it_is(name) -> None:
+    refused = []
+
+    def control(world):
+        array = eval(f"world.{name}", {"world": world})
+        while isinstance(array, np.ndarray) and array.size:
+            with pytest.raises(ValueError, match="WRITEABLE"):
+                array.flags.writeable = True
+            with pytest.raises(ValueError, match="read-only"):
+                array[...] = 0
+            refused.append(name)
+            array = array.base
+        return go(world)
+
+    record = mars2d.run(SCENARIO, control=control)
+    assert refused or name == "record.messages"
+    assert record.digest == mars2d.run(SCENARIO, control=go).digest
+
+
+def test_an_array_of_a_record_stays_as_it_is(tmp_path) -> None:
+    record = mars2d.run(SCENARIO, control=go)
+    for each in (record, mars2d.load(record.save(tmp_path / "run.npz"))):
+        for array in (each.pose, each.contacts, each.sensors["r0"]):
+            with pytest.raises(ValueError, match="WRITEABLE"):
+                array.flags.writeable = True
+
+
+# -- copies ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("act", [copy.copy, copy.deepcopy, pickle.dumps])
+@pytest.mark.parametrize("of", [lambda w: w, lambda w: w.simulation, lambda w: w.robots[0].world])
+def test_a_world_is_not_copied(act, of) -> None:
+    world = World(SCENARIO, go)
+    world.step()
+    with pytest.raises(InputError, match=r"a world can't be copied.*World\(world\.scenario, cont"):
+        act(of(world))
+    assert len(world.record) == 1
+
+
+EXPERIMENT = """
+from mars2d import Robot, Scenario
+
+def control(robot):
+    return 0.1, 0.2
+
+scenario = Scenario(robots=[Robot(pose=(0, 0, 0), controller=control)], stop_time=1)
+"""
+
+
+def test_a_record_of_a_file_can_be_pickled(tmp_path) -> None:
+    (tmp_path / "walk.py").write_text(EXPERIMENT)
+    record = mars2d.run(tmp_path / "walk.py")
+    again = pickle.loads(pickle.dumps(record))
+    assert again.digest == record.digest
+    assert again.filename == record.filename
+    assert again.drawn.shapes == record.drawn.shapes
+    assert again.scenario == mars2d.load(record.save(tmp_path / "run.npz")).scenario
+    assert copy.copy(record) is copy.deepcopy(record) is record
+
+
+# -- lists without an end, and numbers that are masked --------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: Scenario(robots=itertools.repeat(Robot())), "Scenario.robots"),
+        (lambda: Robot(pose=itertools.count()), "Robot.pose"),
+        (lambda: Map(itertools.repeat([(0, 0), (1, 0)])), "Map.outlines"),
+        (lambda: Map([itertools.cycle([(0, 0), (1, 0)])]), r"Map.outlines\[0\]"),
+        (lambda: Map(walls=[zip(itertools.count(), itertools.count())]), r"Map.walls\[0\]"),
+        (lambda: seeds_of(itertools.count()), "seeds"),
+        (lambda: settings_of({"mass": range(10**15)}), r"settings\['mass'\]"),
+        (lambda: mars2d.sweep(SCENARIO, measures=itertools.repeat("end time")), "measures"),
+    ],
+)
+def test_a_list_without_an_end_is_refused(make, name) -> None:
+    with pytest.raises(InputError, match=rf"^{name} = .*at most 1,000,000: it has more, or no end"):
+        make()
+
+
+MASKED = np.ma.array([[0.1, 0.2, 0.3], [0.0, 0.0, 0.0]], mask=[[0, 1, 0], [0, 0, 0]])
+
+
+def test_masked_commands_are_refused() -> None:
+    with pytest.raises(LawError, match="returned an array with masked numbers: fill them"):
+        mars2d.run(SCENARIO, control=lambda world: MASKED)
+    with pytest.raises(InputError, match="masked numbers"):
+        World(SCENARIO).step(MASKED)
+    law = Robot(controller=lambda robot: MASKED[:, 1])
+    with pytest.raises(LawError, match="masked numbers"):
+        mars2d.run(Scenario(robots=[law]))
+    filled = mars2d.run(SCENARIO, control=lambda world: np.ma.array(MASKED.data))
+    assert np.allclose(filled.command[0], MASKED.data)
+
+
+def test_masked_fields_and_readings_are_refused() -> None:
+    class Gaps(Sensor):
+        """Reads a masked number."""
+
+        def read(self, robot, world, rng):
+            return MASKED[0]
+
+    with pytest.raises(InputError, match=r"Robot\.pose = .*none of them masked"):
+        Robot(pose=np.ma.array([0.0, 1.0, 2.0], mask=[0, 1, 0]))
+    with pytest.raises(InputError, match="masked numbers: fill them, as by reading"):
+        mars2d.run(Scenario(robots=[Robot(sensors=[Gaps()])]))
