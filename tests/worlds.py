@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -63,3 +64,8 @@ def failing(name: str | Path, record: Record, **options: Any) -> set[str]:
     """Return the names of an experiment's predictions that do not hold for a record."""
     found = open_experiment(name, options).predictions(record)
     return {each.name for each in found if not each.ok}
+
+
+def untimed(error: BaseException) -> str:
+    """Return the message of an error without the robot and the time at its end."""
+    return re.sub(r" \(([^()]*, )?at [-+.e\d]+ s\)$", "", str(error))

@@ -50,7 +50,18 @@ class InputError(Mars2dError, ValueError):
 
 
 class LawError(InputError):
-    """The user's control law, sensor or add-on raised an error or returned something unusable."""
+    """The user's control law, sensor or add-on raised an error or returned something unusable.
+
+    robot: whose law or sensor it is, or "". time: of the world then, seconds; None before the run.
+    """
+
+    robot: str = ""
+    time: float | None = None
+
+    def __str__(self) -> str:
+        when = "" if self.time is None else f"at {self.time:g} s"
+        told = ", ".join(filter(None, (self.robot, when)))
+        return f"{super().__str__()} ({told})" if told else super().__str__()
 
 
 class UnknownNameError(LawError, AttributeError):

@@ -18,6 +18,7 @@ from contextlib import contextmanager
 from itertools import pairwise
 from math import inf
 from types import FrameType, TracebackType
+from typing import Any
 
 __all__ = [
     "INTERRUPTED",
@@ -72,8 +73,11 @@ def _is_command_line() -> bool:
     return name.partition(".")[0] == "mars2d" and first in told
 
 
+OURS = _is_command_line()
+"""Whether the process is the command line, so that its signals are ours."""
+
 if (
-    _is_command_line()
+    OURS
     and threading.current_thread() is threading.main_thread()
     and signal.getsignal(signal.SIGINT) is signal.default_int_handler
 ):
@@ -82,6 +86,8 @@ if (
 
 class _Handling:
     """A block with its own reaction to Ctrl-C; of nested blocks, the innermost one counts.
+
+    In the command line SIGTERM does what Ctrl-C does.
 
     It has no effect outside the main thread, or if other code handles the signal. It is not a
     generator, since a generator interrupted at the end of its block would restore the previous
@@ -96,6 +102,7 @@ class _Handling:
         if threading.current_thread() is not threading.main_thread():
             self._before = None
         self._outermost = not isinstance(self._before, _Handling)
+        self._term_before: Any = None
 
     def __call__(self, number: int, frame: FrameType | None) -> None:  # noqa: ARG002
         """React to Ctrl-C: this object is the signal's handler."""
@@ -105,6 +112,10 @@ class _Handling:
         raise NotImplementedError
 
     def _begin(self) -> None:
+        if OURS and threading.current_thread() is threading.main_thread():
+            self._term_before = signal.getsignal(signal.SIGTERM)
+            if self._term_before is signal.SIG_DFL or isinstance(self._term_before, _Handling):
+                signal.signal(signal.SIGTERM, self)
         if self._before is None:
             return
         if self._outermost:
@@ -113,6 +124,9 @@ class _Handling:
         signal.signal(signal.SIGINT, self)
 
     def _end(self) -> None:
+        still = signal.getsignal(signal.SIGTERM) is self
+        if still:
+            signal.signal(signal.SIGTERM, self._term_before)
         if self._before is not None:
             signal.signal(signal.SIGINT, self._before)
 

@@ -16,10 +16,16 @@ from typing import Any
 
 from mars2d.core.errors import InputError, LawError, described
 
-__all__ = ["Excerpt", "called", "definition", "excerpt_of", "name_of", "users_line"]
+__all__ = ["Excerpt", "Hangs", "called", "definition", "excerpt_of", "name_of", "users_line"]
 
 _PACKAGE = Path(__file__).parents[1]
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
+
+
+class Hangs(BaseException):
+    """The user's code was broken off; a BaseException, so that few `except` in it catch it."""
+
+    why = "was broken off"
 
 
 class called:  # noqa: N801 - used like a function, as contextlib's are
@@ -32,9 +38,9 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
     until there is one; a ``with`` is two calls.
     """
 
-    def __init__(self, name: str, function: Callable[..., Any]) -> None:
-        """Take the name for messages and the function that is called."""
-        self._name, self._function = name, function
+    def __init__(self, name: str, function: Callable[..., Any], robot: str = "") -> None:
+        """Take the name for messages, the function that is called, and the robot whose it is."""
+        self._name, self._function, self._robot = name, function, robot
 
     def __enter__(self) -> None:
         pass
@@ -50,18 +56,19 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
 
     def blame(self, error: BaseException) -> None:
         """Raise the LawError for an exception that was caught, unless it is to be passed on."""
-        if not isinstance(error, (Exception, SystemExit)):
+        if not isinstance(error, (Exception, SystemExit, Hangs)):
             return  # Ctrl-C
         stack = traceback.extract_tb(error.__traceback__)
         where = users_line(stack) or definition(self._function)
         if isinstance(error, LawError):
-            error.where = error.where or where
+            error.where, error.robot = error.where or where, error.robot or self._robot
             return
         at_start = getattr(self._function, "__name__", "") == "on_start"
         if isinstance(error, InputError) and where is None and at_start:
             return
-        wrapped = LawError(f"{self._name} raised {described(error)}")
-        wrapped.where = where
+        what = error.why if isinstance(error, Hangs) else f"raised {described(error)}"
+        wrapped = LawError(f"{self._name} {what}")
+        wrapped.where, wrapped.robot = where, self._robot
         raise wrapped from error
 
 

@@ -88,13 +88,14 @@ class Device:
         self.when_asked = not sensor.recorded and self.period == 1 and self.age == 0
         self.follows = type(sensor).on_step is not Sensor.on_step
         self._shows_more = type(sensor).shown is not Sensor.shown
-        self.reading_it = called(f"sensor {self.key!r}", self.sensor.read)
-        with called(f"sensor {self.key!r}", self.sensor.on_start):
+        self._robot_name = str(robot.name)
+        self.reading_it = called(f"sensor {self.key!r}", self.sensor.read, self._robot_name)
+        with called(f"sensor {self.key!r}", self.sensor.on_start, self._robot_name):
             self.sensor.on_start(robot, world, self.rng)
 
     def follow(self) -> None:
         """Call the sensor's `on_step`."""
-        with called(f"sensor {self.key!r}", self.sensor.on_step):
+        with called(f"sensor {self.key!r}", self.sensor.on_step, self._robot_name):
             self.sensor.on_step(self.view, self.world, self.rng)
 
     def step(self, iteration: int) -> None:
@@ -147,7 +148,7 @@ class Device:
         """Keep a reading as the latest one, and show it."""
         self.reading = self._shown = reading
         if self._shows_more:
-            with called(f"sensor {self.key!r}", self.sensor.shown):
+            with called(f"sensor {self.key!r}", self.sensor.shown, self._robot_name):
                 self._shown = self.sensor.shown(reading)
         self.readings[self.key] = self._shown
 

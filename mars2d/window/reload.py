@@ -71,6 +71,10 @@ class Reload:
         self._contents = contents
         return self._read(", ".join(others)) if others else None
 
+    def waits(self) -> bool:
+        """Return whether a file was saved that has not been read yet."""
+        return any(_stamp(path) != stamp for path, stamp in self._stamps.items())
+
     def _adopt(self) -> None:
         """Watch the files of the timeline's experiment."""
         self._experiment = self._timeline.experiment

@@ -12,6 +12,7 @@ import pygame
 
 from mars2d.core.errors import Mars2dError
 from mars2d.core.plane import Point
+from mars2d.core.watchdog import Watchdog
 from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.camera import Camera
@@ -99,6 +100,7 @@ class Window:
         self._ending = Ending(self.player)
         self._cast = _cast(source)
         self._open = False
+        self._passing, self._awaited = False, ""  # whether laws may be asked; the line waited for
         self._keyboard = keys.Keyboard()
         self._painter = Painter(theme=theme_of(dark=preferences.dark))
         self._stage = Stage(self._painter, MEMORY)
@@ -155,7 +157,11 @@ class Window:
         with started_display():
             try:
                 self.scale = desktop_scale()
-                self._loop(self._show())
+                screen = self._show()
+                self.draw(screen)  # before the first law is asked: it may take long
+                show_drawn()
+                with Watchdog(self._calls, self._answer):
+                    self._loop(screen)
             finally:
                 self.saver.close()
         if self.player.error is not None:
@@ -167,6 +173,33 @@ class Window:
         self._open = True
         return screen
 
+    def _calls(self) -> object:
+        """Return what changes with each call of the user's code."""
+        timeline = self.director.timeline
+        return None if timeline is None else timeline.world.simulation.calls
+
+    def _answer(self, where: str) -> str:
+        """Answer the user while a law takes long at a line; return why to break it off, or ""."""
+        if self._passing and where != self._awaited:
+            self._awaited = where
+            self.notes.say(f"waiting for {where}; Esc leaves", kind="warning")
+            surface = pygame.display.get_surface()
+            if surface is not None:
+                self.draw(surface)
+                show_drawn()
+        pygame.event.pump()
+        closed = pygame.event.peek(pygame.QUIT)
+        pressed = pygame.event.get(pygame.KEYDOWN)
+        for event in pressed:
+            if event.key != pygame.K_ESCAPE:
+                pygame.event.post(event)
+        if closed or any(event.key == pygame.K_ESCAPE for event in pressed):
+            self._open = False
+            return "did not return before the window was closed"
+        if self._reload is not None and self._reload.waits():
+            return "did not return before its file was saved"
+        return ""
+
     def _loop(self, screen: pygame.Surface) -> None:
         clock = pygame.time.Clock()
         last = time.perf_counter()
@@ -174,7 +207,9 @@ class Window:
             for event in pygame.event.get():
                 self._handle(event)
             now = time.perf_counter()
+            self._passing, self._awaited = True, ""
             self._pass_time(now - last)
+            self._passing = False
             last = now
             start = time.perf_counter()
             screen = pygame.display.get_surface() or screen

@@ -42,10 +42,13 @@ class Law:
         self._still = still
         self._running: Iterator[Any] | None = None
         self.name = name_of(function)
-        self._calling = called(self.name, function)
+        self.calls = 0
+        self._robot = str(getattr(subject, "name", ""))
+        self._calling = called(self.name, function, self._robot)
 
     def command(self) -> Any:
         """Return the law's command now, unchecked. Raises LawError where the law raises."""
+        self.calls += 1
         try:
             if self._running is None:
                 result = self.function(self._subject)
@@ -60,7 +63,7 @@ class Law:
     def refuse(self, message: str) -> NoReturn:
         """Raise the error that the law's command can't be used; it points at the law."""
         error = LawError(f"{self.name} {message}")
-        error.where = definition(self.function)
+        error.where, error.robot = definition(self.function), self._robot
         raise error
 
 
@@ -132,6 +135,12 @@ class Laws:
     def function(self) -> Callable[[Any], Any] | None:
         """The team's law as the user gave it, or None."""
         return None if self._central is None else self._central.function
+
+    @property
+    def calls(self) -> int:
+        """How often laws were asked."""
+        central = 0 if self._central is None else self._central.calls
+        return central + sum(law.calls for _, law in self._own)
 
     def renew(
         self,

@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, LawError
 from mars2d.core.interrupt import noted_interrupts
+from mars2d.core.usercode import Hangs
+from mars2d.core.watchdog import Watchdog
 from mars2d.record.columns import Column, DiskError, Storage
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
@@ -65,8 +67,9 @@ def simulate(
     if speed != "max":
         every.append(_RealTime(float(speed)))
     world: World | None = None
+    watchdog = Watchdog(lambda: None if world is None else world.simulation.calls)
     try:
-        with noted_interrupts() as check, log or nullcontext():
+        with noted_interrupts() as check, log or nullcontext(), watchdog:
             world = open_world(experiment, seed, every, Column if log is None else log.storage)
             try:
                 while not world.over:
@@ -81,6 +84,10 @@ def simulate(
                 world.break_off(f"Error: {error}")
                 error.record = world.record
                 raise
+            except Hangs as error:  # between two calls of the user's code
+                late = LawError(f"the user's code {error.why}")
+                late.time, late.record = world.time, world.record
+                raise late from None
     except KeyboardInterrupt:
         if world is None:
             raise

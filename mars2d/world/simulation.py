@@ -125,6 +125,11 @@ class Simulation(State):
         return self._channel
 
     @property
+    def calls(self) -> tuple[int, int]:
+        """What changes with each control step, and with each law that is asked."""
+        return self.iteration, self._laws.calls
+
+    @property
     def control(self) -> Control | None:
         """The law of the team."""
         return self._laws.function
@@ -206,6 +211,7 @@ class Simulation(State):
         except (LawError, DiskError) as error:
             if isinstance(error, LawError):
                 error.where = error.where or self.filename or None
+                error.time = self.time if error.time is None else error.time
             self.break_off(f"Error: {error}")
             error.record = self.record
             raise

@@ -457,5 +457,5 @@ def test_a_run_that_ends_with_half_a_character_is_kept(tmp_path):
     with pytest.raises(InputError, match="law raised OSError") as raised:
         mars2d.run(Scenario(stop_time=1), control=law)
     record = raised.value.record
-    assert record.over_message.endswith("law raised OSError: caf?.txt")
+    assert record.over_message.endswith("law raised OSError: caf?.txt (at 0.3 s)")
     assert len(mars2d.load(record.save(tmp_path / "run.npz"))) == 3

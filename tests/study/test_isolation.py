@@ -26,6 +26,7 @@ from mars2d.study.isolation import Guard, Limits, Verdict, fork_server
 from mars2d.world.loop import simulate
 from mars2d.world.world import World
 from tests.processes import PATIENCE, wait_until
+from tests.worlds import untimed
 
 needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
@@ -249,7 +250,7 @@ def test_what_an_isolated_law_may_not_see_is_refused_in_words(
     assert verdict.kind == "error"
     assert verdict.text.startswith("law.py, line 2: ")
     assert words in verdict.text
-    assert str(error) == f"red: {verdict.text}"
+    assert untimed(error) == f"red: {verdict.text}"
 
 
 def test_its_process_does_not_hold_what_a_law_may_not_see(tmp_path) -> None:
@@ -608,7 +609,7 @@ def test_a_law_that_fails_later_has_its_time_and_the_rows_until_then(tmp_path) -
     record, guard, error = played(pair(), laws)
     text = "law.py, line 2: control raised ZeroDivisionError: float division by zero"
     assert guard.verdicts == {"bad": Verdict("error", text, pytest.approx(1.0))}
-    assert str(error) == f"bad: {text}"
+    assert untimed(error) == f"bad: {text}"
     assert len(record) == 10
 
 

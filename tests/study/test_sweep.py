@@ -389,7 +389,10 @@ def test_a_row_of_a_law_that_fails_shows_its_error(here, capsys):
     assert main(["sweep", "--row", "2"]) == 2
     out, errors = capsys.readouterr()
     assert "then: drift.py, line 10: law raised ZeroDivisionError" in out
-    assert errors == "mars2d: drift.py, line 10: law raised ZeroDivisionError: division by zero\n"
+    assert errors == (
+        "mars2d: drift.py, line 10: law raised ZeroDivisionError: division by zero "
+        "(robot0, at 0 s)\n"
+    )
 
 
 def test_the_newest_study_of_the_folder_is_meant_where_none_is_named(here, capsys):

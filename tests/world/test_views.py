@@ -14,6 +14,7 @@ from mars2d.cli.command_line import BAD_INPUT, main
 from mars2d.core.errors import UnknownNameError
 from mars2d.world.team_view import RobotPositionView, TeamPositionsView
 from mars2d.world.views import VIEWS, Neighbour, PropView, RobotView
+from tests.worlds import untimed
 
 OF_ITSELF = {
     "command", "drive", "effort", "inbox", "index", "memory", "name", "radius", "rng",
@@ -153,14 +154,14 @@ def test_a_law_is_refused_what_its_setting_forbids(sees, name):
     message = f"{REFUSALS[sees]}: robot.{name} is not available"
     assert re.fullmatch(
         f"test_views.py, line {line}: {message}(; there is robot\\.(neighbours|position))?",
-        str(raised.value),
+        untimed(raised.value),
     )
 
 
 def test_the_message_names_the_setting_and_what_is_not_available():
     with pytest.raises(LawError) as raised:
         asked(lambda robot: robot.pose, "sensors")
-    message = str(raised.value).partition(": ")[2]
+    message = untimed(raised.value).partition(": ")[2]
     assert message == "this law sees sensors only: robot.pose is not available"
 
 
@@ -174,7 +175,7 @@ def test_a_teams_law_that_sees_positions_is_refused(name):
     with pytest.raises(LawError) as raised:
         asked_world(lambda world: getattr(world, name))
     line = inspect.currentframe().f_lineno - 1
-    assert str(raised.value) == (
+    assert untimed(raised.value) == (
         f"test_views.py, line {line}: this law sees positions only: world.{name} is not available; "
         "there is world.position"
     )
@@ -200,7 +201,7 @@ def test_a_name_that_is_nowhere_is_unknown_and_not_forbidden():
 def test_what_a_law_may_not_see_is_not_listed_as_what_there_is(sees, question, unseen):
     with pytest.raises(UnknownNameError, match="known: ") as raised:
         asked(question, sees)
-    known = str(raised.value).partition("known: ")[2].split(", ")
+    known = untimed(raised.value).partition("known: ")[2].split(", ")
     assert "index" in known
     assert unseen not in known
 
@@ -224,7 +225,7 @@ def test_with_partial_information_neighbours_have_poses(sees):
 def test_where_only_positions_are_seen_neighbours_have_no_poses(sees):
     with pytest.raises(LawError) as raised:
         asked(lambda robot: robot.neighbours[0].pose, sees)
-    assert str(raised.value).partition(": ")[2] == (
+    assert untimed(raised.value).partition(": ")[2] == (
         "this law sees positions only: a neighbour's pose is not available; "
         "there is neighbour.position"
     )
@@ -376,7 +377,7 @@ def test_a_neighbour_that_has_gone_is_seen_no_more():
     with pytest.raises(LawError) as raised:
         mars2d.run(scenario)
     line = law.__code__.co_firstlineno + 3
-    assert str(raised.value) == (
+    assert untimed(raised.value) == (
         f"test_views.py, line {line}: robot1 is no neighbour any more: ask robot.neighbours again"
     )
     assert raised.value.record.pose[-1, 0, 1] == pytest.approx(1.5)  # seen there, at 1.75 m not
@@ -424,7 +425,7 @@ class Caller:
 def test_each_kind_of_law_is_held_to_its_setting(law, line):
     with pytest.raises(LawError) as raised:
         mars2d.run(Scenario(robots=[Robot(controller=law, sees="sensors")]))
-    assert str(raised.value) == (
+    assert untimed(raised.value) == (
         f"test_views.py, line {line}: this law sees sensors only: robot.pose is not available"
     )
 
@@ -455,7 +456,7 @@ class TeamCaller:
 def test_each_kind_of_a_teams_law_is_held_to_its_setting(law, line):
     with pytest.raises(LawError) as raised:
         mars2d.run(Scenario(robots=2, sees="positions"), control=law)
-    assert str(raised.value) == (
+    assert untimed(raised.value) == (
         f"test_views.py, line {line}: this law sees positions only: world.pose is not available; "
         "there is world.position"
     )
