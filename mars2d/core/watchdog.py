@@ -71,7 +71,8 @@ class Watchdog:
         self._thread = threading.get_ident()
         self._spent = _clock_of(self._thread)
         self._ask = _Pending(self._asked)  # kept: the interpreter calls it later
-        self._waits, self._why = False, ""
+        self._waits = False
+        self._due: type[BaseException] | None = None  # the exception that the next look raises
         self._block: FrameType | None = None
 
     def __enter__(self) -> Watchdog:
@@ -95,7 +96,7 @@ class Watchdog:
         last, since, looks = self._calls(), self._spent(), 0
         while not self._ended.wait(LOOK):
             now = self._calls()
-            why, self._why = self._why, ""
+            due, self._due = self._due, None
             if now != last:
                 last, since, looks = now, self._spent(), 0
                 continue
@@ -104,10 +105,10 @@ class Watchdog:
                 continue
             looks += 1
             spent = self._spent() - since
-            if why:
-                self._break_off(why)
+            if due is not None:
+                self._raise(due)
             elif spent > self._patience or looks * LOOK > ASLEEP * self._patience:
-                self._break_off(f"did not return within {self._patience:g} s")
+                self._raise(_hangs(f"did not return within {self._patience:g} s"))
                 looks, since = 0, self._spent()
             elif self._meanwhile is not None and looks >= SOON and not self._waits:
                 self._waits = True
@@ -121,17 +122,18 @@ class Watchdog:
         try:
             line = self._users_line()
             if self._meanwhile is not None and line:
-                self._why = self._meanwhile(line)
+                why = self._meanwhile(line)
+                self._due = _hangs(why) if why else None
+        except BaseException as error:
+            self._due = type(error)
         finally:
             self._waits = False
         return 0
 
-    def _break_off(self, why: str) -> None:
-        """Raise Hangs in the block's thread."""
-        error = type("Hangs", (Hangs,), {"why": why})
-        ctypes.pythonapi.PyThreadState_SetAsyncExc(
-            ctypes.c_ulong(self._thread), ctypes.py_object(error)
-        )
+    def _raise(self, error: type[BaseException]) -> None:
+        """Raise an exception in the block's thread."""
+        thread, raised = ctypes.c_ulong(self._thread), ctypes.py_object(error)
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, raised)
 
     def _users_line(self) -> str:
         """Return the line of the user's code that the block calls; "" if a debugger looks at it."""
@@ -144,6 +146,10 @@ class Watchdog:
             steps.append(traceback.FrameSummary(code.co_filename, step.f_lineno, code.co_name))
             step = step.f_back
         return users_line(traceback.StackSummary.from_list(steps[::-1])) or ""
+
+
+def _hangs(why: str) -> type[Hangs]:
+    return type("Hangs", (Hangs,), {"why": why})
 
 
 def _clock_of(thread: int) -> Callable[[], float]:

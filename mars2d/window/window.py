@@ -183,10 +183,10 @@ class Window:
         if self._passing and where != self._awaited:
             self._awaited = where
             self.notes.say(f"waiting for {where}; Esc leaves", kind="warning")
-            surface = pygame.display.get_surface()
-            if surface is not None:
-                self.draw(surface)
-                show_drawn()
+        surface = pygame.display.get_surface()
+        if surface is not None:
+            self.draw(surface)
+            show_drawn()
         pygame.event.pump()
         closed = pygame.event.peek(pygame.QUIT)
         pressed = pygame.event.get(pygame.KEYDOWN)

@@ -12,7 +12,9 @@ from mars2d.bodies.props import Box
 from mars2d.cli import command_line as cli
 from mars2d.core.errors import InputError
 from mars2d.record.record import COLUMNS
-from mars2d.world.verify import other_versions, rerun
+from mars2d.scenario.experiment import open_experiment
+from mars2d.world.loop import open_world
+from mars2d.world.verify import ask_again, other_versions, rerun
 
 
 def scenario(**changes):
@@ -170,7 +172,7 @@ def check(record, path, capsys):
 def test_check_says_that_a_record_is_the_same(record, tmp_path, capsys):
     code, shown, _ = check(record, tmp_path / "a.npz", capsys)
     assert code == 0
-    assert shown.endswith("run again   bit-identical\n")
+    assert shown.endswith("run again   from its recorded commands: bit-identical\n")
 
 
 def test_check_says_where_and_by_how_much_and_with_what_it_was_made(record, tmp_path, capsys):
@@ -178,7 +180,8 @@ def test_check_says_where_and_by_how_much_and_with_what_it_was_made(record, tmp_
     old = replace(off, versions={**record.versions, "numpy": "1.2.3"})
     code, _, told = check(old, tmp_path / "a.npz", capsys)
     assert code == 1
-    assert "a.npz: run again, it departs at row 7, at 0.7 s: blue is off by 0.5 m and 0 rad" in told
+    assert "a.npz: run again from its recorded commands, it departs at row 7, at 0.7 s: " in told
+    assert "blue is off by 0.5 m and 0 rad" in told
     assert f"it was made with numpy 1.2.3, here {np.__version__}" in told
     assert told.count("\n") == 1
 
@@ -189,3 +192,108 @@ def test_check_of_a_record_without_rows_says_so(record, tmp_path, capsys):
     code, shown, _ = check(empty, tmp_path / "a.npz", capsys)
     assert code == 0
     assert "run again   nothing: it has no rows" in shown
+
+
+# -- the laws, asked again ------------------------------------------------------------------------
+
+LAWS = """\
+from mars2d import Robot, Scenario
+from mars2d.sensors import Proximity
+
+
+def go(robot):
+    robot.memory.turns = getattr(robot.memory, "turns", 0) + 1
+    near = robot.sense.proximity
+    return 0.3 - 0.1 * near, 0.1 * robot.rng.uniform(-1, 1) + GAIN * (robot.memory.turns == 8)
+
+
+def scenario(speed=1.0):
+    red = Robot(name="red", pose=(-1, 0, 0), controller=go, sensors=[Proximity(range=1.0)])
+    return Scenario(robots=[red, red.replace(name="blue", pose=(0.5, 0.05, 3))], stop_time=3)
+"""
+
+
+@pytest.fixture
+def walk(tmp_path, monkeypatch):
+    """A record, and the file of its laws, in the current folder."""
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "walk.py"
+    path.write_text(LAWS.replace("GAIN", "0.0"))
+    assert cli.main(["run", "walk.py", "--headless", "--seed", "3", "--record", "walk.npz"]) == 0
+    return path
+
+
+def test_laws_that_were_not_changed_decide_the_same(walk, capsys):
+    assert cli.main(["check", "walk.npz", "--laws"]) == 0
+    assert capsys.readouterr().out.endswith("laws        of walk.py: decide the same in all rows\n")
+
+
+def test_a_law_that_was_changed_is_told_with_its_row_and_command(walk, capsys):
+    walk.write_text(LAWS.replace("GAIN", "0.5"))
+    assert cli.main(["check", "walk.npz"]) == 0
+    capsys.readouterr()
+    assert cli.main(["check", "walk.npz", "--laws"]) == 1
+    told = capsys.readouterr().err
+    record = mars2d.load("walk.npz")
+    v, w = record.command[7, :, 0]
+    assert "asked again, walk.py departs at row 7, at 0.7 s: the command of red is now " in told
+    assert f"is now ({v:g}, {w + 0.5:g}), not ({v:g}, {w:g}), and so of 1 other\n" in told
+
+
+def test_a_command_by_hand_is_no_laws(walk):
+    world = open_world(open_experiment(str(walk)), 3)
+    for k in range(12):
+        if k == 4:
+            world.operator.steer("red", (0.1, 0.2))
+        if k == 9:
+            world.operator.steer("red", None)
+        world.step()
+    assert ask_again(world.record, open_experiment(str(walk))) == []
+
+
+def test_another_scenario_departs_by_its_poses(walk, capsys):
+    walk.write_text(LAWS.replace("GAIN", "0.0").replace("0.05, 3", "0.05, 2"))
+    assert cli.main(["check", "walk.npz", "--laws"]) == 1
+    assert "departs at row 0, at 0 s: blue is off by 0 m and 1 rad" in capsys.readouterr().err
+
+
+def test_settings_are_those_of_the_run(walk, capsys):
+    again = ["--set", "robots.1.pose=(1.5, 0, 3)"]
+    assert cli.main(["run", "walk.py", "--headless", "--record", "other.npz", *again]) == 0
+    assert cli.main(["check", "other.npz", "--laws", *again]) == 0
+    assert cli.main(["check", "other.npz", "--laws"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["walk.py", "--laws"], "--laws is for records: .npz"),
+        (
+            ["walk.npz", "--laws", "wolk.py"],
+            "wolk.py: there is no such file; did you mean 'walk.py'",
+        ),
+        (
+            ["walk.npz", "--laws", "crowd"],
+            "than the record: robot0 instead of red",
+        ),
+        (["walk.npz", "--set", "seed=3"], "--set is for maps"),
+    ],
+)
+def test_laws_that_can_not_be_asked_are_refused(walk, capsys, words, message):
+    assert cli.main(["check", *words]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_an_experiment_that_is_gone_is_asked_for(walk, capsys):
+    walk.rename("elsewhere.py")
+    assert cli.main(["check", "walk.npz", "--laws"]) == 2
+    assert "walk.npz: walk.py is not here: name the experiment" in capsys.readouterr().err
+    assert cli.main(["check", "walk.npz", "--laws", "elsewhere.py"]) == 0
+
+
+def test_a_law_that_hangs_when_it_is_asked_again_is_broken_off(walk, capsys, monkeypatch):
+    monkeypatch.setenv("MARS2D_PATIENCE", "0.5")
+    loop = "def go(robot):\n    while robot.time > 0.45:\n        pass\n"
+    walk.write_text(LAWS.replace("GAIN", "0.0").replace("def go(robot):\n", loop))
+    assert cli.main(["check", "walk.npz", "--laws"]) == 2
+    assert "go did not return within 0.5 s (red, at 0.5 s)" in capsys.readouterr().err

@@ -14,21 +14,21 @@ from mars2d.bodies.joints import Joint
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import run_headless
 from mars2d.core.deadline import PATIENCE, Deadline, Late
-from mars2d.core.errors import InputError, Mars2dError, counted, nearest, one_line
+from mars2d.core.errors import InputError, LawError, Mars2dError, counted, nearest, one_line
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.figures.map import save_map
 from mars2d.record.record import Record, load
-from mars2d.scenario.experiment import Experiment, open_experiment, open_module
+from mars2d.scenario.experiment import Experiment, examples, open_experiment, open_module
 from mars2d.scenario.map_option import reading_options
 from mars2d.scenario.options import parse_setting
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.testing.file import trials
 from mars2d.testing.finding import Finding
-from mars2d.world.verify import other_versions, rerun
+from mars2d.world.verify import ask_again, other_versions, rerun
 
 TRIAL_STEPS = 10
 """Control steps of a trial run: some mistakes only show when laws and sensors are called."""
@@ -36,6 +36,9 @@ TRIAL_STEPS = 10
 MAX_ROBOTS_LISTED = 8
 
 BAD_INPUT = 2
+
+SAME = ""
+"""The experiment that a record is of."""
 
 LOADING = 60.0
 """The time that loading a file may take, seconds."""
@@ -50,7 +53,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map",
     )
     parser.add_argument(
-        "--set", action="append", default=[], metavar="KEY=VALUE", help="how a map is read"
+        "--laws",
+        nargs="?",
+        const=SAME,
+        metavar="EXPERIMENT",
+        help="with a record: ask the laws again; by default those of its own experiment",
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="how a map is read; with --laws, a field of the experiment",
     )
     parser.add_argument("--figure", type=Path, metavar="OUT", help="draw a map: .png, .pdf, .svg")
 
@@ -62,11 +76,16 @@ def execute(arguments: argparse.Namespace) -> None:
         check_outputs(arguments, {"figure": figure.SUFFIXES})
         _check_map(path, dict(map(parse_setting, arguments.set)), arguments.figure)
         return
+    of_record = path.suffix.lower() in formats.SUFFIXES
+    if arguments.laws is not None and not of_record:
+        raise InputError(f"--laws is for records: {', '.join(formats.SUFFIXES)}")
     for option in ("set", "figure"):
-        if getattr(arguments, option):
+        if getattr(arguments, option) and not (option == "set" and arguments.laws is not None):
             raise InputError(f"--{option} is for maps: {', '.join(maps.SUFFIXES)}")
-    if path.suffix.lower() in formats.SUFFIXES:
-        _check_record(path)
+    if of_record:
+        record = _check_record(path)
+        if arguments.laws is not None:
+            _ask_laws(path, record, arguments.laws, dict(map(parse_setting, arguments.set)))
     elif path.suffix in ("", ".py", ".toml"):
         _check_code(arguments.file)
     else:
@@ -224,7 +243,8 @@ def _robot(robot: Robot) -> str:
     return f"at ({x:g}, {y:g}, {theta:.4g}): {', '.join(parts)}"
 
 
-def _check_record(path: Path) -> None:
+def _check_record(path: Path) -> Record:
+    """Describe a record, and run it again from its recorded commands; return it."""
     record = load(path)
     versions = ", ".join(f"{name} {version}" for name, version in record.versions.items())
     source = one_line(record.filename) or "a Scenario"
@@ -238,7 +258,7 @@ def _check_record(path: Path) -> None:
         tell(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
     if not len(record):
         tell("run again   nothing: it has no rows")
-        return
+        return record
     bar = Progress(len(record), "rows")
     try:
         departure = rerun(record, bar.update)
@@ -247,8 +267,45 @@ def _check_record(path: Path) -> None:
     finally:
         bar.close()
     if departure is not None:
-        raise Mars2dError(f"{path}: run again, it departs at {departure}{_likely_reason(record)}")
-    tell("run again   bit-identical")
+        raise Mars2dError(
+            f"{path}: run again from its recorded commands, it departs at "
+            f"{departure}{_likely_reason(record)}"
+        )
+    tell("run again   from its recorded commands: bit-identical")
+    return record
+
+
+def _ask_laws(path: Path, record: Record, source: str, settings: dict[str, Any]) -> None:
+    """Ask the laws of an experiment again in the states of a record."""
+    source = _source_of(path, record) if source == SAME else source
+    experiment = open_experiment(source, settings, seed=record.seed)
+    bar = Progress(max(len(record), 1), "rows")
+    try:
+        departures = ask_again(record, experiment, bar.update)
+    except LawError:
+        raise
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+    finally:
+        bar.close()
+    if departures:
+        more = len(departures) - 1
+        also = f"; and in {counted(more, 'other row')}" if more else ""
+        raise Mars2dError(f"{path}: asked again, {source} departs at {departures[0]}{also}")
+    tell(f"laws        of {source}: decide the same in all rows")
+
+
+def _source_of(path: Path, record: Record) -> str:
+    """Return the experiment of a record: a file here or beside the record, or an example."""
+    name = record.filename
+    if not name:
+        raise InputError(f"{path}: is not of a file: name the experiment, --laws EXPERIMENT")
+    found = [each for each in (Path(name), path.parent / Path(name).name) if each.is_file()]
+    if found:
+        return str(found[0])
+    if Path(name).stem in examples():
+        return Path(name).stem
+    raise InputError(f"{path}: {name} is not here: name the experiment, --laws EXPERIMENT")
 
 
 def _likely_reason(record: Record) -> str:
