@@ -82,6 +82,7 @@ class Drives:
             everybody = len(names) == len(drives)
             self._teams.append(_Team(drive, None if everybody else columns, noise))
         self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
+        self.cuts = Cuts(len(drives))
         self._reached = np.zeros((2, len(drives)))  # the commands that actuators have got to
         self._noisy = [team for team in self._teams if team.noise is not None]
 
@@ -90,7 +91,7 @@ class Drives:
 
         Raises LawError if a drive of the user's fails.
         """
-        _saturate(self._teams, command)
+        _saturate(self._teams, command, self.cuts)
         if self._rated:
             for team in self._rated:
                 with team.accelerating:
@@ -163,10 +164,28 @@ class Drives:
         return twist
 
 
-def _saturate(teams: list[_Team], command: Float) -> None:
+class Cuts:
+    """The commands that the drives' bounds have cut: how many of each robot, and the last ones."""
+
+    def __init__(self, robots: int) -> None:
+        self.count = np.zeros(robots, dtype=int)
+        self.asked = np.zeros((2, robots))
+
+    def note(self, columns: Index | slice, asked: Float, done: Float) -> None:
+        """Note which commands of some robots are not done as asked."""
+        cut = (asked != done).any(axis=0)
+        self.count[columns] += cut
+        self.asked[:, columns] = np.where(cut, asked, self.asked[:, columns])
+
+
+def _saturate(teams: list[_Team], command: Float, cuts: Cuts | None = None) -> None:
+    """Limit commands (2, n), in place. cuts: notes those that were changed."""
     for team in teams:
         try:
-            limited = team.drive.saturate(team.part(command))
+            mine = team.part(command)
+            limited = team.drive.saturate(mine)
+            if cuts is not None and limited is not mine:
+                cuts.note(team.columns, mine, limited)
             if limited is not command:  # else it is there already
                 command[:, team.columns] = limited
         except BaseException as error:

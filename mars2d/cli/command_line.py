@@ -21,6 +21,7 @@ from mars2d.cli.verbs import VERBS
 from mars2d.core.errors import InputError, Mars2dError, likely
 from mars2d.core.interrupt import INTERRUPTED, ending, raised_once, unwrapped, was_interrupted
 from mars2d.core.terminal import legible, warn
+from mars2d.core.words import instead
 
 __all__ = ["main", "parser"]
 
@@ -122,6 +123,13 @@ class _Parser(argparse.ArgumentParser):
         """The options of this parser itself."""
         return [option for action in self._actions for option in action.option_strings]
 
+    def _meant(self, word: str, known: Collection[str]) -> str:
+        """Return a hint at what a word of the command line may mean."""
+        if self.prog == "mars2d" and Path(word).suffix in (".py", ".toml"):
+            return f"; write mars2d run {word}"
+        mistyped = "" if word in self.elsewhere else likely(word, known)
+        return instead(word, self.prog) or mistyped
+
     def error(self, message: str) -> NoReturn:
         """Raise InputError instead of printing the usage and exiting."""
         known = self.options
@@ -129,11 +137,10 @@ class _Parser(argparse.ArgumentParser):
             if isinstance(action, argparse._SubParsersAction):
                 known += [*action.choices]
                 known += [o for sub in action.choices.values() for o in sub._option_string_actions]
-        right = {*known, *self.elsewhere}
-        words = [word for word in re.split(r"[\s'=:]+", message) if word not in right]
+        words = [word for word in re.split(r"[\s'=:]+", message) if word not in known]
         if message.startswith("the following arguments are required"):
             words = []  # the user typed none of these
-        hint = next(filter(None, (likely(word, known) for word in words)), "")
+        hint = next(filter(None, (self._meant(word, known) for word in words)), "")
         message = message.partition(" (choose from")[0]
         raise InputError(f"{message}{hint} (see {self.prog} --help)")
 

@@ -49,11 +49,12 @@ def show(
     preferences: Preferences,
     human: int | None = None,
     log: Log | None = None,
+    watchers: Sequence[Watcher] = (),
 ) -> Record:
     """Run in a window, at the experiment's own speed unless one is given.
 
     human: a robot that is driven by hand; then the experiment's own speed is limited. log: writes
-    each row while the run goes on.
+    each row while the run goes on. watchers: called at each control step.
     """
     from mars2d.window.show import show_experiment
 
@@ -61,7 +62,9 @@ def show(
     if human is not None and not (isinstance(own, float) and 0 < own < MAX_SPEED_BY_HAND):
         own = MAX_SPEED_BY_HAND
     pace = own if speed is None else speed
-    return show_experiment(experiment, pace, seed, preferences=preferences, human=human, log=log)
+    return show_experiment(
+        experiment, pace, seed, watchers, preferences=preferences, human=human, log=log
+    )
 
 
 def run_headless(

@@ -20,7 +20,8 @@ from typing import Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 
-from mars2d.core.errors import CONTROLS, InputError, likely, nearest, shown
+from mars2d.core.errors import CERTAIN, CONTROLS, InputError, likely, nearest, shown
+from mars2d.core.words import instead
 
 __all__ = [
     "Description",
@@ -33,6 +34,9 @@ __all__ = [
     "snake_case",
     "text",
 ]
+
+MOST = 40
+"""As many fields are listed where none is near."""
 
 Check = Callable[[str, Any], Any]
 """Called with a field's full name and the value given; returns the value to keep, or raises
@@ -214,6 +218,9 @@ _PLAIN: dict[object, Check] = {
 class Description:
     """The base of all descriptions. Raises InputError for a wrong, missing or unknown field."""
 
+    twins: ClassVar[dict[str, tuple[str, float]]] = {}
+    """Other names of fields: the field, and how many times the number given it is."""
+
     __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
@@ -233,8 +240,31 @@ class Description:
     def _validate(self) -> None:
         """Check conditions that concern several fields together."""
 
+    @classmethod
+    def meant(cls, name: str) -> str:
+        """Return a hint at the field that an unknown name may mean."""
+        known = [field.name for field in dataclasses.fields(cls) if field.init]
+        kinds = [kind.__name__ for kind in cls.__mro__]
+        certain = likely(name, known, CERTAIN)
+        return certain or instead(name, *kinds) or nearest(name, known, most=MOST)
+
+    @classmethod
+    def translated(cls, given: dict[str, Any]) -> dict[str, Any]:
+        """Return values by the names of their fields, where some have a twin's name."""
+        twins = cls.twins.keys() & given.keys()
+        if not twins:
+            return given
+        translated = {name: value for name, value in given.items() if name not in twins}
+        for twin in twins:
+            name, times = cls.twins[twin]
+            if name in given:
+                raise InputError(f"{cls.__name__} has both {twin} and {name}: give one of them")
+            translated[name] = times * real(f"{cls.__name__}.{twin}", given[twin])
+        return translated
+
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed, validated again."""
+        changes = self.translated(changes)
         current = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         return type(self)(**(current | changes))
 
@@ -290,9 +320,10 @@ def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
     @functools.wraps(init)
     def checked(self: Any, *args: Any, **kwargs: Any) -> None:
         if type(self) is cls:
+            kwargs = cls.translated(kwargs)
             for name in kwargs:
                 if name not in known:
-                    raise InputError(f"{cls.__name__} has no field {name!r}{nearest(name, known)}")
+                    raise InputError(f"{cls.__name__} has no field {name!r}{cls.meant(name)}")
             if len(args) > len(positional):
                 example = f"{cls.__name__}({next(iter(known), 'field')}=...)"
                 raise InputError(f"{cls.__name__} takes its fields by name, as in {example}")

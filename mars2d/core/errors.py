@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import builtins
 import difflib
 import re
 from collections.abc import Iterable
@@ -72,16 +71,42 @@ class MissingExtraError(InputError):
     """An optional library is not installed; the message contains the pip command."""
 
 
-def likely(name: object, known: Iterable[str], likeness: float = 0.6) -> str:
+CERTAIN = 0.85
+"""How near a name is that can only be meant."""
+
+LIKENESS = 0.72
+"""How near a name must be to be meant, from 0 to 1: 'speed' is not 'sees', 'psoe' is 'pose'."""
+
+
+def likely(name: object, known: Iterable[str], likeness: float = LIKENESS) -> str:
     """Return ``"; did you mean 'known'?"`` for the known name that is nearest, or ``""``.
 
     likeness: how near it must be, from 0 to 1.
     """
-    close = difflib.get_close_matches(str(name), sorted(known), n=1, cutoff=likeness)
+    names = sorted(known)
+    lower, word = {each.lower(): each for each in names}, str(name).lower()
+    close = (
+        difflib.get_close_matches(str(name), names, n=1, cutoff=likeness)
+        or [lower[k] for k in difflib.get_close_matches(word, lower, n=1, cutoff=likeness)]
+        or [each for each in names if likeness <= LIKENESS and _one_slip(word, each.lower())]
+    )
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
-def nearest(name: object, known: Iterable[str], likeness: float = 0.6, most: int = 12) -> str:
+def _one_slip(word: str, other: str) -> bool:
+    """Return whether one slip leads from a word to another: a letter more, less, other, swapped."""
+    if len(word) > len(other):
+        word, other = other, word
+    if len(other) < 2 or len(other) - len(word) > 1:
+        return False
+    same = next((k for k, (a, b) in enumerate(zip(word, other, strict=False)) if a != b), len(word))
+    rest, rests = word[same:], other[same:]
+    if len(word) < len(other):
+        return rest == rests[1:]
+    return rest[1:] == rests[1:] or (rest[:2] == rests[1::-1] and rest[2:] == rests[2:])
+
+
+def nearest(name: object, known: Iterable[str], likeness: float = LIKENESS, most: int = 12) -> str:
     """Return the nearest known name like `likely`, or else a list of at most `most` known names.
 
     >>> nearest("diametr", ["diameter", "mass"])
@@ -92,24 +117,6 @@ def nearest(name: object, known: Iterable[str], likeness: float = 0.6, most: int
     names = sorted(known)
     listed = f"; known: {', '.join(names)}" if 0 < len(names) <= most else ""
     return likely(name, names, likeness) or listed
-
-
-def described(error: BaseException) -> str:
-    """Return the message of an exception in the user's code, with a hint at a misspelt name."""
-    if isinstance(error, InputError):
-        return str(error)
-    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    known: set[str] = set()
-    if isinstance(error, NameError):
-        step = error.__traceback__
-        while step is not None:
-            known = {*step.tb_frame.f_locals, *step.tb_frame.f_globals, *dir(builtins)}
-            step = step.tb_next
-    elif isinstance(error, AttributeError):
-        known = {name for name in dir(error.obj) if not name.startswith("_")}
-    else:
-        return text
-    return text + likely(error.name, known)
 
 
 def counted(count: int, thing: str) -> str:

@@ -214,4 +214,4 @@ def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[s
     where = ""
     if beside and caller is not None and not path.is_absolute():
         where = f" beside {caller.name} or in the current folder"
-    raise InputError(f"{path}: there is no such file{where}{nearest(path, known)}")
+    raise InputError(f"{path}: there is no such file{where}{nearest(path, known, 0.6)}")

@@ -14,7 +14,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mars2d.core.errors import InputError, LawError, described
+from mars2d.core.errors import InputError, LawError
+from mars2d.core.hints import described
 
 __all__ = ["Excerpt", "Hangs", "called", "definition", "excerpt_of", "name_of", "users_line"]
 

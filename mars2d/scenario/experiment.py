@@ -19,8 +19,9 @@ from typing import Any, Protocol, cast
 
 from mars2d.core import checks
 from mars2d.core.description import wrong
-from mars2d.core.errors import InputError, LawError, Mars2dError, described, nearest, shown
+from mars2d.core.errors import InputError, LawError, Mars2dError, likely, nearest, shown
 from mars2d.core.files import file_beside, files_read, note_file
+from mars2d.core.hints import described
 from mars2d.core.usercode import called
 from mars2d.scenario.map_option import MapOption, reading_options
 from mars2d.scenario.options import override
@@ -115,6 +116,9 @@ class Experiment:
                 if not isinstance(prediction, Prediction):
                     raise LawError(f"checks returned {shown(prediction)} as item {k}: {expected}")
         return predictions
+
+
+LISTED = "; mars2d list shows the examples"
 
 
 def examples() -> dict[str, Path]:
@@ -273,7 +277,8 @@ def _find(source: str | Path) -> Path:
         )
     beside = [str(file) for file in _scripts(path)]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
-    raise InputError(f"{source}: there is no such {kind}{nearest(source, [*beside, *known], 0.75)}")
+    near = likely(source, [*beside, *known], 0.75)
+    raise InputError(f"{source}: there is no such {kind}{near or LISTED}")
 
 
 def _load(path: Path, what: str = "an experiment") -> ModuleType:

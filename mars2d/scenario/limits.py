@@ -150,7 +150,11 @@ def _by_material(heaviest: Rigid, lightest: Rigid, material: Mapping[str, str]) 
         )
     if lightest.name in material:
         return f". {lightest.name} is of {material[lightest.name]}: give its mass, or more height"
-    return ""
+    most, least = MASS_RATIO * lightest.inertia.mass, heaviest.inertia.mass / MASS_RATIO
+    return (
+        f": set the mass of {heaviest.name} to {most:.3g} kg or less, "
+        f"or that of {lightest.name} to {least:.3g} kg or more"
+    )
 
 
 def corner(shape: Shape) -> float:

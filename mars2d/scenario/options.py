@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mars2d.core.description import Description
@@ -42,6 +42,12 @@ class _Leaf:
 def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
     """Return `target` with the fields of the tree set; ``*`` means all items of a list."""
     if isinstance(tree, _Leaf):
+        if isinstance(target, Description) and isinstance(tree.value, str):
+            option = ".".join(path)
+            raise InputError(
+                f"{option} = {tree.value!r}: a setting is a number, a word or a tuple; write "
+                f"{tree.value} in the file, or set single fields, as {option}.FIELD=..."
+            )
         return tree.value
     if isinstance(target, tuple):
         items = list(target)
@@ -49,17 +55,17 @@ def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
             if part == "*" and not items:
                 option = ".".join((*path, part))
                 raise InputError(f"there is no option {option!r}: this scenario has no {path[-1]}")
-            chosen = range(len(items)) if part == "*" else [_index(part, len(items), path)]
+            chosen = range(len(items)) if part == "*" else [_index(part, items, path)]
             for i in chosen:
                 items[i] = _replaced(items[i], branch, (*path, part))
         return tuple(items)
     if isinstance(target, Description):
         fields = [f.name for f in dataclasses.fields(target)]
         for part in tree:
-            if part not in fields:
+            if part not in fields and part not in target.twins:
                 raise InputError(
                     f"there is no option {'.'.join((*path, part))!r}: {type(target).__name__} has "
-                    f"no field {part!r}{nearest(part, fields)}"
+                    f"no field {part!r}{target.meant(part)}"
                 )
         changes = {
             part: _replaced(getattr(target, part), branch, (*path, part))
@@ -70,11 +76,16 @@ def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
     raise InputError(f"there is no option {option!r}: {shown(target)} has no fields")
 
 
-def _index(text: str, length: int, path: tuple[str, ...]) -> int:
-    if not text.isdigit() or int(text) >= length:
+def _index(text: str, items: Sequence[Any], path: tuple[str, ...]) -> int:
+    """Return the index of an item by its number or its name, the one that laws use."""
+    names = [str(getattr(item, "key", None) or getattr(item, "name", "")) for item in items]
+    if text in names:
+        return names.index(text)
+    if not text.isdigit() or int(text) >= len(items):
         option = ".".join((*path, text))
+        named = f" or a name{nearest(text, filter(None, names))}" if any(names) else ""
         raise InputError(
-            f"there is no option {option!r}: expected * or 0 to {length - 1}, not {text!r}"
+            f"there is no option {option!r}: expected * or 0 to {len(items) - 1}{named}"
         )
     return int(text)
 

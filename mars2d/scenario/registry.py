@@ -14,7 +14,8 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from mars2d.core.description import Description
-from mars2d.core.errors import described, nearest, shown
+from mars2d.core.errors import nearest, shown
+from mars2d.core.hints import described
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint

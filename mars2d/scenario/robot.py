@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.drives.unicycle import Unicycle
@@ -108,9 +108,14 @@ class Robot(Description):
         """Return the sensor with a name; None in a loaded record for sensors of the user's own."""
         return next((sensor for sensor in self.sensors if sensor.key == key), None)
 
+    twins: ClassVar[dict[str, tuple[str, float]]] = {"radius": ("diameter", 2.0)}
+
     @property
     def radius(self) -> float:
-        """Half the diameter of a disc, else the radius of a circle around the shape, metres."""
+        """Half the diameter of a disc, else the radius of a circle around the shape, metres.
+
+        May be given instead of the diameter.
+        """
         return self.diameter / 2 if self.shape is None else self.shape.bound[1]
 
     @property

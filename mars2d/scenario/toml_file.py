@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.description import Check, Description, wrong
-from mars2d.core.errors import InputError, described, nearest, shown
+from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.core.files import atomic_write, file_beside
+from mars2d.core.hints import described
 from mars2d.core.materials import Coefficient
 from mars2d.core.picture import holds_pixels, image_file
 from mars2d.core.usercode import name_of
@@ -312,9 +313,12 @@ class _Reader:
         for name, item in value.items():
             if name in fields:
                 values[name] = self._field(kind, fields[name], item, _inside(at, name))
+            elif name in kind.twins:
+                values[name] = item
             elif name != "type":
                 known = [*fields, *(HEADS if kind is Scenario else ["type"])]
-                problem = f"{kind.__name__} has no field {name!r}{nearest(name, known)}"
+                near = likely(name, known) or kind.meant(name)
+                problem = f"{kind.__name__} has no field {name!r}{near}"
                 raise _at(self._where(at, name), problem)
         try:
             return kind(**values)

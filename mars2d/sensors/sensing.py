@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arrays import is_masked, sealed
-from mars2d.core.errors import InputError, UnknownNameError, nearest
+from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, shown
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.usercode import called
 from mars2d.sensors.base import Sensor, Surroundings
@@ -41,6 +41,14 @@ class Sense(SimpleNamespace):
         vars(self)[name] = self._due[name]()
         del self._due[name]
         return vars(self)[name]
+
+    def __getitem__(self, name: Any) -> NoReturn:
+        raise LawError(f"robot.sense[{shown(name)}]: write robot.sense.{name}")
+
+    def __call__(self, *names: Any) -> NoReturn:
+        """Raise LawError: readings are attributes."""
+        name = names[0] if names else "NAME"
+        raise LawError(f"robot.sense({shown(name)}): write robot.sense.{name}")
 
     def __dir__(self) -> list[str]:
         return [*vars(self), *self._due]

@@ -22,7 +22,8 @@ from multiprocessing.connection import Connection, wait
 from types import FrameType
 from typing import Any, NamedTuple, TypeVar
 
-from mars2d.core.errors import InputError, described, shown
+from mars2d.core.errors import InputError, shown
+from mars2d.core.hints import described
 from mars2d.core.interrupt import interrupts_blocked
 from mars2d.study import ONE_THREAD
 

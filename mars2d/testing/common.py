@@ -14,7 +14,8 @@ import numpy as np
 
 from mars2d.core.deadline import Deadline, Late
 from mars2d.core.description import Description
-from mars2d.core.errors import described, shown
+from mars2d.core.errors import shown
+from mars2d.core.hints import described
 from mars2d.core.scene import Scene
 from mars2d.scenario import serialize
 from mars2d.scenario.scenario import Scenario

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import atan2, cos, degrees, hypot, pi, radians, sin
+from math import atan2, cos, hypot, pi, radians, sin
 from typing import Literal, Protocol
 
 import numpy as np
@@ -21,6 +21,7 @@ from mars2d.record.frame import Frame
 from mars2d.scenario.changes import obstruction
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.forcemeter import holding_force
+from mars2d.window.readout import in_both_units
 from mars2d.world.world import World
 
 __all__ = ["Drag", "Move", "Pull", "Turn", "draw_label", "draw_ring", "local_point", "pull_of"]
@@ -218,8 +219,7 @@ class Turn(Placement):
 
     def words(self) -> str:
         """Return the heading."""
-        angle = round(degrees((self.now[2] + pi) % (2 * pi) - pi), 1)
-        return _signed(f"{angle:g}\N{DEGREE SIGN}")
+        return in_both_units((self.now[2] + pi) % (2 * pi) - pi)
 
     def draw_way(self, scene: Scene, scenario: Scenario, color: str) -> None:  # noqa: ARG002
         """Draw the new heading."""

@@ -10,12 +10,21 @@ import numpy as np
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.description import snake_case
+from mars2d.core.plane import wrap
 from mars2d.core.quantity import UNKNOWN
 from mars2d.output.layers.forces import in_newtons, mean_forces
 from mars2d.record.frame import Frame
 
 __all__ = [
-    "MAX_MESSAGES", "Row", "contacts_of", "dynamics_of", "inbox", "kind_of", "rounded", "state_of",
+    "MAX_MESSAGES",
+    "Row",
+    "contacts_of",
+    "dynamics_of",
+    "in_both_units",
+    "inbox",
+    "kind_of",
+    "rounded",
+    "state_of",
 ]  # fmt: skip
 
 MAX_MESSAGES = 3
@@ -45,15 +54,17 @@ def state_of(frame: Frame, body: int) -> list[Row]:
     n = len(frame.scenario.robots)
     x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
     vx, vy, omega = frame.velocity[:, body].tolist()
-    pose = [("x", _number(x, "m")), ("y", _number(y, "m")), ("θ", _degrees(theta))]
+    place = [("x", _number(x, "m")), ("y", _number(y, "m"))]
+    heading = [("θ", _degrees(theta)), ("", _number(float(wrap(theta)), "rad"))]
+    pose: list[Row] = [("pose", place), ("heading", heading)]
     moves = [("v", _number(float(np.hypot(vx, vy)), "m/s")), ("ω", _number(omega, "rad/s"))]
     if body >= n:
-        return [("pose", pose), ("moves", moves)]
+        return [*pose, ("moves", moves)]
     drive = frame.scenario.robots[body].drive
     command = np.zeros(2)
     if len(frame.command_path):
         command = frame.command_path[-1][:, body]
-    rows: list[Row] = [("pose", pose), ("command", command_words(drive, command)), ("moves", moves)]
+    rows: list[Row] = [*pose, ("command", command_words(drive, command)), ("moves", moves)]
     if drive.wheel_names is not None:
         speeds = drive.actuators(command[:, None])[:, 0].tolist()
         pairs = zip(drive.wheel_names, speeds, ("", "m/s"), strict=True)
@@ -100,6 +111,11 @@ def _digits(value: float, unit: str) -> str:
 def _degrees(angle: float) -> str:
     turned = (np.degrees(angle) + 180.0) % 360.0 - 180.0
     return f"{round(turned) + 0:d}°".replace("-", MINUS)
+
+
+def in_both_units(angle: float) -> str:
+    """Return a heading in degrees, and in radians as laws have it: ``90° (1.571 rad)``."""
+    return f"{np.degrees(angle) + 0.0:.4g}° ({angle + 0.0:.4g} rad)".replace("-", MINUS)
 
 
 def contacts_of(frame: Frame, body: int) -> list[str]:

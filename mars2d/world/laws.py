@@ -92,7 +92,7 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     expected = f"expected two rows and a column for each robot, shape (2, {robots})"
     command = _numbers(value, refuse)
     if command is None:
-        refuse(f"returned {shown(value)}: {expected}")
+        refuse(f"returned {shown(value)}: {expected}{_unequal(value)}")
     if command.shape == (2,) and robots == 1:
         command = command.reshape(2, 1)
     if command.shape != (2, robots):
@@ -102,6 +102,16 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
         row, column = np.argwhere(~(np.abs(command) <= LARGEST))[0]  # also NaN
         refuse(f"returned {command[row, column]} for robot {column}: {BOUNDED}")
     return command
+
+
+def _unequal(value: Any) -> str:
+    """Return how many numbers each row of a command has, where these are not equal."""
+    if not isinstance(value, (list, tuple)) or not all(hasattr(row, "__len__") for row in value):
+        return ""
+    lengths = [len(row) for row in value]
+    if len(set(lengths)) < 2:
+        return ""
+    return f"; its rows have {' and '.join(map(str, lengths))} numbers"
 
 
 def _numbers(value: Any, refuse: Callable[[str], NoReturn]) -> Float | None:

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.communication import Communication
-from mars2d.bodies.team import Drives
+from mars2d.bodies.team import Cuts, Drives
 from mars2d.core.arrays import locked
 from mars2d.core.delay import DelayLine
 from mars2d.core.description import whole
-from mars2d.core.errors import InputError, LawError, described
+from mars2d.core.errors import InputError, LawError
+from mars2d.core.hints import described
 from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene
 from mars2d.physics.motion import Start
@@ -123,6 +124,11 @@ class Simulation(State):
         if self._channel is None:
             raise LawError("robots can't talk: add Communication() to Scenario.addons")
         return self._channel
+
+    @property
+    def cuts(self) -> Cuts:
+        """The commands that the drives' bounds have cut."""
+        return self._drives.cuts
 
     @property
     def calls(self) -> tuple[int, int]:

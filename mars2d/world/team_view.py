@@ -38,6 +38,9 @@ class WorldView(Uncopied):
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
 
+    def __getattr__(self, name: str) -> NoReturn:
+        unknown(self, "a world", name)
+
     # -- the experiment ------------------------------------------------------------------------
 
     @property

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.arrays import locked
-from mars2d.core.errors import LawError, UnknownNameError, nearest
+from mars2d.core.errors import CERTAIN, LawError, UnknownNameError, likely, nearest, shown
+from mars2d.core.words import instead
 from mars2d.record.message import Message
 from mars2d.sensors.sensing import Sense
 from mars2d.world.interfaces import Seen
@@ -67,8 +68,28 @@ def unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
         for item in dir(kind_of_view)
         if not (item.startswith("_") or isinstance(getattr(kind_of_view, item), _Unseen))
     ]
-    hint = nearest(name, [*known, *more], most=MAX_LISTED)
+    names = [*known, *more]
+    certain = likely(name, names, CERTAIN)
+    hint = certain or instead(name, kind) or nearest(name, names, most=MAX_LISTED)
     raise UnknownNameError(f"{kind} has no {name!r}{hint}")
+
+
+class Memory(SimpleNamespace):
+    """Keeps what a law remembers between steps, as attributes: ``robot.memory.integral``."""
+
+    def __getattr__(self, name: str) -> NoReturn:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        raise UnknownNameError(
+            f"robot.memory has no {name!r} yet: set it first, or write "
+            f"getattr(robot.memory, {name!r}, 0){likely(name, vars(self))}"
+        )
+
+    def __getitem__(self, name: Any) -> NoReturn:
+        raise LawError(f"robot.memory[{shown(name)}]: write robot.memory.{name}")
+
+    def __setitem__(self, name: Any, value: Any) -> None:
+        self[name]
 
 
 class Mind:
@@ -76,7 +97,7 @@ class Mind:
 
     def __init__(self, name: str, stream: Callable[[str], np.random.Generator]) -> None:
         self.sense = Sense(name)
-        self.memory = SimpleNamespace()
+        self.memory = Memory()
         self._name, self._stream = name, stream
 
     @cached_property
@@ -99,6 +120,15 @@ class _Body:
 
     def __getattr__(self, name: str) -> NoReturn:
         unknown(self, self._kind, name, *self._more)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name.startswith("_") or name in self._more):
+            keep = "" if hasattr(type(self), name) else f"; keep things in robot.memory.{name}"
+            raise LawError(
+                f"{self._kind}'s {name} can't be set: a law returns its command, as "
+                f"`return v, omega`{keep}"
+            )
+        object.__setattr__(self, name, value)
 
     @property
     def index(self) -> int:
@@ -204,6 +234,11 @@ class RobotView(_Body):
     def radius(self) -> float:
         """The radius of its chassis, or of a circle round it, metres."""
         return self._world.scenario.robots[self._index].radius
+
+    @property
+    def diameter(self) -> float:
+        """Twice the radius, metres."""
+        return 2 * self.radius
 
     @property
     def time(self) -> float:

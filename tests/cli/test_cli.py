@@ -246,7 +246,7 @@ def test_a_mistake_in_the_file_is_one_line_that_names_it(tmp_path, case, capsys)
         (["run", "random_walk", "--headles"], ["did you mean '--headless'?"]),
         (["run", "random_walk", "--headless", "--set", "samplng_time=1"], ["'sampling_time'"]),
         (["run", "random_walk", "--headless", "--set", "robots.0.mas=1"], ["'mass'"]),
-        (["run", "random_walk", "--headless", "--set", "robots.7.mass=1"], ["0 to 1", "'7'"]),
+        (["run", "random_walk", "--headless", "--set", "robots.7.mass=1"], ["0 to 1", "robots.7"]),
         (["run", "random_walk", "--headless", "--set", "novalue"], ["NAME=VALUE"]),
         (["run", "random_walk", "--headless", "--stop-time", "nan"], ["stop_time", "finite"]),
         (["run", "random_walk", "--headless", "--seed", "-1"], ["seed = -1", "whole number"]),

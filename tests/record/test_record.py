@@ -337,7 +337,7 @@ def test_a_record_with_props_and_joints_runs_again_to_the_last_bit(physics, tmp_
 def test_check_says_that_a_record_with_props_and_joints_is_bit_identical(tmp_path, capsys):
     path = mars2d.run(workshop()).save(tmp_path / "run.npz")
     assert main(["check", str(path)]) == 0
-    assert "run again   bit-identical" in capsys.readouterr().out
+    assert "run again   from its recorded commands: bit-identical" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("column", ["prop_pose", "effort"])

@@ -331,7 +331,7 @@ def test_a_right_drag_or_one_with_shift_turns_a_body_to_the_pointer(button, mods
     person = Person()
     person.press(0, 0, button, mods)
     person.move(-0.5, 0.5)
-    assert person.words() == ["135\N{DEGREE SIGN}"]
+    assert person.words() == ["135\N{DEGREE SIGN} (2.356 rad)"]
     person.release(-0.5, 0.5)
     assert person.world.pose[:, 0] == pytest.approx((0, 0, 3 * pi / 4))
 
@@ -341,7 +341,7 @@ def test_with_ctrl_it_is_turned_by_fifteen_degrees(monkeypatch):
     person = Person()
     person.press(0, 0, RIGHT)
     person.move(0.5, 0.3)
-    assert person.words() == ["30\N{DEGREE SIGN}"]
+    assert person.words() == ["30\N{DEGREE SIGN} (0.5236 rad)"]
     person.release(0.5, 0.3)
     assert person.world.pose[2, 0] == pytest.approx(pi / 6)
 

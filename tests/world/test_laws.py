@@ -262,7 +262,7 @@ def test_a_sensor_knows_the_pose_even_if_the_law_does_not():
         (lambda robot: robot.posee, "a robot has no 'posee'; did you mean 'pose'?"),
         (lambda robot: robot.neighbors, "a robot has no 'neighbors'; did you mean 'neighbours'?"),
         (lambda robot: robot.senses, "a robot has no 'senses'; did you mean 'sense'?"),
-        (lambda robot: robot.memory.lost, "no attribute 'lost'"),
+        (lambda robot: robot.memory.lost, "robot.memory has no 'lost' yet"),
     ],
 )
 def test_a_typo_gives_the_nearest_name(question, message):

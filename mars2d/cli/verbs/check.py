@@ -11,6 +11,7 @@ from typing import Any
 
 from mars2d.addons import maps
 from mars2d.bodies.joints import Joint
+from mars2d.cli import remarks
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import run_headless
 from mars2d.core.deadline import PATIENCE, Deadline, Late
@@ -117,6 +118,8 @@ def _check_code(source: str) -> None:
     if experiment is not None:
         for name, text in _description(experiment):
             tell(f"{name:<12}{text}")
+        for remark in remarks.before(experiment):
+            tell(f"hint        {remark}")
     wrong = _try_all(module, experiment, limit)
     if len(wrong) == 1:
         name = Path(source).name

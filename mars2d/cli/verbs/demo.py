@@ -24,12 +24,12 @@ from mars2d.cli.runs import (
     show,
     warn_unchecked,
 )
-from mars2d.core.errors import InputError, nearest, one_line
+from mars2d.core.errors import InputError, likely, one_line
 from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
-from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.scenario.experiment import LISTED, Experiment, examples, open_experiment
 from mars2d.world.loop import Interrupted
 
 FOLDER = Path("mars2d_demo")
@@ -54,7 +54,7 @@ def execute(arguments: argparse.Namespace) -> None:
         return
     known = examples()
     if name not in known:
-        raise InputError(f"{name}: there is no such example{nearest(name, known)}")
+        raise InputError(f"{name}: there is no such example{likely(name, known) or LISTED}")
     experiment = open_experiment(known[name], theory_of(arguments), seed=check_seed(arguments.seed))
     human, look = human_of(arguments, experiment), preferences_of(arguments)
     try:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import inspect
 import json
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from mars2d.cli import remarks
 from mars2d.cli.arguments import (
     add_human,
     add_options,
@@ -31,7 +33,7 @@ from mars2d.cli.runs import (
     show,
     warn_unchecked,
 )
-from mars2d.core.errors import InputError, counted, one_line
+from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
@@ -40,6 +42,7 @@ from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.prediction import Prediction
 from mars2d.world.loop import Interrupted
+from mars2d.world.world import Watcher
 
 LONG = 20.0
 """Seconds of the engine's work after which it is worth while to have it compiled."""
@@ -79,10 +82,13 @@ def execute(arguments: argparse.Namespace) -> None:
     scenario = experiment.scenario
     check_film(arguments, scenario, scenario.last_iteration * scenario.sampling_time)
     human_of(arguments, experiment)
+    for remark in remarks.before(experiment):
+        warn(remark)
+    bounds = remarks.Bounds()
     start = time.perf_counter()
     run = _run_in_window if _wants_window(arguments) else _run_headless
     try:
-        record, troubles = run_and_save(arguments, lambda: run(arguments, experiment))
+        record, troubles = run_and_save(arguments, lambda: run(arguments, experiment, bounds))
     except Interrupted:
         warn_unchecked(experiment, "cut short")
         raise
@@ -90,7 +96,9 @@ def execute(arguments: argparse.Namespace) -> None:
         robot.controller for robot in experiment.scenario.robots
     )
     if lawless and not experiment.scenario.props:
-        warn("there is no law, so all robots stood still")
+        warn(f"there is no law, so all robots stood still{_law_meant(experiment)}")
+    for remark in bounds.remarks():
+        warn(remark)
     if arguments.json:
         predictions = predictions_of(experiment, record)
         tell(_as_json(record, predictions, time.perf_counter() - start))
@@ -100,6 +108,17 @@ def execute(arguments: argparse.Namespace) -> None:
     if troubles:
         say(troubles[:-1])
         raise troubles[-1]
+
+
+def _law_meant(experiment: Experiment) -> str:
+    """Return how a function of the file that is no law becomes one, or ""."""
+    for name, function in experiment.functions.items():
+        first = next(iter(inspect.signature(function).parameters), "")
+        if first == "robot":
+            return f"; give {name}(robot) to a robot: Robot(controller={name})"
+        if first == "world" or likely(name, ["control"]):
+            return f"; the law of the team must be called control: rename {name}({first})"
+    return ""
 
 
 def _check_times(arguments: argparse.Namespace, experiment: Experiment) -> None:
@@ -122,27 +141,28 @@ def _wants_window(arguments: argparse.Namespace) -> bool:
 
 
 def _run_in_window(
-    arguments: argparse.Namespace, experiment: Experiment
+    arguments: argparse.Namespace, experiment: Experiment, watcher: Watcher
 ) -> tuple[Record, Film | None]:
     human, look = human_of(arguments, experiment), preferences_of(arguments)
     log = formats.log_to(arguments.record)
-    return show(experiment, arguments.speed, arguments.seed, look, human, log), None
+    record = show(experiment, arguments.speed, arguments.seed, look, human, log, [watcher])
+    return record, None
 
 
 def _run_headless(
-    arguments: argparse.Namespace, experiment: Experiment
+    arguments: argparse.Namespace, experiment: Experiment, watcher: Watcher
 ) -> tuple[Record, Film | None]:
     """Run as fast as possible; without a window, --speed is the film's."""
     log = formats.log_to(arguments.record)
     if arguments.video is None:
-        world = run_headless(experiment, arguments.seed, log=log)
+        world = run_headless(experiment, arguments.seed, [watcher], log)
         _advise_to_compile(world.simulation.engine_seconds)
         return world.record, None
     from mars2d.output.films.footage import Footage
 
     speed = film_speed(experiment.scenario, arguments.speed)
     footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
-    world = run_headless(experiment, arguments.seed, [footage], log)
+    world = run_headless(experiment, arguments.seed, [footage, watcher], log)
     _advise_to_compile(world.simulation.engine_seconds)
     last, path, size = world.frame, arguments.video, arguments.size
     return world.record, lambda: save_footage(footage, last, path, size)

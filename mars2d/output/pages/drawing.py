@@ -9,7 +9,7 @@ from math import ceil, floor, log10
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import described
+from mars2d.core.hints import described
 from mars2d.core.plane import grid_step
 from mars2d.core.scene import Anchor, Scene, Text
 from mars2d.output.figures.extent import View

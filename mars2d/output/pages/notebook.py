@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from mars2d.core.errors import counted, described
+from mars2d.core.errors import counted
+from mars2d.core.hints import described
 from mars2d.output.pages.drawing import draw, say
 from mars2d.output.pages.svg import text_of
 from mars2d.record.frame import Frame

@@ -12,7 +12,8 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
-from mars2d.core.errors import Mars2dError, described
+from mars2d.core.errors import Mars2dError
+from mars2d.core.hints import described
 from mars2d.core.interrupt import interrupts_blocked
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_drawing
 from mars2d.record.record import Record

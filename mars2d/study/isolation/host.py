@@ -21,7 +21,8 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from mars2d.core.errors import Mars2dError, described
+from mars2d.core.errors import Mars2dError
+from mars2d.core.hints import described
 from mars2d.core.usercode import users_line
 from mars2d.scenario.experiment import law_in
 from mars2d.study.isolation.limits import MB

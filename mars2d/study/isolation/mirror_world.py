@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import LawError, UnknownNameError, nearest
+from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import Message, as_text
@@ -18,7 +18,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.observation import Briefing, Cast, News
 from mars2d.study.isolation.protocol import STEP, STEP_HEAD, Layout
 from mars2d.world.channel import Channel
-from mars2d.world.views import VIEWS, Mind, PropView, RobotView
+from mars2d.world.views import VIEWS, Mind, PropView, RobotView, unknown
 
 if TYPE_CHECKING:
     from mars2d.world.interfaces import Seen
@@ -195,10 +195,9 @@ class MirrorWorld:
 
     def __getattr__(self, name: str) -> NoReturn:
         if name in REFUSED:
-            instead = f"; there is {REFUSED[name]}" if REFUSED[name] else ""
-            raise LawError(f"robot.world.{name} is not available to an isolated law{instead}")
-        known = [item for item in dir(self) if not item.startswith("_")]
-        raise UnknownNameError(f"a world has no {name!r}{nearest(name, known, most=30)}")
+            there = f"; there is {REFUSED[name]}" if REFUSED[name] else ""
+            raise LawError(f"robot.world.{name} is not available to an isolated law{there}")
+        unknown(self, "a world", name)
 
     # -- the interface of World ------------------------------------------------------------------
 

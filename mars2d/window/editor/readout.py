@@ -10,6 +10,7 @@ from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, angle_of
+from mars2d.window.readout import in_both_units
 
 __all__ = ["described", "minus", "sides", "size_of", "stretch", "turned"]
 
@@ -25,7 +26,7 @@ def described(desk: Desk) -> list[str]:
     corners, pose = draft.corners(item), draft.pose(item)
     lines = [draft.name(item)]
     if pose is not None:
-        lines.append(f"{_place(pose[:2])}   θ {degrees(pose[2]) + 0.0:.4g}°")
+        lines.append(f"{_place(pose[:2])}   θ {in_both_units(pose[2])}")
     elif corners is None:
         lines.append(_place(draft.place(item)))
     elif desk.corner is not None:
@@ -63,7 +64,7 @@ def size_of(draft: Draft, item: Item) -> str:
 def turned(draft: Draft, item: Item) -> str:
     """Return the heading of a robot or prop, "" for other items."""
     pose = draft.pose(item)
-    return "" if pose is None else minus(f"{degrees(pose[2]):.4g}°")
+    return "" if pose is None else in_both_units(pose[2])
 
 
 def stretch(a: Point, b: Point) -> str:

@@ -1,0 +1,129 @@
+"""Remarks on what is legal and hardly meant: degrees, commands cut off, flags as distances."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import textwrap
+from collections.abc import Callable, Iterator, Sequence
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from mars2d.core.errors import counted
+from mars2d.core.usercode import definition
+from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.robot import Robot
+from mars2d.world.world import World
+
+__all__ = ["Bounds", "before"]
+
+MOST = 0.5
+"""The share of commands that are alike, or cut, from which a run gets a remark."""
+
+
+def before(experiment: Experiment) -> Iterator[str]:
+    """Yield remarks on an experiment that has not been run."""
+    for robot in experiment.scenario.robots:
+        theta = robot.pose[2]
+        if _like_degrees(theta):
+            yield f"{robot.name} starts at theta = {theta:g} rad{_meant(theta)}"
+    laws = {robot.controller: None for robot in experiment.scenario.robots if robot.controller}
+    for law in [*laws, *([experiment.control] if experiment.control else [])]:
+        yield from _flags_compared(law, experiment.scenario.robots)
+
+
+class Bounds:
+    """Watches a run for commands that the drives' bounds cut off."""
+
+    def __init__(self) -> None:
+        self._world: World | None = None
+
+    def __call__(self, world: World) -> None:
+        """Follow a world, as a watcher."""
+        self._world = world
+
+    def remarks(self) -> Iterator[str]:
+        """Yield a remark on the robots most of whose commands were cut, or look like degrees."""
+        if self._world is None or not self._world.iteration:
+            return
+        cuts, robots = self._world.simulation.cuts, self._world.scenario.robots
+        for i, robot in enumerate(robots):
+            for row, quantity in enumerate(robot.drive.quantities):
+                values = self._world.record.command[:, row, i]
+                asked = cuts.asked[row, i] or (values[0] if len(values) else 0.0)
+                if quantity.unit == "rad/s" and _like_degrees(asked):
+                    yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"
+        shares = cuts.count / (self._world.iteration + 1)
+        cut = [i for i in np.argsort(-shares, kind="stable") if shares[i] > MOST]
+        if cut:
+            others = counted(len(cut) - 1, "other robot")
+            rest = f", and most of those of {others}" if len(cut) > 1 else ""
+            first = robots[cut[0]]
+            yield (
+                f"{shares[cut[0]]:.0%} of the commands of {first.name}{rest} were cut by the "
+                f"drive's bounds, {_bounds(first)}"
+            )
+
+
+def _like_degrees(value: float) -> bool:
+    """Return whether a number of radians is rather one of degrees, such as 45 or -180."""
+    return abs(value) >= 30 and value % 15 == 0
+
+
+def _meant(value: float) -> str:
+    turns = abs(value) / (2 * pi)
+    return f", {turns:.3g} turns; if degrees are meant, write np.radians({value:g})"
+
+
+def _bounds(robot: Robot) -> str:
+    """Return the bounds of a drive that are set, in words."""
+    names = ("max_linear_speed", "max_acceleration", "max_steering", "max_steering_rate")
+    found = ((name, getattr(robot.drive, name, None)) for name in names)
+    told = [f"{name}={value:g}" for name, value in found if value is not None]
+    return f"{type(robot.drive).__name__}({', '.join(told)})"
+
+
+def _flags_compared(law: Callable[..., Any], robots: Sequence[Robot]) -> Iterator[str]:
+    """Yield a remark where a law compares the reading of a sensor that says yes or no."""
+    flags = {
+        sensor.key
+        for robot in robots
+        for sensor in robot.sensors
+        if all(quantity.kind == "flag" for quantity in sensor.quantities)
+    }
+    place = definition(law)
+    if not flags or place is None:
+        return
+    try:
+        lines, first = inspect.getsourcelines(inspect.unwrap(law))
+        tree = ast.parse(textwrap.dedent("".join(lines)))
+    except (OSError, TypeError, SyntaxError):
+        return
+    meant: dict[str, str] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            meant[node.targets[0].id] = _read(node.value, flags)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Compare) and isinstance(
+            node.ops[0], (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
+        ):
+            for side in (node.left, *node.comparators):
+                name = meant.get(side.id, "") if isinstance(side, ast.Name) else _read(side, flags)
+                if name:
+                    file = place.partition(",")[0]
+                    yield (
+                        f"{file}, line {first + node.lineno - 1}: robot.sense.{name} is True or "
+                        "False, and is compared with a number; RangeFinder measures distances"
+                    )
+
+
+def _read(node: ast.expr, flags: set[str]) -> str:
+    """Return the sensor whose reading an expression is, or ""."""
+    if isinstance(node, ast.Subscript):
+        node = node.value
+    if not isinstance(node, ast.Attribute) or node.attr not in flags:
+        return ""
+    owner = node.value
+    return node.attr if isinstance(owner, ast.Attribute) and owner.attr == "sense" else ""

@@ -1,0 +1,165 @@
+"""Hints at what to write instead, for the exceptions that the user's code raises."""
+
+from __future__ import annotations
+
+import builtins
+import sys
+import traceback
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from types import FrameType
+
+from mars2d.core.errors import InputError, likely
+from mars2d.core.words import instead
+
+__all__ = ["described"]
+
+ROOMS = ("mars2d", "mars2d.sensors", "mars2d.addons", "mars2d.bodies", "mars2d.geometry")
+"""The packages whose names people import."""
+
+ABBREVIATIONS = {"np": "import numpy as np", "plt": "import matplotlib.pyplot as plt"}
+
+LIBRARIES = ("numpy", "scipy", "matplotlib", "pygame", "pymunk", "mars2d")
+
+
+def described(error: BaseException) -> str:
+    """Return the message of an exception in the user's code, with a hint at what to write."""
+    if isinstance(error, InputError):
+        return str(error)
+    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    if isinstance(error, ImportError):
+        text = text.partition(" (")[0]  # the path of the module helps nobody
+    for kind, hint in _HINTS.items():
+        if isinstance(error, kind):
+            return text + hint(error)
+    return text
+
+
+def _of_unbound(error: UnboundLocalError) -> str:
+    """Return how a law keeps a number: ``integral += ...`` makes a local one."""
+    name, frame = _name_of(error), _innermost(error)
+    if frame is not None and name in frame.f_globals:
+        keep = f"robot.memory.{name}" if "robot" in frame.f_locals else "an object of your own"
+        return f"; a function that assigns {name!r} has its own: keep it in {keep}"
+    return "; give it a value first, in each branch"
+
+
+def _of_name(error: NameError) -> str:
+    """Return the import that lacks, or the known name that is nearest."""
+    name, frame = _name_of(error), _innermost(error)
+    if name in ABBREVIATIONS:
+        return f"; write `{ABBREVIATIONS[name]}` at the top"
+    if name in sys.stdlib_module_names or name in LIBRARIES:
+        return f"; write `import {name}` at the top"
+    known = set() if frame is None else {*frame.f_locals, *frame.f_globals}
+    line = _import_of(name)
+    if line:
+        return f"; write `{line}` at the top"
+    said = {each for each in dir(builtins) if each.islower()}
+    return instead(name, "a room") or likely(name, known | said)
+
+
+def _of_attribute(error: AttributeError) -> str:
+    """Return the attribute that is nearest, or how to go without setting it."""
+    if "has no setter" in str(error):
+        return "; it can't be set: a law returns its command, and keeps things in robot.memory"
+    known = {name for name in dir(error.obj) if not name.startswith("_")}
+    return likely(error.name, known)
+
+
+def _of_import(error: ImportError) -> str:
+    """Return where a name is, or the package that is nearest."""
+    if isinstance(error, ModuleNotFoundError):
+        modules = [*ROOMS, *LIBRARIES]
+        if (error.name or "").startswith("mars2d."):
+            return likely(error.name, ROOMS, 0.6) or f"; there are {', '.join(ROOMS[1:])}"
+        return likely(error.name, modules, 0.7)
+    name = str(error).split("'")[1] if "'" in str(error) else ""
+    if not (error.name or "").startswith("mars2d"):
+        return ""
+    line = _import_of(name)
+    if line:
+        return f"; write `{line}`"
+    places = [f"{room}.{each}" for room in ROOMS for each in _public(room)]
+    near = likely(name, {place.rpartition(".")[2] for place in places}, 0.7)
+    return instead(name, "a room") or near
+
+
+def _of_type(error: TypeError) -> str:
+    """Return how to write what was called, or indexed, though it can't be."""
+    text = str(error)
+    if text.startswith("'numpy.ndarray' object is not callable"):
+        return "; it is an array: write it without the brackets ()"
+    if text.endswith("object is not callable") and "robot.drive(" in _line_of(error):
+        return "; a law returns its command, as `return v, omega`"
+    return ""
+
+
+def _of_value(error: ValueError) -> str:
+    """Return how to change a copy, or to unpack a pose."""
+    if "read-only" in str(error):
+        return (
+            "; a law can't change the world: it returns its command. To calculate with an array, "
+            "take a copy: pose.copy()"
+        )
+    if "to unpack" in str(error) and ".pose" in _line_of(error):
+        return "; a pose is three numbers: x, y, theta = robot.pose"
+    return ""
+
+
+def _of_index(error: IndexError) -> str:
+    """Return which numbers a pose and a position have."""
+    if ".position[" in _line_of(error):
+        return "; a position is (x, y); the angle is pose[2]"
+    return "; a pose is (x, y, theta), from 0 to 2" if ".pose[" in _line_of(error) else ""
+
+
+_HINTS: dict[type[BaseException], Callable[..., str]] = {
+    UnboundLocalError: _of_unbound,
+    NameError: _of_name,
+    AttributeError: _of_attribute,
+    ImportError: _of_import,
+    TypeError: _of_type,
+    ValueError: _of_value,
+    IndexError: _of_index,
+}
+"""The hint at an exception, by its class; the first that fits."""
+
+
+def _frames(error: BaseException) -> Iterator[FrameType]:
+    step = error.__traceback__
+    while step is not None:
+        yield step.tb_frame
+        step = step.tb_next
+
+
+def _innermost(error: BaseException) -> FrameType | None:
+    """Return the frame in which an exception was raised."""
+    return next(reversed([*_frames(error)]), None)
+
+
+def _line_of(error: BaseException) -> str:
+    """Return the line of code in which an exception was raised, or ""."""
+    steps = traceback.extract_tb(error.__traceback__)
+    return (steps[-1].line or "") if steps else ""
+
+
+def _name_of(error: NameError) -> str:
+    """Return the name that an exception is about; an UnboundLocalError has it in its text only."""
+    if error.name:
+        return error.name
+    text = str(error)
+    return text.split("'")[1] if text.count("'") > 1 else ""
+
+
+def _public(room: str) -> list[str]:
+    return list(import_module(room).__all__)
+
+
+def _import_of(name: str) -> str:
+    """Return the line that imports a name, in whatever letters it is written, or ""."""
+    for room in ROOMS:
+        for each in _public(room):
+            if each.lower() == name.lower():
+                return f"from {room} import {each}"
+    return ""

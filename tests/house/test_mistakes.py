@@ -1,0 +1,283 @@
+"""Mistakes that newcomers make, each really made, and the words that the answer must have."""
+
+import re
+import warnings
+
+import pytest
+
+from mars2d.cli.command_line import main
+
+HEAD = """\
+import numpy as np
+from mars2d import *
+from mars2d.addons import Map
+from mars2d.bodies import Ball, Box, Puck
+from mars2d.sensors import Proximity, RangeFinder
+
+"""
+
+ROBOTS = [
+    ("x=1", "no field 'x'; write pose=(x, y, theta)"),
+    ("theta=1", "write pose=(x, y, theta)"),
+    ("position=(1, 2)", "write pose=(x, y, theta)"),
+    ("positon=(1, 2)", "write pose=(x, y, theta)"),
+    ("heading=1", "write pose=(x, y, theta)"),
+    ("initial_pose=(0, 0, 0)", "write pose=(x, y, theta)"),
+    ("speed=1", "write drive=Unicycle(max_linear_speed=...)"),
+    ("max_linear_speed=1", "write drive=Unicycle(max_linear_speed=...)"),
+    ("maxSpeed=1", "write drive=Unicycle(max_linear_speed=...)"),
+    ("max_omega=1", "wheel_semiaxis"),
+    ("colour='red'", "did you mean 'color'?"),
+    ("size=0.3", "diameter=..."),
+    ("law=print", "write controller=law"),
+    ("control=print", "did you mean 'controller'?|write controller=law"),
+    ("sensor=[Proximity(range=1)]", "did you mean 'sensors'?"),
+    ("sensors=Proximity(range=1)", "write [Proximity(range=1.0)]"),
+    ("sensors=[Proximity]", "write Proximity(...)"),
+    ("drive=Unicycle", "write Unicycle(...)"),
+    ("drive='unicycle'", "as Unicycle()"),
+    ("holonomic=True", "write drive=Holonomic()"),
+    ("goal=(1, 2)", "robot.memory"),
+    ("wheelbase=0.2", "Car(wheelbase=...)"),
+    ("foo=1", "known: center_offset, color, controller, diameter, "),
+    ("pose=(0, 0, '90')", "expected a pose (x, y, theta) in metres and radians"),
+    ("pose=[0, 0, 0, 0]", "expected a pose (x, y, theta)"),
+    ("mass=-1", "expected a number >= 1e-06"),
+    ("name=3", "expected text in quotes"),
+    ("radius=0.1, diameter=0.2", "Robot has both radius and diameter: give one of them"),
+    ("drive=Unicycle(max_v=1)", "write max_linear_speed=..."),
+    ("drive=Unicycle(max_omega=1)", "wheel_semiaxis"),
+    ("drive=Differential(wheel_base=1)", "half the distance of the wheels"),
+    ("drive=Unicycle(1)", "takes its fields by name, as in Unicycle(max_linear_speed=...)"),
+    ("sensors=[RangeFinder(n=3)]", "write beams=..."),
+    ("sensors=[Proximity(distance=3)]", "write range=..."),
+    ("sensors=[Proximity(range=1, fov=3)]", "write field_of_view=..."),
+]  # fmt: skip
+"""Fields of a robot."""
+
+SCENARIOS = [
+    ("n=3", "write robots=3"),
+    ("dt=0.1", "write sampling_time=..."),
+    ("duration=10", "write stop_time=..."),
+    ("time=10", "write stop_time=..."),
+    ("laws=print", "def control(world) in the file"),
+    ("obstacles=[[(0, 0), (1, 1), (1, 0)]]", "write addons=[Map("),
+    ("arena=(3, 3)", "write workspace=[(x, y), ...]"),
+    ("boxes=[Box()]", "write props=[Box(...), ...]"),
+    ("props=Box()", "write [Box()]"),
+    ("sensors=[Proximity(range=1)]", "write Robot(sensors=[...])"),
+    ("seed=3", "mars2d.run(scenario, seed=3)"),
+    ("gravity=9.81", "ground_friction"),
+    ("robots=Robot()", "write [Robot()]"),
+    ("robots=[(0, 0, 0)]", "expected a Robot, as Robot(pose=(0, 0, 0))"),
+    ("robots=[Robot(), Robot(pose=(0.1, 0, 0))]", "they start 0.2 m inside each other"),
+    ("props=[Ball(position=(1, 2))]", "write pose=(x, y, theta)"),
+    ("props=[Puck(r=1)]", "diameter=... or radius=..."),
+    ("props=[Box(weight=1)]", "write mass=..."),
+    ("addons=[Map([(0, 0), (1, 1)])]", "put one more pair of brackets round it"),
+    ("neighbors=Within(3)", "did you mean 'neighbours'?"),
+    ("neighbours=Within(radius=3)", "write range=..."),
+    ("robots=[Robot(mass=20), Robot(pose=(1, 0, 0), mass=1)]",
+     "set the mass of robot0 to 10 kg or less, or that of robot1 to 2 kg or more"),
+    ("on_exit='bounce'", "expected one of 'stop', 'wall', 'ignore'"),
+    ("physics='real'", "expected one of 'contact', 'stop', 'ideal'"),
+    ("workspace=[(0, 0), (1, 1), (0, 1), (1, 0)]", "list its vertices in order"),
+]  # fmt: skip
+"""Fields of a scenario and what it holds."""
+
+FILES = [
+    ("from mars2d import Map", "write `from mars2d.addons import Map`"),
+    ("from mars2d import Box", "write `from mars2d.bodies import Box`"),
+    ("from mars2d import Proximity", "write `from mars2d.sensors import Proximity`"),
+    ("from mars2d import Lidar", "write RangeFinder, of mars2d.sensors"),
+    ("from mars2d.sensors import Lidar", "write RangeFinder, of mars2d.sensors"),
+    ("from mars2d.sensors import Camera", "LineCamera"),
+    ("from mars2d.addons import Wall", "write Map, of mars2d.addons"),
+    ("from mars2d import Unicyle", "did you mean 'Unicycle'?"),
+    ("from mars2d import holonomic", "write `from mars2d import Holonomic`"),
+    ("from mars2d import Simulator", "mars2d.run(scenario)"),
+    ("import mars2d.sensor", "did you mean 'mars2d.sensors'?"),
+    ("from mars2d.sensor import Proximity", "did you mean 'mars2d.sensors'?"),
+    ("from mars import Robot", "did you mean 'mars2d'?"),
+    ("import numppy", "did you mean 'numpy'?"),
+    ("a = Proximity(range=1)\nb = IMU()", "write `from mars2d.sensors import Imu` at the top"),
+    ("a = Odometry()", "write `from mars2d.sensors import Odometry` at the top"),
+    ("a = math.pi", "write `import math` at the top"),
+    ("a = plt.figure()", "write `import matplotlib.pyplot as plt` at the top"),
+    ("mars2d.run(Scenario())", "write `import mars2d` at the top"),
+    ("scenarios = Scenario()", "needs `scenario = Scenario(...)`"),
+    ("scenario = 3", "expected a Scenario, or a function of one"),
+    ("def scenario(n): return Scenario(robots=n)", "give it a default, or set it with --set n=..."),
+    ("scenario = Scenario(robots=2 stop_time=3)", "line 7: invalid syntax"),
+    ("scenario = Scenario(robots=2", "line 7: '(' was never closed"),
+    ("def controll(world): return 0, 0", "must be called control: rename controll(world)"),
+    ("def update(world): return 0, 0", "must be called control: rename update(world)"),
+    ("def go(robot): return 0, 0", "give go(robot) to a robot: Robot(controller=go)"),
+]  # fmt: skip
+"""Lines of an experiment's file."""
+
+LAWS = [
+    ("v = 1", "go returned nothing: a law returns its command, as `return v, omega`"),
+    ("return 1", "expected two numbers, as (v, omega) or (vx, vy)"),
+    ("return 0.2, 0, 0", "expected two numbers"),
+    ("return '0.2', 0", "expected two numbers"),
+    ("return np.nan, 0", "a command must be finite"),
+    ("robot.v = 0.2", "as `return v, omega`; keep things in robot.memory.v"),
+    ("robot.pose[2] = 0", "a law can't change the world: it returns its command"),
+    ("robot.pose = (0, 0, 0)", "a robot's pose can't be set"),
+    ("robot.command = (1, 0)", "a robot's command can't be set"),
+    ("return robot.x, 0", "write robot.pose[0]"),
+    ("return robot.theta, 0", "write robot.pose[2]"),
+    ("return robot.position[2], 0", "a position is (x, y); the angle is pose[2]"),
+    ("return robot.pose[3], 0", "a pose is (x, y, theta), from 0 to 2"),
+    ("x, y = robot.pose\nreturn x, y", "a pose is three numbers: x, y, theta = robot.pose"),
+    ("return robot.pose(), 0", "it is an array: write it without the brackets ()"),
+    ("return robot.speed, 0", "write robot.velocity: x', y' [m/s], theta' [rad/s]"),
+    ("return robot.sensors['prox'], 0", "write robot.sense.NAME"),
+    ("return robot.sense('proximity'), 0", "write robot.sense.proximity"),
+    ("return robot.sense['proximity'], 0", "write robot.sense.proximity"),
+    ("return robot.sense.lidar, 0", "red has no sensor 'lidar'; known: proximity"),
+    ("if robot.sense.proximity < 0.5: return 0, 0\nreturn 1, 0",
+     "line 9: robot.sense.proximity is True or False, and is compared with a number"),
+    ("near = robot.sense.proximity\nif near > 1: return 0, 0\nreturn 1, 0",
+     "line 10: robot.sense.proximity is True or False"),
+    ("return robot.neighbors, 0", "did you mean 'neighbours'?"),
+    ("return robot.memory['a'], 0", "write robot.memory.a"),
+    ("robot.memory['a'] = 1", "write robot.memory.a"),
+    ("robot.memory.n += 1", "robot.memory has no 'n' yet: set it first"),
+    ("integral += 1", "keep it in robot.memory.integral"),
+    ("return robot.t, 0", "write robot.time"),
+    ("return robot.dt, 0", "write robot.sampling_time"),
+    ("return robot.goal[0], 0", "robot.memory"),
+    ("robot.stop()", "write return v, omega: a law returns its command"),
+    ("robot.drive(1, 0)", "a law returns its command, as `return v, omega`"),
+    ("robot.set_velocity(1, 0)", "write return v, omega"),
+    ("return sinus(1), 0", "line 9: go raised NameError: name 'sinus' is not defined"),
+    ("return random.random(), 0", "write `import random` at the top"),
+    ("return robot.world.t, 0", "write world.time"),
+    ("return robot.world.n, 0", "write len(world.robots)"),
+    ("return 0, 45", "if degrees are meant, write np.radians(45)"),
+    ("return 9, 0", "of the commands of red were cut by the drive's bounds"),
+]  # fmt: skip
+"""Bodies of a robot's law."""
+
+TEAMS = [
+    ("return [[1, 2], [3]]", "its rows have 2 and 1 numbers"),
+    ("return [(1, 0), (1, 0), (1, 0)]", "expected two rows and a column for each robot, shape (2"),
+    ("return 1, 0", "expected two rows and a column for each robot, shape (2, 3)"),
+    ("world.pose[0] = 1", "a law can't change the world"),
+    ("return world.poses", "did you mean 'pose'?"),
+    ("return world.robot[0]", "did you mean 'robots'?"),
+    ("integral += 1", "a function that assigns 'integral' has its own"),
+]
+"""Bodies of a team's law."""
+
+COMMANDS = [
+    ("walk.py", "write mars2d run walk.py"),
+    ("runn walk.py", "did you mean 'run'?"),
+    ("help", "write mars2d --help"),
+    ("run wolk.py", "did you mean 'walk.py'?"),
+    ("run nothing", "mars2d list shows the examples"),
+    ("run walk.py --headles", "did you mean '--headless'?"),
+    ("run walk.py --headless --time 1", "write --stop-time S"),
+    ("run walk.py --headless --seeds 3", "write --seed K; mars2d sweep has --seeds N"),
+    ("run walk.py --headless --out a.npz", "write --record OUT.npz"),
+    ("run walk.py --headless --record a.txt", "expected a name that ends in .npz"),
+    ("run walk.py --headless --figure a.gif", "expected a name that ends in .png"),
+    ("run walk.py --headless --set robots.*.drive=Holonomic()", "write Holonomic() in the file"),
+    ("run walk.py --headless --set robots.rde.mass=3", "did you mean 'red'?"),
+    ("run walk.py --headless --set robot.0.mass=3", "did you mean 'robots'?"),
+    ("run walk.py --headless --set stop_tme=3", "did you mean 'stop_time'?"),
+    ("run walk.py --headless --set stop_time:3", "expected NAME=VALUE"),
+    ("run walk.py --headless --set n=3", "write robots=3"),
+    ("run walk.py --headless --speed fast", "expected a number >= 0, or max"),
+    ("sweep walk.py --values stop_time=1,2", "write --set NAME=VALUES"),
+    ("sweep walk.py --set stop_time=1,2 --jobs 2", "write --workers N"),
+    ("sweep walk.py --set stop_time=1,2 --measure foo", "there is no measure 'foo'; known: "),
+    ("plot walk.py paths", "run it first: mars2d run walk.py --record walk.npz"),
+    ("replay walk.py", "expected a record"),
+]
+"""Command lines."""
+
+
+@pytest.fixture
+def answer(tmp_path, monkeypatch, capsys):
+    """Return a function that runs a command line in an empty folder and returns its stderr."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(text, *words):
+        (tmp_path / "walk.py").write_text(text)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", FutureWarning)
+            main([*words] or ["run", "walk.py", "--headless"])
+        return capsys.readouterr().err
+
+    return run
+
+
+def indented(lines):
+    return "".join(f"    {line}\n" for line in lines.split("\n"))
+
+
+def helps(told, words):
+    """Check that an answer has some words, and no nonsense."""
+    assert any(each in told for each in words.split("|")), told
+    assert "did you mean 'None'" not in told
+    assert "Traceback" not in told
+    assert len(told.splitlines()) <= 2, told
+    line = re.search(r"walk\.py, line (\d+)", told)
+    assert line is None or int(line[1]) > 0
+
+
+@pytest.mark.parametrize(("fields", "words"), ROBOTS)
+def test_a_robots_field(answer, fields, words):
+    told = answer(f"{HEAD}scenario = Scenario(robots=[Robot({fields})], stop_time=0.3)\n")
+    helps(told, words)
+    assert "walk.py, line 7" in told
+
+
+@pytest.mark.parametrize(("fields", "words"), SCENARIOS)
+def test_a_scenarios_field(answer, fields, words):
+    told = answer(f"{HEAD}scenario = Scenario({fields}, stop_time=0.3)\n")
+    helps(told, words)
+    assert "walk.py, line 7" in told
+
+
+@pytest.mark.parametrize(("lines", "words"), FILES)
+def test_a_line_of_a_file(answer, lines, words):
+    end = "" if "scenario" in lines else "\nscenario = Scenario(stop_time=0.3)\n"
+    helps(answer(HEAD + lines + end), words)
+
+
+@pytest.mark.parametrize(("body", "words"), LAWS)
+def test_a_law_of_a_robot(answer, body, words):
+    made = "Robot(name='red', controller=go, sensors=[Proximity(range=1)])"
+    told = answer(
+        f"{HEAD.rstrip()}\nintegral = 0\n\ndef go(robot):\n{indented(body)}\n"
+        f"scenario = Scenario(robots=[{made}], stop_time=0.3)\n"
+    )
+    helps(told, words)
+    assert "red" in told or "walk.py, line " in told
+
+
+@pytest.mark.parametrize(("body", "words"), TEAMS)
+def test_a_law_of_a_team(answer, body, words):
+    told = answer(
+        f"{HEAD}integral = 0\ndef control(world):\n{indented(body)}\n"
+        "scenario = Scenario(robots=3, stop_time=0.3)\n"
+    )
+    helps(told, words)
+    assert "walk.py, line " in told
+    assert "(at 0 s)" in told
+
+
+@pytest.mark.parametrize(("line", "words"), COMMANDS)
+def test_a_command_line(answer, line, words):
+    text = f"{HEAD}scenario = Scenario(robots=[Robot(name='red')], stop_time=0.3)\n"
+    told = answer(text, *line.split())
+    helps(told, words)
+    assert told.startswith("mars2d: ")
+
+
+def test_the_table_is_long():
+    assert sum(map(len, (ROBOTS, SCENARIOS, FILES, LAWS, TEAMS, COMMANDS))) >= 150
