@@ -31,7 +31,7 @@ def scenario(mu: float = 0.5, force: float = 5.0):
         ],
         workspace=[(-1, -2), (-1, 2), (3, 2), (3, -2)],
         stop_time=12.0,
-        animation=Animation(forces=True),
+        animation=Animation(forces=True, names=True),
     )
 
 

@@ -127,12 +127,13 @@ def _speed(text: str) -> float | str:
         raise argparse.ArgumentTypeError(f"{text!r}: expected a number >= 0, or max") from error
 
 
-def times(text: str) -> list[float]:
-    """Return the times [s] that an argument lists, separated by commas."""
+def times(text: str) -> list[float | str]:
+    """Return the times [s] that an argument lists, separated by commas; the last may be "end"."""
     try:
-        return [float(item) for item in text.split(",")]
+        items = [item.strip() for item in text.split(",")]
+        return [item if item == "end" else float(item) for item in items]
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected times, as 1,30,60") from None
+        raise argparse.ArgumentTypeError(f"{text!r}: expected times, as 1,30,end") from None
 
 
 def add_workers(parser: argparse.ArgumentParser) -> None:

@@ -15,7 +15,7 @@ from mars2d.cli.films import Film, save_film_of
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.files import why_unwritable
 from mars2d.core.interrupt import held_back
-from mars2d.core.terminal import warn
+from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
@@ -31,6 +31,7 @@ __all__ = [
     "run_and_save",
     "save_record",
     "say",
+    "tell_files",
 ]
 
 
@@ -41,6 +42,15 @@ OUTPUTS = {
     "html": (".html", ".htm"),
 }
 """The arguments that name output files, with their possible suffixes."""
+
+HAIR = 1e-9
+"""A time so little after the end, as a share of it, is the end: 600 * 0.1 is not quite 60."""
+
+KINDS = {"record": "record", "figure": "figure", "video": "film", "html": "page"}
+"""The words for the output files."""
+
+Made = dict[str, Path]
+"""The files that were made, by the names of their arguments."""
 
 
 def add_html(parser: argparse.ArgumentParser) -> None:
@@ -79,8 +89,8 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
 
 def run_and_save(
     arguments: argparse.Namespace, run: Callable[[], tuple[Record, Film | None]]
-) -> tuple[Record, list[Mars2dError]]:
-    """Run, and save all requested outputs however the run ends; return the failures to save.
+) -> tuple[Record, Made, list[Mars2dError]]:
+    """Run, and save all requested outputs however the run ends; return files and failures.
 
     run: returns the record, and a function that makes the film unless it is made from the record.
     Ctrl-C ends the run and, once its data are saved, the other outputs. If an error ended the run,
@@ -103,21 +113,22 @@ def run_and_save(
         "video": film or (lambda: save_film_of(record, arguments)),
     }
     others, more = _tried(arguments, makers)
-    made, troubles = made + others, troubles + more
+    made, troubles = made | others, troubles + more
     if ended is None:
-        return record, troubles
+        return record, made, troubles
     say(troubles)
     if made:
-        what = f"what was recorded until {record.time[-1]:g} s is in {', '.join(map(str, made))}"
-        warn(f"{what}")
+        files = ", ".join(map(str, made.values()))
+        warn(f"what was recorded until {record.time[-1]:g} s is in {files}")
     raise ended
 
 
 def _tried(
     arguments: argparse.Namespace, makers: Mapping[str, Film]
-) -> tuple[list[Path], list[Mars2dError]]:
+) -> tuple[Made, list[Mars2dError]]:
     """Make the requested outputs independently of each other; return files made, and errors."""
-    made, troubles = [], []
+    made: Made = {}
+    troubles = []
     for name, make in makers.items():
         path: Path | None = getattr(arguments, name)
         if path is None:
@@ -127,8 +138,14 @@ def _tried(
         except Mars2dError as error:
             troubles.append(error)
         else:
-            made.append(path)
+            made[name] = path
     return made, troubles
+
+
+def tell_files(made: Made) -> None:
+    """Print the files that were made, each with its kind."""
+    for name, path in made.items():
+        tell(f"{KINDS[name] + ':':<8}{one_line(path)}")
 
 
 def say(troubles: Iterable[Mars2dError]) -> None:
@@ -184,12 +201,14 @@ def _free_beside(path: Path) -> Path:
     return next(beside for beside in names if not beside.exists())
 
 
-def _times_within(times: list[float] | None, record: Record) -> list[float] | None:
-    """Return the times up to the end of a run, which may have ended early."""
+def _times_within(times: list[float | str] | None, record: Record) -> list[float | str] | None:
+    """Return the times up to the end of a run, which may have ended early, and then its end."""
     if times is None:
         return None
     end = float(record.time[-1])
-    within = [moment for moment in times if moment <= end]
-    if len(within) < len(times):
-        warn(f"the run ended at {end:g} s: no snapshots after it")
-    return within or None
+    beyond = [t for t in times if not isinstance(t, str) and t > end + HAIR * abs(end)]
+    if not beyond:
+        return times
+    warn(f"the run ended at {end:g} s, which is drawn for {', '.join(f'{t:g}' for t in beyond)} s")
+    within = [t for t in times if t not in beyond and t != "end"]
+    return [*within, "end"]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.cli.arguments import preferences_of
-from mars2d.cli.outputs import run_and_save, say
+from mars2d.cli.outputs import run_and_save, say, tell_files
 from mars2d.cli.runs import has_display, run_headless, show
 from mars2d.core.errors import InputError, shown
 from mars2d.core.terminal import tell, warn
@@ -42,8 +42,9 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
         return run_headless(experiment, then.seed, log=log).record, None
 
     log = log_to(arguments.record)
-    record, troubles = run_and_save(arguments, run)
+    record, made, troubles = run_and_save(arguments, run)
     _report(record, table, then, experiment)
+    tell_files(made)
     if troubles:
         say(troubles[:-1])
         raise troubles[-1]

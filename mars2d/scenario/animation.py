@@ -35,6 +35,9 @@ class Animation(Description):
     show_real_shape: bool = flag(default=True, doc="draw robots to scale, else as points")
     wake: bool = flag(default=True, doc="draw the paths behind the robots")
     forces: bool = flag(default=False, doc="draw the forces of contacts, and which drives slip")
+    names: bool = flag(default=False, doc="write the names of robots and props")
+    neighbours: bool = flag(default=False, doc="draw the links between neighbours")
+    ranges: bool = flag(default=False, doc="draw how far robots reach by radio")
     theory: bool = flag(default=False, doc="draw what theory predicts, where add-ons do so")
     wake_style: str = entry(
         default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"

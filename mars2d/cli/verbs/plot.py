@@ -15,10 +15,14 @@ from mars2d.core.terminal import tell
 from mars2d.output.figures import figure
 from mars2d.output.figures.style import STYLES, style_of
 from mars2d.output.formats import SUFFIXES
+from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.record.record import Record, load
 from mars2d.scenario.experiment import examples
 
 KINDS = ("paths", "snapshots", "signals", "energy", "momentum", "contacts", "distances")
+
+DRAWINGS = ("paths", "snapshots")
+"""The kinds that show the plane, by layers."""
 
 KIND_OF_OPTION = {"at": "snapshots"} | dict.fromkeys(("columns", "robots", "from", "to"), "signals")
 """Options that belong to one kind of figure."""
@@ -35,6 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--from", type=float, metavar="S", help="signals: start at this time")
     add("--to", type=float, metavar="S", help="signals: end at this time")
     add("--at", type=times, metavar="T1,T2,...", help="snapshots: at these times")
+    add("--layers", type=_words, metavar="A,B,...", help="such as names,neighbours,no-grid")
     add("--style", default="screen", metavar="STYLE", help=f"{', '.join(STYLES)}")
 
 
@@ -53,8 +58,10 @@ def execute(arguments: argparse.Namespace) -> None:
     for option, only in KIND_OF_OPTION.items():
         if getattr(arguments, option) is not None and kind != only:
             raise InputError(f"--{option} is for {only}: mars2d plot {path} {only}")
+    if arguments.layers is not None and kind not in DRAWINGS:
+        raise InputError(f"--layers is for {' and '.join(DRAWINGS)}: mars2d plot {path} paths")
     if kind == "snapshots" and arguments.at is None:
-        raise InputError("snapshots need their times, as --at 0,5,10")
+        raise InputError("snapshots need their times, as --at 0,5,end")
     look = style_of(arguments.style)
     check_outputs(arguments, {"figure": figure.SUFFIXES})
     _refuse_experiments(path)
@@ -75,10 +82,12 @@ def _refuse_experiments(path: Path) -> None:
 
 def _drawing(arguments: argparse.Namespace, record: Record) -> Callable[[], Any]:
     """Return the function that makes the figure."""
-    style = arguments.style
+    style, layers = arguments.style, _layers(arguments.layers, record)
     makers: dict[str, Callable[[], Any]] = {
-        "paths": lambda: record.plot(style=style).figure,
-        "snapshots": lambda: record.plot_snapshots(arguments.at, style=style),
+        "paths": lambda: figure.plot_paths(record, style=style, layers=layers).figure,
+        "snapshots": lambda: figure.plot_snapshots(
+            record, arguments.at, style=style, layers=layers
+        ),
         "signals": lambda: (
             record.plot_signals(
                 *arguments.columns or (),
@@ -94,6 +103,18 @@ def _drawing(arguments: argparse.Namespace, record: Record) -> Callable[[], Any]
         "distances": lambda: record.plot_distances(style=style).figure,
     }
     return makers[arguments.kind]
+
+
+def _layers(words: list[str] | None, record: Record) -> Layers | None:
+    """Return the layers of a drawing with some switched; None for those that it has anyway."""
+    if words is None:
+        return None
+    known = [layer.name for layer in LAYERS if layer.switch]
+    switches = {word.removeprefix("no-"): not word.startswith("no-") for word in words}
+    for name in switches:
+        if name not in known:
+            raise InputError(f"--layers {name}: there is no such layer{nearest(name, known)}")
+    return figure.layers_of(record.scenario).switched(**switches)
 
 
 def _robots(words: list[str] | None, record: Record) -> list[str | int] | None:

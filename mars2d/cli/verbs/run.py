@@ -24,7 +24,7 @@ from mars2d.cli.arguments import (
     times,
 )
 from mars2d.cli.films import FPS, Film, add_film, check_film, film_speed, save_footage
-from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, run_and_save, say
+from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, run_and_save, say, tell_files
 from mars2d.cli.runs import (
     has_display,
     predictions_of,
@@ -88,7 +88,7 @@ def execute(arguments: argparse.Namespace) -> None:
     start = time.perf_counter()
     run = _run_in_window if _wants_window(arguments) else _run_headless
     try:
-        record, troubles = run_and_save(arguments, lambda: run(arguments, experiment, bounds))
+        record, made, troubles = run_and_save(arguments, lambda: run(arguments, experiment, bounds))
     except Interrupted:
         warn_unchecked(experiment, "cut short")
         raise
@@ -105,6 +105,7 @@ def execute(arguments: argparse.Namespace) -> None:
     else:
         tell(_as_text(record))
         print_predictions(experiment, record)
+        tell_files(made)
     if troubles:
         say(troubles[:-1])
         raise troubles[-1]
@@ -124,7 +125,7 @@ def _law_meant(experiment: Experiment) -> str:
 def _check_times(arguments: argparse.Namespace, experiment: Experiment) -> None:
     last = experiment.scenario.stop_time
     for moment in arguments.at or ():
-        if not 0 <= moment <= last:
+        if moment != "end" and not 0 <= moment <= last:
             raise InputError(f"--at {moment:g}: the experiment goes from 0 to {last:g} s")
 
 

@@ -101,15 +101,22 @@ def check_rows(record: Record, what: str = "draw") -> None:
         raise InputError(f"the record has no rows: nothing ran, so there is nothing to {what}")
 
 
+def is_end(time: object) -> bool:
+    """Return whether a time is the word for the end of a run."""
+    return isinstance(time, str) and time == "end"
+
+
 def rows_at(record: Record, times: ArrayLike) -> list[int]:
-    """Return the last row of a record at or before each of the times [s].
+    """Return the last row of a record at or before each of the times [s], or "end".
 
     Raises InputError for a time outside the record, and for no times or too many.
     """
     check_rows(record)
-    expected = "expected times in seconds, as [0, 2.5, 10]"
+    expected = 'expected times in seconds, as [0, 2.5, "end"]'
+    if isinstance(times, (list, tuple)):
+        times = [record.time[-1] if is_end(time) else time for time in times]
     try:
-        wanted = np.atleast_1d(np.asarray(times))
+        wanted = np.atleast_1d(np.asarray(record.time[-1] if is_end(times) else times))
     except ValueError:
         raise InputError(f"times = {shown(times)}: {expected}") from None
     if wanted.ndim != 1 or wanted.dtype.kind not in "iuf":

@@ -9,7 +9,7 @@ from functools import partial
 from io import BytesIO
 from math import ceil, log
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,8 +20,10 @@ from mars2d.core.plane import grid_step
 from mars2d.core.scene import Circle, Line, Polygon, Scene, Shape, Text, faded
 from mars2d.output.figures.artists import SHAPES, paint, points_per_metre
 from mars2d.output.figures.extent import View, rows_at
+from mars2d.output.figures.names import Box, placed_names
 from mars2d.output.figures.style import SCREEN, Style, style_of
 from mars2d.output.layers.forces import FORCE, LABEL_SIZE, force_scale, in_newtons, round_force
+from mars2d.output.layers.forces import forces as force_arrows
 from mars2d.output.layers.table import Layers
 
 if TYPE_CHECKING:
@@ -40,6 +42,7 @@ __all__ = [
     "check_axes",
     "dress",
     "label",
+    "layers_of",
     "line_style",
     "new_figure",
     "paint_row",
@@ -279,7 +282,7 @@ def dress(
     set_ticks(ax)
     ax.callbacks.connect("xlim_changed", set_ticks)
     ax.callbacks.connect("ylim_changed", set_ticks)
-    layers = layers or _layers_of(scenario)
+    layers = layers or layers_of(scenario)
     if layers.grid:
         ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
     else:
@@ -327,7 +330,7 @@ def paint_row(
     """Paint the layers at a row; layers: the switches, as in `plot_paths`."""
     now = record.frame(row)
     animation = record.scenario.animation
-    layers = layers or _layers_of(record.scenario)
+    layers = layers or layers_of(record.scenario)
     _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
     scales = _scales(ax, record.scenario, look)
     words = 0.65 * look.small / SCREEN.small
@@ -338,6 +341,8 @@ def paint_row(
         if layer.shapes is None:
             continue
         scene = layer.shapes(now)
+        if layer.name == "names":
+            scene = _names_apart(ax, now, words, forces=layers.forces)
         if layer.name == "workspace":  # its edge is a layer of its own
             scene = Scene([_without_edge(shape) for shape in scene.shapes])
         elif layer.name == "trails":
@@ -358,7 +363,19 @@ def paint_row(
         _paint_legend(ax, now, scales["bodies"], words)
 
 
-def _layers_of(scenario: Scenario) -> Layers:
+def _names_apart(ax: Axes, now: Frame, words: float, *, forces: bool) -> Scene:
+    """Return the names of bodies, none over another or over a force that is drawn.
+
+    words: the factor for the size of text.
+    """
+    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
+    view = Box((xmin + xmax) / 2, (ymin + ymax) / 2, (xmax - xmin) / 2, (ymax - ymin) / 2)
+    scenes = (force_arrows(now), *_force_legend(ax, now)) if forces else ()
+    others = [shape for scene in scenes for shape in scene.shapes]
+    return placed_names(now, words / points_per_metre(ax), view, others)
+
+
+def layers_of(scenario: Scenario) -> Layers:
     """Return the default layers of a figure, for many robots without sensors, which hide paths."""
     few = len(scenario.robots) <= LEGEND_LIMIT
     return Layers.of(scenario.animation, sensors=few)
@@ -392,7 +409,14 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
 
 
 def _paint_legend(ax: Axes, now: Frame, scale: float, words: float) -> None:
-    """Paint the scale of forces in a corner: an arrow of a round force, with its number."""
+    """Paint the scale of forces in a corner."""
+    arrow, text = _force_legend(ax, now)
+    paint(arrow, ax, scale=scale)
+    paint(text, ax, scale=words)
+
+
+def _force_legend(ax: Axes, now: Frame) -> tuple[Scene, Scene]:
+    """Return an arrow of a round force in a corner, and its number."""
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
     length = force_scale(now.scenario).newton
     force = round_force(0.14 * (xmax - xmin) / length)
@@ -401,8 +425,7 @@ def _paint_legend(ax: Axes, now: Frame, scale: float, words: float) -> None:
     arrow, text = Scene(), Scene()
     arrow.arrow(tail, tip, fill=FORCE, stroke="#ffffff")
     text.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left", halo="#ffffff")
-    paint(arrow, ax, scale=scale)
-    paint(text, ax, scale=words)
+    return arrow, text
 
 
 def _told_apart(trails: Scene, scenario: Scenario, look: Style) -> Scene:
@@ -463,11 +486,29 @@ def _time(seconds: float) -> str:
     return f"t = {seconds:.10g} s"
 
 
-def _names(scenario: Scenario) -> list[str]:
-    """Return the robots' names for a legend, or none if there are too many."""
+class _Entry(NamedTuple):
+    """An entry of the legend: a name, and the first robot that it stands for."""
+
+    name: str
+    robot: int
+
+
+def _entries(scenario: Scenario, look: Style) -> list[_Entry]:
+    """Return an entry for robots that look alike, or none if there are too many robots."""
     if len(scenario.robots) > LEGEND_LIMIT:
         return []
-    return [plain_name(str(robot.name)) for robot in scenario.robots]
+    alike: dict[object, list[int]] = {}
+    for i, color in enumerate(scenario.colors):
+        alike.setdefault(i if look.greys else color, []).append(i)
+    names = [str(robot.name) for robot in scenario.robots]
+    return [
+        _Entry(plain_name(_joined([names[i] for i in same])), same[0]) for same in alike.values()
+    ]
+
+
+def _joined(names: list[str]) -> str:
+    """Return the names of robots that look alike as one: with their number, if they are many."""
+    return ", ".join(names) if len(names) < 3 else f"{names[0]} and {len(names) - 1} alike"
 
 
 def plain_name(name: str) -> str:
@@ -478,7 +519,7 @@ def plain_name(name: str) -> str:
 
 def _legend_width(scenario: Scenario, look: Style) -> float:
     """Return the approximate width of the legend, inches."""
-    names = _names(scenario)
+    names = [entry.name for entry in _entries(scenario, look)]
     return (0.3 + 0.075 * max(map(len, names))) * look.small / SCREEN.small if names else 0.0
 
 
@@ -486,26 +527,26 @@ def _add_legend(ax: Axes, scenario: Scenario, look: Style) -> None:
     """Add a legend of the robots beside the drawing, if they are few."""
     from matplotlib.lines import Line2D
 
-    names = _names(scenario)
-    if not names:
+    entries = _entries(scenario, look)
+    if not entries:
         return
     handles: list[Artist] = [
         Line2D(
-            [], [], linestyle=line_style(look.dash(i) if look.greys else ""),
+            [], [], linestyle=line_style(look.dash(entry.robot) if look.greys else ""),
             linewidth=1.5 * look.stroke, marker="o", markersize=6 * look.small / SCREEN.small,
-            color=color, markeredgewidth=0,
+            color=scenario.colors[entry.robot], markeredgewidth=0,
         )
-        for i, color in enumerate(scenario.colors)
+        for entry in entries
     ]  # fmt: skip
     legend = ax.legend(
-        handles, ["robot"] * len(names), loc="upper left",
+        handles, ["robot"] * len(entries), loc="upper left",
         bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
         frameon=False, fontsize=look.small, labelcolor=look.ink,
         handletextpad=0.6 if look.greys else 0.1, handlelength=3.0 if look.greys else 1.5,
     )  # fmt: skip
-    for text, name in zip(legend.get_texts(), names, strict=True):
+    for text, entry in zip(legend.get_texts(), entries, strict=True):
         text.set_parse_math(False)
-        text.set_text(name)  # only now: a legend leaves out labels that begin with "_"
+        text.set_text(entry.name)  # only now: a legend leaves out labels that begin with "_"
 
 
 def _columns(count: int, ratio: float, page: tuple[float, float] | None) -> int:

@@ -27,6 +27,7 @@ from mars2d.output.layers.forces import forces
 from mars2d.output.layers.ground import edge, obstacles, workspace
 from mars2d.output.layers.messages import messages
 from mars2d.output.layers.neighbours import neighbours
+from mars2d.output.layers.ranges import place_range, ranges
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
 from mars2d.record.frame import Frame
@@ -93,7 +94,14 @@ LAYERS: list[Layer] = [
     ),
     Layer(name="trails", title="Trails", shapes=trails, key="t", at_first=attrgetter("wake")),
     Layer(name="sensors", title="Sensors", shapes=sensors, key="s"),
-    Layer(name="neighbours", title="Neighbours", shapes=neighbours, at_first=_never),
+    Layer(
+        name="ranges", title="Ranges", shapes=ranges, at_first=attrgetter("ranges"),
+        each=place_range,
+    ),
+    Layer(
+        name="neighbours", title="Neighbours", shapes=neighbours,
+        at_first=attrgetter("neighbours"),
+    ),
     Layer(name="addons", title="Add-ons", shapes=addons, key="o"),
     Layer(name="theory", title="Theory", shapes=theory, key="y", at_first=attrgetter("theory")),
     Layer(name="messages", title="Messages", shapes=messages, key="m"),
@@ -102,7 +110,10 @@ LAYERS: list[Layer] = [
     Layer(name="joints", title="Joints", shapes=joints, switch=False),
     Layer(name="velocities", title="Velocities", shapes=velocities, key="u", at_first=_never),
     Layer(name="forces", title="Forces", shapes=forces, key="x", at_first=attrgetter("forces")),
-    Layer(name="names", title="Names", shapes=names, key="i", at_first=_never, each=draw_name),
+    Layer(
+        name="names", title="Names", shapes=names, key="i", at_first=attrgetter("names"),
+        each=draw_name,
+    ),
 ]  # fmt: skip
 """All layers, the lowest first. A new one is a function in a file of its own, and a line here."""
 

@@ -1,0 +1,227 @@
+"""Names, links and ranges in figures: none over another, and each only where it is asked for."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Animation, InputError, Robot, Scenario, Within
+from mars2d.addons import Communication
+from mars2d.bodies import Box
+from mars2d.cli.command_line import main
+from mars2d.core.scene import Circle, Line, Text
+from mars2d.output.figures import names
+from mars2d.output.figures.figure import LEGEND_LIMIT, plot_paths, plot_snapshots
+from mars2d.output.layers.ranges import range_of, ranges
+from mars2d.output.layers.table import Layers
+
+
+def crowd(n, seed=0, **fields):
+    """Return a record of robots that stand close to each other."""
+    rng = np.random.default_rng(seed)
+    side = int(np.ceil(np.sqrt(n)))
+    robots = [
+        Robot(pose=(0.4 * (k % side), 0.4 * (k // side), rng.uniform(-3, 3))) for k in range(n)
+    ]
+    return mars2d.run(Scenario(robots=robots, stop_time=0.1, **fields))
+
+
+def labels(figure):
+    """Return the names in a figure: their texts and boxes in pixels."""
+    figure.canvas.draw()
+    (ax,) = figure.axes
+    return {
+        text.get_text(): text.get_window_extent()
+        for text in ax.texts
+        if text.get_text() and not text.get_text().startswith("t =")
+    }
+
+
+@pytest.mark.parametrize("n", [1, 2, 9, 20, 21, 60, 100])
+def test_no_name_lies_over_another(n):
+    found = labels(plot_paths(crowd(n), layers=Layers(names=True)).figure)
+    assert len(found) == n
+    for (one, box), (other, its) in combinations(found.items(), 2):
+        wide = min(box.x1, its.x1) - max(box.x0, its.x0)
+        high = min(box.y1, its.y1) - max(box.y0, its.y0)
+        assert min(wide, high) <= 1, f"{one} lies over {other} by {wide:.0f} x {high:.0f} pixels"
+
+
+def test_a_name_that_finds_room_is_above_its_body_and_has_no_line():
+    frame = mars2d.run(Scenario(robots=[Robot(name="red")], stop_time=0.1)).frame(-1)
+    scene = names.placed_names(frame, 0.01, names.Box(0, 0, 5, 5))
+    (label,) = scene.shapes
+    assert isinstance(label, Text)
+    assert (label.text, label.position[0]) == ("red", pytest.approx(0.0))
+    assert label.position[1] > 0.15
+
+
+def test_a_name_stays_in_the_figure():
+    frame = mars2d.run(Scenario(robots=[Robot(name="red")], stop_time=0.1)).frame(-1)
+    scene = names.placed_names(frame, 0.01, names.Box(0, -4.8, 5, 5))  # it ends just above
+    (label,) = (shape for shape in scene.shapes if isinstance(shape, Text))
+    assert label.position[1] < 0
+
+
+def test_names_keep_off_the_forces():
+    record = mars2d.run("push_box", stop_time=2)
+    ax = plot_paths(record)
+    ax.figure.canvas.draw()
+    forces = [t for t in ax.texts if t.get_text().endswith(" N")]
+    boxes = [t for t in ax.texts if t.get_text().startswith("box of")]
+    assert [t.get_text() for t in boxes] == [f"box of {m} kg" for m in ("0.5", "1", "1.04", "2")]
+    assert len(forces) == 5
+    for one in forces:
+        for other in boxes:
+            assert not one.get_window_extent().overlaps(other.get_window_extent())
+
+
+@pytest.mark.parametrize(
+    ("fields", "reach"),
+    [
+        ({"addons": [Communication(range=1.5)]}, 1.5),
+        ({"neighbours": Within(0.7)}, 0.7),
+        ({"addons": [Communication(range=1.5)], "neighbours": Within(0.7)}, 1.5),
+        ({"addons": [Communication()], "neighbours": Within(0.7)}, 0.7),
+        ({"addons": [Communication()]}, None),
+        ({}, None),
+    ],
+)
+def test_a_range_is_the_radios_or_that_of_neighbours(fields, reach):
+    record = crowd(3, **fields)
+    assert range_of(record.scenario) == reach
+    circles = ranges(record.frame(-1)).shapes
+    assert [c.radius for c in circles if isinstance(c, Circle)] == [reach] * (3 if reach else 0)
+
+
+def test_an_animation_switches_them_on():
+    made = Scenario(
+        robots=[Robot(pose=(k, 0, 0)) for k in range(3)], neighbours=Within(1.2), stop_time=0.1,
+        animation=Animation(names=True, neighbours=True, ranges=True),
+    )  # fmt: skip
+    layers = Layers.of(made.animation)
+    asked = {"names", "neighbours", "ranges"}
+    assert asked <= layers.on
+    assert not asked & Layers.of(Animation()).on
+    ax = plot_paths(mars2d.run(made))
+    assert len(labels(ax.figure)) == 3
+    assert sum(patch.get_gid() is None for patch in ax.patches) > 3
+
+
+def test_links_are_drawn_where_they_are_asked_for():
+    record = crowd(4, neighbours=Within(0.45))
+    with_links = plot_paths(record, layers=Layers.of(Animation(), neighbours=True))
+    without = plot_paths(record)
+    assert len(with_links.lines) == len(without.lines) + 4
+
+
+# -- the legend -----------------------------------------------------------------------------------
+
+
+def legend(record, **options):
+    found = plot_paths(record, **options).get_legend()
+    return [] if found is None else [text.get_text() for text in found.get_texts()]
+
+
+def test_robots_that_look_alike_have_one_entry():
+    robots = [Robot(name=f"red{k}", color="red", pose=(k, 0, 0)) for k in range(3)]
+    robots += [Robot(name=f"blue{k}", color="blue", pose=(k, 1, 0)) for k in range(2)]
+    record = mars2d.run(Scenario(robots=[*robots, Robot(name="me", pose=(0, 3, 0))], stop_time=0.1))
+    assert legend(record) == ["red0 and 2 alike", "blue0, blue1", "me"]
+
+
+def test_in_greys_dashes_tell_them_apart():
+    robots = [Robot(color="red", pose=(k, 0, 0)) for k in range(3)]
+    record = mars2d.run(Scenario(robots=robots, stop_time=0.1))
+    assert legend(record, style="print") == ["robot0", "robot1", "robot2"]
+
+
+def test_a_crowd_has_no_legend():
+    assert legend(crowd(LEGEND_LIMIT)) == [f"robot{k}" for k in range(LEGEND_LIMIT)]
+    assert legend(crowd(LEGEND_LIMIT + 1)) == []
+
+
+# -- times and files ------------------------------------------------------------------------------
+
+
+def titles(figure):
+    return [ax.get_title() for ax in figure.axes]
+
+
+def test_the_end_is_a_time():
+    record = mars2d.run("random_walk", stop_time=10)
+    assert titles(record.plot_snapshots([0, 5, "end"])) == ["t = 0 s", "t = 5 s", "t = 10 s"]
+    assert titles(plot_snapshots(record, "end")) == ["t = 10 s"]
+    with pytest.raises(InputError, match=r"times = \[0, 'last'\]: expected times in seconds"):
+        record.plot_snapshots([0, "last"])
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_run_says_which_files_it_wrote(here, capsys):
+    words = ["run", "random_walk", "--headless", "--stop-time", "5", "--record", "a.npz"]
+    assert main([*words, "--figure", "a.png", "--at", "0,end", "--html", "a.html"]) == 0
+    told = capsys.readouterr().out
+    assert told.endswith("record: a.npz\nfigure: a.png\npage:   a.html\n")
+    assert main([*words, "--json"]) == 0
+    assert capsys.readouterr().out.count("\n") == 1
+
+
+def test_a_snapshot_after_an_early_end_is_of_the_end(here, capsys):
+    (here / "short.py").write_text(
+        "from mars2d import Robot, Scenario\n"
+        "def go(robot):\n"
+        "    if robot.time > 0.95: robot.world.stop('enough')\n"
+        "    return 0.1, 0\n"
+        "scenario = Scenario(robots=[Robot(controller=go)], stop_time=60)\n"
+    )
+    assert main(["run", "short.py", "--headless", "--figure", "a.svg", "--at", "0,20,60"]) == 0
+    out, told = capsys.readouterr()
+    assert "the run ended at 1 s, which is drawn for 20, 60 s" in told
+    assert "figure: a.svg" in out
+
+
+def test_a_last_time_that_rounding_brings_after_the_end_is_drawn(here, capsys):
+    (here / "long.py").write_text(
+        "from mars2d import Scenario\n"
+        "scenario = Scenario(sampling_time=0.1, stop_time=0.7)\n"  # 7 * 0.1 is more than 0.7
+        "def control(world): return 0, 0\n"
+    )
+    for end in ("0.7", "0.3"):
+        words = ["--stop-time", end, "--figure", "a.png", "--at", f"0,{end}"]
+        assert main(["run", "long.py", "--headless", *words]) == 0
+        assert "ended" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", ["paths", "snapshots"])
+def test_layers_of_a_plot_are_switched_by_name(here, capsys, kind):
+    crowd(4, neighbours=Within(0.45)).save("a.npz")
+    at = ["--at", "end"] if kind == "snapshots" else []
+    words = ["plot", "a.npz", kind, *at, "--layers", "names,neighbours,ranges,no-grid"]
+    assert main([*words, "--figure", "a.png"]) == 0
+    assert main(["plot", "a.npz", kind, *at, "--layers", "nams", "--figure", "a.png"]) == 2
+    assert "--layers nams: there is no such layer; did you mean 'names'?" in capsys.readouterr().err
+
+
+def test_layers_are_for_drawings_of_the_plane(here, capsys):
+    crowd(2).save("a.npz")
+    assert main(["plot", "a.npz", "signals", "--layers", "names"]) == 2
+    assert "--layers is for paths and snapshots: mars2d plot a.npz paths" in capsys.readouterr().err
+
+
+def test_a_line_is_a_line():
+    scene = names.placed_names(crowd(60).frame(-1), 0.02, names.Box(1.5, 1.5, 4, 4))
+    kinds = {type(shape) for shape in scene.shapes}
+    assert kinds == {Line, Text}  # in a crowd some names have a line to their body
+
+
+def test_props_are_named_too():
+    made = Scenario(robots=[Robot(pose=(0, 2, 0))], props=[Box(name="crate")], stop_time=0.1)
+    frame = mars2d.run(made).frame(-1)
+    scene = names.placed_names(frame, 0.01, names.Box(0, 0, 5, 5))
+    assert [shape.text for shape in scene.shapes] == ["robot0", "crate"]
