@@ -10,7 +10,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import cast
 
-from mars2d.core.errors import InputError, Mars2dError, nearest
+from mars2d.core.errors import InputError, Mars2dError, nearest, shown
 from mars2d.core.interrupt import noted_interrupts
 from mars2d.core.progress import Progress
 from mars2d.study.job import Job, code_of, opened, run_job
@@ -19,7 +19,18 @@ from mars2d.study.results import Results, another
 from mars2d.study.table import Result, Table, cell, cells_of
 from mars2d.study.work import Failure, each_done, worker_count
 
-__all__ = ["CountingBar", "StudyInterrupted", "duration", "run_study"]
+__all__ = ["CountingBar", "StudyFailedError", "StudyInterrupted", "duration", "run_study"]
+
+TRIALS = 5
+"""How many runs, evenly spaced over the study, are made first; if all fail, no others are made."""
+
+
+class StudyFailedError(Mars2dError):
+    """Each run of a study failed, or a measure did so in the first; `table` holds these runs."""
+
+    def __init__(self, message: str, table: Table) -> None:
+        super().__init__(message)
+        self.table = table
 
 
 class StudyInterrupted(KeyboardInterrupt):
@@ -42,7 +53,9 @@ def run_study(
     """Do the runs of a study that its file `out` does not hold, and return all rows in order.
 
     executor, workers, retry, show_progress: see `mars2d.sweep`. Raises InputError for a file of
-    another study, and if a file of the experiment changes meanwhile; StudyInterrupted after Ctrl-C.
+    another study, and if a file of the experiment changes meanwhile; StudyFailedError as soon as
+    the first `TRIALS` runs have all failed, or a measure in the first; StudyInterrupted after
+    Ctrl-C.
     """
     if executor is None:
         worker_count(workers)
@@ -50,12 +63,14 @@ def run_study(
         raise InputError(f"{out}: expected a name that ends in .csv")
     with _kept(study, out, retry) as (known, file):
         run = _Run(study, known)
+        run.refuse_hopeless()
         try:
             todo = run.results(executor, workers, show_progress)
             with noted_interrupts() as check, closing(todo) as results:
                 for result in results:
                     if file is not None:
                         file.add(result)
+                    run.refuse_hopeless()
                     check()
         except KeyboardInterrupt:
             table = run.table()
@@ -155,16 +170,36 @@ class _Run:
 
     def __init__(self, study: Study, known: dict[int, Result]) -> None:
         self._study, self._rows = study, known
+        self._trials = _trials(study)
 
     def table(self) -> Table:
         """Return the rows in order."""
         return _table(self._study, self._rows)
+
+    def refuse_hopeless(self) -> None:
+        """Raise StudyFailedError if all trials have failed, or a measure in the first of them."""
+        rows = self._rows
+        first = rows.get(self._trials[0])
+        if first is None:
+            return
+        if first.error and first.digest:
+            raise self._failed("the first run can't be measured", first)
+        if rows.keys() >= {*self._trials} and all(result.error for result in rows.values()):
+            raise self._failed(f"{len(rows)} of {len(rows)} runs failed", first)
+
+    def _failed(self, what: str, result: Result) -> StudyFailedError:
+        left = len(self._study.plan) - len(self._rows)
+        others = f", so the other {left} are not made" if left else ""
+        point = ", ".join(f"{name} = {shown(value)}" for name, value in result.options.items())
+        where = ", ".join(filter(None, [f"row {result.row}", point, f"seed {result.seed}"]))
+        return StudyFailedError(f"{what}{others}; {where}: {result.error}", self.table())
 
     def results(
         self, executor: Executor | None, workers: int | None, show_progress: bool
     ) -> Generator[Result, None, None]:
         """Do the runs that are missing; yield each result as it comes."""
         todo = [job for job in self._jobs() if job.row not in self._rows]
+        todo.sort(key=lambda job: job.row not in self._trials)
         if not todo:
             return
         failed = sum(bool(result.error) for result in self._rows.values())
@@ -204,6 +239,16 @@ class _Run:
                     f"row {result.row}: the experiment's files differ between the machines that "
                     "ran the rows of its point"
                 )
+
+
+def _trials(study: Study) -> tuple[int, ...]:
+    """Return the rows that are made first: the first that can be opened, and `TRIALS` in all."""
+    plan = study.plan
+    points = (cells_of(point) for point in plan.points())
+    first = next((k for k, point in enumerate(points) if point in study.codes), 0)
+    total = len(plan)
+    spaced = [1 + k * (total - 1) // (TRIALS - 1) for k in range(TRIALS)]
+    return tuple(dict.fromkeys([1 + first * len(plan.seeds), *spaced]))
 
 
 def _result(job: Job, made: Result | Failure, study: Study) -> Result:

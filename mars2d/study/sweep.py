@@ -53,11 +53,13 @@ def sweep(
     ``if __name__ == "__main__":``. time_limit: seconds that a run may take. show_progress: whether
     a terminal shows a bar.
 
-    A run that fails is a row with its `error`. The rows depend neither on the workers nor on the
-    order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
+    A run that fails is a row with its `error`. The first five runs, evenly spaced over the study,
+    are trials: if all of them fail, no others are made. The rows depend neither on the workers nor
+    on the order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
 
     Raises InputError, before the first run, for anything that can't be run, and if the file holds
-    another study; `mars2d.study.run.StudyInterrupted` after Ctrl-C.
+    another study; `mars2d.study.run.StudyFailedError` if all trials fail, or a measure in the first
+    one; `mars2d.study.run.StudyInterrupted` after Ctrl-C. Both have the rows as their `table`.
     """
     # Imported late, since importing processes and networks takes a while.
     from mars2d.study.plan import Plan, seeds_of, settings_of

@@ -16,6 +16,7 @@ from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
 from mars2d.core import deadline
 from mars2d.study.results import Results
+from mars2d.study.run import TRIALS, StudyFailedError
 from mars2d.study.table import load_table
 from tests.processes import PATIENCE, wait_until
 
@@ -138,7 +139,8 @@ def test_a_point_that_can_not_be_opened_is_a_row_with_its_error(here):
 
 
 def test_a_measure_that_fails_leaves_the_run_its_digest_and_its_other_measures(here):
-    (result,) = sweep(None, 1, ["broken", "far"]).results
+    (here / "drift.py").write_text(DRIFT.replace("1 / 0", "1 / (gain - 1)"))
+    _, result = sweep({"gain": [0.5, 1.0]}, 1, ["broken", "far"]).results
     assert result.digest
     assert result.measures["broken"] is None
     assert result.measures["far"] > 0
@@ -162,6 +164,49 @@ def test_a_run_that_waits_for_the_system_is_left_behind(here, monkeypatch):
     assert time.monotonic() - start < 2.4
     assert hangs.error == "took longer than 0.3 s, in drift.py, line 10"
     assert ends.error == ""
+
+
+# -- what stops after a few runs -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("workers", [["--workers", "1"], ["--workers", "2"]])
+def test_a_sweep_whose_every_run_fails_stops_with_the_reason_and_exit_code_1(here, workers, capsys):
+    (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
+    grid = ["--set", "gain=0.1:1:20", "--measure", "far", "--out", "r.csv"]
+    assert main(["sweep", "drift.py", *grid, *workers]) == 1
+    out, errors = capsys.readouterr()
+    table = load_table("r.csv")
+    assert out == ""
+    assert TRIALS <= len(table) == len(table.failed) < 20
+    assert len({result.options["gain"] for result in table.results}) == len(table)
+    assert errors.splitlines()[-1] == (
+        f"mars2d: {len(table)} of {len(table)} runs failed, so the other {20 - len(table)} are not "
+        "made; row 1, gain = 0.1, seed 0: drift.py, line 10: law raised ZeroDivisionError: "
+        "division by zero (robot0, at 0 s)"
+    )
+    made = runs(here)
+    assert main(["sweep", "drift.py", *grid, *workers]) == 1  # its rows say so already
+    assert runs(here) == made
+
+
+def test_one_trial_that_works_is_enough_to_go_on(here):
+    law = "return 1 / (gain == 8), 0.0"
+    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
+    assert len(sweep({"gain": [1, 2, 3, 4, 5, 6, 7, 8]}, 1).failed) == 7
+
+
+def test_a_point_that_can_be_opened_is_among_the_trials(here):
+    table = sweep({"n": [40, 50, 60, 1, *range(70, 100)]}, 1)
+    assert len(table) - len(table.failed) == 1
+
+
+def test_a_measure_that_fails_in_the_first_run_is_found_before_the_grid_is_run(here, capsys):
+    with pytest.raises(StudyFailedError) as caught:
+        sweep({"gain": [0.5, 1.0]}, 50, ["far", "broken"], out="r.csv")
+    assert "the first run can't be measured, so the other " in str(caught.value)
+    assert "row 1, gain = 0.5, seed 0: drift.py, line 24: broken raised" in str(caught.value)
+    assert len(load_table("r.csv")) == len(caught.value.table) < 100
+    assert caught.value.table.results[0].measures["far"] > 0
 
 
 # -- what is refused before the first run ----------------------------------------------------------
@@ -240,15 +285,15 @@ def test_a_torn_line_is_run_again(here):
 
 
 def test_rows_with_errors_are_run_again_only_if_asked(here):
-    law = 'return (1 / 0 if Path("bad").exists() else 0.1), 0.0'
+    law = 'return (1 / 0 if Path("bad").exists() and robot.pose[2] else 0.1), 0.0'
     (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
     (here / "bad").touch()
-    assert len(sweep(None, 2, out="r.csv").failed) == 2
+    assert len(sweep(None, 2, out="r.csv").failed) == 1
     (here / "bad").unlink()
-    assert len(sweep(None, 2, out="r.csv").failed) == 2
+    assert len(sweep(None, 2, out="r.csv").failed) == 1
     assert runs(here) == 2
     assert sweep(None, 2, out="r.csv", retry=True).failed == ()
-    assert runs(here) == 4
+    assert runs(here) == 3
 
 
 @pytest.mark.parametrize(
@@ -384,9 +429,9 @@ def test_a_row_of_code_that_has_changed_is_another_run(here, capsys):
 
 
 def test_a_row_of_a_law_that_fails_shows_its_error(here, capsys):
-    (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
+    (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / int(robot.pose[2]) * robot"))
     sweep(out="sweep.csv")
-    assert main(["sweep", "--row", "2"]) == 2
+    assert main(["sweep", "--row", "1"]) == 2
     out, errors = capsys.readouterr()
     assert "then: drift.py, line 10: law raised ZeroDivisionError" in out
     assert errors == (
@@ -456,9 +501,10 @@ def test_points_that_can_not_be_opened_are_said_before_the_first_run(here, capsy
 def test_ctrl_c_in_python_leaves_the_rows_that_were_made(here):
     with pytest.raises(KeyboardInterrupt) as caught:
         sweep({"gain": [0.5, 1.0]}, 5, measures=["far", _interrupting])
-    made = [result.seed for result in caught.value.table.results]
-    assert 1 <= len(made) <= 4  # the main thread may be behind the rows that are made
-    assert made == [0, 1, 2, 3][: len(made)]
+    made = [(result.options["gain"], result.seed) for result in caught.value.table.results]
+    order = [(0.5, 0), (0.5, 2), (0.5, 4), (1.0, 1), (1.0, 4), (0.5, 1)]  # the trials come first
+    assert 1 <= len(made) <= 6  # the main thread may be behind the rows that are made
+    assert made == sorted(order[: len(made)])
     assert str(caught.value) == f"{len(made)} of 10 runs were made"
 
 
