@@ -19,15 +19,8 @@ from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
 from mars2d.scenario.experiment import Experiment, examples
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description
-from mars2d.study.job import (
-    CODE_DIGITS,
-    Job,
-    WatchedFiles,
-    code_of,
-    measures_of,
-    name_in,
-    probed,
-)
+from mars2d.study.code import CODE_DIGITS, WatchedFiles, code_of
+from mars2d.study.job import Job, measures_of, name_in, probed
 from mars2d.study.measures import Measure, contests_of
 from mars2d.study.plan import Plan
 from mars2d.study.table import FIRST, LAST, SEED, cells_of

@@ -34,6 +34,7 @@ def sweep(
     workers: int | None = None,
     time_limit: float | None = None,
     retry: bool = False,
+    keep: bool = False,
     show_progress: bool = True,
 ) -> Table:
     """Run an experiment at each point of a grid, with each seed, and return the table of results.
@@ -50,8 +51,9 @@ def sweep(
     out: a .csv file to which each row is added when its run is done. Runs whose rows it holds are
     not repeated, except, with `retry`, those with an error. executor: any of concurrent.futures; by
     default processes are started, `workers` of them, one a core. With processes, call this under
-    ``if __name__ == "__main__":``. time_limit: seconds that a run may take. show_progress: whether
-    a terminal shows a bar.
+    ``if __name__ == "__main__":``. time_limit: seconds that a run may take. keep: whether the runs'
+    records are kept in a folder beside `out`: then a later sweep with `keep` and other measures
+    takes these from the records, without a run. show_progress: whether a terminal shows a bar.
 
     A run that fails is a row with its `error`. The first five runs, evenly spaced over the study,
     are trials: if all of them fail, no others are made. The rows depend neither on the workers nor
@@ -78,6 +80,7 @@ def sweep(
         executor=executor,
         workers=workers,
         retry=retry,
+        keep=keep,
         show_progress=show_progress,
     )
 

@@ -15,6 +15,8 @@ import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
 from mars2d.core import deadline
+from mars2d.scenario.experiment import open_experiment
+from mars2d.study.code import code_of_run
 from mars2d.study.results import Results
 from mars2d.study.run import TRIALS, StudyFailedError
 from mars2d.study.table import load_table
@@ -169,6 +171,7 @@ def test_a_run_that_waits_for_the_system_is_left_behind(here, monkeypatch):
 # -- what stops after a few runs -------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [["--workers", "1"], ["--workers", "2"]])
 def test_a_sweep_whose_every_run_fails_stops_with_the_reason_and_exit_code_1(here, workers, capsys):
     (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
@@ -207,6 +210,103 @@ def test_a_measure_that_fails_in_the_first_run_is_found_before_the_grid_is_run(h
     assert "row 1, gain = 0.5, seed 0: drift.py, line 24: broken raised" in str(caught.value)
     assert len(load_table("r.csv")) == len(caught.value.table) < 100
     assert caught.value.table.results[0].measures["far"] > 0
+
+
+# -- records that are kept -------------------------------------------------------------------------
+
+NEW = """
+def near(record):
+    return -float(abs(record.pose[-1, :2]).max())
+"""
+
+
+@pytest.mark.slow
+def test_kept_records_are_measured_again_without_a_run(here, capsys):
+    words = ["sweep", "drift.py", "--set", "gain=0.5,1", "--seeds", "2", "--keep"]
+    assert main([*words, "--measure", "far", "--out", "r.csv"]) == 0
+    assert capsys.readouterr().out.endswith("table:  r.csv\nrecords: r_records\n")
+    far, made = load_table("r.csv"), runs(here)
+    assert (made, len(list((here / "r_records").iterdir()))) == (4, 4)
+    with (here / "drift.py").open("a") as file:
+        file.write(NEW)
+    assert main([*words, "--measure", "near,far", "--out", "r.csv"]) == 0
+    table = load_table("r.csv")
+    assert runs(here) == made
+    for before, result in zip(far.results, table.results, strict=True):
+        assert (result.error, result.digest) == ("", before.digest)
+        assert result.measures == {"near": -before.measures["far"], **before.measures}
+
+
+def test_the_built_in_measures_are_the_same_from_kept_records(here):
+    settings, measures = {"stop_time": [2.0]}, ["capture_time", "winner", "path_length", "effort"]
+    first = sweep(settings, 2, measures, "pursuit_corners", out="r.csv", keep=True)
+    (here / "r.csv").unlink()
+    made = [file.stat().st_mtime_ns for file in (here / "r_records").iterdir()]
+    assert sweep(settings, 2, measures, "pursuit_corners", out="r.csv", keep=True) == first
+    assert made == [file.stat().st_mtime_ns for file in (here / "r_records").iterdir()]
+
+
+@pytest.mark.parametrize(
+    ("change", "again"),
+    [
+        (("robot.rng.uniform()", "robot.rng.uniform() / 2"), True),  # a law
+        (("Robots drift", "Robots dream"), True),
+        (("def broken(record):\n    return 1 / 0", ""), False),  # a measure
+        (("def far(record):", "def far(record):  # a comment"), False),
+        (("return gain *", "return gain + 0 * len(__file__) *"), True),
+    ],
+)
+def test_records_of_laws_that_have_changed_are_not_measured(here, change, again):
+    sweep(out="r.csv", keep=True)
+    (here / "drift.py").write_text(DRIFT.replace(*change))
+    if again:
+        with pytest.raises(InputError, match="holds another study"):
+            sweep(out="r.csv", keep=True)
+        (here / "r.csv").unlink()
+    sweep(out="r.csv", keep=True)
+    assert runs(here) == (4 if again else 2)
+
+
+def test_a_measure_that_a_law_uses_is_part_of_the_law(here):
+    used = DRIFT.replace("0.0\n\ndef scenario", "0.0 * far(robot.history)\n\ndef scenario")
+    assert "history" in used
+    drift = here / "drift.py"
+    codes = []
+    for text in (used, used.replace("abs(", "1 + abs("), used.replace("much", "more")):
+        drift.write_text(text)
+        codes.append(code_of_run(open_experiment("drift.py")))
+    assert codes[0] not in codes[1:2]
+    assert codes[0] == codes[2]
+
+
+def test_a_broken_record_is_made_again(here):
+    first = sweep(None, 1, out="r.csv", keep=True)
+    (file,) = (here / "r_records").iterdir()
+    file.write_bytes(b"PK")
+    (here / "r.csv").unlink()
+    assert sweep(None, 1, out="r.csv", keep=True) == first
+    assert (runs(here), file.stat().st_size > 100) == (2, True)
+
+
+def test_rows_without_kept_records_are_never_lost(here):
+    sweep(out="r.csv")
+    with pytest.raises(InputError, match="its measures: far; now: word"):
+        sweep(measures="word", out="r.csv", keep=True)
+    assert load_table("r.csv").measures == ("far",)
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ({"keep": True}, "keep: expected out as well"),
+        ({"keep": True, "out": "r.csv", "control": lambda w: (0, 0)}, "keep: expected an exp"),
+        ({"keep": True, "out": "r.csv", "measures": "collisions",
+          "experiment": Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=1)}, "keep: expected"),
+    ],
+)  # fmt: skip
+def test_records_are_kept_beside_a_table_of_an_experiment_in_a_file(here, how, said):
+    with pytest.raises(InputError, match=said):
+        sweep(**how)
 
 
 # -- what is refused before the first run ----------------------------------------------------------

@@ -11,6 +11,7 @@ from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, naming_lost_let
 from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell, warn
+from mars2d.study.kept import records_beside
 from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
 from mars2d.study.prepare import prepared
 from mars2d.study.run import run_study
@@ -19,7 +20,9 @@ from mars2d.study.table import Table, is_table, load_table
 TABLE = Path("sweep.csv")
 """The default file of the rows."""
 
-RUN_ARGUMENTS = ("set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry")
+RUN_ARGUMENTS = (
+    "set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry", "keep",
+)  # fmt: skip
 """The arguments that choose the runs; they don't apply to an existing table."""
 
 WORKER_ARGUMENTS = ("workers", "cluster")
@@ -53,6 +56,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="of intervals (default: 0.95)")  # fmt: skip
     add("--time-limit", type=float, metavar="S", help="seconds that a run may take")
     add("--retry", action="store_true", help="run rows with an error again")
+    add("--keep", action="store_true",
+        help="keep the records beside the table; other measures then need no run")  # fmt: skip
     add_workers(parser)
     add("--row", type=int, metavar="N", help="run one row of a study again")
     add("--view", action="store_true", help="with --row: show it in a window")
@@ -130,8 +135,17 @@ def _run(arguments: argparse.Namespace) -> None:
             warn(trouble)
         if study.troubles:
             warn("such runs are rows with their error; the others are made")
-        table = run_study(study, out, executor=executor, workers=workers, retry=arguments.retry)
+        table = run_study(
+            study,
+            out,
+            executor=executor,
+            workers=workers,
+            retry=arguments.retry,
+            keep=arguments.keep,
+        )
     _report(arguments, table, out)
+    if arguments.keep:
+        tell(f"records: {records_beside(out)}")
 
 
 def _settings(arguments: argparse.Namespace) -> dict[str, Any]:
