@@ -33,6 +33,7 @@ from mars2d.study.layout import Layout, layout_of
 from mars2d.study.statistics import confident
 from mars2d.study.table import Table
 from mars2d.study.text import in_words
+from mars2d.study.units import with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -74,7 +75,9 @@ def plot_study(
     if not table.results or not shown:
         what = "measures" if table.results else "runs"
         raise InputError(f"figure: the study of {table.experiment} has no {what}")
-    layout = layout_of(table.settings, table.points(), x)
+    layout = layout_of(
+        table.settings, table.points(), x, {n: table.unit(n) for n in table.settings}
+    )
     with look.fonts():
         grid = _grid(axes, shown, len(layout.columns), look)
         for ax in grid.ravel():
@@ -275,7 +278,10 @@ def _dress(ax: Axes, layout: Layout, look: Style) -> None:
 
 def _name_axis(ax: Axes, table: Table, layout: Layout, column: int, look: Style) -> None:
     """Label a panel's axis, and below it the value in which the panel differs from others."""
-    name = table.settings[layout.axis] if layout.axis is not None else "all runs"
+    name = "all runs"
+    if layout.axis is not None:
+        setting = table.settings[layout.axis]
+        name = with_unit(setting, table.unit(setting))
     title = layout.columns[column][0]
     text = "\n".join(filter(None, [name, title]))
     ax.set_xlabel(text, color=look.ink, fontsize=look.label, parse_math=False)

@@ -21,7 +21,7 @@ __all__ = ["known_rows", "table_of"]
 def table_of(study: Study, rows: dict[int, Result]) -> Table:
     """Return a study's table with the given rows, in order."""
     results = tuple(result for _, result in sorted(rows.items()))
-    return Table(study.title, tuple(study.plan.settings), study.measures, results)
+    return Table(study.title, tuple(study.plan.settings), study.measures, results, study.units)
 
 
 @contextmanager

@@ -29,6 +29,7 @@ def sweep(
     *,
     control: Callable[[Any], Any] | None = None,
     stop_time: float | None = None,
+    units: Mapping[str, str] | None = None,
     out: str | Path | None = None,
     executor: Executor | None = None,
     workers: int | None = None,
@@ -46,7 +47,8 @@ def sweep(
     compared seed by seed. measures: names of built-in measures or of functions in the experiment's
     file, or functions of the record; by default the end time, the collisions and, in a game, the
     capture time. control: the law of the team, in place of the experiment's. stop_time: seconds, as
-    another setting.
+    another setting. units: those of settings and measures, by name, where they are not known: of
+    fields of a scenario and of built-in measures they are.
 
     out: a .csv file to which each row is added when its run is done. Runs whose rows it holds are
     not repeated, except, with `retry`, those with an error. executor: any of concurrent.futures; by
@@ -73,7 +75,14 @@ def sweep(
     if not isinstance(out, (str, Path, type(None))):
         raise wrong("out", out, "the name of a file, such as 'results.csv'")
     plan = Plan(settings_of(_with_stop_time(settings, stop_time)), seeds_of(seeds))
-    study = prepared(experiment, plan, _listed(measures), control=control, time_limit=time_limit)
+    study = prepared(
+        experiment,
+        plan,
+        _listed(measures),
+        control=control,
+        time_limit=time_limit,
+        units=units,
+    )
     return run_study(
         study,
         None if out is None else Path(out),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
 from mars2d.study.prepare import prepared
 from mars2d.study.run import run_study
 from mars2d.study.table import Table, is_table, load_table
+from mars2d.study.units import checked_units, parse_units
 
 TABLE = Path("sweep.csv")
 """The default file of the rows."""
@@ -27,7 +29,7 @@ RUN_ARGUMENTS = (
 
 WORKER_ARGUMENTS = ("workers", "cluster")
 
-TABLE_ARGUMENTS = ("compare",)
+TABLE_ARGUMENTS = ("compare", "unit")
 
 ROW_ARGUMENTS = ("view", "record", "html")
 
@@ -49,6 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--first-seed", type=int, metavar="K", help="the first seed (default: 0)")
     add("--measure", action="append", default=[], metavar="NAME",
         help="a function of the record in the experiment's file, or a built-in one")  # fmt: skip
+    add("--unit", action="append", default=[], metavar="NAME=UNIT",
+        help="the unit of a setting or a measure, as spread=m")  # fmt: skip
     add("--out", type=Path, metavar="OUT.csv", help=f"file of the rows (default: {TABLE})")
     add("--figure", type=Path, metavar="OUT", help="draw the measures: .png, .pdf, .svg")
     add("--compare", metavar="KEY", help="compare a setting's values, seed by seed")
@@ -90,7 +94,10 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.experiment.lower().endswith(".csv"):
         why = f"{arguments.experiment} is there already"
         _refuse(arguments, (*RUN_ARGUMENTS, *WORKER_ARGUMENTS), why)
-        _report(arguments, load_table(arguments.experiment), Path(arguments.experiment))
+        table = load_table(arguments.experiment)
+        stated = checked_units(parse_units(arguments.unit), [*table.settings, *table.measures])
+        table = dataclasses.replace(table, units={**table.units, **stated})
+        _report(arguments, table, Path(arguments.experiment))
         return
     _run(arguments)
 
@@ -130,7 +137,13 @@ def _run(arguments: argparse.Namespace) -> None:
         _check_compared(arguments.compare, {k: len(v) for k, v in plan.settings.items()})
     names = [name.strip() for given in arguments.measure for name in given.split(",")]
     with workers_of(arguments) as (executor, workers):
-        study = prepared(arguments.experiment, plan, tuple(names), time_limit=arguments.time_limit)
+        study = prepared(
+            arguments.experiment,
+            plan,
+            tuple(names),
+            time_limit=arguments.time_limit,
+            units=parse_units(arguments.unit),
+        )
         for trouble in study.troubles[:3]:
             warn(trouble)
         if study.troubles:
