@@ -569,6 +569,8 @@ def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
     assert "differences from gain = 0.5" in out
     assert out.endswith("table:  r.csv\nfigure: r.png\n")
     assert (here / "r.png").stat().st_size > 5_000
+    assert main(["sweep", "r.csv", "--figure", "r.svg", "--style", "print"]) == 0
+    assert 'width="240.9' in (here / "r.svg").read_text()  # 85 mm in points
     assert runs(here) == before
 
 
@@ -589,6 +591,10 @@ def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
         (["drift.py", "--confidence", "95"], "expected a number between 0 and 1"),
         (["drift.py", "--out", "a.txt"], "--out a.txt: expected a name that ends in .csv"),
         (["drift.py", "--figure", "a.txt"], "--figure a.txt: expected a name that ends in"),
+        (["drift.py", "--style", "print"], "--style: it is of a figure: give --figure OUT"),
+        (["drift.py", "--figure", "a.png", "--style", "prnt"], "did you mean 'print'?"),
+        (["r.csv", "--row", "1", "--figure", "a.png", "--style", "print"], "--style: --row N runs"),
+        (["drift.py", "--unit", "far"], "--unit far: expected NAME=UNIT"),
         (["nothing.csv"], "nothing.csv: can't be read"),
     ],
 )

@@ -12,6 +12,7 @@ from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, naming_lost_let
 from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell, warn
+from mars2d.output.figures.style import STYLES, style_of
 from mars2d.study.kept import records_beside
 from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
 from mars2d.study.prepare import prepared
@@ -29,7 +30,7 @@ RUN_ARGUMENTS = (
 
 WORKER_ARGUMENTS = ("workers", "cluster")
 
-TABLE_ARGUMENTS = ("compare", "unit")
+TABLE_ARGUMENTS = ("compare", "unit", "style")
 
 ROW_ARGUMENTS = ("view", "record", "html")
 
@@ -55,6 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the unit of a setting or a measure, as spread=m")  # fmt: skip
     add("--out", type=Path, metavar="OUT.csv", help=f"file of the rows (default: {TABLE})")
     add("--figure", type=Path, metavar="OUT", help="draw the measures: .png, .pdf, .svg")
+    add("--style", metavar="STYLE", help=f"of the figure: {', '.join(STYLES)}")
     add("--compare", metavar="KEY", help="compare a setting's values, seed by seed")
     add("--confidence", type=_confidence, default=0.95, metavar="P",
         help="of intervals (default: 0.95)")  # fmt: skip
@@ -88,6 +90,9 @@ def execute(arguments: argparse.Namespace) -> None:
         _refuse(arguments, others, "--row N runs one row as it was")
         show_row(arguments, _table_here(arguments))
         return
+    if arguments.figure is None:
+        _refuse(arguments, ("style",), "it is of a figure: give --figure OUT as well")
+    arguments.style = style_of(arguments.style or "screen")
     _refuse(arguments, ROW_ARGUMENTS, "it is of one run: give --row N")
     if arguments.experiment is None:
         raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
@@ -191,5 +196,10 @@ def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
         from mars2d.study.figure import save_study_figure
 
         with naming_lost_letters():
-            save_study_figure(table, arguments.figure, confidence=arguments.confidence)
+            save_study_figure(
+                table,
+                arguments.figure,
+                confidence=arguments.confidence,
+                style=arguments.style,
+            )
         tell(f"figure: {arguments.figure}")
