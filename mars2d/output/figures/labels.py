@@ -6,7 +6,7 @@ import re
 
 __all__ = ["fits", "shortened", "wrapped"]
 
-BREAK = re.compile(r"(?<=\s)(?<!= )|(?<=_)(?=\w)|(?<=\.)(?=[^\W\d_])|(?<=/)(?=\w)(?![^\[]*\])")
+BREAK = re.compile(r"(?<=\s)(?<!= )|(?<=_)(?=\w)|(?<=[^\W\d]|\*)(?=\.)|(?<=/)(?=\w)(?![^\[]*\])")
 """Where a name may go on in the next line: after spaces, but not between ``=`` and a
 value, and within names and paths."""
 
@@ -14,7 +14,7 @@ value, and within names and paths."""
 def wrapped(text: str, letters: int, lines: int = 6) -> str:
     r"""Return a text on lines of at most so many letters; what needs more lines is left out.
 
-    Names are broken at their underscores, dots and slashes, and elsewhere only if they must be.
+    Names are broken after underscores and slashes, before dots, and elsewhere only if they must be.
 
     >>> wrapped("mean_square_error [m/s]", 12)
     'mean_square_\nerror [m/s]'
