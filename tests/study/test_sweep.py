@@ -257,6 +257,16 @@ def test_the_built_in_measures_are_the_same_from_kept_records(here):
     assert made == [file.stat().st_mtime_ns for file in (here / "r_records").iterdir()]
 
 
+def test_a_measure_that_failed_is_corrected_without_a_run(here):
+    with pytest.raises(StudyFailedError):
+        sweep(None, 2, "broken", out="r.csv", keep=True)
+    (here / "drift.py").write_text(DRIFT.replace("1 / 0", "1 / 2"))
+    made = runs(here)
+    table = sweep(None, 2, "broken", out="r.csv", keep=True)
+    assert [result.measures for result in table.results] == [{"broken": 0.5}] * 2
+    assert runs(here) <= max(2, made)
+
+
 @pytest.mark.parametrize(
     ("change", "again"),
     [
