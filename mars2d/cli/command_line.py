@@ -34,8 +34,8 @@ UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit code.
 
-    0: everything was done. 1: a fault of MARS2D. 2: bad input. 130: Ctrl-C, or the terminal was
-    closed.
+    0: everything was done. 1: a fault of MARS2D, or no run of a sweep succeeded. 2: bad input. 130:
+    Ctrl-C, or the terminal was closed.
     """
     try:
         with legible(), raised_once(), unwrapped(), hang_up_as_interrupt():

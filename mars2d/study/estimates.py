@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.study.measures import BUILT_IN, UNITS
+from mars2d.study.measures import BUILT_IN
 from mars2d.study.statistics import (
     Interval,
     interval,
@@ -85,12 +85,12 @@ def estimates(table: Table, *, both: bool = True) -> list[Estimate]:
     return [
         each
         for measure in table.measures
-        for each in _of(measure, [result.measures.get(measure) for result in sound], both=both)
+        for values in [[result.measures.get(measure) for result in sound]]
+        for each in _of(measure, table.unit(measure), values, both=both)
     ]
 
 
-def _of(measure: str, values: list[Value], *, both: bool) -> list[Estimate]:
-    unit = UNITS.get(measure, "")
+def _of(measure: str, unit: str, values: list[Value], *, both: bool) -> list[Estimate]:
     found = []
     numbers = [value for value in values if _is_number(value)]
     words = Counter(value for value in values if isinstance(value, str))

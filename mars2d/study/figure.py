@@ -14,25 +14,24 @@ from mars2d.output.figures.figure import (
     check_axes,
     line_style,
     new_figure,
-    plain_name,
     save_drawing,
-    style_ticks,
 )
+from mars2d.output.figures.labels import shortened
 from mars2d.output.figures.panels import (
     Entry,
     caption,
     finish,
+    letters_in,
     name_curves,
     say,
     set_span,
-    short_number,
 )
 from mars2d.output.figures.style import DASHES, Style, style_of
+from mars2d.study.axis import dress, name_axis, scale_to_100
 from mars2d.study.estimates import Estimate, estimates
 from mars2d.study.layout import Layout, layout_of
 from mars2d.study.statistics import confident
 from mars2d.study.table import Table
-from mars2d.study.text import in_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -49,6 +48,9 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 MARKER_SIZE = 0.6
 """The size of a marker, in heights of small text."""
 
+LEGEND = 0.6
+"""The longest name in a legend, as a share of the figure's width."""
+
 PANEL_HEIGHT = 1.5
 """The height of a panel, in heights of a panel over time."""
 
@@ -59,7 +61,7 @@ def plot_study(
     *,
     confidence: float = 0.95,
     x: str | None = None,
-    style: str = "screen",
+    style: str | Style = "screen",
 ) -> list[Axes]:
     """Draw the measures of a study over a setting, one panel a mean or share; return the axes.
 
@@ -74,26 +76,28 @@ def plot_study(
     if not table.results or not shown:
         what = "measures" if table.results else "runs"
         raise InputError(f"figure: the study of {table.experiment} has no {what}")
-    layout = layout_of(table.settings, table.points(), x)
+    layout = layout_of(
+        table.settings, table.points(), x, {n: table.unit(n) for n in table.settings}
+    )
     with look.fonts():
         grid = _grid(axes, shown, len(layout.columns), look)
         for ax in grid.ravel():
-            _dress(ax, layout, look)
+            dress(ax, layout, look)
         for row, estimate in zip(grid, shown, strict=True):
             _draw(row, table, estimate, layout, look, confidence)
             caption(row[0], estimate.label, "%" if estimate.share else estimate.unit, look)
         for k, ax in enumerate(grid.ravel()):
             if axes is not None or k >= grid.size - len(layout.columns):
-                _name_axis(ax, table, layout, k % len(layout.columns), look)
+                name_axis(ax, table, layout, k % len(layout.columns), look)
             else:
                 ax.tick_params(labelbottom=False)
             ax.tick_params(labelleft=axes is not None or not k % len(layout.columns))
-        title = f"{table.experiment}: means with {100 * confidence:.4g} % intervals"
+        title = f"{table.experiment}: {_kinds(shown)} with {100 * confidence:.4g} % intervals"
         if table.failed:
             title += f", {counted(len(table.failed), 'run')} failed"
-        name_curves(
-            _above(grid, own=axes is None), title, _entries(table, shown, layout, look), look
-        )
+        above = _above(grid, own=axes is None)
+        letters = letters_in(LEGEND * above.figure.bbox.width * 72 / above.figure.dpi, look.small)
+        name_curves(above, title, _entries(table, shown, layout, look, letters), look)
     return finish(list(grid.ravel()), own=axes is None)
 
 
@@ -103,7 +107,7 @@ def save_study_figure(
     *,
     confidence: float = 0.95,
     x: str | None = None,
-    style: str = "screen",
+    style: str | Style = "screen",
 ) -> Path:
     """Save the figure of `plot_study` as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
@@ -179,7 +183,7 @@ def _draw(
     seen = seen[np.isfinite(seen)]
     for ax in row:
         if estimate.share:
-            ax.set_ylim(-6, 106)
+            scale_to_100(ax, look)
         else:
             set_span(ax, *((seen.min(), seen.max()) if len(seen) else (0.0, 1.0)))
         if not len(seen):
@@ -238,49 +242,6 @@ def _means(
     return np.concatenate([mean, low, high])
 
 
-def _dress(ax: Axes, layout: Layout, look: Style) -> None:
-    """Set the scale, limits and ticks of the axis, grid and spines."""
-    from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
-
-    tall = ax.get_window_extent().height * 72 / ax.figure.dpi  # points
-
-    if layout.logarithmic:
-        ax.set_xscale("log")
-        ax.xaxis.set_minor_locator(NullLocator())
-    ax.set_xlim(*layout.limits())
-    if layout.roomy():
-        scaled = layout.scaled()
-        ticks = 10**scaled if layout.logarithmic else scaled
-        ax.xaxis.set_major_locator(FixedLocator(ticks.tolist()))
-        ax.set_xticklabels([plain_name(in_words(v)) for v in layout.values] or [""])
-        for text in ax.get_xticklabels():
-            text.set_parse_math(False)
-    else:
-        ax.xaxis.set_major_formatter(FuncFormatter(short_number))
-    ax.yaxis.set_major_locator(
-        MaxNLocator(
-            nbins=int(np.clip(tall / (2.4 * look.small), 2, 5)),
-            steps=[1, 2, 2.5, 5, 10],
-            min_n_ticks=2,
-        )
-    )
-    ax.yaxis.set_major_formatter(FuncFormatter(short_number))
-    ax.set_facecolor("white")
-    ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
-    ax.set_axisbelow(True)
-    style_ticks(ax, look)
-    ax.spines[:].set(color=look.line, linewidth=0.8 * look.stroke)
-    ax.spines[["top", "right"]].set_visible(False)
-
-
-def _name_axis(ax: Axes, table: Table, layout: Layout, column: int, look: Style) -> None:
-    """Label a panel's axis, and below it the value in which the panel differs from others."""
-    name = table.settings[layout.axis] if layout.axis is not None else "all runs"
-    title = layout.columns[column][0]
-    text = "\n".join(filter(None, [name, title]))
-    ax.set_xlabel(text, color=look.ink, fontsize=look.label, parse_math=False)
-
-
 # -- lines -----------------------------------------------------------------------------------------
 
 
@@ -293,15 +254,26 @@ def _entry(layout: Layout, name: str, look: Style) -> Entry:
     return Entry(name, color, dash, 1.3 * look.stroke, MARKERS[index % len(MARKERS)])
 
 
-def _entries(table: Table, shown: Sequence[Estimate], layout: Layout, look: Style) -> list[Entry]:
-    """Return the entries of the legend: several lines, and the meaning of hollow markers."""
+def _kinds(shown: Sequence[Estimate]) -> str:
+    """Return what is drawn, such as ``means and shares``."""
+    there = {"shares" if estimate.share else "means" for estimate in shown}
+    return " and ".join(sorted(there))
+
+
+def _entries(
+    table: Table, shown: Sequence[Estimate], layout: Layout, look: Style, letters: int
+) -> list[Entry]:
+    """Return the entries of the legend: several lines, and the meaning of hollow markers.
+
+    letters: how long a name may be.
+    """
     entries = []
     if len(layout.lines) > 1:
         entries = [_entry(layout, name, look) for name in layout.lines]
         if not layout.numeric:
             entries = [entry._replace(dash="") for entry in entries]
     width = 1.3 * look.stroke
-    entries = [each._replace(name=plain_name(each.name)) for each in entries]
+    entries = [each._replace(name=shortened(each.name, letters)) for each in entries]
     means = [estimate for estimate in shown if estimate.some]
     runs = [estimate.values(each) for estimate in means for each in table.points().values()]
     if any(0 < np.isfinite(values).sum() < len(values) for values in runs):

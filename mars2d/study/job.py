@@ -1,14 +1,12 @@
-"""One run of a study: the job that a worker is sent, the result that it returns, and its code."""
+"""One run of a study: the job that a worker is sent, and the result that it returns."""
 
 from __future__ import annotations
 
-import hashlib
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import Any, TypeVar
@@ -17,16 +15,15 @@ from mars2d.core.errors import LawError, Mars2dError
 from mars2d.core.usercode import name_of
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.scenario import Scenario
+from mars2d.study.code import code_of
+from mars2d.study.kept import recorded
 from mars2d.study.measures import Measure, measure_named, measured
 from mars2d.study.table import Result
-from mars2d.world.loop import open_world, simulate
+from mars2d.world.loop import open_world
 
 __all__ = [
-    "CODE_DIGITS",
     "Job",
     "TooLong",
-    "WatchedFiles",
-    "code_of",
     "measures_of",
     "name_in",
     "opened",
@@ -35,9 +32,6 @@ __all__ = [
 ]
 
 T = TypeVar("T")
-
-CODE_DIGITS = 8
-"""How many digits of a hash tell the code of runs apart."""
 
 
 class TooLong(LawError):  # noqa: N818 - like the other errors of laws
@@ -51,7 +45,8 @@ class Job:
     row, options, seed: as in a `Result`. source: a file by its whole path, the name of an example,
     or a Scenario. folder: the one that relative file names refer to. measures: names, or functions
     of a record. control: the law of the team, in place of the experiment's. time_limit: seconds, or
-    None. code: that of the run, if the experiment has no files to derive it from.
+    None. code: that of the run, if the experiment has no files to derive it from. records: the
+    whole path of the folder that keeps records, or empty.
     """
 
     row: int
@@ -63,6 +58,7 @@ class Job:
     control: Callable[[Any], Any] | None = None
     time_limit: float | None = None
     code: str = ""
+    records: str = ""
 
 
 def run_job(job: Job) -> Result:
@@ -89,7 +85,7 @@ class _Progress:
         """Do a run and take all measures, even if some of them raise."""
         experiment = opened(job)
         self.code = code_of(experiment, job.code)
-        record = simulate(experiment, job.seed).record
+        record = recorded(experiment, job.options, job.seed, job.records)
         self.digest = record.digest
         for name, measure in measures_of(job.measures, experiment).items():
             try:
@@ -173,60 +169,3 @@ def _within(seconds: float | None, work: Callable[[], T]) -> T:
 
 def _raise(error: BaseException) -> Any:
     raise error
-
-
-# -- code ------------------------------------------------------------------------------------------
-
-
-def code_of(experiment: Experiment, otherwise: str = "") -> str:
-    """Return the first digits of a hash of all files of an experiment and of MARS2D's version.
-
-    Files count by name and content, wherever they lie. otherwise: returned if there are no files.
-    """
-    import mars2d
-
-    if not experiment.files:
-        return otherwise
-    sha = hashlib.sha256(mars2d.__version__.encode())
-    for file in sorted(experiment.files, key=lambda path: (path.name, str(path))):
-        sha.update(f"\n{file.name} ".encode(errors="backslashreplace"))
-        sha.update(_content(file) or b"")
-    return sha.hexdigest()[:CODE_DIGITS]
-
-
-class WatchedFiles:
-    """Files that must not change while a study runs."""
-
-    def __init__(self) -> None:
-        self._files: dict[Path, tuple[object, bytes | None]] = {}
-
-    def add(self, files: Iterable[Path]) -> None:
-        """Watch more files for changes from now on."""
-        for file in files:
-            if file not in self._files:
-                self._files[file] = _stamp(file), _content(file)
-
-    def changed(self) -> Path | None:
-        """Return a file whose content has changed, or None."""
-        for file, (stamp, content) in self._files.items():
-            now = _stamp(file)
-            if now != stamp:
-                if _content(file) != content:
-                    return file
-                self._files[file] = now, content
-        return None
-
-
-def _stamp(file: Path) -> object:
-    try:
-        stat = file.stat()
-    except OSError:
-        return None
-    return stat.st_mtime_ns, stat.st_size, stat.st_ino
-
-
-def _content(file: Path) -> bytes | None:
-    try:
-        return hashlib.sha256(file.read_bytes()).digest()
-    except OSError:
-        return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 from typing import Any
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, nearest
-from mars2d.study.text import Point, in_words
+from mars2d.study.text import Point, assigned
 
 __all__ = ["Layout", "layout_of"]
 
@@ -93,14 +93,23 @@ def _same(values: Float) -> Float:
     return values
 
 
-def layout_of(settings: Sequence[str], points: Iterable[Point], x: str | None = None) -> Layout:
+def layout_of(
+    settings: Sequence[str],
+    points: Iterable[Point],
+    x: str | None = None,
+    units: Mapping[str, str] | None = None,
+) -> Layout:
     """Return the layout for the points of a study.
 
-    x: the setting along the axis; by default the first with several numbers, else with several
-    values. Raises InputError for an unknown setting, and for more lines than a figure can show; so
-    it can be called before hours of runs.
+    units: those of settings that have one, by name. x: the setting along the axis; by default the
+    first with several numbers, else with several values. Raises InputError for an unknown setting,
+    and for more lines than a figure can show; so it can be called before hours of runs.
     """
-    every = list(points)
+    every, units = list(points), units or {}
+
+    def named(k: int, value: Any) -> str:
+        return assigned(settings[k], value, units.get(settings[k], ""))
+
     values = [tuple(dict.fromkeys(column)) for column in zip(*every, strict=True)]
     several = [k for k, found in enumerate(values) if len(found) > 1]
     if x is not None and x not in settings:
@@ -115,9 +124,9 @@ def layout_of(settings: Sequence[str], points: Iterable[Point], x: str | None = 
         lines: dict[str, list[Point]] = {}
         for point in every:
             if beside is None or point[beside] == value:
-                name = ", ".join(f"{settings[k]} = {in_words(point[k])}" for k in inside)
+                name = ", ".join(named(k, point[k]) for k in inside)
                 lines.setdefault(name, []).append(point)
-        title = "" if beside is None else f"{settings[beside]} = {in_words(value)}"
+        title = "" if beside is None else named(beside, value)
         columns.append((title, {name: tuple(line) for name, line in lines.items()}))
     return Layout(axis, values[axis] if axis is not None else (), tuple(columns))
 

@@ -7,7 +7,7 @@ import hashlib
 import inspect
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -19,18 +19,12 @@ from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
 from mars2d.scenario.experiment import Experiment, examples
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description
-from mars2d.study.job import (
-    CODE_DIGITS,
-    Job,
-    WatchedFiles,
-    code_of,
-    measures_of,
-    name_in,
-    probed,
-)
+from mars2d.study.code import CODE_DIGITS, WatchedFiles, code_of
+from mars2d.study.job import Job, measures_of, name_in, probed
 from mars2d.study.measures import Measure, contests_of
 from mars2d.study.plan import Plan
 from mars2d.study.table import FIRST, LAST, SEED, cells_of
+from mars2d.study.units import checked_units
 
 __all__ = ["Study", "prepared"]
 
@@ -47,7 +41,7 @@ class Study:
 
     title: the experiment's name in the table. blank: a job without row, options and seed.
     troubles: the errors at single points, whose runs will fail. codes: the code of the runs at some
-    points, by the points' cells. watched: the files that were read.
+    points, by the points' cells. watched: the files that were read. units: those that were stated.
     """
 
     title: str
@@ -56,6 +50,7 @@ class Study:
     troubles: tuple[str, ...]
     codes: dict[tuple[str, ...], str]
     watched: WatchedFiles
+    units: Mapping[str, str]
 
     @property
     def measures(self) -> tuple[str, ...]:
@@ -70,6 +65,7 @@ def prepared(
     *,
     control: Callable[[Any], Any] | None = None,
     time_limit: float | None = None,
+    units: Mapping[str, str] | None = None,
 ) -> Study:
     """Return the study of a plan, after opening its experiment at points that cover all values.
 
@@ -95,8 +91,9 @@ def prepared(
     chosen = measures or _sensible(first.scenario)
     measures_of(chosen, first, first.scenario)
     _check_columns(plan, chosen)
+    stated = checked_units(units, [*plan.settings, *map(name_in, chosen)])
     blank = dataclasses.replace(blank, measures=chosen)
-    return Study(title, plan, blank, tuple(troubles), codes, watched)
+    return Study(title, plan, blank, tuple(troubles), codes, watched, stated)
 
 
 def _probes(plan: Plan, blank: Job) -> Iterator[tuple[dict[str, Any], Experiment | Mars2dError]]:

@@ -13,7 +13,11 @@ from mars2d.core.errors import InputError
 from mars2d.core.files import REPLACED_OPEN, growing, writing
 from mars2d.study.table import Result, Table, file_header, file_line, parse_table, save_table
 
-__all__ = ["Results", "another"]
+__all__ = ["AnotherStudyError", "Results", "another"]
+
+
+class AnotherStudyError(InputError):
+    """A file holds the rows of another study."""
 
 
 class Results:
@@ -83,6 +87,7 @@ def _refuse_another(there: Table, wanted: Table, path: Path) -> None:
             raise another(path, f"its {what}: {old or 'none'}; now: {new or 'none'}")
 
 
-def another(path: Path, why: str) -> InputError:
+def another(path: Path, why: str) -> AnotherStudyError:
     """Return the error for a file that holds another study."""
-    return InputError(f"{path}: holds another study; {why}. Give another --out, or delete it")
+    said = f"{path}: holds another study; {why}. Give another --out, or delete it"
+    return AnotherStudyError(said)

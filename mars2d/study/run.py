@@ -6,20 +6,34 @@ import dataclasses
 import time
 from collections.abc import Generator, Iterator
 from concurrent.futures import Executor
-from contextlib import closing, contextmanager
+from contextlib import closing
 from pathlib import Path
 from typing import cast
 
-from mars2d.core.errors import InputError, Mars2dError, nearest
+from mars2d.core.errors import InputError, Mars2dError, shown
+from mars2d.core.files import writing
 from mars2d.core.interrupt import noted_interrupts
 from mars2d.core.progress import Progress
-from mars2d.study.job import Job, code_of, opened, run_job
+from mars2d.scenario.scenario import Scenario
+from mars2d.study.job import Job, run_job
+from mars2d.study.kept import records_beside
+from mars2d.study.known import known_rows, table_of
 from mars2d.study.prepare import Study
-from mars2d.study.results import Results, another
-from mars2d.study.table import Result, Table, cell, cells_of
+from mars2d.study.table import Result, Table, cells_of
 from mars2d.study.work import Failure, each_done, worker_count
 
-__all__ = ["CountingBar", "StudyInterrupted", "duration", "run_study"]
+__all__ = ["CountingBar", "StudyFailedError", "StudyInterrupted", "duration", "run_study"]
+
+TRIALS = 5
+"""How many runs, evenly spaced over the study, are made first; if all fail, no others are made."""
+
+
+class StudyFailedError(Mars2dError):
+    """Each run of a study failed, or a measure did so in the first; `table` holds these runs."""
+
+    def __init__(self, message: str, table: Table) -> None:
+        super().__init__(message)
+        self.table = table
 
 
 class StudyInterrupted(KeyboardInterrupt):
@@ -37,25 +51,32 @@ def run_study(
     executor: Executor | None = None,
     workers: int | None = None,
     retry: bool = False,
+    keep: bool = False,
     show_progress: bool = True,
 ) -> Table:
     """Do the runs of a study that its file `out` does not hold, and return all rows in order.
 
-    executor, workers, retry, show_progress: see `mars2d.sweep`. Raises InputError for a file of
-    another study, and if a file of the experiment changes meanwhile; StudyInterrupted after Ctrl-C.
+    executor, workers, retry, keep, show_progress: see `mars2d.sweep`. Raises InputError for a file
+    of another study, and if a file of the experiment changes meanwhile; StudyFailedError as soon as
+    the first `TRIALS` runs have all failed, or a measure in the first; StudyInterrupted after
+    Ctrl-C.
     """
     if executor is None:
         worker_count(workers)
     if out is not None and out.suffix.lower() != ".csv":
         raise InputError(f"{out}: expected a name that ends in .csv")
-    with _kept(study, out, retry) as (known, file):
+    if keep:
+        study = _keeping(study, out)
+    with known_rows(study, out, retry) as (known, file):
         run = _Run(study, known)
+        run.refuse_hopeless()
         try:
             todo = run.results(executor, workers, show_progress)
             with noted_interrupts() as check, closing(todo) as results:
                 for result in results:
                     if file is not None:
                         file.add(result)
+                    run.refuse_hopeless()
                     check()
         except KeyboardInterrupt:
             table = run.table()
@@ -68,86 +89,19 @@ def run_study(
     return table
 
 
-def _table(study: Study, rows: dict[int, Result]) -> Table:
-    """Return a study's table with the given rows, in order."""
-    results = tuple(result for _, result in sorted(rows.items()))
-    return Table(study.title, tuple(study.plan.settings), study.measures, results)
-
-
-@contextmanager
-def _kept(
-    study: Study, out: Path | None, retry: bool
-) -> Iterator[tuple[dict[int, Result], Results | None]]:
-    """Yield the rows that the file holds, by number, and the file, which is locked.
-
-    Before any row is added, the rows in the file get their numbers in this study.
-    """
+def _keeping(study: Study, out: Path | None) -> Study:
+    """Return a study that keeps its records beside its table."""
     if out is None:
-        yield {}, None
-        return
-    blank = _table(study, {})
-    with Results(out, blank) as file:
-        rows = _rows_of(study, file.known, out)
-        if retry:
-            rows = {row: result for row, result in rows.items() if not result.error}
-        if tuple(rows.values()) != file.known:
-            file.put_in_order(_table(study, rows))
-    with Results(out, blank) as file:
-        yield rows, file
-
-
-def _rows_of(study: Study, known: tuple[Result, ...], out: Path) -> dict[int, Result]:
-    """Return the rows of a file by their numbers in a study; refuse those of another study."""
-    places = {
-        (cells_of(options), seed): row for row, (options, seed) in enumerate(study.plan.runs(), 1)
-    }
-    rows = {}
-    for result in known:
-        row = places.get((cells_of(result.options), result.seed))
-        if row is None:
-            raise another(out, _difference(study, result))
-        rows[row] = dataclasses.replace(result, row=row)
-    for row in _one_of_each(rows):
-        _refuse_other_code(study, rows[row], out)
-    return rows
-
-
-def _difference(study: Study, result: Result) -> str:
-    """Say why a row is not of a study: its plan lacks a value or the seed."""
-    for name, values in study.plan.settings.items():
-        value, known = cell(result.options[name]), [*map(cell, values)]
-        if value not in known:
-            return f"it has {name} = {value}, which this one has not{nearest(value, known, 1.0)}"
-    return f"it has the seed {result.seed}, which this one has not: seeds may only become more"
-
-
-def _one_of_each(rows: dict[int, Result]) -> Iterator[int]:
-    """Yield few rows that together have each pair of a code and a setting's value."""
-    seen: set[tuple[str, str, str]] = set()
-    for row, result in sorted(rows.items()):
-        pairs = {(result.code, name, cell(value)) for name, value in result.options.items()}
-        pairs.add((result.code, "", ""))
-        if result.code and not pairs <= seen:
-            seen |= pairs
-            yield row
-
-
-def _refuse_other_code(study: Study, result: Result, out: Path) -> None:
-    """Raise InputError if the experiment has changed since a row was made."""
-    point = cells_of(result.options)
-    code = study.codes.get(point)
-    if code is None:
-        job = dataclasses.replace(study.blank, options=result.options, seed=result.seed)
-        try:
-            code = code_of(opened(job), job.code)
-        except Mars2dError:
-            code = "none"
-        study.codes[point] = code
-    if code != result.code:
-        raise another(
-            out,
-            f"{study.title}, what it reads, or MARS2D has changed since row {result.row} was made",
+        raise InputError("keep: expected out as well: records are kept beside the table's file")
+    if isinstance(study.blank.source, Scenario) or study.blank.control is not None:
+        raise InputError(
+            "keep: expected an experiment that is a file, without control: in a file it shows "
+            "whether a law has changed since a record was made"
         )
+    folder = records_beside(out).absolute()
+    with writing(folder):
+        folder.mkdir(exist_ok=True)
+    return dataclasses.replace(study, blank=dataclasses.replace(study.blank, records=str(folder)))
 
 
 class _Run:
@@ -155,16 +109,36 @@ class _Run:
 
     def __init__(self, study: Study, known: dict[int, Result]) -> None:
         self._study, self._rows = study, known
+        self._trials = _trials(study)
 
     def table(self) -> Table:
         """Return the rows in order."""
-        return _table(self._study, self._rows)
+        return table_of(self._study, self._rows)
+
+    def refuse_hopeless(self) -> None:
+        """Raise StudyFailedError if all trials have failed, or a measure in the first of them."""
+        rows = self._rows
+        first = rows.get(self._trials[0])
+        if first is None:
+            return
+        if first.error and first.digest:
+            raise self._failed("the first run can't be measured", first)
+        if rows.keys() >= {*self._trials} and all(result.error for result in rows.values()):
+            raise self._failed(f"{len(rows)} of {len(rows)} runs failed", first)
+
+    def _failed(self, what: str, result: Result) -> StudyFailedError:
+        left = len(self._study.plan) - len(self._rows)
+        others = f", so the other {left} are not made" if left else ""
+        point = ", ".join(f"{name} = {shown(value)}" for name, value in result.options.items())
+        where = ", ".join(filter(None, [f"row {result.row}", point, f"seed {result.seed}"]))
+        return StudyFailedError(f"{what}{others}; {where}: {result.error}", self.table())
 
     def results(
         self, executor: Executor | None, workers: int | None, show_progress: bool
     ) -> Generator[Result, None, None]:
         """Do the runs that are missing; yield each result as it comes."""
         todo = [job for job in self._jobs() if job.row not in self._rows]
+        todo.sort(key=lambda job: job.row not in self._trials)
         if not todo:
             return
         failed = sum(bool(result.error) for result in self._rows.values())
@@ -204,6 +178,16 @@ class _Run:
                     f"row {result.row}: the experiment's files differ between the machines that "
                     "ran the rows of its point"
                 )
+
+
+def _trials(study: Study) -> tuple[int, ...]:
+    """Return the rows that are made first: the first that can be opened, and `TRIALS` in all."""
+    plan = study.plan
+    points = (cells_of(point) for point in plan.points())
+    first = next((k for k, point in enumerate(points) if point in study.codes), 0)
+    total = len(plan)
+    spaced = [1 + k * (total - 1) // (TRIALS - 1) for k in range(TRIALS)]
+    return tuple(dict.fromkeys([1 + first * len(plan.seeds), *spaced]))
 
 
 def _result(job: Job, made: Result | Failure, study: Study) -> Result:

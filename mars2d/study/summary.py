@@ -15,6 +15,7 @@ from mars2d.study.statistics import Interval, confident, seeds_for_share, seeds_
 from mars2d.study.table import Result, Table
 from mars2d.study.text import (
     Point,
+    assigned,
     head,
     in_words,
     name_of_point,
@@ -23,6 +24,7 @@ from mars2d.study.text import (
     side_by_side,
     varied,
 )
+from mars2d.study.units import with_unit
 
 __all__ = ["Difference", "comparison", "differences", "summary"]
 
@@ -40,7 +42,7 @@ def summary(table: Table, confidence: float = 0.95) -> str:
     is not between 0 and 1.
     """
     points, wanted = table.points(), estimates(table)
-    left = [[*(name for _, name in varied(table)), "runs"]]
+    left = [[*(with_unit(name, table.unit(name)) for _, name in varied(table)), "runs"]]
     for point, results in points.items():
         left.append([*(in_words(point[k]) for k, _ in varied(table)), str(len(results))])
     if table.failed:
@@ -48,7 +50,10 @@ def summary(table: Table, confidence: float = 0.95) -> str:
         for row, cell in zip(left, ["failed", *failures], strict=True):
             row.append(cell)
     columns = [
-        [_heading(each), *(_cell(each, results, confidence) for results in points.values())]
+        [
+            with_unit(each.label, each.unit),
+            *(_cell(each, results, confidence) for results in points.values()),
+        ]
         for each in wanted
     ]
     parts = [
@@ -58,10 +63,6 @@ def summary(table: Table, confidence: float = 0.95) -> str:
         _enough(table, wanted, confidence),
     ]
     return "\n\n".join(filter(None, parts))
-
-
-def _heading(estimate: Estimate) -> str:
-    return f"{estimate.label} [{estimate.unit}]" if estimate.unit else estimate.label
 
 
 def _cell(estimate: Estimate, results: Sequence[Result], confidence: float) -> str:
@@ -201,14 +202,15 @@ def comparison(table: Table, setting: str, confidence: float = 0.95) -> str:
     place, first = _first(table, setting)
     found = differences(table, setting, confidence)
     settings = [(k, name) for k, name in varied(table) if name != setting] + [(place, setting)]
-    parts = [head(table, f"differences from {setting} = {in_words(first)}, seed by seed")]
+    base = assigned(setting, first, table.unit(setting))
+    parts = [head(table, f"differences from {base}, seed by seed")]
     for estimate in dict.fromkeys(each.estimate for each in found):
         mine = [each for each in found if each.estimate is estimate]
         points = ([in_words(each.point[k]) for k, _ in settings] for each in mine)
-        left = [[name for _, name in settings], *points]
-        title = f"{estimate.label} [{'points' if estimate.share else estimate.unit}]"
+        left = [[with_unit(name, table.unit(name)) for _, name in settings], *points]
+        title = with_unit(estimate.label, "points" if estimate.share else estimate.unit)
         columns = [
-            [title.removesuffix(" []"), *map(_verdict, mine)],
+            [title, *map(_verdict, mine)],
             ["pairs", *map(_pair_count, mine)],
             ["narrower", *map(_gain, mine)],
         ]

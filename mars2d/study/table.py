@@ -11,7 +11,7 @@ import html
 import io
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,6 +22,8 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, MissingExtraError, counted, one_line, shown
 from mars2d.core.files import atomic_write
 from mars2d.scenario.options import parse_setting
+from mars2d.study.measures import UNITS
+from mars2d.study.units import name_and_unit, unit_of_field, with_unit
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -83,13 +85,15 @@ class Result:
 class Table:
     """The results of a study: its runs in order, each with its settings, seed and measures.
 
-    experiment: the name of the experiment. settings, measures: their names, in order.
+    experiment: the name of the experiment. settings, measures: their names, in order. units: those
+    that were stated, by the names of settings and measures.
     """
 
     experiment: str
     settings: tuple[str, ...]
     measures: tuple[str, ...]
     results: tuple[Result, ...]
+    units: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.results)
@@ -102,6 +106,11 @@ class Table:
     def failed(self) -> tuple[Result, ...]:
         """The runs that have an error."""
         return tuple(result for result in self.results if result.error)
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a setting or measure: as stated, of its field, or built in; or ""."""
+        known = unit_of_field(name) if name in self.settings else UNITS.get(name, "")
+        return self.units.get(name, known)
 
     def points(self) -> dict[tuple[Any, ...], tuple[Result, ...]]:
         """Return the runs of each point, in order; a point is the tuple of all settings' values.
@@ -184,13 +193,16 @@ class Table:
 
     def _repr_html_(self) -> str:
         """Return the first rows as a table, for a notebook."""
-        names = ["row", *self.settings, SEED, *self.measures]
+        settings, measures = (
+            [with_unit(name, self.unit(name)) for name in names]
+            for names in (self.settings, self.measures)
+        )
         errors = ["error"] if self.failed else []
-        lines = [_html_row("th", [*names, *errors])]
+        lines = [_html_row("th", ["row", *settings, SEED, *measures, *errors])]
         for result in self.results[:SHOWN_ROWS]:
             measured = [result.measures.get(name) for name in self.measures]
-            settings = [result.options[name] for name in self.settings]
-            cells = [result.row, *settings, result.seed, *measured]
+            values = [result.options[name] for name in self.settings]
+            cells = [result.row, *values, result.seed, *measured]
             lines.append(_html_row("td", [*cells, *([result.error] if errors else [])]))
         left = len(self) - SHOWN_ROWS
         more = f"<p>and {counted(left, 'row')} more</p>" if left > 0 else ""
@@ -223,7 +235,11 @@ def save_table(table: Table, path: str | Path) -> Path:
 
 def file_header(table: Table) -> bytes:
     """Return the first line of a table's file."""
-    return _line([*FIRST, *table.settings, SEED, *table.measures, *LAST])
+    settings, measures = (
+        [with_unit(name, table.units.get(name, "")) for name in names]
+        for names in (table.settings, table.measures)
+    )
+    return _line([*FIRST, *settings, SEED, *measures, *LAST])
 
 
 def file_line(table: Table, result: Result) -> bytes:
@@ -287,7 +303,7 @@ def parse_table(data: bytes, path: Path) -> Table:
     reader = csv.reader(io.StringIO(text, newline=""), strict=True)
     try:
         header = next(reader, [])
-        settings, measures = _columns(header, path)
+        settings, measures, units = _columns(header, path)
         results: list[Result] = []
         experiment = ""
         for cells in reader:
@@ -306,18 +322,22 @@ def parse_table(data: bytes, path: Path) -> Table:
     except csv.Error as error:
         raise InputError(f"{path}, line {reader.line_num}: {error}") from error
     results.sort(key=lambda result: result.row)
-    return Table(experiment, settings, measures, tuple(results))
+    return Table(experiment, settings, measures, tuple(results), units)
 
 
-def _columns(header: list[str], path: Path) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of the settings and of the measures in a header."""
+def _columns(
+    header: list[str], path: Path
+) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, str]]:
+    """Return the names of the settings and of the measures in a header, and the units there."""
     ends = tuple(header[:2]), tuple(header[-3:])
     if ends != (FIRST, LAST) or header.count(SEED) != 1:
         expected = f"{', '.join(FIRST)}, settings, seed, measures, {', '.join(LAST)}"
         found = f"; it begins with {shown(','.join(header))}" if header else "; it is empty"
         raise InputError(f"{path}: is no table of a study: expected columns {expected}{found}")
     at = header.index(SEED)
-    return tuple(header[2:at]), tuple(header[at + 1 : -3])
+    named = [name_and_unit(head) for head in header]
+    names = [name for name, _ in named]
+    return tuple(names[2:at]), tuple(names[at + 1 : -3]), {k: unit for k, unit in named if unit}
 
 
 def _result(

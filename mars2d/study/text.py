@@ -12,6 +12,7 @@ from mars2d.study.table import Table
 
 __all__ = [
     "Point",
+    "assigned",
     "head",
     "in_words",
     "name_of_point",
@@ -38,17 +39,22 @@ def in_words(value: Any) -> str:
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
+def assigned(name: str, value: Any, unit: str = "") -> str:
+    """Return a setting with its value and unit, such as ``speed = 0.5 m/s``."""
+    return f"{name} = {in_words(value)} {f'[{unit}]' if ',' in unit else unit}".rstrip()
+
+
 def name_of_point(table: Table, point: Point, leave_out: Sequence[str] = ()) -> str:
     """Return the settings of a point that vary, such as ``gain = 0.5, n = 4``."""
     names = [(k, name) for k, name in varied(table) if name not in leave_out]
-    return ", ".join(f"{name} = {in_words(point[k])}" for k, name in names)
+    return ", ".join(assigned(name, point[k], table.unit(name)) for k, name in names)
 
 
 def head(table: Table, what: str) -> str:
     """Return the first line of a text: the number of runs, the experiment, constant settings."""
     places, points = {k for k, _ in varied(table)}, list(table.points())
     same = [
-        f", {name} = {in_words(points[0][k])}"
+        f", {assigned(name, points[0][k], table.unit(name))}"
         for k, name in enumerate(table.settings if points else ())
         if k not in places
     ]

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from mars2d import InputError
 from mars2d.study.figure import plot_study, save_study_figure
 from mars2d.study.layout import layout_of
-from mars2d.study.statistics import interval, proportion
+from mars2d.study.statistics import interval, proportion, shared
 from mars2d.study.table import Result, Table
 
 
@@ -174,6 +178,67 @@ def test_styles_change_how_it_looks():
     assert colors == {"#000000"}
     with pytest.raises(InputError, match="did you mean 'print'"):
         plot_study(table, style="prnt")
+
+
+LAWS = [
+    "proportional_navigation.py", "pure_pursuit_with_feedforward.py", "random_walk_baseline.py",
+    "laws/students/2026/group_a/pursuit.py", "constant_bearing_guidance.py",
+]  # fmt: skip
+
+
+def overlaps(texts):
+    """Return the pairs of texts of a drawn figure that cover each other."""
+    texts = [text for text in texts if text.get_text()]
+    upright = [text for text in texts if not text.get_rotation()]
+    assert upright == [] or upright == texts
+    renderer = texts[0].figure.canvas.get_renderer()
+    boxes = [text.get_window_extent(renderer) for text in texts]
+    if upright:
+        return [(a, b) for a, b in pairwise(boxes) if a.x1 > b.x0 and a.y1 > b.y0 and a.y0 < b.y1]
+    angle = np.deg2rad(texts[0].get_rotation())
+    gaps = np.diff([text.get_transform().transform(text.get_position())[0] for text in texts])
+    height = texts[0].get_fontsize() * texts[0].figure.dpi / 72
+    return [gap for gap in gaps if gap * np.sin(angle) < height]
+
+
+@pytest.mark.parametrize("style", ["screen", "print", "projector"])
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"law": LAWS},
+        {"law": [f"{k}/{law}" for k in range(4) for law in LAWS]},
+        {"gain": [round(0.1 + 0.05 * k, 2) for k in range(10)]},
+        {"robots.*.drive.max_linear_speed": [0.1, 0.2], "n": [1, 2, 3], "law": LAWS[:4]},
+    ],
+)
+def test_long_names_do_not_cover_each_other(settings, style):
+    figure = plot_study(study(settings, lambda *values: float(values[-1]), 2), style=style)[
+        0
+    ].figure
+    FigureCanvasAgg(figure).draw()
+    lowest = [ax for ax in figure.axes if ax.get_xlabel()]
+    for ax in lowest:
+        assert overlaps(ax.get_xticklabels()) == []
+    assert overlaps([ax.xaxis.label for ax in lowest]) == []
+
+
+def test_a_share_is_drawn_in_percent_from_0_to_100_with_its_interval():
+    table = study({"gain": [1, 2]}, lambda gain, seed: seed < 3 * gain)
+    (ax,) = plot_study(table)
+    assert ax.get_ylabel() == "error = 1\n[%]"
+    assert ax.get_yticks().tolist() == [0, 25, 50, 75, 100]
+    assert ax.get_ylim() == (-6, 106)
+    assert markers(ax) == [50, 100]
+    half = shared(np.array([1.0, 1, 1, 0, 0, 0]))
+    assert bars(ax)[0] == pytest.approx((100 * half.low, 100 * half.high))
+    assert ax.get_title(loc="left") == "hunt.py: shares with 95 % intervals"
+
+
+def test_axes_and_legends_have_units():
+    table = study({"stop_time": [1, 2], "robots.*.mass": [3, 4]}, lambda t, m, seed: float(seed))
+    (ax,) = plot_study(dataclasses.replace(table, units={"error": "m"}))
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("stop_time [s]", "error [m]")
+    assert legend([ax]) == ["robots.*.mass = 3 kg", "robots.*.mass = 4 kg"]
 
 
 def test_the_same_table_gives_the_same_file(tmp_path):

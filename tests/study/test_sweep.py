@@ -15,7 +15,10 @@ import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
 from mars2d.core import deadline
+from mars2d.scenario.experiment import open_experiment
+from mars2d.study.code import code_of_run
 from mars2d.study.results import Results
+from mars2d.study.run import TRIALS, StudyFailedError
 from mars2d.study.table import load_table
 from tests.processes import PATIENCE, wait_until
 
@@ -138,7 +141,8 @@ def test_a_point_that_can_not_be_opened_is_a_row_with_its_error(here):
 
 
 def test_a_measure_that_fails_leaves_the_run_its_digest_and_its_other_measures(here):
-    (result,) = sweep(None, 1, ["broken", "far"]).results
+    (here / "drift.py").write_text(DRIFT.replace("1 / 0", "1 / (gain - 1)"))
+    _, result = sweep({"gain": [0.5, 1.0]}, 1, ["broken", "far"]).results
     assert result.digest
     assert result.measures["broken"] is None
     assert result.measures["far"] > 0
@@ -162,6 +166,168 @@ def test_a_run_that_waits_for_the_system_is_left_behind(here, monkeypatch):
     assert time.monotonic() - start < 2.4
     assert hangs.error == "took longer than 0.3 s, in drift.py, line 10"
     assert ends.error == ""
+
+
+def test_units_are_stated_with_the_sweep_or_with_its_table(here, capsys):
+    words = ["--set", "gain=1", "--measure", "far", "--workers", "1", "--out", "r.csv"]
+    assert main(["sweep", "drift.py", *words, "--unit", "far=m"]) == 0
+    assert main(["sweep", "r.csv", "--unit", "gain=1/s"]) == 0
+    first, again = capsys.readouterr().out.split("table:  r.csv\n", 1)
+    assert "far [m]" in first
+    assert "gain = 1 1/s" in again
+    assert "far [m]" in again
+    assert sweep({"gain": [1]}, 1, out="r.csv", units={"far": "m"}).units == {"far": "m"}
+
+
+# -- what stops after a few runs -------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("workers", [["--workers", "1"], ["--workers", "2"]])
+def test_a_sweep_whose_every_run_fails_stops_with_the_reason_and_exit_code_1(here, workers, capsys):
+    (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
+    grid = ["--set", "gain=0.1:1:20", "--measure", "far", "--out", "r.csv"]
+    assert main(["sweep", "drift.py", *grid, *workers]) == 1
+    out, errors = capsys.readouterr()
+    table = load_table("r.csv")
+    assert out == ""
+    assert TRIALS <= len(table) == len(table.failed) < 20
+    assert len({result.options["gain"] for result in table.results}) == len(table)
+    assert errors.splitlines()[-1] == (
+        f"mars2d: {len(table)} of {len(table)} runs failed, so the other {20 - len(table)} are not "
+        "made; row 1, gain = 0.1, seed 0: drift.py, line 10: law raised ZeroDivisionError: "
+        "division by zero (robot0, at 0 s)"
+    )
+    made = runs(here)
+    assert main(["sweep", "drift.py", *grid, *workers]) == 1  # its rows say so already
+    assert runs(here) == made
+
+
+def test_one_trial_that_works_is_enough_to_go_on(here):
+    law = "return 1 / (gain == 8), 0.0"
+    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
+    assert len(sweep({"gain": [1, 2, 3, 4, 5, 6, 7, 8]}, 1).failed) == 7
+
+
+def test_a_point_that_can_be_opened_is_among_the_trials(here):
+    table = sweep({"n": [40, 50, 60, 1, *range(70, 100)]}, 1)
+    assert len(table) - len(table.failed) == 1
+
+
+def test_a_measure_that_fails_in_the_first_run_is_found_before_the_grid_is_run(here, capsys):
+    with pytest.raises(StudyFailedError) as caught:
+        sweep({"gain": [0.5, 1.0]}, 50, ["far", "broken"], out="r.csv")
+    assert "the first run can't be measured, so the other " in str(caught.value)
+    assert "row 1, gain = 0.5, seed 0: drift.py, line 24: broken raised" in str(caught.value)
+    assert len(load_table("r.csv")) == len(caught.value.table) < 100
+    assert caught.value.table.results[0].measures["far"] > 0
+
+
+# -- records that are kept -------------------------------------------------------------------------
+
+NEW = """
+def near(record):
+    return -float(abs(record.pose[-1, :2]).max())
+"""
+
+
+@pytest.mark.slow
+def test_kept_records_are_measured_again_without_a_run(here, capsys):
+    words = ["sweep", "drift.py", "--set", "gain=0.5,1", "--seeds", "2", "--keep"]
+    assert main([*words, "--measure", "far", "--out", "r.csv"]) == 0
+    assert capsys.readouterr().out.endswith("table:  r.csv\nrecords: r_records\n")
+    far, made = load_table("r.csv"), runs(here)
+    assert (made, len(list((here / "r_records").iterdir()))) == (4, 4)
+    with (here / "drift.py").open("a") as file:
+        file.write(NEW)
+    assert main([*words, "--measure", "near,far", "--out", "r.csv"]) == 0
+    table = load_table("r.csv")
+    assert runs(here) == made
+    for before, result in zip(far.results, table.results, strict=True):
+        assert (result.error, result.digest) == ("", before.digest)
+        assert result.measures == {"near": -before.measures["far"], **before.measures}
+
+
+def test_the_built_in_measures_are_the_same_from_kept_records(here):
+    settings, measures = {"stop_time": [2.0]}, ["capture_time", "winner", "path_length", "effort"]
+    first = sweep(settings, 2, measures, "pursuit_corners", out="r.csv", keep=True)
+    (here / "r.csv").unlink()
+    made = [file.stat().st_mtime_ns for file in (here / "r_records").iterdir()]
+    assert sweep(settings, 2, measures, "pursuit_corners", out="r.csv", keep=True) == first
+    assert made == [file.stat().st_mtime_ns for file in (here / "r_records").iterdir()]
+
+
+def test_a_measure_that_failed_is_corrected_without_a_run(here):
+    with pytest.raises(StudyFailedError):
+        sweep(None, 2, "broken", out="r.csv", keep=True)
+    (here / "drift.py").write_text(DRIFT.replace("1 / 0", "1 / 2"))
+    made = runs(here)
+    table = sweep(None, 2, "broken", out="r.csv", keep=True)
+    assert [result.measures for result in table.results] == [{"broken": 0.5}] * 2
+    assert runs(here) <= max(2, made)
+
+
+@pytest.mark.parametrize(
+    ("change", "again"),
+    [
+        (("robot.rng.uniform()", "robot.rng.uniform() / 2"), True),  # a law
+        (("Robots drift", "Robots dream"), True),
+        (("def broken(record):\n    return 1 / 0", ""), False),  # a measure
+        (("def far(record):", "def far(record):  # a comment"), False),
+        (("return gain *", "return gain + 0 * len(__file__) *"), True),
+    ],
+)
+def test_records_of_laws_that_have_changed_are_not_measured(here, change, again):
+    sweep(out="r.csv", keep=True)
+    (here / "drift.py").write_text(DRIFT.replace(*change))
+    if again:
+        with pytest.raises(InputError, match="holds another study"):
+            sweep(out="r.csv", keep=True)
+        (here / "r.csv").unlink()
+    sweep(out="r.csv", keep=True)
+    assert runs(here) == (4 if again else 2)
+
+
+def test_a_measure_that_a_law_uses_is_part_of_the_law(here):
+    used = DRIFT.replace("0.0\n\ndef scenario", "0.0 * far(robot.history)\n\ndef scenario")
+    assert "history" in used
+    drift = here / "drift.py"
+    codes = []
+    for text in (used, used.replace("abs(", "1 + abs("), used.replace("much", "more")):
+        drift.write_text(text)
+        codes.append(code_of_run(open_experiment("drift.py")))
+    assert codes[0] not in codes[1:2]
+    assert codes[0] == codes[2]
+
+
+def test_a_broken_record_is_made_again(here):
+    first = sweep(None, 1, out="r.csv", keep=True)
+    (file,) = (here / "r_records").iterdir()
+    file.write_bytes(b"PK")
+    (here / "r.csv").unlink()
+    assert sweep(None, 1, out="r.csv", keep=True) == first
+    assert (runs(here), file.stat().st_size > 100) == (2, True)
+
+
+def test_rows_without_kept_records_are_never_lost(here):
+    sweep(out="r.csv")
+    with pytest.raises(InputError, match="its measures: far; now: word"):
+        sweep(measures="word", out="r.csv", keep=True)
+    assert load_table("r.csv").measures == ("far",)
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ({"keep": True}, "keep: expected out as well"),
+        ({"keep": True, "out": "r.csv", "control": lambda w: (0, 0)}, "keep: expected an exp"),
+        ({"keep": True, "out": "r.csv", "measures": "collisions",
+          "experiment": Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=1)}, "keep: expected"),
+    ],
+)  # fmt: skip
+def test_records_are_kept_beside_a_table_of_an_experiment_in_a_file(here, how, said):
+    with pytest.raises(InputError, match=said):
+        sweep(**how)
 
 
 # -- what is refused before the first run ----------------------------------------------------------
@@ -240,15 +406,15 @@ def test_a_torn_line_is_run_again(here):
 
 
 def test_rows_with_errors_are_run_again_only_if_asked(here):
-    law = 'return (1 / 0 if Path("bad").exists() else 0.1), 0.0'
+    law = 'return (1 / 0 if Path("bad").exists() and robot.pose[2] else 0.1), 0.0'
     (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
     (here / "bad").touch()
-    assert len(sweep(None, 2, out="r.csv").failed) == 2
+    assert len(sweep(None, 2, out="r.csv").failed) == 1
     (here / "bad").unlink()
-    assert len(sweep(None, 2, out="r.csv").failed) == 2
+    assert len(sweep(None, 2, out="r.csv").failed) == 1
     assert runs(here) == 2
     assert sweep(None, 2, out="r.csv", retry=True).failed == ()
-    assert runs(here) == 4
+    assert runs(here) == 3
 
 
 @pytest.mark.parametrize(
@@ -384,9 +550,9 @@ def test_a_row_of_code_that_has_changed_is_another_run(here, capsys):
 
 
 def test_a_row_of_a_law_that_fails_shows_its_error(here, capsys):
-    (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
+    (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / int(robot.pose[2]) * robot"))
     sweep(out="sweep.csv")
-    assert main(["sweep", "--row", "2"]) == 2
+    assert main(["sweep", "--row", "1"]) == 2
     out, errors = capsys.readouterr()
     assert "then: drift.py, line 10: law raised ZeroDivisionError" in out
     assert errors == (
@@ -413,6 +579,8 @@ def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
     assert "differences from gain = 0.5" in out
     assert out.endswith("table:  r.csv\nfigure: r.png\n")
     assert (here / "r.png").stat().st_size > 5_000
+    assert main(["sweep", "r.csv", "--figure", "r.svg", "--style", "print"]) == 0
+    assert 'width="240.9' in (here / "r.svg").read_text()  # 85 mm in points
     assert runs(here) == before
 
 
@@ -433,6 +601,10 @@ def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
         (["drift.py", "--confidence", "95"], "expected a number between 0 and 1"),
         (["drift.py", "--out", "a.txt"], "--out a.txt: expected a name that ends in .csv"),
         (["drift.py", "--figure", "a.txt"], "--figure a.txt: expected a name that ends in"),
+        (["drift.py", "--style", "print"], "--style: it is of a figure: give --figure OUT"),
+        (["drift.py", "--figure", "a.png", "--style", "prnt"], "did you mean 'print'?"),
+        (["r.csv", "--row", "1", "--figure", "a.png", "--style", "print"], "--style: --row N runs"),
+        (["drift.py", "--unit", "far"], "--unit far: expected NAME=UNIT"),
         (["nothing.csv"], "nothing.csv: can't be read"),
     ],
 )
@@ -456,9 +628,10 @@ def test_points_that_can_not_be_opened_are_said_before_the_first_run(here, capsy
 def test_ctrl_c_in_python_leaves_the_rows_that_were_made(here):
     with pytest.raises(KeyboardInterrupt) as caught:
         sweep({"gain": [0.5, 1.0]}, 5, measures=["far", _interrupting])
-    made = [result.seed for result in caught.value.table.results]
-    assert 1 <= len(made) <= 4  # the main thread may be behind the rows that are made
-    assert made == [0, 1, 2, 3][: len(made)]
+    made = [(result.options["gain"], result.seed) for result in caught.value.table.results]
+    order = [(0.5, 0), (0.5, 2), (0.5, 4), (1.0, 1), (1.0, 4), (0.5, 1)]  # the trials come first
+    assert 1 <= len(made) <= 6  # the main thread may be behind the rows that are made
+    assert made == sorted(order[: len(made)])
     assert str(caught.value) == f"{len(made)} of 10 runs were made"
 
 

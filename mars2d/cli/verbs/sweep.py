@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from pathlib import Path
 from typing import Any
 
@@ -11,20 +12,25 @@ from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, naming_lost_let
 from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell, warn
+from mars2d.output.figures.style import STYLES, style_of
+from mars2d.study.kept import records_beside
 from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
 from mars2d.study.prepare import prepared
 from mars2d.study.run import run_study
 from mars2d.study.table import Table, is_table, load_table
+from mars2d.study.units import checked_units, parse_units
 
 TABLE = Path("sweep.csv")
 """The default file of the rows."""
 
-RUN_ARGUMENTS = ("set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry")
+RUN_ARGUMENTS = (
+    "set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry", "keep",
+)  # fmt: skip
 """The arguments that choose the runs; they don't apply to an existing table."""
 
 WORKER_ARGUMENTS = ("workers", "cluster")
 
-TABLE_ARGUMENTS = ("compare",)
+TABLE_ARGUMENTS = ("compare", "unit", "style")
 
 ROW_ARGUMENTS = ("view", "record", "html")
 
@@ -46,13 +52,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--first-seed", type=int, metavar="K", help="the first seed (default: 0)")
     add("--measure", action="append", default=[], metavar="NAME",
         help="a function of the record in the experiment's file, or a built-in one")  # fmt: skip
+    add("--unit", action="append", default=[], metavar="NAME=UNIT",
+        help="the unit of a setting or a measure, as spread=m")  # fmt: skip
     add("--out", type=Path, metavar="OUT.csv", help=f"file of the rows (default: {TABLE})")
     add("--figure", type=Path, metavar="OUT", help="draw the measures: .png, .pdf, .svg")
+    add("--style", metavar="STYLE", help=f"of the figure: {', '.join(STYLES)}")
     add("--compare", metavar="KEY", help="compare a setting's values, seed by seed")
     add("--confidence", type=_confidence, default=0.95, metavar="P",
         help="of intervals (default: 0.95)")  # fmt: skip
     add("--time-limit", type=float, metavar="S", help="seconds that a run may take")
     add("--retry", action="store_true", help="run rows with an error again")
+    add("--keep", action="store_true",
+        help="keep the records beside the table; other measures then need no run")  # fmt: skip
     add_workers(parser)
     add("--row", type=int, metavar="N", help="run one row of a study again")
     add("--view", action="store_true", help="with --row: show it in a window")
@@ -79,13 +90,19 @@ def execute(arguments: argparse.Namespace) -> None:
         _refuse(arguments, others, "--row N runs one row as it was")
         show_row(arguments, _table_here(arguments))
         return
+    if arguments.figure is None:
+        _refuse(arguments, ("style",), "it is of a figure: give --figure OUT as well")
+    arguments.style = style_of(arguments.style or "screen")
     _refuse(arguments, ROW_ARGUMENTS, "it is of one run: give --row N")
     if arguments.experiment is None:
         raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
     if arguments.experiment.lower().endswith(".csv"):
         why = f"{arguments.experiment} is there already"
         _refuse(arguments, (*RUN_ARGUMENTS, *WORKER_ARGUMENTS), why)
-        _report(arguments, load_table(arguments.experiment), Path(arguments.experiment))
+        table = load_table(arguments.experiment)
+        stated = checked_units(parse_units(arguments.unit), [*table.settings, *table.measures])
+        table = dataclasses.replace(table, units={**table.units, **stated})
+        _report(arguments, table, Path(arguments.experiment))
         return
     _run(arguments)
 
@@ -125,13 +142,28 @@ def _run(arguments: argparse.Namespace) -> None:
         _check_compared(arguments.compare, {k: len(v) for k, v in plan.settings.items()})
     names = [name.strip() for given in arguments.measure for name in given.split(",")]
     with workers_of(arguments) as (executor, workers):
-        study = prepared(arguments.experiment, plan, tuple(names), time_limit=arguments.time_limit)
+        study = prepared(
+            arguments.experiment,
+            plan,
+            tuple(names),
+            time_limit=arguments.time_limit,
+            units=parse_units(arguments.unit),
+        )
         for trouble in study.troubles[:3]:
             warn(trouble)
         if study.troubles:
             warn("such runs are rows with their error; the others are made")
-        table = run_study(study, out, executor=executor, workers=workers, retry=arguments.retry)
+        table = run_study(
+            study,
+            out,
+            executor=executor,
+            workers=workers,
+            retry=arguments.retry,
+            keep=arguments.keep,
+        )
     _report(arguments, table, out)
+    if arguments.keep:
+        tell(f"records: {records_beside(out)}")
 
 
 def _settings(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -164,5 +196,10 @@ def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
         from mars2d.study.figure import save_study_figure
 
         with naming_lost_letters():
-            save_study_figure(table, arguments.figure, confidence=arguments.confidence)
+            save_study_figure(
+                table,
+                arguments.figure,
+                confidence=arguments.confidence,
+                style=arguments.style,
+            )
         tell(f"figure: {arguments.figure}")

@@ -18,6 +18,7 @@ from mars2d.output.figures.figure import (
     show_in_notebooks,
     style_ticks,
 )
+from mars2d.output.figures.labels import shortened, wrapped
 from mars2d.output.figures.style import Style
 
 if TYPE_CHECKING:
@@ -33,12 +34,14 @@ __all__ = [
     "curve",
     "dress_panel",
     "finish",
+    "letters_in",
     "name_beside",
     "name_curves",
     "panels",
     "say",
     "set_span",
     "short_number",
+    "size_of",
     "spans",
     "thinned",
     "width_of",
@@ -53,8 +56,8 @@ MAX_VERTICES = 20_000
 MAX_BLOCKS, MIN_BLOCKS = 1000, 250
 """The limits of the blocks into which a long curve is cut; each block keeps its extremes."""
 
-CAPTION_LETTERS = 12
-"""The letters in a line of a caption, at most."""
+CAPTION_LETTERS, CAPTION_HEIGHT = 12, 0.5
+"""The letters in a line of a caption, at most, and its height as a share of the panel's."""
 
 LETTER_WIDTH = 0.56
 """The approximate width of a letter, in text heights."""
@@ -112,7 +115,7 @@ def dress_panel(
     style_ticks(ax, look)
     ax.spines[:].set(color=look.line, linewidth=0.8 * look.stroke)
     ax.spines[["top", "right"]].set_visible(False)
-    bins = int(np.clip(_points(ax)[1] / (2.4 * look.small), 2, 5))
+    bins = int(np.clip(size_of(ax)[1] / (2.4 * look.small), 2, 5))
     ax.yaxis.set_major_locator(MaxNLocator(nbins=bins, steps=[1, 2, 4, 5, 10], min_n_ticks=2))
     ax.yaxis.set_major_formatter(FuncFormatter(short_number))
     if ax is last or not ax.get_shared_x_axes().joined(ax, last):
@@ -128,16 +131,18 @@ def caption(ax: Axes, name: str, unit: str, look: Style) -> None:
     """Write a panel's name and unit beside its axis of values, horizontally."""
     text = f"{name} [{unit}]" if unit else name
     if len(text) > CAPTION_LETTERS:
-        text = "\n".join(textwrap.wrap(name, CAPTION_LETTERS) + ([f"[{unit}]"] if unit else []))
+        lines = max(2, int(CAPTION_HEIGHT * size_of(ax)[1] / (look.spacing * look.label)))
+        name = shortened(name, lines * CAPTION_LETTERS)
+        text = "\n".join([wrapped(name, CAPTION_LETTERS), *([f"[{unit}]"] if unit else [])])
     ax.set_ylabel(
         text, color=look.ink, fontsize=look.label, rotation=0, ha="right", va="center",
-        linespacing=1.0 if look.family else 1.2, parse_math=False,
+        linespacing=look.spacing, parse_math=False,
     )  # fmt: skip
 
 
 def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> None:
     """Write a title above the first panel, and a legend between them."""
-    room = _points(ax)[0]
+    room = size_of(ax)[0]
     above = 0.0
     if entries:
         widest = max(len(entry.name) for entry in entries)
@@ -151,7 +156,7 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
         )  # fmt: skip
         above = lines * look.small * 1.5
     if look.title:
-        letters = max(20, int(room / (LETTER_WIDTH * look.title)))
+        letters = max(20, letters_in(room, look.title))
         ax.set_title(
             textwrap.fill(title, letters, max_lines=2, placeholder=" …"), loc="left",
             fontsize=look.title, color=look.ink, pad=6 * look.stroke**0.5 + above, parse_math=False,
@@ -268,7 +273,12 @@ def width_of(many: int, look: Style, few: int = 8) -> float:
     return 1.5 * look.stroke if many <= few else 0.7 * look.stroke**0.5
 
 
-def _points(ax: Axes) -> tuple[float, float]:
+def letters_in(length: float, height: float) -> int:
+    """Return how many letters have room in a length; both it and their height in points."""
+    return max(1, int(length / (LETTER_WIDTH * height)))
+
+
+def size_of(ax: Axes) -> tuple[float, float]:
     """Return the width and the height of axes, points; approximate before the layout."""
     box, points = ax.get_window_extent(), 72 / ax.figure.dpi
     return box.width * points, box.height * points

@@ -65,6 +65,11 @@ class Style:
         """Whether blank margins are cut off in a file: only if the size is not fixed."""
         return self.single is None and self.page is None
 
+    @property
+    def spacing(self) -> float:
+        """The distance of lines in labels, in heights of text: fonts for print are airy."""
+        return 1.0 if self.family else 1.2
+
     def colors(self, scenario: Scenario) -> tuple[str, ...]:
         """Return the colours of the robots' curves."""
         if self.greys:

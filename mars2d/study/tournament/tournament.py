@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.interrupt import noted_interrupts
+from mars2d.study.code import WatchedFiles
 from mars2d.study.isolation.limits import Limits
-from mars2d.study.job import WatchedFiles
 from mars2d.study.run import CountingBar
 from mars2d.study.tournament.folder import Folder
 from mars2d.study.tournament.league import Tournament

@@ -1,0 +1,106 @@
+"""The axes of a study's panels: their scales, their ticks and the names of values and settings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mars2d.output.figures.figure import style_ticks
+from mars2d.output.figures.labels import fits, shortened, wrapped
+from mars2d.output.figures.panels import letters_in, short_number, size_of
+from mars2d.output.figures.style import Style
+from mars2d.study.layout import Layout
+from mars2d.study.table import Table
+from mars2d.study.text import in_words
+from mars2d.study.units import with_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["dress", "name_axis", "scale_to_100"]
+
+VALUE_LINES = 3
+"""The most lines of a value's name below its tick; where it needs more, it is turned."""
+
+NAME_LINES, PAGE_LINES = 4, 2
+"""About how many lines the name of a setting may have; the latter where the figure is a page."""
+
+TURNED_LETTERS, TURNED_SHARE = 28, 0.4
+"""The most letters of a name that is turned, and its length as a share of the figure's height."""
+
+
+def dress(ax: Axes, layout: Layout, look: Style) -> None:
+    """Set the scale, limits and ticks of the axis, grid and spines."""
+    from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
+
+    if layout.logarithmic:
+        ax.set_xscale("log")
+        ax.xaxis.set_minor_locator(NullLocator())
+    ax.set_xlim(*layout.limits())
+    if layout.roomy() or not layout.numeric:
+        _name_values(ax, layout, look)
+    else:
+        ax.xaxis.set_major_formatter(FuncFormatter(short_number))
+    ax.yaxis.set_major_locator(
+        MaxNLocator(
+            nbins=int(np.clip(size_of(ax)[1] / (2.4 * look.small), 2, 5)),
+            steps=[1, 2, 2.5, 5, 10],
+            min_n_ticks=2,
+        )
+    )
+    ax.yaxis.set_major_formatter(FuncFormatter(short_number))
+    ax.set_facecolor("white")
+    ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
+    ax.set_axisbelow(True)
+    style_ticks(ax, look)
+    ax.spines[:].set(color=look.line, linewidth=0.8 * look.stroke)
+    ax.spines[["top", "right"]].set_visible(False)
+
+
+def _name_values(ax: Axes, layout: Layout, look: Style) -> None:
+    """Write each value below its tick: on several lines, or turned, where there is little room."""
+    scaled, (low, high) = layout.scaled(), ax.get_xlim()
+    span = np.log10(high / low) if layout.logarithmic else high - low
+    gaps = np.diff(np.sort(scaled)) / span
+    room = size_of(ax)[0] * float(gaps.min() if len(gaps) else 1.0)
+    names = [in_words(value) for value in layout.values] or [""]
+    letters = letters_in(room, look.small)
+    turned: dict[str, Any] = {}
+    if all(fits(name, letters - 1, VALUE_LINES) for name in names):
+        names = [wrapped(name, letters - 1) for name in names]
+    else:
+        length = TURNED_SHARE * ax.figure.bbox.height * 72 / ax.figure.dpi
+        letters = min(TURNED_LETTERS, letters_in(length, look.small))
+        names = [shortened(name, letters) for name in names]
+        turned = {"rotation": 35, "ha": "right", "rotation_mode": "anchor"}
+        if room < 2.2 * look.small:
+            turned = {"rotation": 90}
+    step = int(np.ceil(1.2 * look.small / room))
+    places = 10**scaled if layout.logarithmic else scaled
+    ax.set_xticks(
+        places[::step].tolist(), names[::step], parse_math=False, linespacing=look.spacing, **turned
+    )
+
+
+def scale_to_100(ax: Axes, look: Style) -> None:
+    """Give an axis of values the limits and ticks of a share, in percent."""
+    few = size_of(ax)[1] < 5 * 2.4 * look.small
+    ax.set_ylim(-6, 106)
+    ax.set_yticks([0, 50, 100] if few else [0, 25, 50, 75, 100])
+
+
+def name_axis(ax: Axes, table: Table, layout: Layout, column: int, look: Style) -> None:
+    """Label a panel's axis, and below it the value in which the panel differs from others."""
+    name = "all runs"
+    if layout.axis is not None:
+        setting = table.settings[layout.axis]
+        name = with_unit(setting, table.unit(setting))
+    title = layout.columns[column][0]
+    letters = letters_in(size_of(ax)[0], look.label)
+    lines = PAGE_LINES if look.page else NAME_LINES
+    parts = [shortened(part, lines * letters) for part in (name, title) if part]
+    text = "\n".join(wrapped(part, letters) for part in parts)
+    ax.set_xlabel(
+        text, color=look.ink, fontsize=look.label, linespacing=look.spacing, parse_math=False
+    )

@@ -1,0 +1,55 @@
+"""Kept records: the runs of a study as files, from which they are measured without a run."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from mars2d.core.errors import InputError
+from mars2d.record.record import Record, load
+from mars2d.scenario.experiment import Experiment
+from mars2d.study.code import code_of_run
+from mars2d.study.table import cells_of
+from mars2d.world.loop import simulate
+
+__all__ = ["kept_as", "recorded", "records_beside"]
+
+NAME_DIGITS = 16
+"""How many digits of a hash are the name of a record's file."""
+
+
+def records_beside(table: Path) -> Path:
+    """Return the folder that keeps the records of a study, beside its table."""
+    return table.with_name(f"{table.stem}_records")
+
+
+def kept_as(code: str, options: Mapping[str, Any], seed: int, folder: str) -> Path:
+    """Return the file that keeps the record of a run: its name is a hash of all that decides it.
+
+    code: that of the run, as `code_of_run` returns it.
+    """
+    decides = (code, sorted(zip(options, cells_of(options), strict=True)), seed)
+    return Path(folder, hashlib.sha256(repr(decides).encode()).hexdigest()[:NAME_DIGITS] + ".npz")
+
+
+def recorded(
+    experiment: Experiment, options: Mapping[str, Any], seed: int, folder: str = ""
+) -> Record:
+    """Return the record of a run: the one that is kept in the folder, or that of a run made now.
+
+    folder: where the record is kept from then on; if empty, it is not.
+    """
+    if not folder:
+        return simulate(experiment, seed).record
+    file = kept_as(code_of_run(experiment), options, seed, folder)
+    if file.is_file():
+        try:
+            return dataclasses.replace(load(file), scenario=experiment.scenario)
+        except InputError:
+            file.unlink()  # it is broken: the run is made again
+    record = simulate(experiment, seed).record
+    record.save(file)
+    return record
