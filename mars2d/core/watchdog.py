@@ -93,6 +93,10 @@ class Watchdog:
         self._block = None
 
     def _watch(self) -> None:
+        with contextlib.suppress(OSError):  # of the clock of a thread that has ended
+            self._look_on()
+
+    def _look_on(self) -> None:
         last, since, looks = self._calls(), self._spent(), 0
         while not self._ended.wait(LOOK):
             now = self._calls()

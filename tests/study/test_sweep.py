@@ -534,7 +534,7 @@ def test_a_row_is_run_again_alone(here, capsys):
     assert main(["sweep", "--row", "3", "--view", "--html", "run.html", "--record", "run.npz"]) == 0
     out, errors = capsys.readouterr()
     assert out.startswith("row 3 of sweep.csv: drift.py, gain = 1.0, seed 0\n")
-    assert out.endswith(", the same\n")
+    assert out.endswith(", the same\nrecord: run.npz\npage:   run.html\n")
     assert "there is no display, so this runs without a window" in errors
     assert mars2d.load("run.npz").digest == load_table("sweep.csv").results[2].digest
     assert (here / "run.html").stat().st_size > 10_000

@@ -342,7 +342,7 @@ def paint_row(
             continue
         scene = layer.shapes(now)
         if layer.name == "names":
-            scene = _names_apart(ax, now, words, forces=layers.forces)
+            scene = _names_apart(scene, ax, now, words, forces=layers.forces)
         if layer.name == "workspace":  # its edge is a layer of its own
             scene = Scene([_without_edge(shape) for shape in scene.shapes])
         elif layer.name == "trails":
@@ -363,7 +363,7 @@ def paint_row(
         _paint_legend(ax, now, scales["bodies"], words)
 
 
-def _names_apart(ax: Axes, now: Frame, words: float, *, forces: bool) -> Scene:
+def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, *, forces: bool) -> Scene:
     """Return the names of bodies, none over another or over a force that is drawn.
 
     words: the factor for the size of text.
@@ -372,7 +372,7 @@ def _names_apart(ax: Axes, now: Frame, words: float, *, forces: bool) -> Scene:
     view = Box((xmin + xmax) / 2, (ymin + ymax) / 2, (xmax - xmin) / 2, (ymax - ymin) / 2)
     scenes = (force_arrows(now), *_force_legend(ax, now)) if forces else ()
     others = [shape for scene in scenes for shape in scene.shapes]
-    return placed_names(now, words / points_per_metre(ax), view, others)
+    return placed_names(names, now, words / points_per_metre(ax), view, others)
 
 
 def layers_of(scenario: Scenario) -> Layers:

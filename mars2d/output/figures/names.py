@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from mars2d.core.scene import INK, Arrow, Scene, Shape, Text
-from mars2d.output.layers.bodies import names
 from mars2d.record.frame import Frame
 
 __all__ = ["placed_names"]
@@ -45,18 +44,20 @@ class Box(NamedTuple):
 
 
 def placed_names(
-    frame: Frame, metres_per_point: float, view: Box, others: Sequence[Shape] = ()
+    names: Scene, frame: Frame, metres_per_point: float, view: Box, others: Sequence[Shape] = ()
 ) -> Scene:
     """Return the names of all bodies, each beside its body and away from the others.
 
-    A name that finds no room beside its body has a thin line to it. metres_per_point: how long a
-    point of a text's height is. view: what the figure shows. others: arrows and texts that are
-    there already.
+    names: a text for each body; anything else stays where it is. A name that finds no room beside
+    its body has a thin line to it. metres_per_point: how long a point of a text's height is. view:
+    what the figure shows. others: arrows and texts that are there already.
     """
     bodies = [_bound(frame, i) for i in range(len(frame.scenario.bodies))]
-    scene = Scene()
+    labels = [shape for shape in names.shapes if isinstance(shape, Text)]
+    if len(labels) != len(bodies):
+        return names
+    scene = Scene([shape for shape in names.shapes if not isinstance(shape, Text)])
     taken = [_box_of(each, metres_per_point) for each in others if isinstance(each, (Arrow, Text))]
-    labels = [shape for shape in names(frame).shapes if isinstance(shape, Text)]
     for label, body in zip(labels, bodies, strict=True):
         wide, high = _half(label, metres_per_point)
         best = min(
