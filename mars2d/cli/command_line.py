@@ -3,29 +3,43 @@
 from __future__ import annotations
 
 import argparse
+import atexit
 import errno
 import os
 import re
 import signal
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Collection, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
 from mars2d import __version__
 from mars2d.cli.verbs import VERBS
-from mars2d.core.errors import InputError, Mars2dError, likely
-from mars2d.core.interrupt import INTERRUPTED, ending, raised_once, unwrapped, was_interrupted
+from mars2d.core.errors import InputError, Mars2dError, counted, likely
+from mars2d.core.interrupt import (
+    ENDING,
+    INTERRUPTED,
+    OURS,
+    ending,
+    raised_once,
+    unwrapped,
+    was_interrupted,
+)
+from mars2d.core.lastresort import look_on
 from mars2d.core.terminal import legible, warn
 from mars2d.core.words import instead
 
 __all__ = ["main", "parser"]
 
 OK, FAULT, BAD_INPUT = 0, 1, 2
+
+THREADS = 2.0
+"""How long the threads of the user's code may take to end after the command, seconds."""
 
 UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
 """Errors of paths typed by the user for which even asking whether they exist fails."""
@@ -37,14 +51,50 @@ def main(argv: Sequence[str] | None = None) -> int:
     0: everything was done. 1: a fault of MARS2D, or no run of a sweep succeeded. 2: bad input. 130:
     Ctrl-C, or the terminal was closed.
     """
+    _hold_standard_files()
+    if OURS:
+        look_on([signal.SIGINT, *ENDING])
     try:
         with legible(), raised_once(), unwrapped(), hang_up_as_interrupt():
-            return _outcome(argv)
+            code = _outcome(argv)
     except KeyboardInterrupt as interrupt:
         warn(str(interrupt) or "interrupted")
-        return INTERRUPTED
+        code = INTERRUPTED
     finally:
         ending()
+    if OURS:
+        _leave_threads(code)
+    return code
+
+
+def _leave_threads(code: int) -> None:
+    """End the process if threads of the user's code go on, for which Python would wait for ever."""
+    own = threading.current_thread()
+    threads = [t for t in threading.enumerate() if not t.daemon and t is not own]
+    until = time.monotonic() + THREADS
+    for thread in threads:
+        thread.join(max(0.0, until - time.monotonic()))
+    left = [thread.name for thread in threads if thread.is_alive()]
+    if not left:
+        return
+    warn(f"left {counted(len(left), 'thread')} that did not end: {', '.join(left)}")
+    atexit._run_exitfuncs()
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError, AttributeError):
+            stream.flush()
+    os._exit(code)
+
+
+def _hold_standard_files() -> None:
+    """Open the standard files that were closed, so that none of ours takes their numbers.
+
+    Libraries in C write on number 2: with `2>&-` that would be in the first file that is opened.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # the lowest number that is free
 
 
 def _outcome(argv: Sequence[str] | None) -> int:
@@ -92,7 +142,8 @@ def _stop_telling() -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)
-    sys.stderr.close()
+    if sys.stderr is not None:
+        sys.stderr.close()
 
 
 def parser() -> argparse.ArgumentParser:

@@ -99,7 +99,8 @@ def run_and_save(
     ended: Mars2dError | Interrupted | None = None
     film: Film | None = None
     target: Path | None = arguments.record
-    with held_back("" if target is None else f"the run is being saved in {one_line(target)}"):
+    saving = "" if target is None else f"the run is being saved in {one_line(target)}"
+    with held_back(saving, lambda kept: _rescue(arguments, kept)):
         try:
             record, film = run()
         except (Mars2dError, Interrupted) as error:
@@ -121,6 +122,16 @@ def run_and_save(
         files = ", ".join(map(str, made.values()))
         warn(f"what was recorded until {record.time[-1]:g} s is in {files}")
     raise ended
+
+
+def _rescue(arguments: argparse.Namespace, record: Record | None) -> None:
+    """Save the record of a run that does not end."""
+    if record is None or not len(record) or arguments.record is None:
+        return
+    _, troubles = _tried(arguments, {"record": lambda: save_record(arguments, record)})
+    say(troubles)
+    if not troubles:
+        warn(f"what was recorded until {record.time[-1]:g} s is in {one_line(arguments.record)}")
 
 
 def _tried(

@@ -1,6 +1,7 @@
 """Ctrl-C: not lost, handled once, and late while something is being saved.
 
-A process has one SIGINT, so all that concerns it is in this module. It is imported first: in a
+A process has one SIGINT, so all that concerns it is in this module. In the command line other
+signals that ask it to end do what Ctrl-C does, see `ENDING`. It is imported first: in a
 process that is the command line, and in no other, importing it installs the handler `leave`.
 Until all libraries are imported there is nothing to save, and libraries in C may turn
 KeyboardInterrupt into other errors.
@@ -14,11 +15,13 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import pairwise
 from math import inf
 from types import FrameType, TracebackType
 from typing import Any
+
+from mars2d.core.lastresort import heard
 
 __all__ = [
     "INTERRUPTED",
@@ -42,13 +45,22 @@ GRACE = 2.0
 RETRY_DELAY = 0.01
 """The delay after which a Ctrl-C that Python has dropped is sent again, seconds."""
 
+ENDING = [
+    getattr(signal, name)
+    for name in ("SIGTERM", "SIGUSR1", "SIGUSR2", "SIGXCPU")
+    if hasattr(signal, name)
+]
+"""Signals that end the command line as Ctrl-C does, unless other code handles them: that of `kill`,
+those of schedulers of clusters, and of limits of the processor's time."""
+
 _raised = -inf
 """The time at which KeyboardInterrupt was last raised."""
 
 
 def leave(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
     """End the process at once: the signal handler while there is nothing to lose."""
-    os.write(2, b"mars2d: interrupted\n")
+    with suppress(OSError):
+        os.write(2, b"mars2d: interrupted\n")
     os._exit(INTERRUPTED)
 
 
@@ -87,7 +99,7 @@ if (
 class _Handling:
     """A block with its own reaction to Ctrl-C; of nested blocks, the innermost one counts.
 
-    In the command line SIGTERM does what Ctrl-C does.
+    In the command line the signals of `ENDING` do what Ctrl-C does.
 
     It has no effect outside the main thread, or if other code handles the signal. It is not a
     generator, since a generator interrupted at the end of its block would restore the previous
@@ -102,10 +114,11 @@ class _Handling:
         if threading.current_thread() is not threading.main_thread():
             self._before = None
         self._outermost = not isinstance(self._before, _Handling)
-        self._term_before: Any = None
+        self._others_before: dict[int, Any] = {}
 
     def __call__(self, number: int, frame: FrameType | None) -> None:  # noqa: ARG002
         """React to Ctrl-C: this object is the signal's handler."""
+        heard()
         self._act()
 
     def _act(self) -> None:
@@ -113,9 +126,11 @@ class _Handling:
 
     def _begin(self) -> None:
         if OURS and threading.current_thread() is threading.main_thread():
-            self._term_before = signal.getsignal(signal.SIGTERM)
-            if self._term_before is signal.SIG_DFL or isinstance(self._term_before, _Handling):
-                signal.signal(signal.SIGTERM, self)
+            for number in ENDING:
+                before = signal.getsignal(number)
+                if before is signal.SIG_DFL or isinstance(before, _Handling):
+                    self._others_before[number] = before
+                    signal.signal(number, self)
         if self._before is None:
             return
         if self._outermost:
@@ -124,9 +139,9 @@ class _Handling:
         signal.signal(signal.SIGINT, self)
 
     def _end(self) -> None:
-        still = signal.getsignal(signal.SIGTERM) is self
-        if still:
-            signal.signal(signal.SIGTERM, self._term_before)
+        for number, before in self._others_before.items():
+            if signal.getsignal(number) is self:
+                signal.signal(number, before)
         if self._before is not None:
             signal.signal(signal.SIGINT, self._before)
 
@@ -137,15 +152,40 @@ class noted_interrupts(_Handling):  # noqa: N801 - it is used as a function
     Python raises KeyboardInterrupt wherever it happens to be, and drops it where no caller can
     receive it: in callbacks from C code and in destructors. So a long-running loop calls the
     function as well. Several Ctrl-C within `GRACE` count as one.
+
+    kept: returns what there is to save by now. A second Ctrl-C that finds the block still going on,
+    since the user's code catches everything, saves that by the `rescue` of a `held_back` around
+    the block, and ends the process.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, kept: Callable[[], Any] | None = None) -> None:
         super().__init__()
+        self.kept = kept
         self._pressed = False
+        self._first = inf
 
     def _act(self) -> None:
+        now = time.monotonic()
+        if now - self._first >= GRACE and not unbroken.depth:
+            self._give_up()
+        self._first = min(self._first, now)
         self._pressed = True
         _raise_once()
+
+    def _give_up(self) -> None:
+        """Save what there is and end the process, if somebody around the block can save it."""
+        around: Any = self
+        kept = rescue = None
+        while isinstance(around, _Handling):
+            kept = kept or getattr(around, "kept", None)
+            rescue = rescue or getattr(around, "rescue", None)
+            around = around._before
+        if kept is None or rescue is None:
+            return
+        try:
+            rescue(kept())
+        finally:
+            leave(0, None)
 
     def _check(self) -> None:
         if self._pressed:
@@ -162,18 +202,20 @@ class noted_interrupts(_Handling):  # noqa: N801 - it is used as a function
 class held_back(_Handling):  # noqa: N801 - it is used as a function
     """Hold Ctrl-C back until the end of the block, and raise KeyboardInterrupt then.
 
-    what: the reason for waiting, which is printed on stderr. A `noted_interrupts` within the block
-    lets Ctrl-C through. If the block ends with an error, that error is raised instead.
+    what: the reason for waiting, which is printed on stderr. rescue: saves what a block within this
+    one has kept, see `noted_interrupts`. A `noted_interrupts` within the block lets Ctrl-C through.
+    If the block ends with an error, that error is raised instead.
     """
 
-    def __init__(self, what: str = "") -> None:
+    def __init__(self, what: str = "", rescue: Callable[[Any], None] | None = None) -> None:
         super().__init__()
-        self._what = what
+        self._what, self.rescue = what, rescue
         self._pressed = False
 
     def _act(self) -> None:
         if self._what and not self._pressed:
-            os.write(2, f"mars2d: one moment: {self._what}\n".encode(errors="replace"))
+            with suppress(OSError):  # it is closed, or full
+                os.write(2, f"mars2d: one moment: {self._what}\n".encode(errors="replace"))
         self._pressed = True
 
     def __enter__(self) -> held_back:

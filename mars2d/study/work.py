@@ -49,6 +49,7 @@ def each_done(
     tasks: Sequence[T],
     executor: Executor | None = None,
     workers: int | None = None,
+    limit: float | None = None,
 ) -> Iterator[tuple[int, R | Failure]]:
     """Yield (index of a task, its result) as results arrive, exactly one for each task.
 
@@ -56,7 +57,8 @@ def each_done(
     it is left open. None starts `workers` processes, which end with the iterator. If one of these
     dies during a task, another takes its place and the task is tried once more, at the end and
     alone; if that one dies too, the result is a Failure. workers: how many, from 1; by default one
-    a core.
+    a core. limit: seconds after which a process is ended, and its task's result is a Failure; for
+    tasks that end by themselves before that if they can.
 
     Raises InputError for an impossible number of workers, for a function or task that can't be sent
     to another process, and if a script calls this without ``if __name__ == "__main__":``.
@@ -64,7 +66,7 @@ def each_done(
     leave_if_imported_again()
     count = worker_count(workers)
     if executor is None:
-        return done_by_processes(function, tasks, count)
+        return done_by_processes(function, tasks, count, limit)
     if not isinstance(executor, Executor):
         expected = "expected an Executor of concurrent.futures"
         raise InputError(f"executor={shown(executor)}: {expected}")

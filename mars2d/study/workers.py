@@ -25,6 +25,7 @@ from typing import Any, NamedTuple, TypeVar
 from mars2d.core.errors import InputError, shown
 from mars2d.core.hints import described
 from mars2d.core.interrupt import interrupts_blocked
+from mars2d.core.lastresort import die_with_parent
 from mars2d.study import ONE_THREAD
 
 __all__ = [
@@ -48,6 +49,9 @@ UNGUARDED_EXIT_CODE = 79
 
 MAX_FAILED_STARTS = 3
 """How many workers in a row may be killed before they have begun."""
+
+LOOK = 0.5
+"""The time between two looks at tasks with a limit, seconds."""
 
 END_TIMEOUT = 2.0
 """How long workers may take to end when they are told to, seconds."""
@@ -148,7 +152,7 @@ def leave_if_imported_again() -> None:
 
 
 def done_by_processes(
-    function: Callable[[T], R], tasks: Sequence[T], count: int
+    function: Callable[[T], R], tasks: Sequence[T], count: int, limit: float | None = None
 ) -> Iterator[tuple[int, R | Failure]]:
     """Do the tasks in `count` processes; yield as `mars2d.study.work.each_done` does."""
     known, order, left = packed(function), _Order(len(tasks)), len(tasks)
@@ -157,9 +161,11 @@ def done_by_processes(
         crew.start(min(count, left))
         while left:
             done = []
-            for index, returned in crew.wait():
+            for index, returned in crew.wait(limit):
                 if isinstance(returned, bytes):
                     done.append((index, unpacked(returned)))
+                elif isinstance(returned, _TooLong):
+                    done.append((index, Failure(returned)))
                 elif not order.once_more(index):
                     failure = Failure(f"the process that ran it {returned}, twice")
                     done.append((index, failure))
@@ -171,6 +177,10 @@ def done_by_processes(
             yield from done  # while the others go on
     finally:
         crew.end()
+
+
+class _TooLong(str):
+    """The message about a task whose process was ended at its limit."""
 
 
 class _Order:
@@ -202,7 +212,8 @@ class _Worker:
 
     def __init__(self) -> None:
         self.connection, theirs = SPAWN.Pipe()
-        self.process = SPAWN.Process(target=_serve, args=(theirs,))
+        by_main = threading.current_thread() is threading.main_thread()
+        self.process = SPAWN.Process(target=_serve, args=(theirs, by_main))
         try:
             with interrupts_blocked(), _one_thread():
                 self.process.start()
@@ -210,10 +221,11 @@ class _Worker:
             theirs.close()
         self.ready = False
         self.task: int | None = None
+        self.spent = 0.0  # how long its task has taken, seconds
 
     def give(self, index: int, function: bytes, task: bytes) -> None:
         """Send a task; a worker that has died in the meantime will be blamed on this task."""
-        self.task = index
+        self.task, self.spent = index, 0.0
         with suppress(OSError):
             self.connection.send_bytes(function)
             self.connection.send_bytes(task)
@@ -283,11 +295,15 @@ class _Crew:
         """Return whether any worker is doing a task."""
         return any(worker.task is not None for worker in self._workers)
 
-    def wait(self) -> list[tuple[int, bytes | str]]:
-        """Wait for news; return (index of a task, its result or how its worker died, in words)."""
+    def wait(self, limit: float | None = None) -> list[tuple[int, bytes | str]]:
+        """Wait for news; return (index of a task, its result or how its worker died, in words).
+
+        limit: seconds after which the worker of a task is ended.
+        """
         ends = [end for each in self._workers for end in (each.connection, each.process.sentinel)]
-        heard = set(wait(ends))
-        found: list[tuple[int, bytes | str]] = []
+        start = time.monotonic()
+        heard = set(wait(ends, None if limit is None else LOOK))
+        found = [] if limit is None else self._late(limit, time.monotonic() - start)
         for place, worker in enumerate(self._workers):
             if worker.connection not in heard and worker.process.sentinel not in heard:
                 continue
@@ -297,6 +313,24 @@ class _Crew:
             self._failed_starts = 0 if message is not None else self._failed_starts
             if index is not None:
                 found.append((index, how if message is None else message))
+        return found
+
+    def _late(self, limit: float, passed: float) -> list[tuple[int, bytes | str]]:
+        """End the workers whose task takes too long, and return the tasks.
+
+        passed: seconds since the last look. One that comes late, as after a pause of the whole
+        program, counts as one look.
+        """
+        found: list[tuple[int, bytes | str]] = []
+        for place, worker in enumerate(self._workers):
+            if worker.task is None:
+                continue
+            worker.spent += min(passed, 2 * LOOK)
+            if worker.spent > limit and not worker.connection.poll():
+                said = f"took longer than {limit:g} s, in code that nothing interrupts"
+                found.append((worker.task, _TooLong(said)))
+                worker.process.kill()
+                self._replace(place)
         return found
 
     def _replace(self, place: int) -> str:
@@ -344,9 +378,14 @@ class _EndedError(BaseException):
     """Raised in a worker that is told to end, so that its task can clean up."""
 
 
-def _serve(connection: Connection) -> None:
-    """Do tasks, in a process of its own, until the connection closes."""
+def _serve(connection: Connection, by_main: bool) -> None:
+    """Do tasks, in a process of its own, until the connection closes.
+
+    by_main: whether the parent's main thread has started it: the system watches that thread.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if by_main:
+        die_with_parent()
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with suppress(_EndedError, EOFError, BrokenPipeError, ConnectionResetError):
         signal.signal(signal.SIGTERM, _end)

@@ -42,7 +42,9 @@ def show_experiment(
     require_pygame("a window")
     from mars2d.window.window import Window
 
-    with noted_interrupts(), log or nullcontext():
+    source: Timeline | None = None
+    kept = noted_interrupts(lambda: None if source is None else source.record)
+    with kept, log or nullcontext():
         source = Timeline(experiment, seed, watchers, log)
         window = Window(source, speed, preferences=preferences)
         if human is not None:

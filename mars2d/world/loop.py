@@ -69,7 +69,8 @@ def simulate(
     world: World | None = None
     watchdog = Watchdog(lambda: None if world is None else world.simulation.calls)
     try:
-        with noted_interrupts() as check, log or nullcontext(), watchdog:
+        noted = noted_interrupts(lambda: None if world is None else world.record)
+        with noted as check, log or nullcontext(), watchdog:
             world = open_world(experiment, seed, every, Column if log is None else log.storage)
             try:
                 while not world.over:

@@ -210,7 +210,8 @@ def answer(tmp_path, monkeypatch, capsys):
         with warnings.catch_warnings():
             warnings.simplefilter("error", FutureWarning)
             main([*words] or ["run", "walk.py", "--headless"])
-        return capsys.readouterr().err
+        out, err = capsys.readouterr()
+        return err + "".join(f"{line}\n" for line in out.splitlines() if line.startswith("note: "))
 
     return run
 

@@ -97,14 +97,14 @@ def execute(arguments: argparse.Namespace) -> None:
     )
     if lawless and not experiment.scenario.props:
         warn(f"there is no law, so all robots stood still{_law_meant(experiment)}")
-    for remark in bounds.remarks():
-        warn(remark)
     if arguments.json:
         predictions = predictions_of(experiment, record)
         tell(_as_json(record, predictions, time.perf_counter() - start))
     else:
         tell(_as_text(record))
         print_predictions(experiment, record)
+        for remark in bounds.remarks():
+            tell(f"note: {remark}")
         tell_files(made)
     if troubles:
         say(troubles[:-1])
