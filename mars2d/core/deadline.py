@@ -11,6 +11,7 @@ import traceback
 from collections.abc import Callable
 from types import TracebackType
 
+from mars2d.core.errors import Passing
 from mars2d.core.usercode import users_line
 
 __all__ = ["Deadline", "Late"]
@@ -22,7 +23,7 @@ GRACE = 5.0
 """The time that the interruption may take, seconds."""
 
 
-class Late(BaseException):
+class Late(Passing):
     """The user's code took too long; a BaseException, so that its own `except` can't swallow it."""
 
 

@@ -48,6 +48,10 @@ class InputError(Mars2dError, ValueError):
     """An input can't be used; the message names it and says what was expected."""
 
 
+class Passing(BaseException):
+    """Raised by MARS2D through the user's code, as KeyboardInterrupt is: no error of that code."""
+
+
 class LawError(InputError):
     """The user's control law, sensor or add-on raised an error or returned something unusable.
 
@@ -157,6 +161,8 @@ def shown(value: Any, limit: int = 60) -> str:
     """Return `value` as quoted in a message: its repr, cut to `limit` characters."""
     try:
         text = " ".join(repr(value).split())
-    except Exception as error:  # from the user's own __repr__
+    except (KeyboardInterrupt, Passing):
+        raise
+    except BaseException as error:
         text = f"<{type(value).__name__} whose repr raises {type(error).__name__}>"
     return text if len(text) <= limit else text[: limit - 3] + "..."

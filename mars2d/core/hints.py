@@ -6,10 +6,11 @@ import builtins
 import sys
 import traceback
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from importlib import import_module
 from types import FrameType
 
-from mars2d.core.errors import InputError, likely
+from mars2d.core.errors import InputError, Passing, likely
 from mars2d.core.words import instead
 
 __all__ = ["described"]
@@ -26,13 +27,25 @@ def described(error: BaseException) -> str:
     """Return the message of an exception in the user's code, with a hint at what to write."""
     if isinstance(error, InputError):
         return str(error)
-    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    said, name = _said(error), type(error).__name__
     if isinstance(error, ImportError):
-        text = text.partition(" (")[0]  # the path of the module helps nobody
+        said = said.partition(" (")[0]  # the path of the module helps nobody
+    text = f"{name}: {said}" if said else name
     for kind, hint in _HINTS.items():
         if isinstance(error, kind):
-            return text + hint(error)
+            with suppress(Exception):  # of the user's own classes, which may be anything
+                return text + hint(error)
     return text
+
+
+def _said(error: BaseException) -> str:
+    """Return the text of an exception, which a class of the user's may refuse."""
+    try:
+        return str(error)
+    except (KeyboardInterrupt, Passing):
+        raise
+    except BaseException as worse:
+        return f"its text raises {type(worse).__name__}"
 
 
 def _of_unbound(error: UnboundLocalError) -> str:

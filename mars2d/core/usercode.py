@@ -14,7 +14,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mars2d.core.errors import InputError, LawError
+from mars2d.core.errors import InputError, LawError, Passing
 from mars2d.core.hints import described
 
 __all__ = ["Excerpt", "Hangs", "called", "definition", "excerpt_of", "name_of", "users_line"]
@@ -57,8 +57,8 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
 
     def blame(self, error: BaseException) -> None:
         """Raise the LawError for an exception that was caught, unless it is to be passed on."""
-        if not isinstance(error, (Exception, SystemExit, Hangs)):
-            return  # Ctrl-C
+        if isinstance(error, (KeyboardInterrupt, Passing)):
+            return
         stack = traceback.extract_tb(error.__traceback__)
         where = users_line(stack) or definition(self._function)
         if isinstance(error, LawError):

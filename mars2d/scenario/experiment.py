@@ -19,7 +19,7 @@ from typing import Any, Protocol, cast
 
 from mars2d.core import checks
 from mars2d.core.description import wrong
-from mars2d.core.errors import InputError, LawError, Mars2dError, likely, nearest, shown
+from mars2d.core.errors import InputError, LawError, Mars2dError, Passing, likely, nearest, shown
 from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
 from mars2d.core.usercode import called
@@ -308,7 +308,9 @@ def _load(path: Path, what: str = "an experiment") -> ModuleType:
         place = Path(error.filename or path).name
         problem.where = f"{place}, line {error.lineno}" if error.lineno else place
         raise problem from error
-    except (Exception, SystemExit) as error:
+    except (KeyboardInterrupt, Passing):
+        raise
+    except BaseException as error:
         problem = InputError(described(error))
         problem.where = _line_in(error, path)
         raise problem from error
@@ -397,7 +399,9 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
         _check_kind(name, value, parameters[name].default)
     try:
         return function(**chosen)
-    except (Exception, SystemExit) as error:
+    except (KeyboardInterrupt, Passing):
+        raise
+    except BaseException as error:
         problem = error if isinstance(error, Mars2dError) else InputError(described(error))
         code = getattr(function, "__code__", None)
         if code is not None and problem.where is None:

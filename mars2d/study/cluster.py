@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.terminal import warn
 from mars2d.study.workers import reason
 
 __all__ = ["cluster"]
@@ -20,6 +21,9 @@ ANSWER_TIMEOUT = 5.0
 
 SAME_VERSION = ("mars2d", "pymunk", "numpy")
 """The packages that must have the same version everywhere, so that runs give the same results."""
+
+SOON, ABSENCE = 5.0, 60.0
+"""How long a study waits without any worker before it says so, and before it ends, seconds."""
 
 LOGGERS = ("distributed", "distributed.client", "tornado.application")
 
@@ -44,9 +48,37 @@ def cluster(address: str) -> Iterator[Executor]:
         client = Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False)
         try:
             _check_workers(address, client.get_versions(packages=SAME_VERSION))
-            yield client.get_executor(pure=False)
+            executor = client.get_executor(pure=False)
+            executor.waiting = _Attendance(address, client)
+            yield executor
         finally:
             client.close(timeout=ANSWER_TIMEOUT)
+
+
+class _Attendance:
+    """Looks whether workers are left, while a study waits for its runs."""
+
+    def __init__(self, address: str, client: Any) -> None:
+        self._address, self._client = address, client
+        self._had, self._alone = False, 0.0
+
+    def __call__(self, seconds: float) -> None:
+        """Note that nothing came for some seconds.
+
+        Says when no worker is left, and raises InputError when none comes in `ABSENCE`.
+        """
+        if self._client.nthreads():
+            self._had, self._alone = True, 0.0
+            return
+        before, self._alone = self._alone, self._alone + seconds
+        if self._had and before < SOON <= self._alone:
+            warn(f"{self._address}: all workers have ended: waits {ABSENCE:g} s for others")
+        if self._had and self._alone > ABSENCE:
+            raise InputError(
+                f"{self._address}: all workers have ended, and none has come in {ABSENCE:g} s; a "
+                "run that crashes takes its worker along, and a nanny, as workers have by default, "
+                "starts another one. Start workers: the same command goes on"
+            )
 
 
 def _check_scheduler(address: str) -> None:

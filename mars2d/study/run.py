@@ -27,9 +27,6 @@ __all__ = ["CountingBar", "StudyFailedError", "StudyInterrupted", "duration", "r
 TRIALS = 5
 """How many runs, evenly spaced over the study, are made first; if all fail, no others are made."""
 
-BREAKING_OFF = 6.0
-"""How long a run may take to be broken off at its time limit, before its process is ended, s."""
-
 
 class StudyFailedError(Mars2dError):
     """Each run of a study failed, or a measure did so in the first; `table` holds these runs."""
@@ -149,8 +146,7 @@ class _Run:
         progress = CountingBar(total, done_before, failed) if show_progress else None
         try:
             limit = self._study.blank.time_limit
-            late = None if limit is None else limit + BREAKING_OFF
-            made_by = each_done(run_job, todo, executor, workers, late)
+            made_by = each_done(run_job, todo, executor, workers, limit)
             with closing(cast("Generator[tuple[int, Result | Failure]]", made_by)) as done:
                 for index, made in done:
                     result = _result(todo[index], made, self._study)

@@ -37,6 +37,9 @@ R = TypeVar("R")
 IN_FLIGHT = 1000
 """How many tasks a foreign executor holds at once, at most."""
 
+LOOK = 0.5
+"""The time between two looks at what is done, seconds."""
+
 LOST = "the executor takes no more tasks, or has lost them"
 INSTEAD = "without one, processes are started, and replaced where they end"
 
@@ -57,8 +60,8 @@ def each_done(
     it is left open. None starts `workers` processes, which end with the iterator. If one of these
     dies during a task, another takes its place and the task is tried once more, at the end and
     alone; if that one dies too, the result is a Failure. workers: how many, from 1; by default one
-    a core. limit: seconds after which a process is ended, and its task's result is a Failure; for
-    tasks that end by themselves before that if they can.
+    a core. limit: seconds after which a task ends by itself if it can, or else its process is
+    ended some seconds later, and its result is a Failure.
 
     Raises InputError for an impossible number of workers, for a function or task that can't be sent
     to another process, and if a script calls this without ``if __name__ == "__main__":``.
@@ -136,19 +139,21 @@ def _sent(
                 future.add_done_callback(done.put)
             if not running:
                 return
-            future = _next(done)
+            future = _next(done, getattr(executor, "waiting", None))
             yield running.pop(future), _outcome(future, read)
     finally:
         for future in running:
             future.cancel()
 
 
-def _next(done: SimpleQueue[Future[Any]]) -> Future[Any]:
+def _next(done: SimpleQueue[Future[Any]], waiting: Callable[[float], None] | None) -> Future[Any]:
+    """Return the next task that is done. waiting: called with the seconds that nothing came."""
     while True:
         try:
-            return done.get(timeout=0.5)  # Ctrl-C waits for it, on Windows
+            return done.get(timeout=LOOK)  # Ctrl-C waits for it, on Windows
         except Empty:
-            continue
+            if waiting is not None:
+                waiting(LOOK)
 
 
 def _ways(

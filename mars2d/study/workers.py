@@ -22,7 +22,7 @@ from multiprocessing.connection import Connection, wait
 from types import FrameType
 from typing import Any, NamedTuple, TypeVar
 
-from mars2d.core.errors import InputError, shown
+from mars2d.core.errors import InputError, Passing, shown
 from mars2d.core.hints import described
 from mars2d.core.interrupt import interrupts_blocked
 from mars2d.core.lastresort import die_with_parent
@@ -50,6 +50,9 @@ UNGUARDED_EXIT_CODE = 79
 MAX_FAILED_STARTS = 3
 """How many workers in a row may be killed before they have begun."""
 
+BREAKING_OFF = 6.0
+"""How long a task may take to end by itself at its limit, before its process is ended, seconds."""
+
 LOOK = 0.5
 """The time between two looks at tasks with a limit, seconds."""
 
@@ -76,7 +79,9 @@ def attempt(function: Callable[[T], R], task: T) -> R | Failure:
     """Return the function's result for a task, or a Failure if it raises."""
     try:
         return function(task)
-    except (Exception, SystemExit) as error:
+    except (KeyboardInterrupt, Passing):
+        raise
+    except BaseException as error:
         return Failure(reason(error))
 
 
@@ -326,7 +331,7 @@ class _Crew:
             if worker.task is None:
                 continue
             worker.spent += min(passed, 2 * LOOK)
-            if worker.spent > limit and not worker.connection.poll():
+            if worker.spent > limit + BREAKING_OFF and not worker.connection.poll():
                 said = f"took longer than {limit:g} s, in code that nothing interrupts"
                 found.append((worker.task, _TooLong(said)))
                 worker.process.kill()
@@ -374,11 +379,11 @@ def _one_thread() -> Iterator[None]:
 # -- inside a worker -------------------------------------------------------------------------------
 
 
-class _EndedError(BaseException):
+class _EndedError(Passing):
     """Raised in a worker that is told to end, so that its task can clean up."""
 
 
-def _serve(connection: Connection, by_main: bool) -> None:
+def _serve(connection: Connection, by_main: bool = False) -> None:
     """Do tasks, in a process of its own, until the connection closes.
 
     by_main: whether the parent's main thread has started it: the system watches that thread.

@@ -60,6 +60,10 @@ class Law:
             self._calling.blame(error)
             raise
 
+    def blame(self, error: BaseException) -> None:
+        """Raise LawError for an exception of what the law returned, unless it passes through."""
+        self._calling.blame(error)
+
     def refuse(self, message: str) -> NoReturn:
         """Raise the error that the law's command can't be used; it points at the law."""
         error = LawError(f"{self.name} {message}")
@@ -124,7 +128,7 @@ def _numbers(value: Any, refuse: Callable[[str], NoReturn]) -> Float | None:
         refuse("returned an array with masked numbers: fill them, as by command.filled(0)")
     try:
         found = np.asarray(value)
-    except (TypeError, ValueError):  # such as rows of different lengths
+    except (TypeError, ValueError, IndexError):  # such as rows of different lengths
         return None
     return found.astype(float) if found.dtype.kind in "iuf" else None
 
@@ -185,7 +189,17 @@ class Laws:
         if central is None:
             command = self._still.copy()
         else:
-            command = team_command(central.command(), robots, central.refuse)
+            asked = central.command()
+            try:
+                command = team_command(asked, robots, central.refuse)
+            except BaseException as error:  # of what it returned, which may be anything
+                central.blame(error)
+                raise
         for i, law in self._own:
-            command[0, i], command[1, i] = robot_command(law, law.command())
+            asked = law.command()
+            try:
+                command[0, i], command[1, i] = robot_command(law, asked)
+            except BaseException as error:
+                law.blame(error)
+                raise
         return command
