@@ -60,7 +60,7 @@ class _Attendance:
 
     def __init__(self, address: str, client: Any) -> None:
         self._address, self._client = address, client
-        self._had, self._alone = False, 0.0
+        self._had, self._alone = bool(client.nthreads()), 0.0
 
     def __call__(self, seconds: float) -> None:
         """Note that nothing came for some seconds.
