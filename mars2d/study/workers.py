@@ -19,6 +19,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import lru_cache
 from multiprocessing.connection import Connection, wait
+from pathlib import Path
 from types import FrameType
 from typing import Any, NamedTuple, TypeVar
 
@@ -235,6 +236,13 @@ class _Worker:
             self.connection.send_bytes(function)
             self.connection.send_bytes(task)
 
+    def wake(self) -> None:
+        """Let it go on if somebody, such as a law, has stopped it and not this process."""
+        with suppress(OSError, ValueError):
+            stat = Path(f"/proc/{self.process.pid}/stat").read_text()
+            if stat.rpartition(")")[2].split()[0] == "T":
+                os.kill(self.process.pid or 0, signal.SIGCONT)
+
     def message(self) -> bytes | None:
         """Return the message that it has sent, or None if it has died."""
         with suppress(EOFError, OSError):
@@ -307,7 +315,10 @@ class _Crew:
         """
         ends = [end for each in self._workers for end in (each.connection, each.process.sentinel)]
         start = time.monotonic()
-        heard = set(wait(ends, None if limit is None else LOOK))
+        heard = set(wait(ends, LOOK))
+        if not heard:
+            for worker in self._workers:
+                worker.wake()
         found = [] if limit is None else self._late(limit, time.monotonic() - start)
         for place, worker in enumerate(self._workers):
             if worker.connection not in heard and worker.process.sentinel not in heard:

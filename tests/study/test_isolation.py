@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -337,10 +338,10 @@ NASTY = {
         def control(robot): raise SystemExit(3)"""),
     "KeyboardInterrupt": ("error", "line 2: raised KeyboardInterrupt", """
         def control(robot): raise KeyboardInterrupt"""),
-    "an exception of its own": ("error", "line 3: raised Bad: no", """
+    "an exception of its own": ("error", "line 3: control raised Bad: no", """
         class Bad(BaseException): pass
         def control(robot): raise Bad("no")"""),
-    "an exception that raises": ("error", "raised Bad, whose text raises ValueError", """
+    "an exception that raises": ("error", "raised Bad: its text raises ValueError", """
         class Bad(BaseException):
             def __str__(self): raise ValueError
         def control(robot): raise Bad"""),
@@ -595,6 +596,41 @@ with Guard(Scenario(robots=[Robot()]), laws, 1) as guard:
     done = subprocess.run([sys.executable, "-P", "-c", code], timeout=PATIENCE, check=False)
     assert done.returncode == -9
     assert "| kills the process of the match | it is gone, without a word |" in ATTACKS
+
+
+@needs_proc
+def test_a_match_that_is_stopped_for_a_while_forfeits_nobody(tmp_path) -> None:
+    code = f"""
+import sys, time
+from pathlib import Path
+from mars2d import Robot, Scenario
+from mars2d.scenario.experiment import Experiment
+from mars2d.study.isolation import Guard, Limits
+from mars2d.world.loop import simulate
+laws = {{"a": (Path({str(law(tmp_path, SLOW))!r}), [0])}}
+with Guard(Scenario(robots=[Robot()], stop_time=1.0), laws, 1, Limits(tick=1.5, match=20)) as guard:
+    record = simulate(Experiment(guard.scenario), 0).record
+print(len(record), guard.verdicts)
+"""
+    process = subprocess.Popen(
+        [sys.executable, "-P", "-c", code], cwd=tmp_path, stdout=subprocess.PIPE, text=True
+    )
+    wait_until((tmp_path / "thinks").exists, process)
+    process.send_signal(signal.SIGSTOP)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(4)  # more than the limit of a step; its law goes on, and answers
+    process.send_signal(signal.SIGCONT)
+    assert process.communicate(timeout=PATIENCE)[0] == "11 {}\n"
+
+
+SLOW = """
+import time
+from pathlib import Path
+def control(robot):
+    Path("thinks").touch()
+    time.sleep(0.2)
+    return 0.1, 0
+"""
 
 
 def test_the_tables_of_attacks_have_no_other_rows() -> None:

@@ -347,3 +347,15 @@ def test_an_executor_that_is_shut_down_or_none_is_refused():
         list(each_done(abs, [1], pool))
     with pytest.raises(InputError, match=r"executor=4: expected an Executor of concurrent.futures"):
         each_done(abs, [1], 4)
+
+
+def stops_itself(x):
+    """Stop this process, as a law may do to the one that it runs in."""
+    if x == 1:
+        os.kill(os.getpid(), signal.SIGSTOP)
+    return x
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+def test_a_worker_that_was_stopped_goes_on():
+    assert sorted(each_done(stops_itself, range(4), workers=2)) == [(k, k) for k in range(4)]

@@ -15,6 +15,7 @@ from typing import Self, cast
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.streams import check_seed
 from mars2d.scenario.scenario import Scenario
+from mars2d.study.isolation.clock import LOOK, Clock
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.isolation.observation import brief
 from mars2d.study.isolation.process import LawProcess
@@ -71,6 +72,7 @@ class Guard:
         self._poller: _Poller | None = None
         self._world: Simulation | None = None
         self._iteration = -1
+        self._clock = Clock()
 
     @property
     def output(self) -> dict[str, str]:
@@ -86,7 +88,7 @@ class Guard:
         poller = self._poller = _Poller()
         try:
             for role, briefing in briefings.items():
-                process = self._processes[role] = LawProcess(briefing, *count)
+                process = self._processes[role] = LawProcess(briefing, *count, self._clock)
                 poller.add(process.channel, process.receive)
                 poller.add(process.output, process.drain)
             for process in self._processes.values():
@@ -142,9 +144,9 @@ class Guard:
         """Wait until each process that was asked has answered, or its time is over."""
         assert self._poller is not None
         while asked := [process for process in self._processes.values() if process.asked]:
-            wait = min(process.deadline for process in asked) - time.perf_counter()
-            heard = self._poller.wait(max(0.0, wait))
-            now = time.perf_counter() - (CHATTER_TIME if heard else 0.0)
+            wait = min(process.deadline for process in asked) - self._clock.now()
+            heard = self._poller.wait(min(max(0.0, wait), LOOK))
+            now = self._clock.now() - (CHATTER_TIME if heard else 0.0)
             for process in asked:
                 if process.asked and process.deadline <= now:
                     process.expire()

@@ -174,13 +174,10 @@ class Host:
         if _is_memory_error(error):
             kind = "memory"
             _use_reserve()
-        try:
-            if isinstance(error, Mars2dError):
-                place, text = error.where or place, str(error.args[0] if error.args else error)
-            else:
-                text = f"raised {described(error)}"
-        except BaseException as worse:  # of its __str__
-            text = f"raised {type(error).__name__}, whose text raises {type(worse).__name__}"
+        if isinstance(error, Mars2dError):
+            place, text = error.where or place, str(error.args[0] if error.args else error)
+        else:
+            text = f"raised {described(error)}"
         self.fail(kind, place, text)
 
     def fail(self, kind: str, place: str | None, text: str) -> None:

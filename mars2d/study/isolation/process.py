@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mars2d.core.errors import Mars2dError
 from mars2d.core.usercode import users_line
+from mars2d.study.isolation.clock import Clock
 from mars2d.study.isolation.fork_server import start
 from mars2d.study.isolation.host import CUT_OFF
 from mars2d.study.isolation.limits import MB
@@ -68,8 +69,9 @@ class LawProcess:
     sockets to poll; call `receive` and `drain` when they can be read.
     """
 
-    def __init__(self, briefing: Briefing, robots: int, props: int) -> None:
-        """Start the process. robots, props: the numbers of all of them."""
+    def __init__(self, briefing: Briefing, robots: int, props: int, clock: Clock) -> None:
+        """Start the process. robots, props: the numbers of all of them. clock: of the match."""
+        self._clock = clock
         self._briefing, self._limits = briefing, briefing.limits
         self._file = briefing.file.name
         self._observer = Observer(briefing, robots, props)
@@ -113,7 +115,7 @@ class LawProcess:
 
     def _ask(self, frame: bytes | memoryview, allowed: float) -> None:
         self.asked, self._allowed = True, allowed
-        self._since = time.perf_counter()
+        self._since = self._clock.now()
         self._send(frame)
 
     def _send(self, frame: bytes | memoryview) -> None:
@@ -128,7 +130,7 @@ class LawProcess:
 
     @property
     def deadline(self) -> float:
-        """The time by which it must answer, in seconds of `time.perf_counter`."""
+        """The time by which it must answer, on the clock of the match."""
         return self._since + self._allowed
 
     def receive(self) -> bool:
@@ -196,7 +198,7 @@ class LawProcess:
             raise ValueError(numbers)
         self._commands, self._letters = numbers, letters
         self.asked, self._late = False, ""
-        self._used += time.perf_counter() - self._since
+        self._used += self._clock.now() - self._since
         if self._used > self._limits.match:
             self._too_long()
 
