@@ -85,6 +85,8 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
                 film.require_av(path)
         if name == "record":
             formats.require(path)
+        if name == "figure":
+            figure.require_matplotlib()
 
 
 def run_and_save(

@@ -2,6 +2,8 @@
 
 import itertools
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,7 @@ import mars2d
 from mars2d import InputError, Scenario
 from mars2d.cli.command_line import main
 from mars2d.output.formats import SUFFIXES
-from tests.processes import mars
+from tests.processes import PATIENCE, bare_environment
 
 # -- names of files -------------------------------------------------------------------------------
 
@@ -102,6 +104,15 @@ VARIABLES = {
 }
 
 
+def alone(*words, cwd, **environment):
+    """Run a command line in a process that has imported nothing before."""
+    return subprocess.run(
+        [sys.executable, "-m", "mars2d", *words], cwd=cwd, timeout=PATIENCE, check=False,
+        capture_output=True, text=True, errors="replace", env=bare_environment(**environment),
+    )  # fmt: skip
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("variable", VARIABLES)
 def test_no_variable_changes_a_run(variable, tmp_path):
     (tmp_path / "walk.py").write_text(
@@ -111,12 +122,23 @@ def test_no_variable_changes_a_run(variable, tmp_path):
     digests = set()
     for value in VARIABLES[variable]:
         words = ["run", "walk.py", "--headless", "--record", "a.npz", "--figure", "a.png"]
-        done = mars(*words, cwd=tmp_path, **{variable: value})
+        done = alone(*words, cwd=tmp_path, **{variable: value})
         assert done.returncode == 0, (value, done.stderr)
         assert "Traceback" not in done.stderr, value
         digests.add(mars2d.load(tmp_path / "a.npz").digest)
         os.remove(tmp_path / "a.npz")  # noqa: PTH107
     assert len(digests) == 1
+
+
+@pytest.mark.parametrize("line", ["run walk.py --headless", "check x.png", "sweep walk.py"])
+def test_a_backend_that_is_none_is_named_before_the_run(line, tmp_path):
+    (tmp_path / "walk.py").write_text("from mars2d import Scenario\nscenario = Scenario()\n")
+    (tmp_path / "x.png").write_bytes(b"")
+    done = alone(*line.split(), "--figure", "a.png", cwd=tmp_path, MPLBACKEND="nonsense")
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "MPLBACKEND='nonsense': matplotlib has no such backend" in done.stderr or "x.png" in line
+    assert "Traceback" not in done.stderr
 
 
 def test_they_are_many():
