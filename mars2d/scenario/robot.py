@@ -47,7 +47,11 @@ class Robot(Description):
         check=checks.instance(Drive, "Unicycle()"), factory=Unicycle, doc="how it moves"
     )
     diameter: float = number(
-        default=DIAMETER, low=1e-3, high=1e3, unit="m", doc="diameter of the chassis, a disc"
+        default=DIAMETER,
+        low=1e-3,
+        high=1e3,
+        unit="m",
+        doc="diameter of the chassis, a disc; or give its radius",
     )
     shape: Shape | None = entry(
         default=None, check=_shape,

@@ -17,7 +17,7 @@ from mars2d.core.usercode import name_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.testing.common import check_repeatable, run_ended
-from mars2d.testing.finding import Finding, Noted, Notes, Report, at, judge
+from mars2d.testing.finding import Finding, Noted, Notes, Report, judge, said
 from mars2d.testing.state import Places
 from mars2d.testing.trial import Run, Trial, small_world
 from mars2d.world.laws import Law, robot_command, team_command
@@ -167,7 +167,7 @@ class _Subject:
             else:
                 self._asked[subject.index] = np.array(robot_command(law, value))
         except LawError as error:
-            self.report.wrong(f"{error}{at(subject.time)}")
+            self.report.wrong(said(error, subject.time))
             return self.still(subject)
         return value
 
@@ -213,9 +213,9 @@ class _Witness:
 
     def __call__(self, subject: Any) -> Any:
         """Call the law; report an exception, and then let its robots stand still."""
-        mine = self._subject
+        mine, whose = self._subject, str(getattr(subject, "name", ""))
         try:
-            with mine.notes.calling("", mine.law, subject.time):
+            with mine.notes.calling("", mine.law, subject.time, whose):
                 result = mine.law(subject)
         except Noted:
             return mine.still(subject)
@@ -224,10 +224,12 @@ class _Witness:
         return mine.checked(subject, result)
 
     def _running(self, law: Iterator[Any], subject: Any) -> Iterator[Any]:
-        mine = self._subject
+        mine, whose = self._subject, str(getattr(subject, "name", ""))
         while True:
             try:
-                with mine.notes.calling("", mine.law, subject.time):
+                with mine.notes.calling(
+                    "", mine.law, subject.time, str(getattr(subject, "name", ""))
+                ):
                     value = next(law, _ENDED)
             except Noted:
                 return

@@ -13,7 +13,7 @@ from mars2d.core.usercode import called
 from mars2d.sensors.sensing import Sense
 from mars2d.testing.trial import drawn_at_random
 
-__all__ = ["CheckError", "Finding", "Noted", "Notes", "Report", "at", "judge"]
+__all__ = ["CheckError", "Finding", "Noted", "Notes", "Report", "at", "judge", "said"]
 
 
 @dataclass(frozen=True)
@@ -95,26 +95,26 @@ class Notes:
 
     @contextmanager
     def calling(
-        self, method: str, function: Callable[..., Any], time: float | None
+        self, method: str, function: Callable[..., Any], time: float | None, robot: str = ""
     ) -> Iterator[None]:
         """Report an exception in one call, and the use of Python's shared random generators.
 
-        After reporting an exception, it raises `Noted`.
+        robot: whose law or sensor is called. After reporting an exception, it raises `Noted`.
         """
         where = f"{self.name}.{method}" if method else self.name
         try:
             shared = drawn_at_random(lambda generator: self._shared(where, generator))
-            with shared, called(where, function):
+            with shared, called(where, function, robot):
                 yield
         except InputError as error:
             if self.small_world and _asks_for_a_sensor(error):
                 self.report.wrong(
-                    f"{error}{at(time)}. It was tried in a small world, whose robots don't carry "
+                    f"{said(error, time)}. It was tried in a small world, whose robots don't carry "
                     "such a sensor: give a scenario whose robots do",
                     untried=True,
                 )
             else:
-                self.report.wrong(f"{error}{at(time)}")
+                self.report.wrong(said(error, time))
             raise Noted(str(error)) from error
 
     def _shared(self, where: str, generator: str) -> None:
@@ -134,6 +134,14 @@ def _asks_for_a_sensor(error: InputError) -> bool:
 
 class Noted(LawError):  # noqa: N818 - it only stops the run
     """Raised for an error that is in the report already."""
+
+
+def said(error: InputError, time: float | None) -> str:
+    """Return the message of an error, with the time, and the robot if it is a law's or sensor's."""
+    if not isinstance(error, LawError):
+        return f"{error}{at(time)}"
+    error.time = time if error.time is None else error.time
+    return str(error)
 
 
 def at(time: float | None) -> str:

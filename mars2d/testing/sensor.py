@@ -143,13 +143,13 @@ class _Subject:
         """Read, and check the reading, its side effects and its repeatability."""
         state, before = rng.bit_generator.state, prints(robot.world)
         untouched = _copy_of(live)
-        with self.notes.calling("read", self.kind.read, world.time):
+        with self.notes.calling("read", self.kind.read, world.time, robot.name):
             reading = self.kind.read(live, robot, world, rng)
         self._unchanged("read", before, robot.world)
         self._acceptable(reading, robot.name, world.time)
         now = _copy_of(live)
         if untouched is not None and now is not None:
-            with self.notes.calling("read", self.kind.read, world.time):
+            with self.notes.calling("read", self.kind.read, world.time, robot.name):
                 if not _alike(self.kind.read(now, robot, world, _generator(state)), reading):
                     third = self.kind.read(untouched, robot, world, _generator(state))
                     self._unstable.add("counts" if _alike(third, reading) else "wavers")
@@ -160,7 +160,7 @@ class _Subject:
     ) -> None:
         """Call on_start or on_step, and check that the world is unchanged."""
         before, function = prints(robot.world), getattr(self.kind, method)
-        with self.notes.calling(method, function, world.time):
+        with self.notes.calling(method, function, world.time, robot.name):
             function(live, robot, world, rng)
         self._unchanged(method, before, robot.world)
 

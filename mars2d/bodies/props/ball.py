@@ -20,7 +20,9 @@ class Ball(Prop):
 
     twins: ClassVar[dict[str, tuple[str, float]]] = {"radius": ("diameter", 2.0)}
 
-    diameter: float = number(default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter")
+    diameter: float = number(
+        default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter; or give its radius"
+    )
     ground_friction = 0.0
     friction = 0.0
     restitution = 1.0

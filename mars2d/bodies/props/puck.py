@@ -17,7 +17,9 @@ class Puck(Prop):
 
     twins: ClassVar[dict[str, tuple[str, float]]] = {"radius": ("diameter", 2.0)}
 
-    diameter: float = number(default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter")
+    diameter: float = number(
+        default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter; or give its radius"
+    )
     ground_friction = 0.1
 
     @property
