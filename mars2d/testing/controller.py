@@ -227,9 +227,7 @@ class _Witness:
         mine, whose = self._subject, str(getattr(subject, "name", ""))
         while True:
             try:
-                with mine.notes.calling(
-                    "", mine.law, subject.time, str(getattr(subject, "name", ""))
-                ):
+                with mine.notes.calling("", mine.law, subject.time, whose):
                     value = next(law, _ENDED)
             except Noted:
                 return
