@@ -10,6 +10,7 @@ import socket
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
@@ -40,6 +41,10 @@ def ends_at_seven(x):
     if x == 7:
         os._exit(1)
     return x * x
+
+
+def kills_its_process(x):
+    os.kill(os.getpid(), 9)
 
 
 def pid_after_a_moment(x):
@@ -183,17 +188,20 @@ def test_a_cluster_without_workers_is_waited_for_and_says_so(capsys):
             assert capsys.readouterr().err == f"mars2d: {said}\n"
 
 
-def test_a_cluster_whose_workers_have_all_ended_is_said_and_left(local, monkeypatch, capsys):
+def test_a_cluster_whose_workers_have_all_ended_is_said_and_left(tasks, monkeypatch, capsys):
     monkeypatch.setattr(clusters, "SOON", 0.5)
     monkeypatch.setattr(clusters, "ABSENCE", 2.0)
     with LocalCluster(n_workers=0, dashboard_address=":0") as bare:
         address = bare.scheduler_address
         command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--no-nanny"]
-        worker = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        worker = subprocess.Popen(
+            command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            env=os.environ | {"PYTHONPATH": str(Path(tasks.__file__).parent)},
+        )  # fmt: skip
         try:
             wait_until(lambda: bare.scheduler.workers, worker)
             with cluster(address) as executor, pytest.raises(InputError, match="have ended, and"):
-                list(each_done(kills_its_process, range(3), executor))
+                list(each_done(tasks.kills_its_process, range(3), executor))
         finally:
             worker.kill()
             worker.wait()
@@ -201,10 +209,6 @@ def test_a_cluster_whose_workers_have_all_ended_is_said_and_left(local, monkeypa
         capsys.readouterr().err
         == f"mars2d: {address}: all workers have ended: waits 2 s for others\n"
     )
-
-
-def kills_its_process(x):
-    os.kill(os.getpid(), signal.SIGKILL)
 
 
 def test_without_dask_the_line_is_printed_that_installs_it(monkeypatch):

@@ -60,6 +60,11 @@ def is_killed(_):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
+def stops_itself(x):
+    os.kill(os.getpid(), signal.SIGSTOP)
+    return x
+
+
 def is_killed_once(file):
     if not Path(file).exists():
         Path(file).touch()
@@ -349,13 +354,7 @@ def test_an_executor_that_is_shut_down_or_none_is_refused():
         each_done(abs, [1], 4)
 
 
-def stops_itself(x):
-    """Stop this process, as a law may do to the one that it runs in."""
-    if x == 1:
-        os.kill(os.getpid(), signal.SIGSTOP)
-    return x
-
-
 @pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
-def test_a_worker_that_was_stopped_goes_on():
-    assert sorted(each_done(stops_itself, range(4), workers=2)) == [(k, k) for k in range(4)]
+def test_a_worker_that_was_stopped_goes_on(do):
+    tasks = [("square", 1), ("stops_itself", 2), ("square", 3)]
+    assert sorted(each_done(do, tasks, workers=2)) == [(0, 1), (1, 2), (2, 9)]
