@@ -125,9 +125,13 @@ class Player:
             self._pace.popleft()
 
     def step(self, count: int = 1) -> None:
-        """Advance by `count` sampling times, over several pictures if need be, and pause."""
+        """Advance by `count` sampling times, over several pictures if need be, and pause.
+
+        More steps that are still to be done are not cut short, as by a key that repeats.
+        """
+        left = self._todo
         self.pause()
-        self._todo = count
+        self._todo = max(left, count)
         self._do_steps()
 
     def _do_steps(self) -> None:
