@@ -25,9 +25,9 @@ LIBRARIES = ("numpy", "scipy", "matplotlib", "pygame", "pymunk", "mars2d")
 
 def described(error: BaseException) -> str:
     """Return the message of an exception in the user's code, with a hint at what to write."""
-    if isinstance(error, InputError):
-        return str(error)
     said, name = _said(error), type(error).__name__
+    if isinstance(error, InputError):
+        return said
     if isinstance(error, ImportError):
         said = said.partition(" (")[0]  # the path of the module helps nobody
     text = f"{name}: {said}" if said else name

@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import logging
 import warnings
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any
@@ -14,7 +15,7 @@ from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.core.terminal import warn
 from mars2d.study.workers import reason
 
-__all__ = ["cluster"]
+__all__ = ["DesertedError", "cluster"]
 
 ANSWER_TIMEOUT = 5.0
 """How long a scheduler may take to answer, seconds."""
@@ -55,6 +56,14 @@ def cluster(address: str) -> Iterator[Executor]:
             client.close(timeout=ANSWER_TIMEOUT)
 
 
+class DesertedError(InputError):
+    """All workers have ended. ended: with which tasks, by their keys, and how many with each."""
+
+    def __init__(self, message: str, ended: Mapping[str, int]) -> None:
+        super().__init__(message)
+        self.ended = ended
+
+
 class _Attendance:
     """Looks whether workers are left, while a study waits for its runs."""
 
@@ -65,7 +74,7 @@ class _Attendance:
     def __call__(self, seconds: float) -> None:
         """Note that nothing came for some seconds.
 
-        Says when no worker is left, and raises InputError when none comes in `ABSENCE`.
+        Says when no worker is left, and raises DesertedError when none comes in `ABSENCE`.
         """
         if self._client.nthreads():
             self._had, self._alone = True, 0.0
@@ -74,11 +83,21 @@ class _Attendance:
         if self._had and before < SOON <= self._alone:
             warn(f"{self._address}: all workers have ended: waits {ABSENCE:g} s for others")
         if self._had and self._alone > ABSENCE:
-            raise InputError(
+            raise DesertedError(
                 f"{self._address}: all workers have ended, and none has come in {ABSENCE:g} s; a "
                 "run that crashes takes its worker along, and a nanny, as workers have by default, "
-                "starts another one. Start workers: the same command goes on"
+                "starts another one. Start workers: the same command goes on",
+                self._blamed(),
             )
+
+    def _blamed(self) -> dict[str, int]:
+        """Return the waiting tasks with which most workers have ended, and with how many."""
+        waiting = [key for key, state in self._client.futures.items() if state.status == "pending"]
+        ends: Counter[str] = Counter()
+        for _, key, before, after, *_ in self._client.story(*waiting):
+            ends[key] += (before, after) == ("processing", "released")
+        most = max(ends.values(), default=0)
+        return {key: count for key, count in ends.items() if count == most > 0}
 
 
 def _check_scheduler(address: str) -> None:

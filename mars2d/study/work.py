@@ -15,9 +15,10 @@ from concurrent.futures import (
 )
 from queue import Empty, SimpleQueue
 from typing import Any, TypeVar
+from uuid import uuid4
 
 from mars2d.core.errors import InputError, counted, shown
-from mars2d.study.cluster import cluster
+from mars2d.study.cluster import DesertedError, cluster
 from mars2d.study.workers import (
     Failure,
     attempt,
@@ -101,14 +102,25 @@ def _done_by(
     A worker that dies takes finished results with it that it had not sent yet, so an innocent task
     may be blamed. Tasks that are blamed are therefore done again, alone, after all others.
     """
-    blamed: list[int] = []
-    for index, outcome in _sent(executor, function, tasks, range(len(tasks)), IN_FLIGHT):
-        if isinstance(outcome, _Ended):
-            blamed.append(index)
-        else:
-            yield index, outcome
-    for index, outcome in _sent(executor, function, tasks, blamed, 1):
-        yield index, Failure(outcome) if isinstance(outcome, _Ended) else outcome
+    left, blamed = len(tasks), dict[int, str]()
+    try:
+        for index, outcome in _sent(executor, function, tasks, range(left), IN_FLIGHT):
+            if isinstance(outcome, _Ended):
+                blamed[index] = outcome
+            else:
+                left -= 1
+                yield index, outcome
+        for index, outcome in _sent(executor, function, tasks, [*blamed], 1):
+            left -= 1
+            del blamed[index]
+            yield index, Failure(outcome) if isinstance(outcome, _Ended) else outcome
+    except DesertedError as deserted:
+        for key, times in deserted.ended.items():
+            blamed.setdefault(_index_in(key), _in_turn(times))
+        for index, ended in blamed.items():
+            yield index, Failure(f"{ended}; no worker is left")
+        if len(blamed) < left:
+            raise
 
 
 class _Ended(str):
@@ -124,6 +136,7 @@ def _sent(
 ) -> Iterator[tuple[int, R | Failure | _Ended]]:
     """Send tasks to an executor, `in_flight` at once, and yield the outcome of each."""
     send, read = _ways(executor, function)
+    study = uuid4().hex
     running: dict[Future[Any], int] = {}
     done: SimpleQueue[Future[Any]] = SimpleQueue()
     indices = iter(which)
@@ -132,7 +145,7 @@ def _sent(
             while len(running) < in_flight and (index := next(indices, None)) is not None:
                 task = tasks[index]
                 try:
-                    future = send(task)
+                    future = send(task, f"{study}-{index}")
                 except RuntimeError as error:  # it is shut down, or broken
                     raise InputError(f"{LOST} ({reason(error)}): {INSTEAD}") from error
                 running[future] = index
@@ -158,28 +171,43 @@ def _next(done: SimpleQueue[Future[Any]], waiting: Callable[[float], None] | Non
 
 def _ways(
     executor: Executor, function: Callable[[T], R]
-) -> tuple[Callable[[T], Future[Any]], Callable[[Any], Any]]:
+) -> tuple[Callable[[T, str], Future[Any]], Callable[[Any], Any]]:
     """Return a function that submits a task to an executor, and one that reads its result.
+
+    The first one takes the task and its key, by which a cluster knows it.
 
     Tasks and results travel as bytes if the executor is known to use other processes; see
     `mars2d.study.workers`.
     """
     dumps = _dumps(executor)
     if dumps is None:
-        return lambda task: executor.submit(attempt, function, task), lambda value: value
+        return lambda task, _: executor.submit(attempt, function, task), lambda value: value
     known = packed(function, dumps)
-    return lambda task: executor.submit(attempt_packed, known, packed(task, dumps)), unpacked
+
+    def send(task: T, key: str) -> Future[Any]:
+        named = {"key": key} if _is_dasks(executor) else {}
+        return executor.submit(attempt_packed, known, packed(task, dumps), **named)
+
+    return send, unpacked
+
+
+def _index_in(key: str) -> int:
+    return int(key.rpartition("-")[2])
 
 
 def _dumps(executor: Executor) -> Callable[[Any], bytes] | None:
     """Return the pickler for an executor's processes; None for threads and unknown executors."""
     if isinstance(executor, ProcessPoolExecutor):
         return pickle.dumps
-    if type(executor).__module__.startswith("distributed."):
+    if _is_dasks(executor):
         import cloudpickle  # comes with Dask; also packs functions that are in no module
 
         return cloudpickle.dumps  # type: ignore[no-any-return]
     return None
+
+
+def _is_dasks(executor: Executor) -> bool:
+    return type(executor).__module__.startswith("distributed.")
 
 
 def _outcome(future: Future[Any], read: Callable[[Any], Any]) -> Any:
@@ -190,7 +218,11 @@ def _outcome(future: Future[Any], read: Callable[[Any], Any]) -> Any:
         raise InputError(f"{LOST} ({reason(error)}): {INSTEAD}") from error
     except Exception as error:
         if type(error).__name__ == "KilledWorker":  # Dask's, which need not be installed
-            times = counted(getattr(error, "allowed_failures", 0) + 1, "worker")
-            return _Ended(f"the process that ran it ended, on {times} in turn")
+            return _Ended(_in_turn(getattr(error, "allowed_failures", 0) + 1))
         return Failure(reason(error))
     return read(value)
+
+
+def _in_turn(times: int) -> str:
+    ended = "the process that ran it ended"
+    return ended if times == 1 else f"{ended}, on {counted(times, 'worker')} in turn"

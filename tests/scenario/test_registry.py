@@ -202,6 +202,11 @@ world.record.save('run.npz')
 
 BROKEN = {
     "raises": ("x = acme_bad:Lost", "raise OSError('no device')", "can't be loaded: OSError: no"),
+    "whim": (
+        "x = acme_bad:Lost",
+        "import asyncio; raise asyncio.CancelledError",
+        "can't be loaded: CancelledError",
+    ),
     "leaves": ("x = acme_bad:Lost", "import sys; sys.exit(3)", "can't be loaded: SystemExit: 3"),
     "is missing": ("x = acme_bad:Lots", "Lost = 1", "AttributeError"),
     "is no class": ("x = acme_bad:Lost", "Lost = 1", "is 1: expected a class derived from Sensor"),

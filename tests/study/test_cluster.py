@@ -9,6 +9,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -41,10 +42,6 @@ def ends_at_seven(x):
     if x == 7:
         os._exit(1)
     return x * x
-
-
-def kills_its_process(x):
-    os.kill(os.getpid(), 9)
 
 
 def pid_after_a_moment(x):
@@ -188,27 +185,71 @@ def test_a_cluster_without_workers_is_waited_for_and_says_so(capsys):
             assert capsys.readouterr().err == f"mars2d: {said}\n"
 
 
-def test_a_cluster_whose_workers_have_all_ended_is_said_and_left(tasks, monkeypatch, capsys):
-    monkeypatch.setattr(clusters, "SOON", 0.5)
-    monkeypatch.setattr(clusters, "ABSENCE", 2.0)
-    with LocalCluster(n_workers=0, dashboard_address=":0") as bare:
-        address = bare.scheduler_address
-        command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--no-nanny"]
-        worker = subprocess.Popen(
-            command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-            env=os.environ | {"PYTHONPATH": str(Path(tasks.__file__).parent)},
-        )  # fmt: skip
+@pytest.fixture(params=[1, 3])
+def unguarded(request):
+    """The address of a scheduler with two workers that nobody restarts, and the workers."""
+    with (
+        dask.config.set({"distributed.scheduler.allowed-failures": request.param}),
+        LocalCluster(n_workers=0, dashboard_address=":0", silence_logs=100) as bare,
+    ):
+        workers = [_worker(bare.scheduler_address) for _ in range(2)]
         try:
-            wait_until(lambda: bare.scheduler.workers, worker)
-            with cluster(address) as executor, pytest.raises(InputError, match="have ended, and"):
-                list(each_done(tasks.kills_its_process, range(3), executor))
+            wait_until(lambda: len(bare.scheduler.workers) == 2)
+            yield bare.scheduler_address, workers
         finally:
+            for worker in workers:
+                worker.kill()
+                worker.wait()
+
+
+def _worker(address):
+    program = [sys.executable, "-m", "distributed.cli.dask_worker", address]
+    options = ["--no-nanny", "--nthreads", "1", "--no-dashboard"]
+    return subprocess.Popen(
+        [*program, *options], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        cwd=Path(__file__).parents[2],  # where this module is found
+    )  # fmt: skip
+
+
+def kills_its_process(x):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_task_that_ends_all_workers_is_a_failure(unguarded, monkeypatch, capsys):
+    monkeypatch.setattr(clusters, "SOON", 0.5)
+    monkeypatch.setattr(clusters, "ABSENCE", 1.0)
+    address, _ = unguarded
+    with cluster(address) as executor:
+        found = dict(each_done(kills_its_process, [1], executor))
+    said = "the process that ran it ended, on 2 workers in turn; no worker is left"
+    assert found == {0: Failure(said)}
+    told = f"mars2d: {address}: all workers have ended: waits 1 s for others\n"
+    assert capsys.readouterr().err == told
+
+
+def test_tasks_for_which_no_worker_is_left_are_an_error(unguarded, monkeypatch):
+    monkeypatch.setattr(clusters, "ABSENCE", 1.0)
+    found = []
+    with cluster(unguarded[0]) as executor, pytest.raises(InputError, match="Start workers: the"):
+        for _, outcome in each_done(kills_its_process, range(20), executor):
+            found.append(outcome)
+    assert 0 < len(found) < 20
+    assert all(failure.error.endswith("; no worker is left") for failure in found)
+
+
+def test_workers_that_come_in_time_go_on(unguarded, monkeypatch, capsys):
+    monkeypatch.setattr(clusters, "SOON", 0.5)
+    address, workers = unguarded
+    with cluster(address) as executor, ThreadPoolExecutor(1) as beside:
+        tasks = iter(each_done(lambda x: time.sleep(0.5) or x, range(20), executor))
+        found = dict([next(tasks)])
+        for worker in workers:
             worker.kill()
-            worker.wait()
-    assert (
-        capsys.readouterr().err
-        == f"mars2d: {address}: all workers have ended: waits 2 s for others\n"
-    )
+        rest = beside.submit(dict, tasks)
+        said = []
+        wait_until(lambda: said.append(capsys.readouterr().err) or "have ended" in "".join(said))
+        workers += [_worker(address) for _ in range(2)]
+        assert found | rest.result() == {k: k for k in range(20)}
 
 
 def test_without_dask_the_line_is_printed_that_installs_it(monkeypatch):

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import LawError, Robot, Scenario
+from mars2d import InputError, LawError, Robot, Scenario
 from mars2d.addons import Addon
 from mars2d.sensors import Sensor
+from mars2d.study.measures import measured
 from mars2d.study.work import Failure
 from mars2d.study.workers import attempt
 
@@ -54,7 +55,7 @@ RAISED = [
     SilentError(), Own(), asyncio.CancelledError(), GeneratorExit(), SystemExit(3),
     StopIteration(), RecursionError(), MemoryError(), OSError(28, "full"), Warning("w"),
     ExceptionGroup("several", [SilentError()]), UnicodeDecodeError("utf-8", b"x", 0, 1, "odd"),
-    AttributeError(name="a", obj=NoText()),
+    AttributeError(name="a", obj=NoText()), InputError(NoText()),
 ]  # fmt: skip
 
 
@@ -143,6 +144,25 @@ def test_an_addon(error):
                 raise error
 
     failed(Scenario(addons=[Odd()], stop_time=1))
+
+
+class Odd(float):
+    """A number that refuses to be one."""
+
+    def __new__(cls, error):
+        made = super().__new__(cls, 1.0)
+        made.error = error
+        return made
+
+    def __float__(self):
+        raise self.error
+
+
+@pytest.mark.parametrize("error", RAISED, ids=names(RAISED))
+def test_a_measure(error):
+    record = mars2d.run(Scenario(stop_time=1))
+    with pytest.raises(LawError, match=r"odd (raised|returned)"):
+        measured("odd", lambda _: Odd(error), record)
 
 
 @pytest.mark.parametrize("error", RAISED, ids=names(RAISED))
