@@ -189,11 +189,11 @@ class Window:
             show_drawn()
         pygame.event.pump()
         closed = pygame.event.peek(pygame.QUIT)
-        pressed = pygame.event.get(pygame.KEYDOWN)
-        for event in pressed:
-            if event.key != pygame.K_ESCAPE:
-                pygame.event.post(event)
-        if closed or any(event.key == pygame.K_ESCAPE for event in pressed):
+        keys_moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))
+        for event in keys_moved:  # for later, in their order
+            pygame.event.post(event)
+        escapes = [event for event in keys_moved if event.key == pygame.K_ESCAPE]
+        if closed or any(event.type == pygame.KEYDOWN for event in escapes):
             self._open = False
             return "did not return before the window was closed"
         if self._reload is not None and self._reload.waits():

@@ -72,3 +72,14 @@ def test_after_its_patience_the_banner_names_line_robot_and_time(
     state = window.until(lambda s: s["banner"])
     assert "go did not return within 1 s" in state["banner"]
     assert state["line"] in {7, 8}
+
+
+@needs_screen
+def test_keys_pressed_meanwhile_are_done_afterwards(open_window, tmp_path, monkeypatch):
+    window = waiting(open_window, tmp_path, monkeypatch)
+    before = window.state["layers"]["grid"]
+    window.press("g")
+    (tmp_path / "hangs.py").write_text(LAW.replace("hang", "nothing"))
+    window.until(lambda s: s["layers"]["grid"] != before and s["banner"] is None)
+    window.press("g")  # it is not taken for one that is still held
+    window.until(lambda s: s["layers"]["grid"] == before)
