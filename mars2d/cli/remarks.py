@@ -20,7 +20,7 @@ from mars2d.world.world import World
 __all__ = ["Bounds", "before"]
 
 MOST = 0.5
-"""The share of commands that are alike, or cut, from which a run gets a remark."""
+"""The share of cut commands above which a run gets a remark."""
 
 
 def before(experiment: Experiment) -> Iterator[str]:
@@ -49,10 +49,10 @@ class Bounds:
         if self._world is None or not self._world.iteration:
             return
         cuts, robots = self._world.simulation.cuts, self._world.scenario.robots
+        first_command = self._world.history.command[0]
         for i, robot in enumerate(robots):
             for row, quantity in enumerate(robot.drive.quantities):
-                values = self._world.record.command[:, row, i]
-                asked = cuts.asked[row, i] or (values[0] if len(values) else 0.0)
+                asked = cuts.asked[row, i] or first_command[row, i]
                 if quantity.unit == "rad/s" and _like_degrees(asked):
                     yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"
         shares = cuts.count / (self._world.iteration + 1)

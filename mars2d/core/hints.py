@@ -5,7 +5,7 @@ from __future__ import annotations
 import builtins
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
 from types import FrameType
@@ -87,15 +87,14 @@ def _of_import(error: ImportError) -> str:
         if (error.name or "").startswith("mars2d."):
             return likely(error.name, ROOMS, 0.6) or f"; there are {', '.join(ROOMS[1:])}"
         return likely(error.name, modules, 0.7)
-    name = str(error).split("'")[1] if "'" in str(error) else ""
+    name = _quoted(error)
     if not (error.name or "").startswith("mars2d"):
         return ""
     line = _import_of(name)
     if line:
         return f"; write `{line}`"
-    places = [f"{room}.{each}" for room in ROOMS for each in _public(room)]
-    near = likely(name, {place.rpartition(".")[2] for place in places}, 0.7)
-    return instead(name, "a room") or near
+    known = {each for room in ROOMS for each in _public(room)}
+    return instead(name, "a room") or likely(name, known, 0.7)
 
 
 def _of_type(error: TypeError) -> str:
@@ -139,16 +138,10 @@ _HINTS: dict[type[BaseException], Callable[..., str]] = {
 """The hint at an exception, by its class; the first that fits."""
 
 
-def _frames(error: BaseException) -> Iterator[FrameType]:
-    step = error.__traceback__
-    while step is not None:
-        yield step.tb_frame
-        step = step.tb_next
-
-
 def _innermost(error: BaseException) -> FrameType | None:
     """Return the frame in which an exception was raised."""
-    return next(reversed([*_frames(error)]), None)
+    frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
+    return frames[-1] if frames else None
 
 
 def _line_of(error: BaseException) -> str:
@@ -159,10 +152,12 @@ def _line_of(error: BaseException) -> str:
 
 def _name_of(error: NameError) -> str:
     """Return the name that an exception is about; an UnboundLocalError has it in its text only."""
-    if error.name:
-        return error.name
-    text = str(error)
-    return text.split("'")[1] if text.count("'") > 1 else ""
+    return error.name or _quoted(error)
+
+
+def _quoted(error: BaseException) -> str:
+    """Return the first name that the text of an exception quotes, or ""."""
+    return str(error).partition("'")[2].partition("'")[0]
 
 
 def _public(room: str) -> list[str]:

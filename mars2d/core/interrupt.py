@@ -106,8 +106,11 @@ class _Handling:
     handler much later.
     """
 
+    kept: Callable[[], Any] | None = None
+    rescue: Callable[[Any], None] | None = None
+
     def __init__(self) -> None:
-        self._before = signal.getsignal(signal.SIGINT)
+        self._before: Any = signal.getsignal(signal.SIGINT)
         ours = isinstance(self._before, _Handling) or self._before is leave
         if not ours and self._before is not signal.default_int_handler:
             self._before = None
@@ -177,8 +180,7 @@ class noted_interrupts(_Handling):  # noqa: N801 - it is used as a function
         around: Any = self
         kept = rescue = None
         while isinstance(around, _Handling):
-            kept = kept or getattr(around, "kept", None)
-            rescue = rescue or getattr(around, "rescue", None)
+            kept, rescue = kept or around.kept, rescue or around.rescue
             around = around._before
         if kept is None or rescue is None:
             return

@@ -1,7 +1,7 @@
 """The last resort: a second Ctrl-C ends the command line, whatever holds it.
 
 Python reacts to a signal between two steps of its own. A law in C code that keeps the interpreter,
-such as a regular expression that never ends, stops all of it. So a process of a few kilobytes looks
+such as the decomposition of a large matrix, stops all of it. So a process of a few kilobytes looks
 on, is told of each signal by the system, and ends the command where nothing else can.
 """
 
