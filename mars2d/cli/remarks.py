@@ -19,6 +19,9 @@ from mars2d.world.world import World
 
 __all__ = ["Bounds", "before"]
 
+ORDERED = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
+"""The comparisons that a number is meant for."""
+
 MOST = 0.5
 """The share of cut commands above which a run gets a remark."""
 
@@ -101,22 +104,20 @@ def _flags_compared(law: Callable[..., Any], robots: Sequence[Robot]) -> Iterato
         tree = ast.parse(textwrap.dedent("".join(lines)))
     except (OSError, TypeError, SyntaxError):
         return
-    meant: dict[str, str] = {}
+    file, meant = place.partition(",")[0], dict[str, str]()
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
             meant[node.targets[0].id] = _read(node.value, flags)
     for node in ast.walk(tree):
-        if isinstance(node, ast.Compare) and isinstance(
-            node.ops[0], (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
-        ):
-            for side in (node.left, *node.comparators):
-                name = meant.get(side.id, "") if isinstance(side, ast.Name) else _read(side, flags)
-                if name:
-                    file = place.partition(",")[0]
-                    yield (
-                        f"{file}, line {first + node.lineno - 1}: robot.sense.{name} is True or "
-                        "False, and is compared with a number; RangeFinder measures distances"
-                    )
+        if not (isinstance(node, ast.Compare) and isinstance(node.ops[0], ORDERED)):
+            continue
+        for side in (node.left, *node.comparators):
+            name = meant.get(side.id, "") if isinstance(side, ast.Name) else _read(side, flags)
+            if name:
+                yield (
+                    f"{file}, line {first + node.lineno - 1}: robot.sense.{name} is True or False, "
+                    "and is compared with a number; RangeFinder measures distances"
+                )
 
 
 def _read(node: ast.expr, flags: set[str]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import sys
 import threading
 import time
@@ -12,7 +11,7 @@ from collections.abc import Callable
 from types import TracebackType
 
 from mars2d.core.errors import Passing
-from mars2d.core.usercode import users_line
+from mars2d.core.usercode import raise_in, users_line
 
 __all__ = ["Deadline", "Late"]
 
@@ -89,12 +88,8 @@ class Deadline:
                     self.where = self._line()
                     self.alive()
                     self._fired = True
-                    self._raise()
+                    raise_in(self._thread, Late)
 
     def _line(self) -> str:
         frame = sys._current_frames().get(self._thread)
         return "" if frame is None else users_line(traceback.extract_stack(frame)) or ""
-
-    def _raise(self) -> None:
-        thread, error = ctypes.c_ulong(self._thread), ctypes.py_object(Late)
-        ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, error)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import functools
 import inspect
 import linecache
@@ -17,7 +18,16 @@ from typing import Any
 from mars2d.core.errors import InputError, LawError, Passing
 from mars2d.core.hints import described
 
-__all__ = ["Excerpt", "Hangs", "called", "definition", "excerpt_of", "name_of", "users_line"]
+__all__ = [
+    "Excerpt",
+    "Hangs",
+    "called",
+    "definition",
+    "excerpt_of",
+    "name_of",
+    "raise_in",
+    "users_line",
+]
 
 _PACKAGE = Path(__file__).parents[1]
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
@@ -27,6 +37,12 @@ class Hangs(BaseException):
     """The user's code was broken off; a BaseException, so that few `except` in it catch it."""
 
     why = "was broken off"
+
+
+def raise_in(thread: int, error: type[BaseException]) -> None:
+    """Raise an exception in another thread, between two steps of its Python code."""
+    raised = ctypes.py_object(error)
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)
 
 
 class called:  # noqa: N801 - used like a function, as contextlib's are

@@ -10,10 +10,10 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
-from types import FrameType, TracebackType
+from types import FrameType
 
 from mars2d.core.errors import InputError, shown
-from mars2d.core.usercode import Hangs, users_line
+from mars2d.core.usercode import Hangs, raise_in, users_line
 
 __all__ = ["VARIABLE", "Watchdog", "patience"]
 
@@ -83,12 +83,7 @@ class Watchdog:
             watch.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        tb: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._ended.set()
         self._block = None
 
@@ -110,9 +105,10 @@ class Watchdog:
             looks += 1
             spent = self._spent() - since
             if due is not None:
-                self._raise(due)
+                raise_in(self._thread, due)
             elif spent > self._patience or looks * LOOK > ASLEEP * self._patience:
-                self._raise(_hangs(f"did not return within {self._patience:g} s"))
+                late = _hangs(f"did not return within {self._patience:g} s")
+                raise_in(self._thread, late)
                 looks, since = 0, self._spent()
             elif self._meanwhile is not None and looks >= SOON and not self._waits:
                 self._waits = True
@@ -133,11 +129,6 @@ class Watchdog:
         finally:
             self._waits = False
         return 0
-
-    def _raise(self, error: type[BaseException]) -> None:
-        """Raise an exception in the block's thread."""
-        thread, raised = ctypes.c_ulong(self._thread), ctypes.py_object(error)
-        ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, raised)
 
     def _users_line(self) -> str:
         """Return the line of the user's code that the block calls; "" if a debugger looks at it."""
