@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mars2d.output.figures.figure import style_ticks
 from mars2d.output.figures.labels import fits, shortened, wrapped
-from mars2d.output.figures.panels import letters_in, short_number, size_of
+from mars2d.output.figures.panels import frame_panel, letters_in, short_number, size_of
 from mars2d.output.figures.style import Style
 from mars2d.study.layout import Layout
 from mars2d.study.table import Table
@@ -32,7 +31,7 @@ TURNED_LETTERS, TURNED_SHARE = 28, 0.4
 
 def dress(ax: Axes, layout: Layout, look: Style) -> None:
     """Set the scale, limits and ticks of the axis, grid and spines."""
-    from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
+    from matplotlib.ticker import FuncFormatter, NullLocator
 
     if layout.logarithmic:
         ax.set_xscale("log")
@@ -42,20 +41,7 @@ def dress(ax: Axes, layout: Layout, look: Style) -> None:
         _name_values(ax, layout, look)
     else:
         ax.xaxis.set_major_formatter(FuncFormatter(short_number))
-    ax.yaxis.set_major_locator(
-        MaxNLocator(
-            nbins=int(np.clip(size_of(ax)[1] / (2.4 * look.small), 2, 5)),
-            steps=[1, 2, 2.5, 5, 10],
-            min_n_ticks=2,
-        )
-    )
-    ax.yaxis.set_major_formatter(FuncFormatter(short_number))
-    ax.set_facecolor("white")
-    ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
-    ax.set_axisbelow(True)
-    style_ticks(ax, look)
-    ax.spines[:].set(color=look.line, linewidth=0.8 * look.stroke)
-    ax.spines[["top", "right"]].set_visible(False)
+    frame_panel(ax, look, [1, 2, 2.5, 5, 10])
 
 
 def _name_values(ax: Axes, layout: Layout, look: Style) -> None:

@@ -34,6 +34,7 @@ __all__ = [
     "curve",
     "dress_panel",
     "finish",
+    "frame_panel",
     "letters_in",
     "name_beside",
     "name_curves",
@@ -105,10 +106,17 @@ def dress_panel(
 
     rows: the rows that are drawn.
     """
-    from matplotlib.ticker import FuncFormatter, MaxNLocator
-
     begin, end = record.time[rows][[0, -1]].tolist()
     ax.set_xlim(begin, end if end > begin else begin + record.scenario.sampling_time)
+    frame_panel(ax, look, [1, 2, 4, 5, 10])
+    if ax is last or not ax.get_shared_x_axes().joined(ax, last):
+        ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
+
+
+def frame_panel(ax: Axes, look: Style, steps: Sequence[float]) -> None:
+    """Set grid, ticks and spines of a panel. steps: those between ticks of its values, 1 to 10."""
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
+
     ax.set_facecolor("white")
     ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
     ax.set_axisbelow(True)
@@ -116,10 +124,8 @@ def dress_panel(
     ax.spines[:].set(color=look.line, linewidth=0.8 * look.stroke)
     ax.spines[["top", "right"]].set_visible(False)
     bins = int(np.clip(size_of(ax)[1] / (2.4 * look.small), 2, 5))
-    ax.yaxis.set_major_locator(MaxNLocator(nbins=bins, steps=[1, 2, 4, 5, 10], min_n_ticks=2))
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=bins, steps=steps, min_n_ticks=2))
     ax.yaxis.set_major_formatter(FuncFormatter(short_number))
-    if ax is last or not ax.get_shared_x_axes().joined(ax, last):
-        ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
 
 
 def short_number(value: float, _: int = 0) -> str:
