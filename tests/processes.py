@@ -6,6 +6,7 @@ import functools
 import os
 import shutil
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -34,6 +35,17 @@ def wait_until(condition: Callable[[], Any], process: Any = None) -> Any:
         assert time.monotonic() < end, f"it did not happen within {PATIENCE:g} s"
         time.sleep(0.01)
     return value
+
+
+def running(pid: int) -> bool:
+    """Return whether a process goes on; one that has ended may still be asked how."""
+    try:
+        os.kill(pid, 0)
+        if sys.platform == "linux":
+            return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+    return True
 
 
 def bare_environment(**more: str) -> dict[str, str]:

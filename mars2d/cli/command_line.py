@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import atexit
 import errno
+import multiprocessing
 import os
 import re
 import signal
@@ -38,8 +39,8 @@ __all__ = ["main", "parser"]
 
 OK, FAULT, BAD_INPUT = 0, 1, 2
 
-THREADS = 2.0
-"""How long the threads of the user's code may take to end after the command, seconds."""
+LEFT = 2.0
+"""How long threads and processes of the user's code may take to end after the command, seconds."""
 
 UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
 """Errors of paths typed by the user for which even asking whether they exist fails."""
@@ -63,17 +64,25 @@ def main(argv: Sequence[str] | None = None) -> int:
     finally:
         ending()
     if OURS:
-        _leave_threads(code)
+        _leave_behind(code)
     return code
 
 
-def _leave_threads(code: int) -> None:
-    """End the process if threads of the user's code go on, for which Python would wait for ever."""
+def _leave_behind(code: int) -> None:
+    """End what the user's code has started and Python would wait for, perhaps for ever."""
+    children = [child for child in multiprocessing.active_children() if not child.daemon]
     own = threading.current_thread()
     threads = [t for t in threading.enumerate() if not t.daemon and t is not own]
-    until = time.monotonic() + THREADS
-    for thread in threads:
-        thread.join(max(0.0, until - time.monotonic()))
+    until = time.monotonic() + LEFT
+    joins = [child.join for child in children] + [thread.join for thread in threads]
+    for join in joins:
+        join(max(0.0, until - time.monotonic()))
+    running = [child for child in children if child.is_alive()]
+    if running:
+        names = ", ".join(child.name for child in running)
+        warn(f"killed processes that did not end: {names}")
+    for child in running:
+        child.kill()
     left = [thread.name for thread in threads if thread.is_alive()]
     if not left:
         return

@@ -14,7 +14,7 @@ import sys
 import time
 from contextlib import suppress
 
-__all__ = ["die_with_parent", "heard", "look_on"]
+__all__ = ["die_with_parent", "heard", "kill_group", "look_on"]
 
 ASKED = 2.0
 """How long after a first signal that nobody has heard a second one ends the command, seconds."""
@@ -90,3 +90,10 @@ def die_with_parent() -> None:
     if sys.platform == "linux":
         with suppress(OSError, AttributeError):
             ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def kill_group(leader: int) -> None:
+    """Kill the processes of a group, on systems that have groups: its leader and all it started."""
+    if hasattr(os, "killpg"):
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(leader, signal.SIGKILL)

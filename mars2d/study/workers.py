@@ -26,7 +26,7 @@ from typing import Any, NamedTuple, TypeVar
 from mars2d.core.errors import InputError, Passing, shown
 from mars2d.core.hints import described
 from mars2d.core.interrupt import interrupts_blocked
-from mars2d.core.lastresort import die_with_parent
+from mars2d.core.lastresort import die_with_parent, kill_group
 from mars2d.study import ONE_THREAD
 
 __all__ = [
@@ -256,12 +256,22 @@ class _Worker:
         if self.task is not None or not self.ready:
             self.process.terminate()
 
+    def has_ended(self) -> bool:
+        """Return whether it has ended, even if processes that it has started hold its pipes."""
+        return self.process.exitcode is not None
+
+    def kill(self) -> None:
+        """Kill it, and the processes that its tasks have started."""
+        if self.process.pid is not None:
+            kill_group(self.process.pid)
+        self.process.kill()
+
     def how_ended(self, until: float) -> str:
         """Wait for its end until a time of the monotonic clock, then kill it; say how it ended."""
         try:
             self.process.join(max(0.0, until - time.monotonic()))
         finally:
-            self.process.kill()
+            self.kill()
         self.process.join()
         code = self.process.exitcode or 0
         if code >= 0:
@@ -298,7 +308,7 @@ class _Crew:
                 worker.how_ended(until)
         finally:
             for worker in self._workers:
-                worker.process.kill()
+                worker.kill()
 
     def idle(self) -> list[_Worker]:
         """Return the workers that wait for a task."""
@@ -316,6 +326,7 @@ class _Crew:
         ends = [end for each in self._workers for end in (each.connection, each.process.sentinel)]
         start = time.monotonic()
         heard = set(wait(ends, LOOK))
+        heard |= {each.process.sentinel for each in self._workers if each.has_ended()}
         if not heard:
             for worker in self._workers:
                 worker.wake()
@@ -345,7 +356,7 @@ class _Crew:
             if worker.spent > limit + BREAKING_OFF and not worker.connection.poll():
                 said = f"took longer than {limit:g} s, in code that nothing interrupts"
                 found.append((worker.task, _TooLong(said)))
-                worker.process.kill()
+                worker.kill()
                 self._replace(place)
         return found
 
@@ -400,6 +411,8 @@ def _serve(connection: Connection, by_main: bool = False) -> None:
     by_main: whether the parent's main thread has started it: the system watches that thread.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(os, "setpgid"):
+        os.setpgid(0, 0)  # so that what its tasks start can be ended with it
     if by_main:
         die_with_parent()
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -5,19 +5,18 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 
 import mars2d
 from mars2d.study.table import load_table
 from tests.faults.commands import started
-from tests.processes import PATIENCE, wait_until
+from tests.processes import PATIENCE, running, wait_until
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="needs prctl and /dev/full")
 
 HEAD = """\
-import itertools, threading, time
+import itertools, multiprocessing, threading, time
 from mars2d import Scenario
 
 scenario = Scenario(stop_time=STOP)
@@ -41,6 +40,11 @@ IN_C = "        sum(itertools.repeat(0))\n"
 
 THREAD = '        threading.Thread(target=time.sleep, args=(1e6,), name="mine").start()\n'
 
+PROCESS = """\
+        fork = multiprocessing.get_context("fork")
+        fork.Process(target=time.sleep, args=(1e6,), name="mine").start()
+"""
+
 NOTHING = "        pass\n"
 
 
@@ -59,18 +63,10 @@ def going(folder, body, *words, **environment):
 
 def pressed_until_it_ends(command):
     """Press Ctrl-C now and then until a command has ended; return how."""
-    while not gone(command.pid):
+    while running(command.pid):
         command.interrupt()
         time.sleep(0.3)
     return command.end(PATIENCE)
-
-
-def gone(pid):
-    """Return whether a process has ended, though nobody may have asked how yet."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except OSError:
-        return True
 
 
 @linux
@@ -118,6 +114,18 @@ def test_a_thread_that_goes_on_does_not_hold_the_command(tmp_path):
     assert "mars2d: left 1 thread that did not end: mine\n" in ended.err
     assert "record: kept.npz" in ended.out
     assert mars2d.load(tmp_path / "kept.npz").finished
+
+
+@linux
+@pytest.mark.slow
+def test_a_process_that_goes_on_does_not_hold_the_command(tmp_path):
+    experiment(tmp_path, PROCESS, stop=3)
+    command = started(tmp_path, "run", "law.py", "--headless", "--record", "kept.npz")
+    ended = command.end(PATIENCE)
+    assert ended.code == 0, ended
+    assert "mars2d: killed processes that did not end: mine\n" in ended.err
+    assert "record: kept.npz" in ended.out
+    assert command.left() == []
 
 
 SIGNALS = ["SIGTERM", "SIGUSR1", "SIGUSR2", "SIGXCPU"]

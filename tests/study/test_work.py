@@ -19,7 +19,7 @@ import pytest
 from mars2d.core.errors import InputError
 from mars2d.study import work, workers
 from mars2d.study.work import Failure, each_done, worker_count
-from tests.processes import PATIENCE, wait_until
+from tests.processes import PATIENCE, running, wait_until
 
 TASKS = '''
 """What the workers of these tests do."""
@@ -114,14 +114,6 @@ def do(tmp_path_factory):
 
     yield tasks_of_test_work.do
     sys.path.remove(str(folder))
-
-
-def running(pid: int) -> bool:
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 def pid_in(file) -> int:

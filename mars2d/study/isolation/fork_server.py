@@ -24,6 +24,7 @@ from collections.abc import Callable
 from typing import NamedTuple, NoReturn
 
 from mars2d.core.errors import InputError
+from mars2d.core.lastresort import kill_group
 from mars2d.study import ONE_THREAD
 
 __all__ = ["Ended", "serve", "spawn", "start"]
@@ -133,10 +134,8 @@ def _command(code: str, *arguments: str) -> list[str]:
 
 
 def _kill(process: int, alone: Callable[[], None]) -> None:
-    """Kill a process and, on systems that have them, its process group."""
-    if hasattr(os, "killpg"):
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(process, signal.SIGKILL)
+    """Kill a process and its group."""
+    kill_group(process)
     with contextlib.suppress(ProcessLookupError):
         alone()
 
