@@ -218,7 +218,7 @@ class Scrubbed:
 
     def scrub(self, screen: pygame.Surface) -> dict[str, list[float]]:
         """Return the milliseconds to draw pictures, of a new stage."""
-        painter, layout = Painter(), Layout.of(SIZE, timebar=True)
+        painter, layout = Painter(), Layout.of(SIZE, controls=True)
         stage, camera = Stage(painter, MEMORY), fitted(self._scenario, SIZE, layout)
 
         def drawn(row: int) -> float:

@@ -106,6 +106,11 @@ class Frame:
             return None
         return momentum_of(self.scenario, self._poses, self.exact_velocity)
 
+    def body_pose(self, body: int) -> tuple[float, float, float]:
+        """Return the pose (x, y [m], theta [rad]) of a body: its index in `Scenario.bodies`."""
+        x, y, theta = self._poses[:, body].tolist()
+        return x, y, theta
+
     @property
     def _poses(self) -> Float:
         return np.hstack([self.pose, self.prop_pose])

@@ -94,6 +94,15 @@ def of_plain(data: Any) -> Intervention:
     return _KINDS[data["type"]](**values)
 
 
+def of_one_hand(before: Intervention, after: Intervention) -> bool:
+    """Return whether two interventions in turn belong to one pull, or to one drive."""
+    if isinstance(before, Pull) and isinstance(after, Pull):
+        return before.body == after.body and before.target is not None
+    if isinstance(before, Steer) and isinstance(after, Steer):
+        return before.robot == after.robot and before.driven
+    return False
+
+
 def check(done: Sequence[Intervention], scenario: Scenario, rows: int) -> None:
     """Raise ValueError for interventions that no run of `rows` rows can have, in this order."""
     robots, bodies = len(scenario.robots), len(scenario.bodies)

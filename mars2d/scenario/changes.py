@@ -86,6 +86,24 @@ def with_poses(scenario: Scenario, poses: Float) -> Scenario:
         raise
 
 
+def with_body(scenario: Scenario, body: int, **fields: Any) -> Scenario:
+    """Return the scenario with other fields of a robot or prop: an index of `Scenario.bodies`."""
+    n = len(scenario.robots)
+    return scenario.replace(
+        robots=[r.replace(**fields) if i == body else r for i, r in enumerate(scenario.robots)],
+        props=[p.replace(**fields) if i + n == body else p for i, p in enumerate(scenario.props)],
+    )
+
+
+def without_body(scenario: Scenario, body: int) -> Scenario:
+    """Return the scenario without a robot or prop: an index of `Scenario.bodies`."""
+    n = len(scenario.robots)
+    return scenario.replace(
+        robots=[robot for i, robot in enumerate(scenario.robots) if i != body],
+        props=[prop for i, prop in enumerate(scenario.props) if i + n != body],
+    )
+
+
 def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
     """Return the reason why a body can't be where it is, such as "overlap red", or "".
 

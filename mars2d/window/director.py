@@ -8,7 +8,7 @@ import numpy as np
 
 from mars2d.core.errors import InputError
 from mars2d.output.raster.painter import Painter
-from mars2d.scenario.changes import with_poses
+from mars2d.scenario.changes import with_body, with_poses, without_body
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.scenario.scenario import Scenario
@@ -16,6 +16,7 @@ from mars2d.window.driver import Driver
 from mars2d.window.editor import Editor, Outcome
 from mars2d.window.notes import Notes
 from mars2d.window.player import Player
+from mars2d.window.saving import copied
 from mars2d.world.timeline import Progress, Timeline
 from mars2d.world.world import World
 
@@ -81,6 +82,63 @@ class Director:
         again = "goes back" if len(timeline.branches) == 1 else "shows the next one"
         self._notes.say(f"another branch, run until {end:.6g} s; B {again}")
 
+    def undo(self) -> None:
+        """Undo the last thing done by hand."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        try:
+            undone = timeline.undo(self._show_way_back)
+        except InputError as error:
+            self._notes.say(str(error), "warning")
+            return
+        self.driver.release()
+        self._player.error = None
+        self._player.pause()
+        at = undone.row * timeline.scenario.sampling_time
+        self._notes.say(f"undone, at {at:.6g} s; B shows the run with it")
+        if timeline.remark:
+            self._notes.say(timeline.remark, "warning")
+
+    def copy(self, text: str) -> None:
+        """Copy text to the clipboard, and say so."""
+        there = copied(text)
+        self._notes.say(f"copied: {text}" if there else f"no clipboard can be reached for {text}")
+
+    # -- one body -----------------------------------------------------------------------------
+
+    def put_back(self, body: int) -> None:
+        """Put a body back to where it was at the start."""
+        if self.timeline is not None:
+            pose = self.timeline.experiment.scenario.bodies[body].pose
+            self.change(lambda world: world.hands.place(body, pose))
+
+    def scale_mass(self, body: int, factor: float) -> None:
+        """Start anew with a body that is heavier or lighter by a factor."""
+        scenario = self._player.source.scenario
+        mass = scenario.bodies[body].inertia.mass * factor
+        name = scenario.bodies[body].name
+        self._begin_anew(
+            lambda drawn: with_body(drawn, body, mass=mass), f"{name} with a mass of {mass:.4g} kg"
+        )
+
+    def remove(self, body: int) -> None:
+        """Start anew without a body."""
+        name = self._player.source.scenario.bodies[body].name
+        self._begin_anew(lambda drawn: without_body(drawn, body), f"the team without {name}")
+
+    def _begin_anew(self, change: Callable[[Scenario], Scenario], said: str) -> None:
+        """Start anew with the scenario of the file changed, or say why it can't be."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        try:
+            experiment = timeline.experiment.redrawn(change(timeline.experiment.scenario))
+        except InputError as error:
+            self._notes.say(str(error), "error")
+            return
+        self._restart(experiment, f"started anew: {said}; Space goes on")
+
     # -- a robot driven by hand ---------------------------------------------------------------
 
     def drive(self, robot: int) -> None:
@@ -140,7 +198,8 @@ class Director:
         """Continue with the drawn scenario, from now or from the start."""
         assert self.timeline is not None
         if outcome.when == "start":
-            self._restart(self.timeline.experiment.redrawn(outcome.scenario))
+            drawn = self.timeline.experiment.redrawn(outcome.scenario)
+            self._restart(drawn, "started anew with what was drawn; Space goes on")
             return
         before = self.scenario_now().bodies
         bodies = enumerate(outcome.scenario.bodies)
@@ -154,7 +213,7 @@ class Director:
         if self.change(draw):
             self._notes.say("what was drawn holds from now on; Space goes on")
 
-    def _restart(self, experiment: Experiment) -> None:
+    def _restart(self, experiment: Experiment, said: str) -> None:
         assert self.timeline is not None
         try:
             self.timeline.restart(experiment)
@@ -163,4 +222,4 @@ class Director:
             return
         self._player.error = None
         self._player.settle()
-        self._notes.say("started anew with what was drawn; Space goes on")
+        self._notes.say(said)

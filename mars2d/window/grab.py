@@ -77,6 +77,11 @@ class Grab:
         return None if self._hover is None else self._hover.body
 
     @property
+    def name(self) -> str:
+        """The name of the thing under the pointer, or ""."""
+        return "" if self._hover is None else self._hover.name
+
+    @property
     def busy(self) -> bool:
         """Whether a button is held on a body."""
         return self._pressed is not None or self._drag is not None

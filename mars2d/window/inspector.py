@@ -9,10 +9,12 @@ from typing import Any, NamedTuple
 import pygame
 
 from mars2d.core.description import snake_case
+from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.layers.forces import SLIP, SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
+from mars2d.window.buttons import draw_icon
 from mars2d.window.forcemeter import Meter
 from mars2d.window.forceplot import draw_force
 from mars2d.window.readout import (
@@ -40,6 +42,8 @@ HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
 """The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
 MIN_FORCE = 76.0
 """The lowest plot of forces, points."""
+CLOSE = 20.0
+"""The room for the button that closes it, points."""
 LABEL = 80.0
 """The room for the label of a row, points."""
 
@@ -74,6 +78,7 @@ class Inspector:
         self._of: tuple[object, ...] = ()
         self._frame: Frame | None = None
         self._drawn_at = 0.0
+        self.closes = pygame.Rect(0, 0, 0, 0)  # where a press closes it
 
     def place(self, plot: pygame.Rect, body: tuple[float, float]) -> pygame.Rect | None:
         """Return the inspector's place: at the right of the picture, or left if the body is there.
@@ -118,6 +123,10 @@ class Inspector:
         taken = pygame.Rect(rect.left, rect.top, rect.width, self._image.get_height() + 2 * pad[1])
         self.painter.panel(surface, taken, theme.plate, 8 * ui, theme.edge)
         surface.blit(self._image, (rect.left + pad[0], rect.top + pad[1]))
+        side = round(26 * ui)
+        self.closes = pygame.Rect(0, 0, side, side)
+        self.closes.midright = taken.right - pad[1], taken.top + pad[1] + round(HEAD / 2 * ui)
+        draw_icon(surface, CONTROLS["close"].icon, theme.muted, self.closes)
         return taken
 
     def _pixels(self, section: Section) -> int:
@@ -201,8 +210,9 @@ class Inspector:
         pygame.draw.aacircle(surface, theme.muted, center, 7.5 * ui)
         pygame.draw.aacircle(surface, theme.shade(colors[body]), center, 6.5 * ui)
         kind = fonts.render(kind_of(frame, body), 12.5 * ui, theme.muted)
-        surface.blit(kind, kind.get_rect(midright=(rect.right, middle)))
-        room = rect.width - kind.get_width() - 34 * ui
+        beside = rect.right - round(CLOSE * ui)
+        surface.blit(kind, kind.get_rect(midright=(beside, middle)))
+        room = beside - rect.left - kind.get_width() - 34 * ui
         name = fonts.shorten(str(frame.scenario.bodies[body].name), 17 * ui, room, bold=True)
         image = fonts.render(name, 17 * ui, theme.ink, bold=True)
         surface.blit(image, image.get_rect(midleft=(rect.left + round(22 * ui), middle)))

@@ -9,7 +9,7 @@ import pygame
 
 from mars2d.output.layers.table import LAYERS
 
-__all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "Keyboard", "action_of"]
+__all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "Keyboard", "action_of", "chord"]
 
 MAX_NUMBER = 1_000_000
 """The largest number that can be typed before a command."""
@@ -43,6 +43,7 @@ TIME = (
     Key("leap_back", ("page up",), ("PgUp",), "ten steps back", repeats=True),
     Key("start", ("home",), ("Home",), "look at the start"),
     Key("newest", ("end",), ("End",), "look at the newest step"),
+    Key("loop", ("j",), ("J",), "begin again at the end, on and off"),
     Key("faster", ("+", "=", "[+]"), ("+",), "faster", repeats=True),
     Key("slower", ("-", "[-]"), ("\N{MINUS SIGN}",), "slower", repeats=True),
     Key("restart", ("r",), ("R",), "restart at time 0, with the file as it is now"),
@@ -59,9 +60,13 @@ _SEE = (
     Key("addons", ("o",), ("O",), "what add-ons draw on and off"),
     Key("names", ("i",), ("I",), "names on and off"),
     Key("velocities", ("u",), ("U",), "velocities on and off"),
+    Key("layers", ("a",), ("A",), "choose what is shown"),
     Key("select", ("tab",), ("Tab",), "select the next robot or prop, and inspect it"),
     Key("follow", ("l",), ("L",), "let the camera follow what is selected, or all robots"),
-    Key("fit", ("f",), ("F",), "fit the workspace into the window"),
+    Key("fit", ("f", "ctrl+0"), ("F",), "fit the workspace into the window"),
+    Key("nearer", ("ctrl++", "ctrl+=", "ctrl+[+]"), ("Ctrl +",), "zoom in", repeats=True),
+    Key("farther", ("ctrl+-", "ctrl+[-]"), ("Ctrl \N{MINUS SIGN}",), "zoom out", repeats=True),
+    Key("screen", ("f11",), ("F11",), "full screen, on and off"),
     Key("dark", ("d",), ("D",), "dark or light"),
     Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
 )
@@ -77,10 +82,12 @@ SEE = (
 DO = (
     Key("drive", ("h",), ("H",), "drive the selected robot by hand: arrow keys, WASD, controller"),
     Key("edit", ("e",), ("E",), "draw walls, robots and more, while paused"),
-    Key("picture", ("p",), ("P",), "save a picture"),
+    Key("undo", ("ctrl+z",), ("Ctrl Z",), "undo the last thing done by hand"),
+    Key("picture", ("p", "ctrl+s"), ("P",), "save a picture"),
     Key("film", ("v",), ("V",), "start and stop a film"),
     Key("python", ("c",), ("C",), "save what is seen as a Python file, and copy it"),
     Key("help", ("f1",), ("F1",), "all keys, on and off"),
+    Key("close", ("ctrl+q", "ctrl+w"), ("Ctrl Q",), "close the window"),
     Key("leave", ("escape",), ("Esc",), "close the help, let go, select none, clear errors, leave"),
 )
 
@@ -90,6 +97,7 @@ MOUSE = (
     Key("zoom", (), ("Wheel",), "zoom about the pointer"),
     Key("pick", (), ("Click",), "select a robot or prop, and inspect it; beside them, none"),
     Key("carry", (), ("Drag it",), "pull a robot or prop; while paused, put it elsewhere"),
+    Key("menu", (), ("Right click",), "what can be done with it"),
     Key("turn", (), ("Right drag",), "turn a robot or prop, while paused"),
     Key("pan", (), ("Drag",), "beside them, move the picture; on the time bar, go to a time"),
 )
@@ -106,13 +114,28 @@ _BY_NAME = {name: key for key in KEYS for name in key.names}
 _STEP = next(key for key in KEYS if key.action == "step")
 
 
+CONTROL = pygame.KMOD_CTRL | pygame.KMOD_META
+
+
+def chord(code: int, modifiers: int) -> str:
+    """Return the name of a key with its modifiers, for example ``ctrl+shift+z``."""
+    parts = []
+    if modifiers & CONTROL:
+        parts.append("ctrl")
+    if modifiers & pygame.KMOD_SHIFT:
+        parts.append("shift")
+    return "+".join([*parts, pygame.key.name(code)])
+
+
 def action_of(name: str, character: str, *, manual: bool) -> Key | None:
     """Return the command of a key, or None.
 
-    name: pygame's name of the key. character: the text that it types, which identifies + on every
+    name: as `chord` returns it. character: the text that it types, which identifies + on every
     keyboard. manual: whether the window is in MARS's manual mode, in which each key without another
     command does one step.
     """
+    if name.startswith("ctrl+"):
+        return _BY_NAME.get(name) or _BY_NAME.get(name.replace("shift+", ""))
     key = (_BY_NAME.get(character) if character in "+-" else None) or _BY_NAME.get(name)
     if not manual or name in MODIFIERS or character.isdigit():
         return key
@@ -127,18 +150,21 @@ class Keyboard:
         self.number = 0  # typed so far
         self._held: set[int] = set()
 
-    def press(self, code: int, character: str, *, manual: bool) -> Key | None:
+    def press(self, code: int, character: str, modifiers: int = 0, *, manual: bool) -> Key | None:
         """Press a key; return its command, or None.
 
-        code: pygame's code of the key; character, manual: as for `action_of`.
+        code, modifiers: pygame's. character, manual: as for `action_of`.
         """
         held = code in self._held
         self._held.add(code)
-        if _is_digit(character):
+        name = pygame.key.name(code)
+        if modifiers & CONTROL:
+            name = chord(code, modifiers)
+        elif _is_digit(character):
             if not held:
                 self.number = min(10 * self.number + int(character), MAX_NUMBER)
             return None
-        key = action_of(pygame.key.name(code), character, manual=manual)
+        key = action_of(name, character, manual=manual)
         return key if key is not None and (key.repeats or not held) else None
 
     def forget(self, code: int, character: str) -> None:

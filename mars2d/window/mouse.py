@@ -25,7 +25,8 @@ class Mouse:
     """Passes the mouse's moves and buttons on to the parts of a window.
 
     handles: dragged by the left button. is_picture: whether a pixel shows the picture, with nothing
-    over it. click: called with the point [m] of the picture that was clicked.
+    over it. click, menu: called with the point [m] of the picture that was clicked with the left or
+    the right button.
     """
 
     def __init__(
@@ -36,10 +37,12 @@ class Mouse:
         handles: Sequence[Handle],
         is_picture: Callable[[Pixel], bool],
         click: Callable[[Point], None],
+        menu: Callable[[Point], None],
     ) -> None:
         """Start with no button pressed."""
         self._player, self._viewpoint, self._grab = player, viewpoint, grab
-        self._handles, self._is_picture, self._click = handles, is_picture, click
+        self._handles, self._is_picture = handles, is_picture
+        self._clicks = {pygame.BUTTON_LEFT: click, pygame.BUTTON_RIGHT: menu}
         self._pressed: Pixel | None = None
         self._dragged: Callable[[Pixel], None] | None = None
         self._pans = False  # whether it drags the picture
@@ -69,8 +72,8 @@ class Mouse:
     def _press(self, pixel: Pixel, button: int) -> None:
         """Begin to drag the handle, body or picture at a pixel."""
         frame, camera, running = self._player.frame, self._viewpoint.camera, self._player.playing
+        self._pressed = pixel
         if button == pygame.BUTTON_LEFT:
-            self._pressed = pixel
             self._dragged = next((drag for hit, drag in self._handles if hit(pixel)), self._dragged)
         if self._dragged is not None:
             self._dragged(pixel)
@@ -97,9 +100,9 @@ class Mouse:
         )
         clicked = self._pressed is not None and dist(self._pressed, pixel) < near
         free = self._dragged is None and not done and self._is_picture(pixel)
-        if clicked and free and button == pygame.BUTTON_LEFT:
+        if clicked and free and button in self._clicks:
             ((x, y),) = camera.to_world([pixel]).tolist()
-            self._click((x, y))
+            self._clicks[button]((x, y))
         self._drop()
 
     def _drop(self) -> None:

@@ -51,6 +51,7 @@ class Player:
         self.source = source
         self.speed = float("inf") if checked == "max" else float(checked)
         self.paused = False
+        self.loop = False  # whether to begin again at the end
         self.error: Mars2dError | None = None
         self.drawing = 0.0  # the time of the last picture, seconds
         self._todo = 0  # steps to do
@@ -108,6 +109,8 @@ class Player:
         """Advance by `wall` seconds since the last picture."""
         if self._todo:
             self._do_steps()
+        if self.loop and self.over and not (self.failed or self.paused or self.manual):
+            self._rewind()
         if not self.playing:
             self._pace.clear()
             return
@@ -163,14 +166,23 @@ class Player:
         self.settle()
 
     def pause_or_resume(self) -> None:
-        """Pause or resume; in manual mode, do one step."""
+        """Pause or resume, at the end from the start; in manual mode, do one step."""
         if self.manual:
             self.step()
             return
         self._todo = 0
+        if self.over and not self.failed:
+            self._rewind()
+            self.paused = False
+            return
         self.paused = not self.paused
         if self.paused:
             self.settle()
+
+    def _rewind(self) -> None:
+        """Show the start, whether time passes or not."""
+        self.source.go(0)
+        self.settle()
 
     def set_speed(self, speed: float) -> None:
         """Play at a factor of real time; inf: as fast as possible."""

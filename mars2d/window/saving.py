@@ -23,7 +23,7 @@ from mars2d.window.notes import Notes
 if TYPE_CHECKING:
     from mars2d.output.films.filming import Filming
 
-__all__ = ["Saver", "free_name", "save_picture", "save_python", "start_film"]
+__all__ = ["Saver", "copied", "free_name", "save_picture", "save_python", "start_film"]
 
 MAX_STEM = 60
 """The longest name of a file without its number, characters."""
@@ -140,7 +140,7 @@ def save_python(
     path = free_name(folder, stem, ".py")
     with _removed_on_failure(path), atomic_write(path) as file:
         file.write(text.encode(errors="replace"))
-    return path, _copied(text)
+    return path, copied(text)
 
 
 def start_film(folder: Path, stem: str) -> Filming:
@@ -160,7 +160,7 @@ def _removed_on_failure(path: Path) -> Iterator[None]:
         raise
 
 
-def _copied(text: str) -> bool:
+def copied(text: str) -> bool:
     """Copy text to the clipboard; return whether that worked."""
     if not pygame.display.get_init() or pygame.display.get_surface() is None:
         return False

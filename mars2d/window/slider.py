@@ -122,7 +122,7 @@ class SpeedSlider(Slider):
         if hovered and pointer is not None:
             wanted = self.speed_at(pointer[0])
             place = round(self.x_of(wanted or 1.0)), rect.top - round(4 * ui)
-            draw_tooltip(surface, painter, times(wanted or 1.0), place)
+            draw_tooltip(surface, painter, times(wanted or 1.0), midbottom=place)
 
     def _arrange(self, rect: pygame.Rect, ui: float) -> None:
         pad = round(16 * ui)
@@ -174,13 +174,14 @@ class SpeedSlider(Slider):
 
 
 def draw_tooltip(
-    surface: pygame.Surface, painter: Painter, text: str, foot: tuple[int, int]
+    surface: pygame.Surface, painter: Painter, text: str, **place: tuple[int, int]
 ) -> pygame.Rect:
-    """Draw a word on a plate above a pixel, within the surface; return the plate."""
+    """Draw a word on a plate, within the surface; return the plate. place: as for `get_rect`."""
     ui, theme = painter.ui, painter.theme
     image = painter.fonts.render(text, 13 * ui, theme.ink, bold=True)
     plate = pygame.Rect(0, 0, image.get_width() + round(16 * ui), round(26 * ui))
-    plate.midbottom = foot
+    for name, pixel in place.items():
+        setattr(plate, name, pixel)
     plate.clamp_ip(surface.get_rect())
     painter.panel(surface, plate, theme.plate, 6 * ui, theme.key_edge)
     surface.blit(image, image.get_rect(center=plate.center))

@@ -142,7 +142,7 @@ class TimeBar(Slider):
         if hovered and pointer is not None:
             row = self.row_at(pointer[0])
             place = round(self.x_of(row or 0)), rect.top - round(4 * ui)
-            draw_tooltip(surface, painter, _time(row or 0, state), place)
+            draw_tooltip(surface, painter, _time(row or 0, state), midbottom=place)
 
     def _arrange(self, rect: pygame.Rect, painter: Painter, state: TimeState) -> None:
         """Place the line between the labels of its ends; leave them out if it would be short."""

@@ -23,6 +23,7 @@ from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
 from mars2d.window import keys
+from mars2d.window.context import entries_of_body, entries_of_place
 from mars2d.window.controls import Controls, Marks
 from mars2d.window.desktop import desktop_scale, opening_size
 from mars2d.window.director import Director
@@ -38,6 +39,7 @@ from mars2d.window.ghosts import ghosts
 from mars2d.window.grab import CLICK, Grab
 from mars2d.window.help import Help
 from mars2d.window.inspector import Inspector
+from mars2d.window.menu import Entry
 from mars2d.window.mouse import Mouse
 from mars2d.window.notes import Ending, Notes, Progress, draw_progress
 from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
@@ -45,6 +47,7 @@ from mars2d.window.player import Player
 from mars2d.window.reload import Reload
 from mars2d.window.saving import Saver
 from mars2d.window.source import Source
+from mars2d.window.toolbar import Toolbar, layer_entries
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 
@@ -57,6 +60,8 @@ HAND_HINTS = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go")
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
 LEAP = 10
 """How many steps PgDn and PgUp do, unless a number was typed."""
+ZOOM = 2.0
+"""How far a key zooms, in notches of the wheel."""
 RESERVE = 0.004
 """The time of a picture that is not used to prepare for going back, seconds."""
 TOGGLED = tuple(layer.name for layer in LAYERS if layer.key)
@@ -107,9 +112,10 @@ class Window:
         self._inspector = Inspector(self._painter)
         self._inspected = pygame.Rect(0, 0, 0, 0)  # where the inspector was drawn
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
+        handles = [*self._controls.handles, (self._closes, self._select_none)]
         self._mouse = Mouse(
-            self.player, self.viewpoint, self.grab, self._controls.handles,
-            self._is_picture, self._select_at,
+            self.player, self.viewpoint, self.grab, handles,
+            self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions: dict[str, Callable[[], None]] = {
             "pause": self.player.pause_or_resume,
@@ -119,10 +125,17 @@ class Window:
             "leap_back": lambda: self.player.back(self._keyboard.typed(LEAP)),
             "start": lambda: self.player.go(0),
             "newest": lambda: self.player.go(source.newest),
+            "loop": self._loop_or_not,
             "faster": self.player.faster,
             "slower": self.player.slower,
             "restart": self._restart,
             "branch": self._other_branch,
+            "undo": self._undo,
+            "layers": lambda: self.toolbar.open("layers", self._layer_entries),
+            "nearer": lambda: self.viewpoint.zoom(ZOOM, self.layout.plot.center),
+            "farther": lambda: self.viewpoint.zoom(-ZOOM, self.layout.plot.center),
+            "screen": self._fill_screen,
+            "close": self._close,
             **{layer: partial(self._toggle, layer) for layer in TOGGLED},
             "select": self._select_next,
             "follow": self._follow_or_not,
@@ -137,6 +150,7 @@ class Window:
             "help": self.help.turn,
             "leave": self._leave,
         }
+        self.toolbar = Toolbar(self._actions, self._is_on, live=timeline is not None)
 
     @property
     def camera(self) -> Camera:
@@ -301,15 +315,20 @@ class Window:
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
+        self.toolbar.draw(surface, layout, self._painter, self._pointer)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
 
     def _draw_bars(self, surface: pygame.Surface, frame: Frame, banner: Banner | None) -> None:
         """Draw the bars round the picture."""
         layout, painter = self.layout, self._painter
-        pointer = pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
         draw_header(surface, layout, painter, frame, self._status())
-        self._controls.draw(surface, layout, painter, pointer, self._mouse.drags)
+        self._controls.draw(surface, layout, painter, self._pointer, self._mouse.drags)
         draw_footer(surface, layout, painter, banner, summary(frame), self._hints())
+
+    @property
+    def _pointer(self) -> tuple[int, int] | None:
+        """Where the mouse is, if it is on the open window."""
+        return pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
 
     def _hints(self) -> Sequence[tuple[str, str]]:
         """Return the keys that are useful now, and their effects."""
@@ -354,7 +373,7 @@ class Window:
         """Return the layout on a surface of this size."""
         text, scale = self.text, self.scale
         height = footer_height(banner, size, self._painter, text, scale)
-        return Layout.of(size, height, text=text, scale=scale, timebar=True)
+        return Layout.of(size, height, text=text, scale=scale, controls=True)
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -367,8 +386,10 @@ class Window:
             self.editor.handle(event)
             if self.editor.dialogs.done:
                 self._close_editor(self.editor)
+        elif self.toolbar.handle(event):
+            self._meet()
         elif event.type == pygame.KEYDOWN:
-            self._press(event.key, event.unicode)
+            self._press(event.key, event.unicode, event.mod)
         elif event.type == pygame.KEYUP:
             self._keyboard.release(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
@@ -376,21 +397,55 @@ class Window:
         else:
             self._mouse.handle(event)
 
-    def _press(self, code: int, character: str) -> None:
-        key = self._keyboard.press(code, character, manual=self.player.manual)
+    def _press(self, code: int, character: str, modifiers: int) -> None:
+        key = self._keyboard.press(code, character, modifiers, manual=self.player.manual)
         if key is not None:
             self._actions[key.action]()
         self._keyboard.forget(code, character)
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether a pixel shows the picture, with nothing over it."""
-        over = self.help.is_open or self._inspected.collidepoint(pixel)
+        over = (
+            self.help.is_open or self._inspected.collidepoint(pixel) or self.toolbar.covers(pixel)
+        )
         return not over and self.layout.plot.collidepoint(pixel)
 
     def _select_at(self, point: Point) -> None:
         """Select the body at a point [m] of the picture, or nothing."""
         slack = self.grab.click / self.camera.scale
         self.selected = body_at(self.player.frame, point, slack)
+
+    def _offer(self, point: Point) -> None:
+        """Open the menu of what can be done with the thing at a point [m] of the picture."""
+        self._select_at(point)
+        ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
+        frame, body = self.player.frame, self.selected
+        if body is None:
+            entries = entries_of_place(point, self.grab.name, self.director, self._actions)
+        else:
+            entries = entries_of_body(frame, body, self.director, self._actions)
+        self.toolbar.menu.open("offer", lambda: entries, (x, y))
+
+    def _is_on(self, action: str) -> bool:
+        """Return whether what a button switches is on."""
+        return {
+            "pause": self.player.playing,
+            "loop": self.player.loop,
+            "layers": self.toolbar.menu.name == "layers",
+            "drive": self._drives,
+            "follow": self.viewpoint.following is not None,
+            "film": self.saver.filming,
+            "screen": pygame.display.is_fullscreen() if self._open else False,
+            "dark": self._painter.theme.dark,
+            "help": self.help.is_open,
+        }.get(action, False)
+
+    def _closes(self, pixel: tuple[int, int]) -> bool:
+        """Return whether a press at a pixel closes the inspector."""
+        return bool(self._inspected and self._inspector.closes.collidepoint(pixel))
+
+    def _select_none(self, _pixel: tuple[int, int]) -> None:
+        self.selected = None
 
     # -- commands -------------------------------------------------------------------------------
 
@@ -400,6 +455,26 @@ class Window:
         self.notes.clear()
         self.player.restart()
         self._meet()
+
+    def _loop_or_not(self) -> None:
+        """Begin again at the end, or no longer."""
+        self.player.loop = not self.player.loop
+
+    def _undo(self) -> None:
+        """Undo the last thing done by hand; a drag ends."""
+        self.grab.cancel()
+        self.director.undo()
+
+    def _layer_entries(self) -> list[Entry]:
+        return layer_entries(lambda name: getattr(self.layers, name), self._toggle)
+
+    def _fill_screen(self) -> None:
+        """Fill the screen with the window, or no longer."""
+        pygame.display.toggle_fullscreen()
+
+    def _close(self) -> None:
+        """Close the window."""
+        self._open = False
 
     def _other_branch(self) -> None:
         """Show another branch; a drag in the present one ends."""
@@ -436,7 +511,9 @@ class Window:
         """Close the help, end a drag, stop driving, select nothing, clear errors, or leave."""
         if self._keyboard.number:
             return  # only the typed number is forgotten
-        if self.help.is_open:
+        if self.toolbar.menu.is_open:
+            self.toolbar.menu.close()
+        elif self.help.is_open:
             self.help.close()
         elif self.grab.busy:
             self.grab.cancel()

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from mars2d.core.errors import InputError, LawError
 from mars2d.record.columns import DiskError
 from mars2d.record.frame import Frame
+from mars2d.record.interventions import Intervention, of_one_hand
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import check_alike, merged
@@ -250,6 +251,27 @@ class Timeline:
                     world.watch = None
                     self._past.waiting.append(world)
             raise
+
+    def undo(self, progress: Progress = lambda _: True) -> Intervention:
+        """Go on from before the last thing that was done by hand; return that.
+
+        The run with it becomes a branch. Raises InputError if there is nothing to undo, and as
+        `branch` does.
+        """
+        log = self._world.operator.log
+        if not log:
+            raise InputError("nothing was done by hand")
+        done = len(log) - 1
+        while done and of_one_hand(log[done - 1], log[done]):
+            done -= 1
+        row = log[done].row
+        self._past.forget_from(row)
+        self.remark = ""
+        world = self._past.world_at(replace(self._track, done=done), row, progress)
+        self.row = row
+        self._adopt(world)
+        self.remark = self._past.doubt
+        return log[done]
 
     def check(self, experiment: Experiment) -> None:
         """Raise InputError for an experiment that `take` can't go on with."""

@@ -8,6 +8,8 @@ how many come one after the other.
 import json
 import sys
 
+import pygame
+
 from mars2d.core.errors import LawError
 from mars2d.output.layers.table import LAYERS
 from mars2d.record.record import load
@@ -85,6 +87,11 @@ def state_of(window):
         "said": window.said,
         "banner": None if banner is None else banner.text,
         "line": None if banner is None or banner.excerpt is None else banner.excerpt.line,
+        "buttons": {name: place.center for name, place in window.toolbar.places.items()},
+        "menu": {title: at.center for title, at in window.toolbar.menu.places.items()},
+        "close": window._inspector.closes.center,
+        "loop": player.loop,
+        "full": pygame.display.is_fullscreen(),
         "filming": window.saver._film is not None,
         "editor": None if window.editor is None else editor_of(window.editor),
     }

@@ -42,7 +42,7 @@ def titled(frame, title):
 
 
 def header(frame, status, size=(1280, 720), text=1.0, theme=LIGHT):
-    layout, surface = Layout.of(size, text=text, timebar=True), Written(size)
+    layout, surface = Layout.of(size, text=text, controls=True), Written(size)
     draw_header(surface, layout, painter(layout, theme), frame, status)
     return surface
 
@@ -50,7 +50,7 @@ def header(frame, status, size=(1280, 720), text=1.0, theme=LIGHT):
 def footer(banner, size=(1280, 720), text=1.0):
     pens = painter(Layout.of(size, text=text), LIGHT)
     height = footer_height(banner, size, pens, text)
-    layout, surface = Layout.of(size, height, text=text, timebar=True), Written(size)
+    layout, surface = Layout.of(size, height, text=text, controls=True), Written(size)
     draw_footer(surface, layout, pens, banner, "20 robots  ·  sampling time 0.1 s", HINTS)
     return layout, surface
 
@@ -157,7 +157,7 @@ def test_without_a_banner_the_footer_has_its_height():
 
 
 def helped(size, text=1.0, groups=None, page=0):
-    layout, surface = Layout.of(size, text=text, timebar=True), Written(size)
+    layout, surface = Layout.of(size, text=text, controls=True), Written(size)
     groups = keys.GROUPS.items() if groups is None else groups
     pages = draw_help(surface, layout, painter(layout, LIGHT), groups, page)
     return layout, surface, pages

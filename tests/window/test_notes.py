@@ -19,7 +19,7 @@ class Board:
     """Notes on an empty picture."""
 
     def __init__(self, theme=LIGHT, size=(1280, 720), text=1.0):
-        self.layout = Layout.of(size, text=text, timebar=True)
+        self.layout = Layout.of(size, text=text, controls=True)
         self.painter = painter(self.layout, theme)
         self.notes, self.theme = Notes(), theme
         self.empty = self.draw(0.0)
@@ -122,7 +122,7 @@ def test_a_word_longer_than_a_line_is_shortened():
 @SIZES
 @pytest.mark.parametrize("text", TEXT_SIZES)
 def test_progress_says_what_and_how_far(size, text):
-    layout = Layout.of(size, text=text, timebar=True)
+    layout = Layout.of(size, text=text, controls=True)
     surface = Written(size)
     draw_progress(surface, layout.plot, painter(layout, LIGHT), Progress("Going back to 12 s", 0.4))
     assert surface.texts == ["Going back to 12 s", "40 %"]

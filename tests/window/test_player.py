@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pygame
 import pytest
 
 from mars2d import Robot, Scenario, World
@@ -232,6 +233,16 @@ def test_with_a_robot_selected_only_its_sensors_are_seen():
     assert [i for i, _ in sensed_by(world.frame, 2).readings["proximity"]] == [0, 1]  # it has none
 
 
+@pytest.mark.parametrize("manual", [False, True])
+def test_a_letter_with_ctrl_means_the_same_as_elsewhere_or_nothing(manual):
+    known = set()
+    for letter in "abcdefghijklmnopqrstuvwxyz":
+        held = keys.Keyboard()
+        if held.press(ord(letter), "", pygame.KMOD_LCTRL, manual=manual) is not None:
+            known.add(letter)
+    assert known == set("qswz")  # no Ctrl+R, which elsewhere loads anew
+
+
 def test_every_key_has_its_own_command():
     names = [name for key in keys.KEYS for name in key.names]
     assert len(names) == len(set(names))
@@ -244,7 +255,7 @@ def test_every_key_has_its_own_command():
     [
         ("space", " ", "pause"), ("right", "", "step"), ("=", "=", "faster"), ("=", "+", "faster"),
         ("]", "+", "faster"), ("[+]", "+", "faster"), ("-", "-", "slower"), ("f1", "", "help"),
-        ("escape", "", "leave"), ("a", "a", None), ("left shift", "", None), ("return", "", None),
+        ("escape", "", "leave"), ("k", "k", None), ("left shift", "", None), ("return", "", None),
     ],
 )  # fmt: skip
 def test_what_keys_do(name, character, action):
@@ -343,7 +354,7 @@ def test_where_a_restart_fails_it_is_told_at_the_newest_step():
 @pytest.mark.parametrize(
     ("name", "action"),
     [
-        ("space", "step"), ("return", "step"), ("right", "step"), ("a", "step"), ("up", "step"),
+        ("space", "step"), ("return", "step"), ("right", "step"), ("k", "step"), ("up", "step"),
         ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),
         ("tab", "select"), ("escape", "leave"),
         ("left shift", None), ("left ctrl", None),

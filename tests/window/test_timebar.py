@@ -24,7 +24,7 @@ class Drawn:
     """A time bar on a surface; `at` are the colours along its line."""
 
     def __init__(self, shown, theme=LIGHT, size=(1280, 720), text=1.0, **options):
-        self.layout = Layout.of(size, text=text, timebar=True)
+        self.layout = Layout.of(size, text=text, controls=True)
         self.bar, self.surface = TimeBar(), Written(size)
         self.theme = theme
         self.bar.draw(
@@ -158,7 +158,7 @@ class Slid:
     """A slider on a surface."""
 
     def __init__(self, speed, reached=None, theme=LIGHT, size=(1280, 720), text=1.0, **options):
-        self.layout = Layout.of(size, text=text, timebar=True)
+        self.layout = Layout.of(size, text=text, controls=True)
         self.slider, self.surface = SpeedSlider(RUNGS), Written(size)
         self.slider.draw(
             self.surface, self.layout.slider, painter(self.layout, theme), speed, reached, **options

@@ -395,6 +395,7 @@ def test_a_display_is_found(no_display, monkeypatch, screen):
 ON_A_KEYBOARD = {
     "page down": "Next", "page up": "Prior", "right": "Right", "left": "Left", "home": "Home",
     "end": "End", "+": "plus", "-": "minus", "tab": "Tab", "f1": "F1", "escape": "Escape",
+    "ctrl++": "ctrl+plus", "ctrl+-": "ctrl+minus", "f11": "F11",
 }  # fmt: skip
 """What xdotool calls keys that pygame calls otherwise."""
 
@@ -403,6 +404,7 @@ GESTURES = {
     "pan": "test_a_drag_of_the_picture_pans_and_selects_nothing",
     "pick": "test_a_click_selects_a_robot_and_shows_the_force_on_it",
     "carry": "test_escape_puts_back_what_is_carried_and_a_right_drag_turns",
+    "menu": "test_a_right_click_opens_what_can_be_done_with_a_body",
     "turn": "test_escape_puts_back_what_is_carried_and_a_right_drag_turns",
 }
 

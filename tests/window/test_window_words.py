@@ -114,7 +114,7 @@ def test_what_is_said_is_in_no_film(window):
     def seen():
         surface = Written(LARGE)
         window.draw(surface)
-        return pygame.image.tobytes(surface, "RGB")
+        return pygame.image.tobytes(surface.subsurface(window.layout.plot), "RGB")
 
     bare = seen()
     window.notes.say("filming; V ends the film")

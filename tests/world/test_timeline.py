@@ -264,6 +264,45 @@ def test_what_hands_did_is_done_again(memory, row):
         assert np.array_equal(again.messages["status"], before.messages["status"])
 
 
+def test_what_hands_did_is_undone_and_the_run_with_it_is_a_branch(written):
+    experiment = open_experiment(written(UNDONE))
+    timeline = Timeline(experiment)
+    for _ in range(10):
+        timeline.advance()
+    untouched = timeline.world.pose.copy()
+    timeline.change(lambda world: world.operator.place("crate", (2, 2, 0)))
+    timeline.change(lambda world: world.operator.steer("red", (0.5, 0)))
+    for _ in range(3):
+        timeline.advance()
+        timeline.change(lambda world: world.operator.steer("red", (0.5, 0.1 * world.iteration)))
+    steered = timeline.undo()  # the whole drive
+    assert (steered.row, timeline.row, timeline.newest) == (10, 10, 10)
+    assert timeline.world.prop_pose[:2, 0].tolist() == [2, 2]
+    assert [branch.iteration for branch in timeline.branches] == [13]
+    timeline.undo()
+    assert timeline.world.prop_pose[:2, 0].tolist() == [0, 0]
+    assert np.array_equal(timeline.world.pose, untouched)
+    while not timeline.world.over:
+        timeline.advance()
+    assert timeline.world.record.digest == simulate(experiment.reopened()).record.digest
+    with pytest.raises(InputError, match="nothing was done by hand"):
+        timeline.undo()
+
+
+UNDONE = """
+from mars2d import Robot, Scenario
+from mars2d.bodies.props import Box
+
+def ahead(robot):
+    return 0.1, 0.3
+
+scenario = Scenario(
+    robots=[Robot(name="red", pose=(-2, 0, 0), controller=ahead)],
+    props=[Box(name="crate", length=0.4, width=0.4)], stop_time=2.0, sampling_time=0.1,
+)
+"""
+
+
 def test_hands_let_go_where_a_branch_begins(memory):
     timeline = Timeline(open_experiment(memory), 3)
     poke(timeline)

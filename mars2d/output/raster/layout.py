@@ -16,6 +16,8 @@ TEXT_SIZES = (1.0, 1.3, 1.7, 2.2)
 HEADER, FOOTER, STRIP = 52.0, 44.0, 44.0
 """The heights of header, footer and time bar, points. A banner of one line has the
 height of the footer, which it replaces."""
+TRANSPORT, TOOLS = 244.0, 44.0
+"""The width of the buttons beside the time bar, and that of the toolbar, points."""
 MIN_WIDTH = 400.0
 """The least width of a surface, points, which limits the size of text."""
 MAX_BARS_SHARE = 0.45
@@ -26,7 +28,8 @@ MAX_BARS_SHARE = 0.45
 class Layout:
     """The rectangles of the parts of a surface; ui: pixels per point.
 
-    timebar, slider: side by side between the picture and the footer; empty if left out.
+    transport, timebar, slider: side by side between the picture and the footer. tools: the toolbar
+    at the left of the picture. These are empty if left out.
     """
 
     ui: float
@@ -35,6 +38,8 @@ class Layout:
     footer: pygame.Rect
     timebar: pygame.Rect
     slider: pygame.Rect
+    transport: pygame.Rect
+    tools: pygame.Rect
 
     @property
     def size(self) -> tuple[int, int]:
@@ -49,26 +54,32 @@ class Layout:
         *,
         text: float = 1.0,
         scale: float = 1.0,
-        timebar: bool = False,
+        controls: bool = False,
     ) -> Layout:
         """Divide a surface of `size` pixels; `footer_height` in points.
 
-        text: a factor for all text and lines. scale: the desktop's scaling factor.
+        text: a factor for all text and lines. scale: the desktop's scaling factor. controls:
+        whether there are buttons, a time bar and a slider of the speed.
         """
         width, height = size
         ui = interface_scale(size, text, scale)
         top = round(HEADER * ui)
-        strip = min(round(STRIP * ui), max(0, height - top - 40)) if timebar else 0
+        strip = min(round(STRIP * ui), max(0, height - top - 40)) if controls else 0
         bottom = min(round(footer_height * ui), max(0, height - top - strip - 40))
         foot = height - bottom
-        right = round(min(max(0.27 * width, 170 * ui), 290 * ui, 0.38 * width)) if strip else 0
+        right = round(min(max(0.24 * width, 160 * ui), 290 * ui, 0.32 * width)) if strip else 0
+        buttons = round(min(TRANSPORT * ui, 0.36 * width)) if strip else 0
+        tools = round(min(TOOLS * ui, 0.1 * width)) if controls else 0
+        plot = max(1, height - top - strip - bottom)
         return cls(
             ui,
-            pygame.Rect(0, 0, width, top),
-            pygame.Rect(0, top, width, max(1, height - top - strip - bottom)),
-            pygame.Rect(0, foot, width, bottom),
-            pygame.Rect(0, foot - strip, width - right, strip),
-            pygame.Rect(width - right, foot - strip, right, strip),
+            header=pygame.Rect(0, 0, width, top),
+            plot=pygame.Rect(tools, top, width - tools, plot),
+            footer=pygame.Rect(0, foot, width, bottom),
+            timebar=pygame.Rect(buttons, foot - strip, width - buttons - right, strip),
+            slider=pygame.Rect(width - right, foot - strip, right, strip),
+            transport=pygame.Rect(0, foot - strip, buttons, strip),
+            tools=pygame.Rect(0, top, tools, plot),
         )
 
 

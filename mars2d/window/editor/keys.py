@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import pygame
-
-from mars2d.window.keys import Key
+from mars2d.window.keys import Key, chord
 
 __all__ = ["GROUPS", "MOUSE", "action_of", "chord", "groups"]
 
@@ -84,16 +82,6 @@ def groups(*, live: bool) -> tuple[tuple[str, tuple[Key, ...]], ...]:
 _COMMON = {name: key for group in (TOOLS, EDIT, VIEW, FILE) for key in group for name in key.names}
 _RUN = {name: key for key in RUN for name in key.names}
 _LIVE = {name: key for key in LIVE for name in key.names}
-
-
-def chord(code: int, modifiers: int) -> str:
-    """Return the name of a key with its modifiers, for example ``ctrl+shift+z``."""
-    parts = []
-    if modifiers & (pygame.KMOD_CTRL | pygame.KMOD_META):
-        parts.append("ctrl")
-    if modifiers & pygame.KMOD_SHIFT:
-        parts.append("shift")
-    return "+".join([*parts, pygame.key.name(code)])
 
 
 def action_of(name: str, character: str, *, live: bool) -> Key | None:

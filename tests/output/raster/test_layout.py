@@ -19,7 +19,7 @@ def parts(layout):
 @every_size
 @every_text
 def test_the_parts_cover_the_surface_and_do_not_overlap(size, text):
-    layout = Layout.of(size, text=text, timebar=True)
+    layout = Layout.of(size, text=text, controls=True)
     assert not any(a.colliderect(b) for a, b in combinations(parts(layout), 2))
     assert sum(part.width * part.height for part in parts(layout)) == size[0] * size[1]
     assert layout.plot.height >= 0.5 * size[1]
@@ -50,9 +50,9 @@ def test_pictures_have_no_time_bar_and_are_laid_out_as_they_were(size):
 @every_text
 @pytest.mark.parametrize("scale", [1.25, 2.0, 3.0])
 def test_on_a_sharp_screen_everything_is_as_large_as_on_another_one(scale, text):
-    once = Layout.of((1280, 720), text=text, timebar=True)
+    once = Layout.of((1280, 720), text=text, controls=True)
     sharp = Layout.of(
-        (round(1280 * scale), round(720 * scale)), text=text, scale=scale, timebar=True
+        (round(1280 * scale), round(720 * scale)), text=text, scale=scale, controls=True
     )
     assert sharp.ui == pytest.approx(scale * once.ui)
     for a, b in zip(parts(once), parts(sharp), strict=True):
@@ -62,7 +62,7 @@ def test_on_a_sharp_screen_everything_is_as_large_as_on_another_one(scale, text)
 @pytest.mark.parametrize("size", [(16, 16), (60, 40), (200, 100), (3000, 60)])
 @every_text
 def test_the_smallest_surfaces_break_nothing(size, text):
-    layout = Layout.of(size, 400.0, text=text, timebar=True)
+    layout = Layout.of(size, 400.0, text=text, controls=True)
     assert layout.plot.width > 0
     assert layout.plot.height > 0
     assert all(part.width >= 0 and part.height >= 0 for part in parts(layout))

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
+from mars2d.output.controls import CONTROLS, PAUSE
 from mars2d.output.pages.replay.content import content_of
 from mars2d.output.raster.theme import DARK, LIGHT, Theme
 
@@ -82,7 +83,11 @@ def player(title: str, data: str, first: str = "") -> str:
         "style": page_style(),
         "script": script,
         "data": data,
+        "PAUSE": PAUSE,
     }
+    for name, control in CONTROLS.items():
+        parts = {"title": control.title, "tip": control.tip, "icon": control.icon}
+        words |= {f"{name}.{part}": text for part, text in parts.items()}
     return filled(_read("replay.html"), words)
 
 

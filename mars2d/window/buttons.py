@@ -1,0 +1,120 @@
+"""Bars of buttons with icons, and what they say beside the pointer."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
+
+import pygame
+
+from mars2d.output.controls import CONTROLS, PAUSE
+from mars2d.output.raster.painter import Painter
+from mars2d.window.slider import draw_tooltip
+
+__all__ = ["Buttons", "draw_icon"]
+
+SIDE, GAP = 36.0, 2.0
+"""A button's side, and the gap between two, points."""
+BREAK = 0.35
+"""The gap between two groups, in sides."""
+ICON = 0.56
+"""An icon's side, in sides of its button."""
+
+SVG = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24" width="24" height="24"><path '
+    'fill="none" stroke="{}" stroke-width="2" stroke-linecap="round" stroke-linejoin="round" '
+    'd="{}"/></svg>'
+)
+
+
+class Buttons:
+    """A row or column of buttons in groups, each with the name of one of `CONTROLS`.
+
+    lit: whether a button shows that what it switches is on.
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Sequence[str]],
+        actions: Mapping[str, Callable[[], None]],
+        lit: Callable[[str], bool],
+    ) -> None:
+        """Start with nothing drawn."""
+        self._groups, self._actions, self._lit = groups, actions, lit
+        self.places: dict[str, pygame.Rect] = {}
+        self._upright = False
+
+    def at(self, pixel: tuple[int, int]) -> str | None:
+        """Return the name of the button at a pixel, if there is one."""
+        return next(
+            (name for name, place in self.places.items() if place.collidepoint(pixel)), None
+        )
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Do what a button is for that the left mouse button is pressed on; return whether so."""
+        if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
+            return False
+        name = self.at(event.pos)
+        if name is not None:
+            self._actions[name]()
+        return name is not None
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        area: pygame.Rect,
+        painter: Painter,
+        pointer: tuple[int, int] | None,
+    ) -> None:
+        """Draw all buttons along the longer side of an area."""
+        self._arrange(area, painter.ui)
+        theme = painter.theme
+        for name, place in self.places.items():
+            on, hover = self._lit(name), pointer is not None and place.collidepoint(pointer)
+            if on or hover:
+                fill = theme.running.pale if on else theme.key
+                edge = theme.selected if on else theme.key_edge
+                painter.panel(surface, place, fill, 0.18 * place.width, edge)
+            icon = PAUSE if name == "pause" and on else CONTROLS[name].icon
+            draw_icon(surface, icon, theme.running.ink if on else theme.text, place)
+
+    def draw_tip(
+        self, surface: pygame.Surface, painter: Painter, pointer: tuple[int, int] | None
+    ) -> None:
+        """Say what the button under the pointer is for."""
+        name = None if pointer is None else self.at(pointer)
+        if name is None:
+            return
+        place, gap = self.places[name], round(6 * painter.ui)
+        beside = place.inflate(2 * gap, 2 * gap)
+        at = {"midleft": beside.midright} if self._upright else {"midbottom": beside.midtop}
+        draw_tooltip(surface, painter, CONTROLS[name].tip, **at)
+
+    def _arrange(self, area: pygame.Rect, ui: float) -> None:
+        """Lay out the buttons in an area, smaller if they would not fit."""
+        upright = self._upright = area.height > area.width
+        long, thick = (area.height, area.width) if upright else (area.width, area.height)
+        count = sum(map(len, self._groups)) + BREAK * len(self._groups)
+        gap = round(GAP * ui)
+        side = round(max(8, min(SIDE * ui, thick - 2 * gap, long / count - gap)))
+        along, across = round(0.5 * BREAK * side) + gap, (thick - side) // 2
+        self.places = {}
+        for group in self._groups:
+            for name in group:
+                x, y = (across, along) if upright else (along, across)
+                self.places[name] = pygame.Rect(area.left + x, area.top + y, side, side)
+                along += side + gap
+            along += round(BREAK * side)
+
+
+def draw_icon(surface: pygame.Surface, path: str, color: str, place: pygame.Rect) -> None:
+    """Draw an icon, the path of an SVG picture, in the middle of a rectangle."""
+    image = _icon(path, color, max(4, round(ICON * place.width)))
+    surface.blit(image, image.get_rect(center=place.center))
+
+
+@lru_cache(maxsize=256)
+def _icon(path: str, color: str, side: int) -> pygame.Surface:
+    picture = io.BytesIO(SVG.format(color, path).encode())
+    return pygame.image.load_sized_svg(picture, (side, side))

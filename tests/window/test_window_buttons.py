@@ -1,0 +1,219 @@
+"""The buttons and menus of the window, pressed with a real mouse."""
+
+import pytest
+
+from mars2d import run
+from mars2d.output.controls import CONTROLS
+from mars2d.output.layers.table import LAYERS
+from mars2d.window import keys, toolbar
+from tests.window.person import needs_screen
+
+pytestmark = needs_screen
+
+
+def push(window, button):
+    """Press a button of the toolbar."""
+    window.do("mousemove", *window.state["buttons"][button], "click", 1)
+
+
+def choose(window, title):
+    """Choose an entry of the open menu."""
+    window.until(lambda s: title in s["menu"])
+    window.do("mousemove", *window.state["menu"][title], "click", 1)
+
+
+def offered(window, x, y):
+    """Click with the right button on a point [m], and return the titles of the menu."""
+    window.click(x, y, button=3)
+    return set(window.until(lambda s: s["menu"])["menu"])
+
+
+def test_time_is_told_by_buttons(open_window):
+    window = open_window(1, rows=60)
+    push(window, "pause")
+    row = window.until(lambda s: not s["playing"])["row"]
+    push(window, "step")
+    window.until(lambda s: s["row"] == row + 1)
+    push(window, "back")
+    window.until(lambda s: s["row"] == row)
+    push(window, "start")
+    window.until(lambda s: s["row"] == 0)
+    push(window, "newest")
+    window.until(lambda s: s["row"] == s["newest"] > 0)
+    push(window, "pause")
+    window.until(lambda s: s["playing"])
+    window.until(lambda s: s["over"])
+    push(window, "loop")
+    window.until(lambda s: s["loop"] and s["past"] and s["playing"])
+    push(window, "loop")
+    window.until(lambda s: not s["loop"] and s["over"])
+
+
+def test_at_the_end_play_begins_again_and_j_loops(open_window):
+    window = open_window(20, rows=20)
+    window.until(lambda s: s["over"])
+    window.press("space")
+    window.until(lambda s: s["past"] and s["playing"])
+    window.until(lambda s: s["over"])
+    window.press("j")
+    window.until(lambda s: s["loop"] and s["past"])
+    window.press("j")
+    window.until(lambda s: s["over"] and not s["loop"])
+
+
+def test_layers_are_chosen_from_a_menu_that_stays_open(open_window):
+    window = open_window(0)
+    push(window, "layers")
+    for layer in (each for each in LAYERS if each.switch):
+        was = window.state["layers"][layer.name]
+        choose(window, layer.title)
+        window.until(lambda s, name=layer.name, was=was: s["layers"][name] is not was)
+    push(window, "layers")
+    window.until(lambda s: not s["menu"])
+    window.press("a")
+    window.until(lambda s: "Grid" in s["menu"])
+    window.press("Escape")
+    window.until(lambda s: not s["menu"])
+    assert window.process.poll() is None
+
+
+def test_a_menu_closes_where_one_clicks_beside_it(open_window):
+    window = open_window(0)
+    push(window, "layers")
+    window.until(lambda s: s["menu"])
+    window.do("mousemove", 600, 300, "click", 1)
+    window.until(lambda s: not s["menu"])
+
+
+def test_buttons_and_keys_zoom_and_follow(open_window):
+    window = open_window(0)
+    scale = window.state["scale"]
+    window.press("ctrl+plus")
+    window.until(lambda s: s["scale"] > scale)
+    window.press("ctrl+minus")
+    window.until(lambda s: s["scale"] == pytest.approx(scale, rel=1e-2))
+    window.press("ctrl+plus")
+    push(window, "fit")
+    window.until(lambda s: s["scale"] == scale)
+    push(window, "follow")
+    window.until(lambda s: s["following"])
+
+
+def test_buttons_drive_draw_and_begin_anew(open_window, room):
+    window = open_window(0, experiment=str(room))
+    push(window, "drive")
+    window.until(lambda s: s["driving"] == 0)
+    push(window, "drive")
+    window.until(lambda s: s["driving"] is None)
+    push(window, "step")
+    window.until(lambda s: s["row"] == 1)
+    push(window, "restart")
+    window.until(lambda s: s["newest"] == 0)
+    push(window, "branch")
+    window.says("no other branch")
+    push(window, "edit")
+    window.until(lambda s: s["editor"] is not None)
+
+
+def test_buttons_save(open_window, tmp_path):
+    window = open_window(0, folder=tmp_path)
+    for button, suffix in (("picture", ".png"), ("python", ".py")):
+        push(window, button)
+        window.until(lambda _, suffix=suffix: list(tmp_path.glob(f"*{suffix}")))
+    push(window, "film")
+    window.until(lambda s: s["filming"])
+    push(window, "film")
+    window.until(lambda s: not s["filming"])
+
+
+def test_buttons_change_how_it_looks(open_window):
+    window = open_window(0)
+    push(window, "dark")
+    window.until(lambda s: s["dark"])
+    push(window, "text")
+    window.until(lambda s: s["text"] > 1)
+    push(window, "help")
+    window.until(lambda s: s["help"] == 0)
+    window.press("Escape")
+    window.until(lambda s: s["help"] is None)
+    push(window, "screen")
+    window.until(lambda s: s["full"])
+    window.press("F11")
+    window.until(lambda s: not s["full"])
+
+
+def test_a_recording_offers_nothing_that_changes_it(open_window, room, tmp_path):
+    path = tmp_path / "run.npz"
+    run(str(room), stop_time=1.0, show=False).save(path)
+    window = open_window(0, record=str(path))
+    assert not {"drive", "edit", "restart", "branch"} & window.state["buttons"].keys()
+    assert offered(window, 1, -1) == {"Follow with the camera", "Copy its pose"}
+
+
+def test_a_right_click_opens_what_can_be_done_with_a_body(open_window, room):
+    window = open_window(0, experiment=str(room))
+    assert "Drive by hand" not in offered(window, 1, -1)  # a crate
+    choose(window, "Follow with the camera")
+    window.until(lambda s: s["following"] and s["selected"] == 2)
+    push(window, "fit")
+    window.until(lambda s: not s["following"])
+    window.drag((1, -1), (1.2, 0), (1.5, 0.5))
+    window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
+    offered(window, 1.5, 0.5)
+    choose(window, "Put back to its start")
+    window.until(lambda s: s["props"][0] == [1, -1, 0])
+    window.do("mousemove", *window.state["close"], "click", 1)  # the inspector covers red
+    window.until(lambda s: s["selected"] is None)
+    offered(window, -2, 0.5)
+    choose(window, "Drive by hand")
+    window.until(lambda s: s["driving"] == 0)
+
+
+def test_a_right_click_makes_a_body_heavier_and_removes_it(open_window, room):
+    window = open_window(0, experiment=str(room))
+    offered(window, 1, -1)
+    choose(window, "Twice as heavy")
+    window.says("crate with a mass of 4 kg")
+    offered(window, 1, -1)
+    choose(window, "Half as heavy")
+    window.says("crate with a mass of 2 kg")
+    offered(window, 1, -1)
+    choose(window, "Copy its pose")
+    window.says("(1, -1, 0)")
+    offered(window, 1, -1)
+    choose(window, "Remove, and start anew")
+    window.until(lambda s: s["props"] == [])
+
+
+def test_a_right_click_on_the_floor_shows_all_and_undoes(open_window, room):
+    window = open_window(0, experiment=str(room))
+    window.press("ctrl+z")
+    window.says("nothing was done by hand")
+    window.drag((1, -1), (1.2, 0), (1.5, 0.5))
+    window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
+    window.press("Right", "Right")
+    window.until(lambda s: s["row"] == 2)
+    offered(window, 0, 1.5)
+    choose(window, "Undo what was done by hand")
+    window.until(lambda s: s["props"][0] == [1, -1, 0] and s["row"] == 0 and s["branches"] == 1)
+    offered(window, 0, 1.5)
+    choose(window, "Copy the point")
+    window.says("(")
+    offered(window, 2.5, 0)  # a wall
+    choose(window, "Draw walls and more")
+    window.until(lambda s: s["editor"] is not None)
+
+
+def test_ctrl_q_closes_the_window(open_window):
+    window = open_window(0)
+    window.press("ctrl+r")
+    window.settle()
+    window.press("ctrl+q")
+    window.process.wait(60)
+
+
+def test_every_button_has_a_key_of_the_same_label():
+    by_action = {key.action: key for key in keys.KEYS}
+    groups = (*toolbar.TRANSPORT, toolbar.SEE, toolbar.CHANGE, toolbar.SAVE, toolbar.LOOK)
+    for name in (name for group in groups for name in group):
+        assert CONTROLS[name].key == by_action[name].labels[0], name
