@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
+from math import ceil
 
 import pygame
 
@@ -92,20 +93,26 @@ class Buttons:
         draw_tooltip(surface, painter, CONTROLS[name].tip, **at)
 
     def _arrange(self, area: pygame.Rect, ui: float) -> None:
-        """Lay out the buttons in an area, smaller if they would not fit."""
+        """Lay out the buttons in an area: in two columns or smaller if they would not fit."""
         upright = self._upright = area.height > area.width
         long, thick = (area.height, area.width) if upright else (area.width, area.height)
-        count = sum(map(len, self._groups)) + BREAK * len(self._groups)
         gap = round(GAP * ui)
-        side = round(max(8, min(SIDE * ui, thick - 2 * gap, long / count - gap)))
-        along, across = round(0.5 * BREAK * side) + gap, (thick - side) // 2
+
+        def side_in(lanes: int) -> int:
+            rows = sum(ceil(len(group) / lanes) for group in self._groups)
+            each = long / (rows + BREAK * len(self._groups)) - gap
+            return round(max(8, min(SIDE * ui, thick / lanes - 2 * gap, each)))
+
+        lanes = max((1, 2), key=lambda lanes: (side_in(lanes), -lanes))
+        side = side_in(lanes)
+        along, first = round(0.5 * BREAK * side) + gap, (thick - lanes * (side + gap) + gap) // 2
         self.places = {}
         for group in self._groups:
-            for name in group:
-                x, y = (across, along) if upright else (along, across)
+            for k, name in enumerate(group):
+                x, y = first + k % lanes * (side + gap), along + k // lanes * (side + gap)
+                x, y = (x, y) if upright else (y, x)
                 self.places[name] = pygame.Rect(area.left + x, area.top + y, side, side)
-                along += side + gap
-            along += round(BREAK * side)
+            along += ceil(len(group) / lanes) * (side + gap) + round(BREAK * side)
 
 
 def draw_icon(surface: pygame.Surface, path: str, color: str, place: pygame.Rect) -> None:

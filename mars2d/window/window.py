@@ -470,7 +470,10 @@ class Window:
 
     def _fill_screen(self) -> None:
         """Fill the screen with the window, or no longer."""
-        pygame.display.toggle_fullscreen()
+        try:
+            pygame.display.toggle_fullscreen()
+        except pygame.error as error:
+            self.notes.say(f"no full screen here: {error}", "warning")
 
     def _close(self) -> None:
         """Close the window."""

@@ -55,7 +55,7 @@ from mars2d.sensors import Proximity, RangeFinder
 
 def wander(robot):
     robot.send(robot.pose[0])
-    if robot.sense.proximity < 0.5:
+    if robot.sense.proximity:
         return 0.05, 1.5
     return 0.3, robot.rng.normal()
 

@@ -185,7 +185,7 @@ def test_a_click_selects_a_robot_and_shows_the_force_on_it(open_window):
     window = open_window(0, pressed=True)
     window.press(*["Right"] * 5)
     window.until(lambda s: s["row"] == 5)
-    window.do("mousemove", 20, 300)
+    window.do("mousemove", 60, 300)
     before = window.still()
     (first, second), away = window.state["robots"], (-4, -4)
     window.click(*first[:2])
@@ -254,7 +254,7 @@ def test_l_follows_what_is_selected_until_the_picture_is_dragged(open_window):
     def off_center(state):
         (left, top), scale = state["origin"], state["scale"]
         x, y, _ = state["robots"][0]
-        return np.hypot(left + scale * x - 400, top - scale * y - 280)
+        return np.hypot(left + scale * x - 420, top - scale * y - 280)
 
     window.until(lambda s: s["time"] > 2 and off_center(s) < 130)  # beside the inspector
     later = window.until(lambda s: s["time"] > 4)
@@ -266,7 +266,7 @@ def test_l_follows_what_is_selected_until_the_picture_is_dragged(open_window):
     window.slide((300, 450), (340, 440))
     window.until(lambda s: not s["following"])
     window.press("l", "f")
-    window.until(lambda s: not s["following"] and s["origin"][0] == pytest.approx(400, abs=1))
+    window.until(lambda s: not s["following"] and s["origin"][0] == pytest.approx(420, abs=1))
 
 
 # -- the ends -------------------------------------------------------------------------------------
@@ -276,7 +276,7 @@ def test_l_follows_what_is_selected_until_the_picture_is_dragged(open_window):
 def test_manual_mode_is_one_step_a_key(open_window):
     window = open_window(0)
     before = window.still()
-    for count, key in enumerate(["space", "Return", "Right", "a", "Down"], 1):
+    for count, key in enumerate(["space", "Return", "Right", "k", "Down"], 1):
         window.press(key)
         window.until(lambda s, count=count: s["row"] == count)
     window.press("shift", "g")
