@@ -80,18 +80,25 @@ class Inspector:
         self._drawn_at = 0.0
         self.closes = pygame.Rect(0, 0, 0, 0)  # where a press closes it
 
-    def place(self, plot: pygame.Rect, body: tuple[float, float]) -> pygame.Rect | None:
+    def width(self, plot: pygame.Rect) -> int:
+        """Return the inspector's width with the gaps beside it, pixels."""
+        ui = self.painter.ui
+        return round(min(WIDTH * ui, MAX_SHARE * plot.width)) + 2 * round(12 * ui)
+
+    def place(self, plot: pygame.Rect, body: tuple[float, float] | None) -> pygame.Rect | None:
         """Return the inspector's place: at the right of the picture, or left if the body is there.
 
-        body: its position, pixels. None if the picture is too small.
+        body: its position, pixels; None: it is elsewhere. None if the picture is too small.
         """
         ui, gap = self.painter.ui, round(12 * self.painter.ui)
-        width = round(min(WIDTH * ui, MAX_SHARE * plot.width))
+        width = self.width(plot) - 2 * gap
         height = plot.height - 2 * gap
         if width < MIN_WIDTH * ui or height < MIN_HEIGHT * ui:
             return None
         left = pygame.Rect(plot.left + gap, plot.top + gap, width, height)
         right = left.move(plot.width - 2 * gap - width, 0)
+        if body is None:
+            return right
         near = round(60 * ui)
         hides = (left if self._left else right).inflate(near, near).collidepoint(body)
         hides_too = (right if self._left else left).inflate(near, near).collidepoint(body)

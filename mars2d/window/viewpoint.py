@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from math import exp, hypot, log
 
 import numpy as np
@@ -21,6 +22,9 @@ REST = 0.12
 """The camera counts as moving for this long after its last move, seconds."""
 MAX_ZOOM, MIN_ZOOM = 400.0, 0.05
 """The range of the scale, in multiples of that at which the workspace fits."""
+
+BESIDE = 0.75
+"""The smallest scale beside a panel, in parts of that without one; else the panel covers a part."""
 
 PULL = 7.0
 """How quickly the camera approaches its aim, critically damped, 1/s."""
@@ -49,18 +53,28 @@ class Viewpoint:
         self.following: Follow | None = None
         self._scenario = scenario
         self._fits = True
+        self._beside, self._makes_room = 0, False
         self._hurry = 0.0
         self.camera = self._fitted()
+
+    @property
+    def makes_room(self) -> bool:
+        """Whether the workspace is seen beside a panel at the right, which covers none of it."""
+        return self._makes_room and self._fits
 
     @property
     def hurried(self) -> bool:
         """Whether the camera is moving."""
         return time.perf_counter() < self._hurry
 
-    def arrange(self, layout: Layout, scenario: Scenario) -> None:
-        """Change the layout. The view stays in place, or fitted to the workspace if it was."""
+    def arrange(self, layout: Layout, scenario: Scenario, beside: int = 0) -> None:
+        """Change the layout. The view stays in place, or fitted to the workspace if it was.
+
+        beside: the width of a panel at the right that should not cover the workspace, pixels.
+        """
         before, self.layout = self.layout, layout
-        same = scenario.bounds == self._scenario.bounds
+        same = scenario.bounds == self._scenario.bounds and beside == self._beside
+        self._beside = beside
         self._scenario = scenario
         if self._fits and not (same and layout == before):
             self.fit()
@@ -104,7 +118,13 @@ class Viewpoint:
         self._hurry = time.perf_counter() + REST
 
     def _fitted(self) -> Camera:
-        return fitted(self._scenario, self.layout.size, self.layout)
+        """Return the camera that shows the workspace, beside a panel if there is room for both."""
+        whole = fitted(self._scenario, self.layout.size, self.layout)
+        plot = self.layout.plot
+        rest = pygame.Rect(plot.left, plot.top, max(1, plot.width - self._beside), plot.height)
+        part = fitted(self._scenario, self.layout.size, replace(self.layout, plot=rest))
+        self._makes_room = bool(self._beside) and part.scale >= BESIDE * whole.scale
+        return part if self._makes_room else whole
 
 
 def wheel_notches(event: pygame.Event) -> float:

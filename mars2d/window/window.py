@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from math import inf
 
-import numpy as np
 import pygame
 
 from mars2d.core.errors import Mars2dError
@@ -293,7 +292,8 @@ class Window:
         frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
-        self.viewpoint.arrange(layout, frame.scenario)
+        beside = 0 if self.selected is None else self._inspector.width(layout.plot)
+        self.viewpoint.arrange(layout, frame.scenario, beside)
         marks = self.grab.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
@@ -352,9 +352,9 @@ class Window:
         self._inspected = pygame.Rect(0, 0, 0, 0)
         if self.selected is None:
             return
-        position = np.hstack([frame.pose, frame.prop_pose])[:2, self.selected]
-        ((x, y),) = self.camera.to_pixels([position]).tolist()
-        place = self._inspector.place(self.layout.plot, (x, y))
+        ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
+        at = None if self.viewpoint.makes_room else (x, y)
+        place = self._inspector.place(self.layout.plot, at)
         if place is not None and not (self._drives and self._hides(place, frame)):
             self._inspected = self._inspector.draw(surface, place, frame, self.selected)
 

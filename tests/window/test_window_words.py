@@ -60,13 +60,16 @@ def test_the_footer_has_the_keys_that_serve_now(window):
 
 def test_the_inspector_leaves_the_arena_to_one_who_drives(window):
     do(window, "select")
-    words(window, SMALL, 1.7)
-    assert window._inspected.width > 0
-    do(window, "drive")
-    words(window, SMALL, 1.7)
-    assert window._inspected.width == 0
-    words(window, LARGE)  # there it is beside it
-    assert window._inspected.width > 0
+    shown = {}
+    for drives in (False, True):
+        for size, text in ((SMALL, 1.7), (LARGE, 1.0), ((700, 700), 1.0)):
+            words(window, size, text)
+            shown[drives, size] = place = window._inspected
+            assert not (drives and place and window._hides(place, window.player.frame))
+        do(window, "drive")
+    assert shown[False, (700, 700)]
+    assert not shown[True, (700, 700)]
+    assert shown[True, LARGE]  # there it is beside it
 
 
 def test_the_first_branch_says_how_to_get_to_the_other(window):
