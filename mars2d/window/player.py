@@ -73,6 +73,11 @@ class Player:
         return not (self.paused or self.manual or self.over)
 
     @property
+    def busy(self) -> bool:
+        """Whether steps are still to be done."""
+        return self._todo > 0
+
+    @property
     def past(self) -> bool:
         """Whether an earlier row than the newest is shown."""
         return self.source.row < self.source.newest

@@ -44,6 +44,7 @@ from mars2d.window.notes import Ending, Notes, Progress, draw_progress
 from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.player import Player
 from mars2d.window.reload import Reload
+from mars2d.window.rest import Rest
 from mars2d.window.saving import Saver
 from mars2d.window.source import Source
 from mars2d.window.toolbar import Toolbar, layer_entries
@@ -105,7 +106,7 @@ class Window:
         self._cast = _cast(source)
         self._open = False
         self._passing, self._awaited = False, ""  # whether laws may be asked; the line waited for
-        self._keyboard = keys.Keyboard()
+        self._keyboard, self._rest = keys.Keyboard(), Rest()
         self._painter = Painter(theme=theme_of(dark=preferences.dark))
         self._stage = Stage(self._painter, MEMORY)
         self._inspector = Inspector(self._painter)
@@ -217,24 +218,37 @@ class Window:
         clock = pygame.time.Clock()
         last = time.perf_counter()
         while self._open:
-            for event in pygame.event.get():
+            for event in self._rest.events():
                 self._handle(event)
             now = time.perf_counter()
             self._passing, self._awaited = True, ""
             self._pass_time(now - last)
             self._passing = False
             last = now
-            start = time.perf_counter()
-            screen = pygame.display.get_surface() or screen
-            self.draw(screen)
-            self.saver.film(screen, self.layout.plot, self._painter)
-            if self.saver.filming and self.editor is None:  # notes are not part of the film
-                self.notes.draw(screen, self.layout.plot, self._painter, time.monotonic())
-            show_drawn()
-            self.player.drawing = time.perf_counter() - start
+            if self._moves:
+                self._rest.stir()
+            if not self._rest.resting:
+                self._show_picture(pygame.display.get_surface() or screen)
             self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE)
             if self.player.speed < inf or not self.player.playing:
                 clock.tick(PICTURES_A_SECOND)
+
+    @property
+    def _moves(self) -> bool:
+        """Whether the next picture may differ from this one though nobody does anything."""
+        player, followed = self.player, self.viewpoint.following is not None
+        acts = self.grab.busy or self._drives or self.saver.filming or self.editor is not None
+        return acts or followed or player.playing or player.busy or len(self.notes) > 0
+
+    def _show_picture(self, screen: pygame.Surface) -> None:
+        """Draw the window, and put it on the screen and into the film."""
+        start = time.perf_counter()
+        self.draw(screen)
+        self.saver.film(screen, self.layout.plot, self._painter)
+        if self.saver.filming and self.editor is None:  # notes are not part of the film
+            self.notes.draw(screen, self.layout.plot, self._painter, time.monotonic())
+        show_drawn()
+        self.player.drawing = time.perf_counter() - start
 
     def _pass_time(self, seconds: float) -> None:
         """Advance by seconds of the wall clock."""
@@ -251,6 +265,7 @@ class Window:
         reloaded = None if self._reload is None else self._reload.poll(time.monotonic())
         if reloaded is None:
             return
+        self._rest.stir()
         if reloaded.error is None:
             self.notes.clear()  # the error is corrected
         self.notes.say(reloaded.message, "info" if reloaded.error is None else "error")

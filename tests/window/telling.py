@@ -1,7 +1,11 @@
 """Tells the state of an observed window as lines of JSON."""
 
+import contextlib
 import json
 import signal
+import threading
+
+import pygame
 
 PICTURES = 3
 """How many pictures after a question comes the answer: the last ones show all events before it."""
@@ -10,20 +14,34 @@ PICTURES = 3
 class Teller:
     """Prints a state whenever it has changed, and in answer to SIGUSR1."""
 
+    asked = 0  # pictures of the open window until the answer
+    listens = False
+
     def __init__(self):
         self._told, self._state = "", None
-        self._answers = self._asked = 0
-        if hasattr(signal, "SIGUSR1"):
-            signal.signal(signal.SIGUSR1, self._ask)
+        self._answers = 0
+        if hasattr(signal, "SIGUSR1") and not Teller.listens:
+            Teller.listens = True
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGUSR1})
+            threading.Thread(target=self._listen, daemon=True).start()
 
-    def _ask(self, *_):
-        self._asked = PICTURES
+    def _listen(self):
+        """Wake the window, which may wait for events, at each question."""
+        while True:
+            signal.sigwait({signal.SIGUSR1})
+            Teller.asked = PICTURES
+            self._wake()
+
+    def _wake(self):
+        with contextlib.suppress(pygame.error):
+            pygame.event.post(pygame.Event(pygame.USEREVENT))
 
     def shown(self):
         """Tell the state of the picture that is on the screen by now."""
-        if self._asked:
-            self._asked -= 1
-            self._answers += not self._asked
+        if Teller.asked:
+            Teller.asked -= 1
+            self._answers += not Teller.asked
+            self._wake()
         if self._state is None:
             return
         told = json.dumps(self._state | {"answers": self._answers})

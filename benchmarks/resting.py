@@ -1,0 +1,63 @@
+"""The share of a processor that a window takes: while it plays, and paused, drawn on or at rest.
+
+python benchmarks/resting.py [--seconds 5]     (needs a display, or xvfb-run)
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+from mars2d.scenario.experiment import open_experiment
+from mars2d.window import rest
+from mars2d.window.window import Window
+from mars2d.world.timeline import Timeline
+
+EXAMPLES = "head_on", "push_box", "crowd"
+
+
+class Watched(Window):
+    """A window that measures the processor's share for some seconds, and closes."""
+
+    wait, seconds, share = 2.0, 5.0, 0.0
+
+    def _pass_time(self, seconds: float) -> None:
+        super()._pass_time(seconds)
+        now, busy = time.perf_counter(), time.process_time()
+        if self.player.drawing == 0.0:  # before the first picture
+            self._begin = now + self.wait
+        elif now < self._begin:
+            self._busy = busy
+        elif now > self._begin + self.seconds:
+            self.share = (busy - self._busy) / (now - self._begin)
+            self._open = False
+
+
+def share(example: str, seconds: float, *, plays: bool, rests: bool) -> float:
+    """Return the processor's share of a window after two seconds."""
+    window = Watched(Timeline(open_experiment(example)))
+    window.seconds, window.player.paused = seconds, not plays
+    quiet, rest.QUIET = rest.QUIET, rest.QUIET if rests else 1e9
+    try:
+        window.run()
+    finally:
+        rest.QUIET = quiet
+    return window.share
+
+
+def main() -> None:
+    """Print a row for each example."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=5.0)
+    seconds = parser.parse_args().seconds
+    print("example      plays  paused, drawn on  at rest")
+    for example in EXAMPLES:
+        shares = [
+            share(example, seconds, plays=plays, rests=rests)
+            for plays, rests in ((True, True), (False, False), (False, True))
+        ]
+        print(f"{example:10}  {shares[0]:6.1%}  {shares[1]:16.1%}  {shares[2]:7.2%}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
