@@ -106,6 +106,7 @@ def _draw_axes(
         image = fonts.render(f"{k * step:.6g} s", 11 * ui, theme.muted)
         place = image.get_rect(midtop=(x, area.bottom + round(3 * ui)))
         if place.right <= area.right + round(10 * ui):
+            place.right = min(place.right, area.right)
             surface.blit(image, place)
 
 
@@ -150,16 +151,19 @@ def _draw_curves(
     if len(reading.force) and reading.force.max() > top:
         k = int(reading.force.argmax())
         word = f"peak {in_newtons(float(reading.force[k]))}"
-        half = painter.fonts.width(word, 12 * ui) / 2 + 4 * ui
-        x = float(pixels(edges[k : k + 1], np.zeros(1))[0, 0])
-        x = min(max(x, area.left + half), area.right - half)
+        half = painter.fonts.width(word, 12 * ui) / 2 + 6 * ui
+        left, right = pixels(edges[[k, k + 1]], np.zeros(2))[:, 0].tolist()
+        x = right + half if right + 2 * half <= area.right else left - half  # beside the peak
         scene.text((x, -area.top), word, color=ink, anchor="below", halo=theme.plate)
     if bound is not None:
         ends = pixels(np.array([start, end]), np.full(2, bound.force)) * (1, -1)
         scene.line(ends, stroke=theme.ink, width=1.5, style="--")
         word = f"{bound.name} {in_newtons(bound.force)}"
-        middle = area.left + 4 * ui + painter.fonts.width(word, 12 * ui) / 2
-        place = (middle, ends[0, 1] - 2 * ui)
+        width = painter.fonts.width(word, 12 * ui) + 8 * ui
+        over = pixels(edges[:-1], reading.force)[reading.force > bound.force, 0]
+        lefts = (area.left, area.right - width)
+        left = min(lefts, key=lambda x: np.count_nonzero((over > x) & (over < x + width)))
+        place = (left + width / 2, ends[0, 1] - 2 * ui)
         scene.text(place, word, color=theme.ink, anchor="above", halo=theme.plate)
     painter.paint(surface, scene.shapes, PIXELS, shaded=False)
 

@@ -128,6 +128,8 @@ class Player:
             # If the simulation is too slow, time waits for it and does not catch up later.
             self._time = min(wanted, self._present.time)
         now = self._clock()
+        if self._pace and self._time < self._pace[-1][1]:  # it was started anew
+            self._pace.clear()
         self._pace.append((now, self._time))
         while now - self._pace[0][0] > 1.5:
             self._pace.popleft()

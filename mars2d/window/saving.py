@@ -77,12 +77,13 @@ class Saver:
         film, self._film = self._film, None
         return f"film: {film.stop()}"
 
-    def film(self, screen: pygame.Surface, plot: pygame.Rect, painter: Painter) -> None:
-        """Add the screen to the film, if one is being made; then mark the screen as filmed."""
-        if self._film is None:
-            return
+    def film(
+        self, picture: pygame.Surface, screen: pygame.Surface, plot: pygame.Rect, painter: Painter
+    ) -> None:
+        """Add a picture to the film that is being made, and mark the screen as filmed."""
+        assert self._film is not None
         try:
-            self._film.take(screen)
+            self._film.take(picture)
         except InputError as error:
             self._film = None
             self._notes.say(str(error), "error")

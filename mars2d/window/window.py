@@ -17,7 +17,7 @@ from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, 
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout, next_text_size
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.picture import summary
+from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
@@ -244,11 +244,19 @@ class Window:
         """Draw the window, and put it on the screen and into the film."""
         start = time.perf_counter()
         self.draw(screen)
-        self.saver.film(screen, self.layout.plot, self._painter)
-        if self.saver.filming and self.editor is None:  # notes are not part of the film
-            self.notes.draw(screen, self.layout.plot, self._painter, time.monotonic())
+        self._film(screen)
         show_drawn()
         self.player.drawing = time.perf_counter() - start
+
+    def _film(self, screen: pygame.Surface) -> None:
+        """Add the drawn screen to the film, if one is being made, and mark it as filmed."""
+        if not self.saver.filming:
+            return
+        plot = self.layout.plot
+        picture = self._arena(screen) if self.editor is None else screen
+        self.saver.film(picture, screen, plot, self._painter)
+        if self.editor is None:  # notes are not part of the film
+            self.notes.draw(screen, plot, self._painter, time.monotonic())
 
     def _pass_time(self, seconds: float) -> None:
         """Advance by seconds of the wall clock."""
@@ -330,7 +338,8 @@ class Window:
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
-        self.toolbar.draw(surface, layout, self._painter, self._pointer)
+        if notes:
+            self.toolbar.draw(surface, layout, self._painter, self._pointer)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
 
     def _draw_bars(self, surface: pygame.Surface, frame: Frame, banner: Banner | None) -> None:
@@ -547,10 +556,15 @@ class Window:
     # -- saving, and changing the run -----------------------------------------------------------
 
     def _save_picture(self) -> None:
-        """Save the window's picture, without the notes."""
+        """Save a picture of the arena, without the notes."""
         surface = pygame.Surface(self.layout.size, 0, 32)
         self.draw(surface, notes=False)
-        self.saver.picture(surface)
+        self.saver.picture(self._arena(surface))
+
+    def _arena(self, window: pygame.Surface) -> pygame.Surface:
+        """Return the picture that a drawn window shows, without its own bars."""
+        banner, frame = self._ending.banner(), self.player.frame
+        return arena_of(window, self.layout, self._painter, frame, banner)
 
     def _save_python(self) -> None:
         """Save the scenario as it is now as a Python file."""

@@ -90,6 +90,7 @@ def state_of(window):
         "buttons": {name: place.center for name, place in window.toolbar.places.items()},
         "menu": {title: at.center for title, at in window.toolbar.menu.places.items()},
         "close": window._inspector.closes.center,
+        "plot": [*window.layout.plot],
         "loop": player.loop,
         "full": pygame.display.is_fullscreen(),
         "filming": window.saver._film is not None,

@@ -318,7 +318,7 @@ def test_a_film_says_where_it_is_before_the_window_may_be_closed(desk):
     desk = desk()
     desk.press("v")
     (note,) = desk.notes
-    desk.window.saver.film(desk.surface, desk.window.layout.plot, desk.window._painter)
+    desk.window._film(desk.surface)
     desk.window.saver.close()
     (film,) = (path for path in desk.path.parent.iterdir() if path.suffix in (".mp4", ".gif"))
     assert str(film) in note

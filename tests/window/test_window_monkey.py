@@ -54,7 +54,7 @@ class Monkey:
         window = self.window
         window._pass_time(self.random.choice((0.001, 1 / 60, 0.1)))
         window.draw(self.surface)
-        window.saver.film(self.surface, window.layout.plot, window._painter)
+        window._film(self.surface)
         window._use_rest(0.003)
 
     def events(self):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pygame
@@ -18,7 +19,7 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import PRINTED
 from mars2d.record.frame import Frame
 
-__all__ = ["Artist", "paint_frame", "save_png"]
+__all__ = ["Artist", "arena_of", "paint_frame", "save_png"]
 
 
 class Artist:
@@ -67,6 +68,24 @@ class Artist:
         banner = Banner(frame.over_message) if frame.over_message else None
         draw_footer(surface, self.layout, self.painter, banner, summary(frame))
         return surface
+
+
+def arena_of(
+    window: pygame.Surface, layout: Layout, painter: Painter, frame: Frame, banner: Banner | None
+) -> pygame.Surface:
+    """Return the picture that a window shows, without the window's own bars and buttons."""
+    plot, top = layout.plot, layout.header.height
+    bare = replace(
+        layout,
+        header=pygame.Rect(0, 0, plot.width, top),
+        plot=pygame.Rect(0, top, plot.width, plot.height),
+        footer=pygame.Rect(0, top + plot.height, plot.width, layout.footer.height),
+    )
+    picture = pygame.Surface(bare.size, 0, 32)
+    draw_header(picture, bare, painter, frame, None)
+    picture.blit(window, bare.plot, plot)
+    draw_footer(picture, bare, painter, banner, summary(frame))
+    return picture
 
 
 def summary(frame: Frame) -> str:
