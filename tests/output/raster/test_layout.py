@@ -13,7 +13,10 @@ every_text = pytest.mark.parametrize("text", TEXT_SIZES)
 
 
 def parts(layout):
-    return layout.header, layout.plot, layout.timebar, layout.slider, layout.footer
+    return (
+        *(layout.header, layout.tools, layout.plot),
+        *(layout.transport, layout.timebar, layout.slider, layout.footer),
+    )
 
 
 @every_size
@@ -42,7 +45,7 @@ def test_text_is_as_large_as_was_asked_for_where_there_is_room():
 @pytest.mark.parametrize("size", [(1280, 720), (1920, 1080), (960, 600)])
 def test_pictures_have_no_time_bar_and_are_laid_out_as_they_were(size):
     layout = Layout.of(size)
-    assert layout.timebar.size[1] == layout.slider.size[0] == 0
+    assert layout.timebar.size[1] == layout.slider.size[0] == layout.tools.size[0] == 0
     assert layout.ui == max(0.9, min(size[0] / 1280, size[1] / 720) ** 0.8)
     assert layout.plot.bottom == layout.footer.top == size[1] - round(44 * layout.ui)
 
