@@ -34,6 +34,7 @@ def pytest_configure() -> None:
     Child processes inherit ignored signals, but never a handler: with one, they start with the
     default. SIGHUP keeps having no effect on the tests themselves.
     """
+    os.environ["MARS2D_MEMORY"] = ""  # windows look the same each time
     signal.signal(signal.SIGINT, signal.default_int_handler)
     if hasattr(signal, "SIGHUP"):
         if signal.getsignal(signal.SIGHUP) == signal.SIG_IGN:

@@ -12,7 +12,7 @@ from typing import Any
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
 from mars2d.core.terminal import warn
-from mars2d.output.raster import require_pygame
+from mars2d.output.raster import has_pygame, require_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.options import parse_setting
@@ -61,15 +61,21 @@ def options_of(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def add_preferences(parser: argparse.ArgumentParser) -> None:
     """Add the looks of the window."""
-    parser.add_argument("--dark", action="store_true", help="a dark window")
     parser.add_argument(
-        "--text", type=_text, default=1.0, metavar="X", help="the window's text X times as large"
+        "--dark", action=argparse.BooleanOptionalAction, help="a dark window, or a light one"
+    )
+    parser.add_argument(
+        "--text", type=_text, metavar="X", help="the window's text X times as large"
     )
 
 
 def preferences_of(arguments: argparse.Namespace) -> Preferences:
-    """Return the looks that `add_preferences` asks for."""
-    return Preferences(dark=arguments.dark, text=arguments.text)
+    """Return the looks that `add_preferences` asks for, else those of the last window."""
+    if not has_pygame():
+        return Preferences()
+    from mars2d.window.memory import Memory
+
+    return Memory().preferences(dark=arguments.dark, text=arguments.text)
 
 
 def _text(text: str) -> float:

@@ -15,11 +15,13 @@ import time
 import traceback
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
 from mars2d import __version__
+from mars2d.cli.home import home
 from mars2d.cli.verbs import VERBS
 from mars2d.core.errors import InputError, Mars2dError, counted, likely
 from mars2d.core.interrupt import (
@@ -158,10 +160,15 @@ def _stop_telling() -> None:
 def parser() -> argparse.ArgumentParser:
     """Return the parser of all verbs."""
     root = _Parser(
-        prog="mars2d", description="Teams of mobile robots in the plane.", allow_abbrev=False
+        prog="mars2d",
+        usage="mars2d [-h] [--version] [COMMAND ...]",
+        description="Teams of mobile robots in the plane. Without a command: a window with all "
+        "examples, games, and your own files.",
+        allow_abbrev=False,
     )
     root.add_argument("--version", action="version", version=f"mars2d {__version__}")
-    verbs = root.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
+    root.set_defaults(execute=partial(home, root), refuse=root.error)
+    verbs = root.add_subparsers(prog="mars2d", metavar="COMMAND", parser_class=_Parser)
     for name, verb in VERBS.items():
         doc = (verb.execute.__doc__ or "").strip()
         sub = verbs.add_parser(name, help=doc, description=doc, allow_abbrev=False)

@@ -10,7 +10,8 @@ from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell, warn
 from mars2d.record.record import Record
-from mars2d.scenario.experiment import Experiment, examples
+from mars2d.scenario.courses import courses, title_of
+from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.prediction import Prediction, table
 from mars2d.window.display import Preferences
 from mars2d.world.loop import simulate
@@ -110,16 +111,9 @@ def print_table(title: str, lines: Mapping[str, str]) -> None:
 
 
 def print_examples() -> None:
-    """Print the examples and their first lines: first those of the paper, by its figures."""
-    from mars2d.reports.paper.figures import FIGURES
-
-    lines = {}
-    for name, path in examples().items():
-        first = path.read_text(encoding="utf-8").partition("\n")[0]
-        lines[name] = first.strip('" ')
-    paper = dict.fromkeys(run.experiment for figure in FIGURES for run in figure.runs)
-    print_table("Experiments of the MARS paper", {k: lines.pop(k) for k in paper if k in lines})
-    print_table("Other examples", lines)
+    """Print the examples and their first lines, by course."""
+    for course, names in courses().items():
+        print_table(course, {name: title_of(name)[1] for name in names})
 
 
 def make_folder(path: Path) -> None:

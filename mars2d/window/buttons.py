@@ -32,7 +32,7 @@ SVG = (
 class Buttons:
     """A row or column of buttons in groups, each with the name of one of `CONTROLS`.
 
-    lit: whether a button shows that what it switches is on.
+    lit: whether a button shows that what it switches is on. keys: whether their tips name the keys.
     """
 
     def __init__(
@@ -40,9 +40,11 @@ class Buttons:
         groups: Sequence[Sequence[str]],
         actions: Mapping[str, Callable[[], None]],
         lit: Callable[[str], bool],
+        *,
+        keys: bool = True,
     ) -> None:
         """Start with nothing drawn."""
-        self._groups, self._actions, self._lit = groups, actions, lit
+        self._groups, self._actions, self._lit, self._keys = groups, actions, lit, keys
         self.places: dict[str, pygame.Rect] = {}
         self._upright = False
 
@@ -90,7 +92,8 @@ class Buttons:
         place, gap = self.places[name], round(6 * painter.ui)
         beside = place.inflate(2 * gap, 2 * gap)
         at = {"midleft": beside.midright} if self._upright else {"midbottom": beside.midtop}
-        draw_tooltip(surface, painter, CONTROLS[name].tip, **at)
+        control = CONTROLS[name]
+        draw_tooltip(surface, painter, control.tip if self._keys else control.title, **at)
 
     def _arrange(self, area: pygame.Rect, ui: float) -> None:
         """Lay out the buttons in an area: in two columns or smaller if they would not fit."""

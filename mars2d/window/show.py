@@ -10,7 +10,7 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.interrupt import noted_interrupts
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
-from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.experiment import Experiment, examples
 from mars2d.window.display import Preferences
 from mars2d.window.source import Playback
 from mars2d.world.loop import Interrupted
@@ -19,6 +19,8 @@ from mars2d.world.world import Watcher
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
+    from mars2d.window.memory import Memory
+    from mars2d.window.window import Window
 
 __all__ = ["show_experiment", "show_record"]
 
@@ -40,13 +42,15 @@ def show_experiment(
     display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
+    from mars2d.window.memory import Memory
     from mars2d.window.window import Window
 
     source: Timeline | None = None
     kept = noted_interrupts(lambda: None if source is None else source.record)
     with kept, log or nullcontext():
         source = Timeline(experiment, seed, watchers, log)
-        window = Window(source, speed, preferences=preferences)
+        memory = Memory()
+        window = Window(source, speed, memory.size, preferences or memory.preferences())
         if human is not None:
             window.wait_for(human)
         try:
@@ -59,6 +63,8 @@ def show_experiment(
         finally:
             if log is not None:
                 log.close(source.record)
+            memory.keep(**window.looks)
+        _remember(memory, experiment, window)
     return source.record
 
 
@@ -67,6 +73,19 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
     if not len(record):
         raise InputError("this record has no rows: the run ended before its first step")
     require_pygame("a window")
+    from mars2d.window.memory import Memory
     from mars2d.window.window import Window
 
-    Window(Playback(record), speed, preferences=preferences).run()
+    memory = Memory()
+    window = Window(Playback(record), speed, memory.size, preferences or memory.preferences())
+    try:
+        window.run()
+    finally:
+        memory.keep(**window.looks)
+
+
+def _remember(memory: Memory, experiment: Experiment, window: Window) -> None:
+    """Note that the file of an experiment was opened, unless it is a shipped example."""
+    path = experiment.path
+    if path is not None and path.parent not in {each.parent for each in examples().values()}:
+        memory.opened(path, window.arena())

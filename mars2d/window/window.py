@@ -181,6 +181,18 @@ class Window:
         if self.player.error is not None:
             raise self.player.error
 
+    @property
+    def looks(self) -> dict[str, object]:
+        """How the window looks, to be remembered: its size [points], colours, size of text."""
+        size = [round(side / self.scale) for side in self.layout.size]
+        return {"size": size, "dark": self._painter.theme.dark, "text": self.text}
+
+    def arena(self) -> pygame.Surface:
+        """Return a picture of the arena alone, without any bars."""
+        self.editor, surface = None, pygame.Surface(self.layout.size, 0, 32)
+        self.draw(surface, notes=False)
+        return surface.subsurface(self.layout.plot)
+
     def _show(self) -> pygame.Surface:
         pygame.display.set_caption(self.title)
         screen = open_window(opening_size(self.size, self.scale), self._painter)

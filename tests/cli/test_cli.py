@@ -258,7 +258,6 @@ def test_a_mistake_in_the_file_is_one_line_that_names_it(tmp_path, case, capsys)
         (["run", "random_walk", "--headless", "--at", "1,2"], ["--at", "--figure"]),
         (["replay", "missing.npz"], ["missing.npz", "there is no such file"]),
         (["check", "plan.dwg"], ["plan.dwg", ".py"]),
-        ([], ["COMMAND"]),
     ],
 )
 def test_a_mistake_on_the_command_line_is_one_line_that_names_it(

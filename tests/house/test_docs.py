@@ -156,12 +156,13 @@ class Reader:
         assert words[0] == "mars2d", f"{self.document.name}: what is {line!r}?"
         arguments = cli.parser().parse_args(words[1:])
         made = getattr(arguments, "video", None) or getattr(arguments, "html", None)
-        needs_window = words[1] == "replay" and not made
+        needs_window = words[1:2] == ["replay"] and not made
         needs_window |= getattr(arguments, "speed", None) == 0
         needs_window |= bool(getattr(arguments, "human", None)) and not arguments.headless
-        if words[1] in ("run", "demo") and not (needs_window or arguments.headless):
+        verb = words[1] if len(words) > 1 else ""
+        if verb in ("run", "demo") and not (needs_window or arguments.headless):
             words.append("--headless")  # where it would open a window
-        if words[1] == "replay":
+        if verb == "replay":
             assert arguments.record.is_file(), line
         printed, said = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(said):

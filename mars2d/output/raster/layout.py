@@ -67,8 +67,8 @@ class Layout:
         strip = min(round(STRIP * ui), max(0, height - top - 40)) if controls else 0
         bottom = min(round(footer_height * ui), max(0, height - top - strip - 40))
         foot = height - bottom
-        right = round(min(max(0.24 * width, 160 * ui), 290 * ui, 0.25 * width)) if strip else 0
-        buttons = round(min(TRANSPORT * ui, 0.36 * width)) if strip else 0
+        right = round(min(max(0.24 * width, 160 * ui), 290 * ui, 0.285 * width)) if strip else 0
+        buttons = round(min(TRANSPORT * ui, 0.28 * width)) if strip else 0
         tools = round(min(TOOLS * ui, 0.1 * width)) if controls else 0
         plot = max(1, height - top - strip - bottom)
         return cls(

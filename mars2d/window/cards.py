@@ -1,0 +1,216 @@
+"""Shelves of cards, each with a picture and a title, that scroll as one page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+
+import pygame
+
+from mars2d.output.raster.painter import Painter
+
+__all__ = ["Card", "Page", "Shelf"]
+
+WIDTH, GAP, MARGIN = 212.0, 18.0, 30.0
+"""The least width of a card, the gap between two, and the margin of the page, points."""
+SHAPE = 0.625
+"""The height of a picture, in widths."""
+CAPTION, HEADING = 32.0, 46.0
+"""The heights of a card's title and of a shelf's, points."""
+TITLE, LETTERS = 18.0, 14.5
+"""The heights of letters of a shelf's title and of a card's, points."""
+NOTCH = 70.0
+"""How far a notch of the wheel scrolls, points."""
+
+
+@dataclass(frozen=True)
+class Card:
+    """Something to open.
+
+    title: below its picture. line: says more. command: the arguments of ``mars2d`` that open it.
+    picture: a file, or None. sign: drawn where there is no picture.
+    """
+
+    title: str
+    line: str
+    command: tuple[str, ...]
+    picture: Path | None = None
+    sign: str = ""
+
+    def has(self, words: str) -> bool:
+        """Return whether all words occur in it."""
+        text = f"{self.title} {self.line} {' '.join(self.command)}".lower()
+        return all(word in text for word in words.lower().split())
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """Cards under a title."""
+
+    title: str
+    cards: Sequence[Card] = field(default_factory=tuple)
+
+
+class Page:
+    """The shelves, where each card lies, and which is chosen."""
+
+    def __init__(self) -> None:
+        """Start empty, at the top."""
+        self.places: list[tuple[Card, pygame.Rect]] = []
+        self.chosen = 0
+        self._scroll, self._length = 0.0, 0
+        self._area = pygame.Rect(0, 0, 0, 0)
+        self._headings: list[tuple[str, pygame.Rect]] = []
+
+    @property
+    def card(self) -> Card | None:
+        """The chosen card."""
+        return self.places[self.chosen][0] if self.chosen < len(self.places) else None
+
+    def arrange(self, shelves: Sequence[Shelf], area: pygame.Rect, ui: float) -> None:
+        """Lay out all cards in columns of an area."""
+        self._area = area
+        margin, gap = round(MARGIN * ui), round(GAP * ui)
+        room = area.width - 2 * margin
+        columns = max(1, (room + gap) // (round(WIDTH * ui) + gap))
+        width = (room + gap) // columns - gap
+        height = round(SHAPE * width + CAPTION * ui)
+        self.places, self._headings = [], []
+        y = round(0.4 * margin)
+        for shelf in shelves:
+            heading = pygame.Rect(margin, y, room, round(HEADING * ui))
+            self._headings.append((shelf.title, heading))
+            y += heading.height
+            for k, card in enumerate(shelf.cards):
+                row, column = divmod(k, columns)
+                left, top = margin + column * (width + gap), y + row * (height + gap)
+                self.places.append((card, pygame.Rect(left, top, width, height)))
+            y = self.places[-1][1].bottom + round(0.5 * gap) if self.places else y
+        self._length = y + margin
+        self.chosen = min(self.chosen, max(0, len(self.places) - 1))
+        self.scroll(0)
+
+    def scroll(self, notches: float, ui: float = 1.0) -> None:
+        """Scroll down by notches of the wheel."""
+        end = max(0, self._length - self._area.height)
+        self._scroll = min(max(self._scroll + notches * NOTCH * ui, 0), end)
+
+    def turn(self, pages: float) -> None:
+        """Scroll down by pages."""
+        self._scroll += pages * self._area.height
+        self.scroll(0)
+
+    def move(self, right: int, down: int) -> None:
+        """Choose a neighbour of the chosen card, and bring it into view."""
+        if not self.places:
+            return
+        if right:
+            self.chosen = min(max(self.chosen + right, 0), len(self.places) - 1)
+        if down:
+            here = self.places[self.chosen][1]
+            beyond = [
+                (abs(place.centery - here.centery), abs(place.centerx - here.centerx), k)
+                for k, (_, place) in enumerate(self.places)
+                if down * (place.centery - here.centery) > 0
+            ]
+            self.chosen = min(beyond)[2] if beyond else self.chosen
+        place = self.places[self.chosen][1]
+        above = 0 if place.top < 2 * place.height else place.top - place.height // 2
+        self._scroll = min(max(self._scroll, place.bottom + 20 - self._area.height), above)
+        self.scroll(0)
+
+    def at(self, pixel: tuple[int, int]) -> int | None:
+        """Return the number of the card at a pixel of the surface, if there is one."""
+        if not self._area.collidepoint(pixel):
+            return None
+        found = (
+            k for k, (_, place) in enumerate(self.places) if self._seen(place).collidepoint(pixel)
+        )
+        return next(found, None)
+
+    def draw(self, surface: pygame.Surface, painter: Painter) -> None:
+        """Draw what is in view, and how far that is down."""
+        surface.set_clip(self._area)
+        surface.fill(painter.theme.page, self._area)
+        for title, place in self._headings:
+            self._draw_heading(surface, painter, title, self._seen(place))
+        for k, (card, place) in enumerate(self.places):
+            if self._seen(place).colliderect(self._area):
+                self._draw_card(surface, painter, card, self._seen(place), chosen=k == self.chosen)
+        bar = self.bar(painter.ui)
+        if bar is not None:
+            painter.panel(surface, bar, painter.theme.track, bar.width / 2)
+        surface.set_clip(None)
+
+    def bar(self, ui: float) -> pygame.Rect | None:
+        """Return the place of the scroll bar, if there is more than fits."""
+        area = self._area
+        if self._length <= area.height:
+            return None
+        long = max(round(30 * ui), area.height * area.height // self._length)
+        way = self._scroll / (self._length - area.height)
+        top = area.top + round(way * (area.height - long))
+        return pygame.Rect(area.right - round(11 * ui), top, round(7 * ui), long)
+
+    def drag_bar(self, y: float, ui: float) -> None:
+        """Put the middle of the scroll bar at a height, pixels."""
+        bar = self.bar(ui)
+        if bar is not None:
+            way = (y - self._area.top - bar.height / 2) / max(1, self._area.height - bar.height)
+            self._scroll = way * (self._length - self._area.height)
+            self.scroll(0)
+
+    def _seen(self, place: pygame.Rect) -> pygame.Rect:
+        return place.move(self._area.left, self._area.top - round(self._scroll))
+
+    @staticmethod
+    def _draw_heading(
+        surface: pygame.Surface, painter: Painter, title: str, place: pygame.Rect
+    ) -> None:
+        words = painter.fonts.render(title, TITLE * painter.ui, painter.theme.ink, bold=True)
+        surface.blit(words, words.get_rect(midleft=(place.left, place.centery)))
+
+    @staticmethod
+    def _draw_card(
+        surface: pygame.Surface, painter: Painter, card: Card, place: pygame.Rect, *, chosen: bool
+    ) -> None:
+        ui, theme, fonts = painter.ui, painter.theme, painter.fonts
+        if chosen:
+            edge = max(2, round(2.5 * ui))
+            painter.panel(surface, place.inflate(2 * edge, 2 * edge), theme.selected, 10 * ui)
+        painter.panel(surface, place, theme.plate, 8 * ui, theme.edge)
+        inset = round(6 * ui)
+        shown = pygame.Rect(
+            place.left + inset, place.top + inset,
+            place.width - 2 * inset, place.height - inset - round(CAPTION * ui),
+        )  # fmt: skip
+        image = None if card.picture is None else _image(card.picture, shown.size)
+        if image is not None:
+            surface.blit(image, shown)
+        else:
+            painter.panel(surface, shown, theme.page, 5 * ui)
+            sign = fonts.render(card.sign, 0.42 * shown.height, theme.muted)
+            surface.blit(sign, sign.get_rect(center=shown.center))
+        room = place.width - 2 * round(10 * ui)
+        title = fonts.shorten(card.title, LETTERS * ui, room)
+        words = fonts.render(title, LETTERS * ui, theme.text)
+        middle = place.left + round(10 * ui), place.bottom - round(0.5 * CAPTION * ui)
+        surface.blit(words, words.get_rect(midleft=middle))
+
+
+@lru_cache(maxsize=128)
+def _image(path: Path, size: tuple[int, int]) -> pygame.Surface | None:
+    """Return the picture of a file, as large as it has to be; None if it can't be read."""
+    try:
+        found = pygame.image.load(path)
+    except (OSError, pygame.error):
+        return None
+    image = pygame.Surface(found.get_size(), 0, 32)
+    image.blit(found, (0, 0))
+    share = max(size[0] / image.get_width(), size[1] / image.get_height())
+    wide = [max(1, round(share * side)) for side in image.get_size()]
+    image = pygame.transform.smoothscale(image, wide)
+    left, top = ((have - want) // 2 for have, want in zip(wide, size, strict=True))
+    return image.subsurface((left, top, *size)).copy()

@@ -1,0 +1,264 @@
+"""The home: a window from which all else is one click away."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pygame
+
+from mars2d.output.raster.layout import interface_scale, next_text_size
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import theme_of
+from mars2d.scenario.courses import GAMES, courses, title_of
+from mars2d.scenario.experiment import examples
+from mars2d.window.buttons import Buttons
+from mars2d.window.cards import Card, Page, Shelf
+from mars2d.window.desktop import desktop_scale, opening_size
+from mars2d.window.display import PICTURES_A_SECOND, open_window, show_drawn, started_display
+from mars2d.window.memory import Memory
+from mars2d.window.notes import Notes
+from mars2d.window.rest import Rest
+
+__all__ = ["OPENS", "Home"]
+
+HEADER, FOOTER = 58.0, 44.0
+"""The heights of the bars, points."""
+OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mat": "replay", ".mcap": "replay"}
+"""The command that opens a file, by its suffix."""
+HINT = "Type to search"
+
+
+class Home:
+    """Shows the examples, the games and the user's own files, until one is chosen.
+
+    memory: of recent files and looks. note: what went wrong with the last choice, or "".
+    """
+
+    def __init__(self, memory: Memory, note: str = "") -> None:
+        """Prepare; the window opens with `run`."""
+        self._memory = memory
+        likes = memory.preferences()
+        self.painter = Painter(theme=theme_of(dark=likes.dark))
+        self.text, self.scale, self.size = likes.text, 1.0, memory.size
+        self.page, self.words = Page(), ""
+        self.choice: tuple[str, ...] | None = None
+        self._notes, self._rest = Notes(), Rest()
+        switches = {"dark": self._change_theme, "text": self._change_text}
+        self._buttons = Buttons([list(switches)], switches, lambda _: False, keys=False)
+        self._open, self._held = True, False
+        if note:
+            self._notes.say(note, "error")
+
+    def run(self) -> tuple[str, ...] | None:
+        """Return the arguments of the command that opens what was chosen; None to leave.
+
+        Raises InputError without a display, DisplayError if it is lost.
+        """
+        with started_display():
+            self.scale = desktop_scale()
+            pygame.display.set_caption("MARS2D")
+            screen = pygame.display.get_surface()
+            if screen is None:
+                screen = open_window(opening_size(self.size, self.scale), self.painter)
+            pygame.key.start_text_input()
+            clock = pygame.time.Clock()
+            while self._open:
+                self.draw(pygame.display.get_surface() or screen)
+                show_drawn()
+                clock.tick(PICTURES_A_SECOND)
+                for event in self._rest.events():
+                    self.handle(event)
+            width, height = (pygame.display.get_surface() or screen).get_size()
+        size = [round(width / self.scale), round(height / self.scale)]
+        self._memory.keep(size=size, dark=self.painter.theme.dark, text=self.text)
+        return self.choice
+
+    @property
+    def shelves(self) -> list[Shelf]:
+        """The shelves, with the cards in which the words that were typed occur."""
+        found = (Shelf(each.title, [card for card in each.cards if card.has(self.words)])
+                 for each in self._all_shelves())  # fmt: skip
+        return [shelf for shelf in found if shelf.cards]
+
+    def _all_shelves(self) -> list[Shelf]:
+        own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]
+        new = Card("New drawing", "Draw a scenario with the mouse.", ("edit",), sign="+")
+        games = [
+            Card(
+                game.task,
+                f"{game.task}: drive the robot {game.human} with the arrow keys.",
+                ("demo", game.example, "--human", game.human),
+                self._thumbnail(game.example),
+            )
+            for game in GAMES
+            if game.example in examples()
+        ]
+        of_courses = [
+            Shelf(course, [self._example_card(name) for name in names])
+            for course, names in courses().items()
+        ]
+        return [Shelf("Your own", [new, *own]), Shelf("Play", games), *of_courses]
+
+    def _example_card(self, name: str) -> Card:
+        return Card(*title_of(name), ("demo", name), self._thumbnail(name))
+
+    def _thumbnail(self, name: str) -> Path:
+        looks = "dark" if self.painter.theme.dark else "light"
+        return examples()[name].parent / "thumbnails" / f"{name}_{looks}.png"
+
+    # -- drawing --------------------------------------------------------------------------------
+
+    def draw(self, surface: pygame.Surface) -> None:
+        """Draw the home on a surface of any size."""
+        size, painter = surface.get_size(), self.painter
+        ui = painter.ui = interface_scale(size, self.text, self.scale)
+        theme, fonts, pad = painter.theme, painter.fonts, round(30 * ui)
+        header = pygame.Rect(0, 0, size[0], round(HEADER * ui))
+        footer = pygame.Rect(0, 0, size[0], round(FOOTER * ui))
+        footer.bottom = size[1]
+        area = pygame.Rect(0, header.bottom, size[0], footer.top - header.bottom)
+        self.page.arrange(self.shelves, area, ui)
+        self.page.draw(surface, painter)
+        for bar in (header, footer):
+            surface.fill(theme.bar, bar)
+        surface.fill(theme.edge, (0, header.bottom - 1, size[0], 1))
+        surface.fill(theme.edge, (0, footer.top, size[0], 1))
+        name = fonts.render("MARS2D", 22 * ui, theme.ink, bold=True)
+        surface.blit(name, name.get_rect(midleft=(pad, header.centery)))
+        here = pygame.display.get_init() and pygame.mouse.get_focused()
+        pointer = pygame.mouse.get_pos() if here else None
+        buttons = pygame.Rect(0, 0, round(96 * ui), round(44 * ui))
+        buttons.midright = size[0] - round(0.5 * pad), header.centery
+        self._buttons.draw(surface, buttons, painter, pointer)
+        self._draw_search(surface, header, buttons.left - pad // 2)
+        self._draw_line(surface, footer, pad)
+        self._notes.draw(surface, area, painter, pygame.time.get_ticks() / 1000)
+        self._buttons.draw_tip(surface, painter, pointer)
+
+    def _draw_search(self, surface: pygame.Surface, header: pygame.Rect, right: int) -> None:
+        """Draw the field with the words to search for."""
+        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
+        left = round(170 * ui)
+        plate = pygame.Rect(0, 0, min(round(340 * ui), right - left), round(34 * ui))
+        plate.midright = right, header.centery
+        edge = theme.selected if self.words else theme.key_edge
+        self.painter.panel(surface, plate, theme.plate, 6 * ui, edge)
+        none = "" if self.page.places else "  nothing like that"
+        text, color = (f"{self.words}|{none}", theme.ink) if self.words else (HINT, theme.muted)
+        pad = round(12 * ui)
+        words = fonts.render(fonts.shorten(text, 15 * ui, plate.width - 2 * pad), 15 * ui, color)
+        surface.blit(words, words.get_rect(midleft=(plate.left + pad, plate.centery)))
+
+    def _draw_line(self, surface: pygame.Surface, footer: pygame.Rect, pad: int) -> None:
+        """Say more about the chosen card, and the command that opens it."""
+        ui, theme, fonts, card = (
+            self.painter.ui,
+            self.painter.theme,
+            self.painter.fonts,
+            self.page.card,
+        )
+        if card is None:
+            return
+        command = fonts.shorten(" ".join(("mars2d", *card.command)), 13 * ui, 0.45 * footer.width)
+        code = fonts.render(command, 13 * ui, theme.text, mono=True)
+        place = code.get_rect(midright=(footer.right - pad, footer.centery))
+        room = place.left - 2 * pad
+        line = fonts.render(fonts.shorten(card.line, 14 * ui, room), 14 * ui, theme.muted)
+        surface.blit(line, line.get_rect(midleft=(pad, footer.centery)))
+        surface.blit(code, place)
+
+    # -- events ---------------------------------------------------------------------------------
+
+    def handle(self, event: pygame.Event) -> None:
+        """Handle an event."""
+        ui = self.painter.ui
+        if event.type == pygame.QUIT:
+            self._open = False
+        elif self._buttons.handle(event):
+            pass
+        elif event.type == pygame.DROPFILE:
+            self.open_file(Path(event.file))
+        elif event.type == pygame.TEXTINPUT:
+            self._type(event.text)
+        elif event.type == pygame.KEYDOWN:
+            self._press(event)
+        elif event.type == pygame.MOUSEWHEEL:
+            self.page.scroll(-event.y, ui)
+        elif event.type == pygame.MOUSEMOTION:
+            if self._held:
+                self.page.drag_bar(event.pos[1], ui)
+            elif (card := self.page.at(event.pos)) is not None:
+                self.page.chosen = card
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
+            self._click(event.pos)
+        elif event.type == pygame.MOUSEBUTTONUP:
+            self._held = False
+
+    def _click(self, pixel: tuple[int, int]) -> None:
+        bar, card = self.page.bar(self.painter.ui), self.page.at(pixel)
+        if bar is not None and pixel[0] >= bar.left - 2:
+            self._held = True
+            self.page.drag_bar(pixel[1], self.painter.ui)
+        elif card is not None:
+            self.page.chosen = card
+            self._choose()
+
+    def _type(self, text: str) -> None:
+        """Add to the words to search for."""
+        if text.strip() or self.words:
+            self.words += text
+            self.page.chosen = 0
+
+    def _press(self, event: pygame.Event) -> None:
+        steps = {
+            pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_TAB: (1, 0),
+            pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1),
+        }  # fmt: skip
+        pages = {
+            pygame.K_PAGEUP: -0.9,
+            pygame.K_PAGEDOWN: 0.9,
+            pygame.K_HOME: -99,
+            pygame.K_END: 99,
+        }
+        control = event.mod & (pygame.KMOD_CTRL | pygame.KMOD_META)
+        if event.key in steps:
+            self.page.move(*steps[event.key])
+        elif event.key in pages:
+            self.page.turn(pages[event.key])
+        elif event.key in (pygame.K_RETURN, pygame.K_KP_ENTER):
+            self._choose()
+        elif event.key == pygame.K_BACKSPACE:
+            self.words = self.words[:-1]
+        elif event.key == pygame.K_F11:
+            pygame.display.toggle_fullscreen()
+        elif control and event.key in (pygame.K_q, pygame.K_w):
+            self._open = False
+        elif event.key == pygame.K_ESCAPE:
+            self._open = bool(self.words)
+            self.words = ""
+
+    def _choose(self) -> None:
+        """Close with the chosen card."""
+        if self.page.card is not None:
+            self.choice, self._open = self.page.card.command, False
+
+    def open_file(self, path: Path) -> None:
+        """Close with a file that was dropped on the window, or say why it can't be opened."""
+        command = OPENS.get(path.suffix.lower())
+        if command is None:
+            suffixes = ", ".join(OPENS)
+            self._notes.say(f"{path.name}: expected a file that ends in {suffixes}", "warning")
+        else:
+            self.choice, self._open = (command, str(path)), False
+
+    def _change_theme(self) -> None:
+        self.painter.theme = theme_of(dark=not self.painter.theme.dark)
+
+    def _change_text(self) -> None:
+        self.text = next_text_size(self.text)
+
+
+def _own_card(path: Path, picture: Path | None) -> Card:
+    command = OPENS.get(path.suffix.lower(), "run")
+    shown = picture if picture is not None and picture.exists() else None
+    return Card(path.name, str(path), (command, str(path)), shown, sign=path.suffix[1:])

@@ -1,0 +1,274 @@
+"""The home: every entry opens by a click, and what windows remember."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pygame
+import pytest
+
+from mars2d.cli.command_line import main, parser
+from mars2d.output.raster.layout import TEXT_SIZES
+from mars2d.reports.paper.figures import FIGURES
+from mars2d.scenario.courses import COURSES, GAMES
+from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.window.display import Preferences
+from mars2d.window.home import Home
+from mars2d.window.memory import SIZE, Memory
+from tests.processes import PATIENCE, bare_environment, mars, wait_until
+from tests.window.person import needs_screen
+
+SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
+
+
+@pytest.fixture
+def memory(tmp_path, monkeypatch):
+    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
+    return Memory()
+
+
+def shown(memory, size=(1280, 720), text=1.0):
+    home = Home(memory)
+    home.text = text
+    surface = pygame.Surface(size, 0, 32)
+    home.draw(surface)
+    return home, surface
+
+
+def click(home, surface, title):
+    """Bring a card into view by keys, and click on it."""
+    number = next(k for k, (card, _) in enumerate(home.page.places) if card.title == title)
+    while home.page.chosen != number:
+        press(home, pygame.K_RIGHT if home.page.chosen < number else pygame.K_LEFT)
+    home.draw(surface)
+    width, height = surface.get_size()
+    pixels = ((x, y) for y in range(0, height, 12) for x in range(0, width, 12))
+    pixel = next(pixel for pixel in pixels if home.page.at(pixel) == number)
+    home.handle(pygame.Event(pygame.MOUSEBUTTONDOWN, button=1, pos=pixel))
+
+
+def press(home, key, modifiers=0):
+    home.handle(pygame.Event(pygame.KEYDOWN, key=key, mod=modifiers, unicode=""))
+
+
+def all_cards(home):
+    return [card for shelf in home.shelves for card in shelf.cards]
+
+
+# -- courses --------------------------------------------------------------------------------------
+
+
+def test_each_example_is_in_one_course_and_has_its_pictures():
+    named = [name for names in COURSES.values() for name in names]
+    assert sorted(named) == sorted(examples())
+    for name, path in examples().items():
+        for looks in ("light", "dark"):
+            assert (path.parent / "thumbnails" / f"{name}_{looks}.png").is_file(), name
+
+
+def test_the_first_course_is_that_of_the_paper():
+    paper = {run.experiment for figure in FIGURES for run in figure.runs}
+    assert set(next(iter(COURSES.values()))) >= paper & set(examples())
+
+
+@pytest.mark.parametrize("game", GAMES, ids=lambda game: game.example)
+def test_a_game_has_the_robot_that_is_driven(game):
+    robots = open_experiment(game.example).scenario.robots
+    assert game.human in [robot.name for robot in robots] + ["evader", "pursuer"]
+    assert not mars("run", game.example, "--human", game.human, "--headless").stdout
+
+
+# -- clicks ---------------------------------------------------------------------------------------
+
+
+def test_each_card_opens_by_a_click_and_its_command_is_one(memory):
+    for card in all_cards(shown(memory)[0]):
+        home, surface = shown(memory)
+        click(home, surface, card.title)
+        assert home.choice == card.command
+        parser().parse_args(card.command)
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("text", TEXT_SIZES)
+def test_no_card_covers_another_at_any_size(memory, size, text):
+    home, _ = shown(memory, size, text)
+    places = [place for _, place in home.page.places]
+    assert len(places) == len(all_cards(home))
+    assert all(len(place.collidelistall(places)) == 1 for place in places)
+    assert min(place.left for place in places) > 0
+    assert max(place.right for place in places) < size[0]
+
+
+def test_what_is_typed_is_searched_for(memory):
+    home, surface = shown(memory)
+    for letter in "push b":
+        home.handle(pygame.Event(pygame.TEXTINPUT, text=letter))
+    assert {card.title for card in all_cards(home)} >= {"Push blue out", "Push box"}
+    assert len(all_cards(home)) < 6
+    press(home, pygame.K_BACKSPACE)
+    press(home, pygame.K_ESCAPE)
+    assert len(all_cards(home)) > len(examples())
+    for letter in "qq":
+        home.handle(pygame.Event(pygame.TEXTINPUT, text=letter))
+    home.draw(surface)
+    press(home, pygame.K_RETURN)
+    assert home.choice is None
+
+
+def test_arrows_and_enter_choose(memory):
+    home, surface = shown(memory)
+    press(home, pygame.K_DOWN)
+    press(home, pygame.K_DOWN)
+    home.draw(surface)
+    press(home, pygame.K_RETURN)
+    assert home.choice == ("demo", next(iter(COURSES.values()))[0])
+
+
+def test_the_wheel_and_the_bar_scroll_to_the_last_card(memory):
+    for scroll in (
+        [pygame.Event(pygame.MOUSEWHEEL, y=-200)],
+        [
+            pygame.Event(pygame.MOUSEBUTTONDOWN, button=1, pos=(1273, 100)),
+            pygame.Event(pygame.MOUSEMOTION, pos=(1273, 700), rel=(0, 600), buttons=(1, 0, 0)),
+            pygame.Event(pygame.MOUSEBUTTONUP, button=1, pos=(1273, 700)),
+        ],
+    ):
+        home, surface = shown(memory)
+        for event in scroll:
+            home.handle(event)
+        home.draw(surface)
+        last = len(home.page.places) - 1
+        assert any(home.page.at((x, 600)) == last for x in range(0, 1280, 20))
+
+
+def test_a_file_that_is_dropped_opens_and_another_one_is_told_of(memory, tmp_path):
+    home, _ = shown(memory)
+    home.handle(pygame.Event(pygame.DROPFILE, file=str(tmp_path / "a.docx")))
+    assert home.choice is None
+    home.handle(pygame.Event(pygame.DROPFILE, file=str(tmp_path / "walk.py")))
+    assert home.choice == ("run", str(tmp_path / "walk.py"))
+
+
+def test_the_buttons_change_colours_and_text(memory):
+    home, surface = shown(memory)
+    before = pygame.surfarray.array3d(surface).mean()
+    for name in ("dark", "text"):
+        place = home._buttons.places[name]
+        home.handle(pygame.Event(pygame.MOUSEBUTTONDOWN, button=1, pos=place.center))
+    home.draw(surface)
+    assert pygame.surfarray.array3d(surface).mean() < 0.5 * before
+    assert home.text == TEXT_SIZES[1]
+
+
+# -- memory ---------------------------------------------------------------------------------------
+
+
+def test_files_last_opened_come_first_with_their_pictures(memory, tmp_path):
+    red = pygame.Surface((700, 500), 0, 32)
+    red.fill("red")
+    for name in ("a.py", "b.toml", "gone.py", "a.py"):
+        (tmp_path / name).touch()
+        memory.opened(tmp_path / name, red)
+    (tmp_path / "gone.py").unlink()
+    assert Memory().recent == [tmp_path / "a.py", tmp_path / "b.toml"]
+    home, surface = shown(Memory())
+    assert [card.title for card in home.shelves[0].cards] == ["New drawing", "a.py", "b.toml"]
+    place = home.page.places[1][1]
+    pixels = pygame.surfarray.array3d(surface)
+    near = pixels[place.left : place.right, place.top + 80 : place.top + 180].reshape(-1, 3)
+    assert (np.abs(near.astype(int) - (255, 0, 0)).sum(axis=1) < 10).mean() > 0.5
+
+
+def test_looks_are_remembered_and_what_is_asked_for_counts_more(memory):
+    memory.keep(dark=True, text=1.7, size=[1000, 700])
+    assert Memory().preferences() == Preferences(dark=True, text=1.7)
+    assert Memory().preferences(dark=False, text=1.3) == Preferences(dark=False, text=1.3)
+    assert Memory().size == (1000, 700)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "[]", "{", '{"dark": 3, "text": "big", "size": 8, "recent": [1]}', "\0"]
+)
+def test_a_memory_that_was_spoilt_is_empty(memory, tmp_path, text):
+    (tmp_path / "memory").mkdir()
+    (tmp_path / "memory" / "windows.json").write_text(text)
+    assert (Memory().preferences(), Memory().size, Memory().recent) == (Preferences(), SIZE, [])
+    memory.keep(dark=True)
+    assert Memory().preferences().dark or text.startswith('{"dark"')
+
+
+def test_a_folder_that_can_not_be_written_stops_nothing(tmp_path, monkeypatch):
+    (tmp_path / "file").touch()
+    for folder in (str(tmp_path / "file"), "/proc/none", ""):
+        monkeypatch.setenv("MARS2D_MEMORY", folder)
+        memory = Memory()
+        memory.keep(dark=True)
+        memory.opened(tmp_path / "file", pygame.Surface((10, 10)))
+        assert memory.preferences() == Preferences()
+
+
+# -- the command ----------------------------------------------------------------------------------
+
+
+def test_without_a_display_the_command_alone_prints_its_help(capsys):
+    alone, helped = mars(), mars("--help")
+    assert alone.returncode == helped.returncode == 0
+    assert alone.stdout == helped.stdout
+    assert main(["--bogus"]) == 2
+    assert "--bogus" in capsys.readouterr().err
+
+
+@needs_screen
+@pytest.mark.slow
+def test_from_the_home_to_an_own_file_and_back(screen, tmp_path):
+    """A file with a mistake is told of at home; mended, it opens; its window closes to the home."""
+    file = tmp_path / "walk.py"
+    file.write_text("import mars2d\nscenario = mars2d.Scenario(title='Mine', sampling_time=-5)\n")
+    folder = tmp_path / "memory"
+    folder.mkdir()
+    (folder / "windows.json").write_text(json.dumps({"recent": [str(file)], "size": [900, 600]}))
+    environment = bare_environment(DISPLAY=screen, MARS2D_MEMORY=str(folder))
+    command = [sys.executable, "-m", "mars2d"]
+    with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as home:
+        do = Hands(screen, home)
+        do.wait_for("MARS2D")
+        do.key("Right", "Return")
+        assert "sampling_time" in home.stderr.readline()
+        file.write_text("import mars2d\nscenario = mars2d.Scenario(title='Mine')\n")
+        do.wait_for("MARS2D")
+        do.key("Right", "Return")
+        do.wait_for("Mine - MARS2D")
+        do.key("d")
+        do.key("Escape")
+        do.wait_for("MARS2D")
+        do.key("Escape")
+        assert home.wait(PATIENCE) == 0
+    kept = json.loads((folder / "windows.json").read_text())
+    assert kept["dark"]
+    assert kept["recent"] == [str(file)]
+    assert len(list(folder.glob("*.png"))) == 1
+
+
+class Hands:
+    """Presses keys in the windows of a process, once they are there."""
+
+    def __init__(self, screen, process):
+        self.environment, self.process = dict(os.environ, DISPLAY=screen), process
+
+    def xdotool(self, *words):
+        done = subprocess.run(
+            ["xdotool", *words], env=self.environment, capture_output=True, text=True, check=False
+        )
+        return done.stdout.split()
+
+    def wait_for(self, title):
+        """Wait until the window of this title has the keyboard."""
+        focused = ["getwindowfocus", "getwindowname"]
+        wait_until(lambda: self.xdotool(*focused) == title.split(), self.process)
+
+    def key(self, *names):
+        for name in names:
+            self.xdotool("key", "--delay", "60", name)
