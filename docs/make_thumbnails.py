@@ -1,10 +1,13 @@
 """Draw the small pictures of the examples that the home shows, examples/thumbnails.
 
 python docs/make_thumbnails.py [NAME ...]
+
+Without a name, it draws the picture of the home itself, too, docs/pictures/home.png.
 """
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -19,8 +22,11 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.record import Record
 from mars2d.scenario.courses import COURSES
+from mars2d.window.home import Home
+from mars2d.window.memory import Memory
 
 FOLDER = Path(__file__).parents[1] / "examples" / "thumbnails"
+PICTURE = Path(__file__).parent / "pictures" / "home.png"
 SIZE = (640, 400)
 """The size at which they are drawn; they are kept at half of it."""
 MARGIN = 12
@@ -44,8 +50,21 @@ def draw(record: Record, *, dark: bool) -> Image.Image:
     return half.quantize(COLORS)
 
 
+def draw_home() -> None:
+    """Draw the home, as somebody sees it for the first time."""
+    os.environ["MARS2D_MEMORY"] = ""
+    home, surface = Home(Memory()), pygame.Surface((1280, 800), 0, 32)
+    home.draw(surface)
+    home.page.move(right=2, down=1)
+    home.draw(surface)
+    picture = Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
+    picture.quantize(200).save(PICTURE, optimize=True)
+
+
 if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
+    if not sys.argv[1:]:
+        draw_home()
     for name in sys.argv[1:] or [name for names in COURSES.values() for name in names]:
         run = mars2d.run(name)
         for looks in ("light", "dark"):
