@@ -8,7 +8,6 @@ import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from itertools import count
 from pathlib import Path
 
 from mars2d.cli.films import Film, save_film_of
@@ -179,8 +178,7 @@ def save_record(arguments: argparse.Namespace, record: Record) -> None:
         place = formats.rescued(record, target)
         kept = "lost" if place is None else f"kept as {place}"
         raise InputError(f"{target}: is not there any more; the record is {kept}")
-    for branch in record.branches:
-        saved = branch.save(_free_beside(target))
+    for branch, saved in zip(record.branches, formats.save_branches(record, target), strict=True):
         end = f"left at {branch.time[-1]:g} s" if len(branch) else "empty"
         warn(f"another branch, {end}, is in {saved}")
 
@@ -206,12 +204,6 @@ def naming_lost_letters() -> Iterator[None]:
             warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
     if lost:
         warn(f"no font has {', '.join(lost)}: boxes stand for them")
-
-
-def _free_beside(path: Path) -> Path:
-    """Return a free name for a branch's record: no file is overwritten."""
-    names = (path.with_stem(f"{path.stem}_branch{k}") for k in count(1))
-    return next(beside for beside in names if not beside.exists())
 
 
 def _times_within(times: list[float | str] | None, record: Record) -> list[float | str] | None:

@@ -51,11 +51,14 @@ def show(
     human: int | None = None,
     log: Log | None = None,
     watchers: Sequence[Watcher] = (),
+    *,
+    kept: bool = False,
 ) -> Record:
     """Run in a window, at the experiment's own speed unless one is given.
 
     human: a robot that is driven by hand; then the experiment's own speed is limited. log: writes
-    each row while the run goes on. watchers: called at each control step.
+    each row while the run goes on. watchers: called at each control step. kept: whether
+    the record is saved afterwards; else the window asks, where hands have changed the run.
     """
     from mars2d.window.show import show_experiment
 
@@ -64,7 +67,14 @@ def show(
         own = MAX_SPEED_BY_HAND
     pace = own if speed is None else speed
     return show_experiment(
-        experiment, pace, seed, watchers, preferences=preferences, human=human, log=log
+        experiment,
+        pace,
+        seed,
+        watchers,
+        preferences=preferences,
+        human=human,
+        log=log,
+        asks=not kept,
     )
 
 

@@ -1,15 +1,17 @@
-"""The menu of a right click: what can be done with a body, a wall or the floor."""
+"""Entries of menus: what can be done with a body, a wall or the floor, with runs, on leaving."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from mars2d.core.plane import Point
 from mars2d.record.frame import Frame
 from mars2d.window.director import Director
 from mars2d.window.menu import Entry
+from mars2d.world.world import World
 
-__all__ = ["entries_of_body", "entries_of_place"]
+__all__ = ["entries_of_body", "entries_of_leaving", "entries_of_place", "entries_of_runs"]
 
 Actions = Mapping[str, Callable[[], None]]
 
@@ -50,3 +52,19 @@ def entries_of_place(point: Point, thing: str, director: Director, actions: Acti
             Entry("Undo what was done by hand", actions["undo"], "Ctrl Z"),
         ]
     return entries
+
+
+def entries_of_runs(director: Director, show: Callable[[World], None]) -> list[Entry]:
+    """Return the other branches and the earlier runs, which `show` shows."""
+    others = [Entry(words, partial(show, world)) for words, world in director.others()]
+    return [Entry("Go to"), *others]
+
+
+def entries_of_leaving(save: Callable[[], None], leave: Callable[[], None]) -> list[Entry]:
+    """Return what can be done with a run in which hands did something, before it is gone."""
+    return [
+        Entry("This run was changed by hand, and is not saved"),
+        Entry("Save it, and leave", save),
+        Entry("Leave without it", leave, "Ctrl Q"),
+        Entry("Stay", lambda: None, "Esc"),
+    ]

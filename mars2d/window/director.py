@@ -71,16 +71,38 @@ class Director:
         timeline = self._live()
         if timeline is None:
             return
-        if not timeline.branches:
+        if timeline.others:
+            self.show(timeline.others[0])
+        else:
             self._notes.say("there is no other branch: change something in the past to make one")
-            return
-        timeline.other_branch()
+
+    def show(self, other: World) -> None:
+        """Show another branch, or an earlier run."""
+        timeline = self.timeline
+        assert timeline is not None
+        kind = "another branch" if other in timeline.branches else "an earlier run"
+        timeline.show(other)
         timeline.world.hands.let_go()
         self._player.error = timeline.error
         self._player.settle()
         end = timeline.newest * timeline.scenario.sampling_time
-        again = "goes back" if len(timeline.branches) == 1 else "shows the next one"
-        self._notes.say(f"another branch, run until {end:.6g} s; B {again}")
+        again = "goes back" if len(timeline.others) == 1 else "shows the next one"
+        self._notes.say(f"{kind}, run until {end:.6g} s; B {again}")
+
+    def others(self) -> list[tuple[str, World]]:
+        """Return the other branches and the earlier runs, each in words."""
+        timeline = self.timeline
+        if timeline is None:
+            return []
+        found = []
+        for world in timeline.others:
+            end = f"{world.iteration * world.sampling_time:.6g} s"
+            if world in timeline.branches:
+                parts = timeline.parted(world) * world.sampling_time
+                found.append((f"Branch at {parts:.6g} s, run until {end}", world))
+            else:
+                found.append((f"Earlier run, until {end}", world))
+        return found
 
     def undo(self) -> None:
         """Undo the last thing done by hand."""

@@ -13,9 +13,11 @@ import pygame
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.core.scene import Scene
+from mars2d.output.formats import save_branches
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import save_png
+from mars2d.record.record import Record
 from mars2d.scenario.python_file import as_python
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.notes import Notes
@@ -53,6 +55,18 @@ class Saver:
             return f"scenario: {path}{', and on the clipboard' if copied else ''}"
 
         self._try(save)
+
+    def record(self, record: Record) -> bool:
+        """Save a run with its branches; return whether it could be."""
+
+        def save() -> str:
+            path = free_name(_here(), self._stem, ".npz")
+            with _removed_on_failure(path):
+                record.save(path)
+            beside = ", other branches beside it" if save_branches(record, path) else ""
+            return f"run: {path}{beside}"
+
+        return self._try(save)
 
     def film_or_not(self) -> None:
         """Start a film of the window, or end it."""
@@ -93,12 +107,14 @@ class Saver:
         scene.circle(place, 0.0, fill=FILMING_COLOR, stroke="#ffffff", width=2.0, pixels=8.0)
         painter.paint(screen, scene.shapes, PIXELS, shaded=False)
 
-    def _try(self, save: Callable[[], str]) -> None:
-        """Save something, and show the returned text or the error as a note."""
+    def _try(self, save: Callable[[], str]) -> bool:
+        """Save something, and say what or why not in a note; return whether it worked."""
         try:
             self._notes.say(save())
         except InputError as error:
             self._notes.say(str(error), "error")
+            return False
+        return True
 
 
 def free_name(folder: Path, stem: str, suffix: str) -> Path:

@@ -33,13 +33,16 @@ def show_experiment(
     preferences: Preferences | None = None,
     human: int | None = None,
     log: Log | None = None,
+    *,
+    asks: bool = False,
 ) -> Record:
     """Run an experiment in a window until it is closed, and return the record.
 
     speed: simulated seconds per second, "max", or 0 for one step a key press. preferences: how the
     window looks. human: the robot to drive by hand; the run then waits for the person to start it.
-    log: writes each control step to a file; it is closed at the end. Raises InputError without a
-    display, and the error of a law after the window is closed.
+    log: writes each control step to a file; it is closed at the end. asks: whether the
+    window asks before it closes if a run that hands have changed is to be saved. Raises InputError
+    without a display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
     from mars2d.window.memory import Memory
@@ -51,6 +54,7 @@ def show_experiment(
         source = Timeline(experiment, seed, watchers, log)
         memory = Memory()
         window = Window(source, speed, memory.size, preferences or memory.preferences())
+        window.asks = asks
         if human is not None:
             window.wait_for(human)
         try:

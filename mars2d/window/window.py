@@ -22,7 +22,12 @@ from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
 from mars2d.window import keys
-from mars2d.window.context import entries_of_body, entries_of_place
+from mars2d.window.context import (
+    entries_of_body,
+    entries_of_leaving,
+    entries_of_place,
+    entries_of_runs,
+)
 from mars2d.window.controls import Controls, Marks
 from mars2d.window.desktop import desktop_scale, opening_size
 from mars2d.window.director import Director
@@ -50,6 +55,7 @@ from mars2d.window.source import Source
 from mars2d.window.toolbar import Toolbar, layer_entries
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
+from mars2d.world.world import World
 
 __all__ = ["Window"]
 
@@ -92,6 +98,7 @@ class Window:
         self.layers = Layers.of(source.scenario.animation, neighbours=True)
         self.help = Help()
         self.selected: int | None = None  # an index of Scenario.bodies
+        self.asks = False  # before a run is lost that can't just be run again
         self.text, self.scale = preferences.text, 1.0
         self.notes = Notes()
         self.director = Director(self.player, self.notes, self._show_way_back)
@@ -150,7 +157,8 @@ class Window:
             "help": self.help.turn,
             "leave": self._leave,
         }
-        self.toolbar = Toolbar(self._actions, self._is_on, live=timeline is not None)
+        buttons = self._actions | {"branch": self._choose_branch}
+        self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
 
     @property
     def camera(self) -> Camera:
@@ -415,7 +423,7 @@ class Window:
 
     def _handle(self, event: pygame.Event) -> None:
         if event.type == pygame.QUIT:
-            self._open = False
+            self._close()
         elif self.director.driver.handle(event):
             pass
         elif self.editor is not None:
@@ -512,13 +520,44 @@ class Window:
             self.notes.say(f"no full screen here: {error}", "warning")
 
     def _close(self) -> None:
-        """Close the window."""
+        """Close the window; if hands did something that would be lost, ask first, once."""
+        timeline, menu = self.director.timeline, self.toolbar.menu
+        asks = self.asks and timeline is not None and timeline.changed
+        if not asks or menu.name == "leave":
+            self._open = False
+            return
+        self.editor = None
+        self.player.pause()
+        entries = entries_of_leaving(self._save_and_leave, self._leave_unsaved)
+        plot = self.layout.plot
+        corner = plot.left + plot.width // 4, plot.top + plot.height // 4
+        menu.open("leave", lambda: entries, corner)
+
+    def _save_and_leave(self) -> None:
+        timeline = self.director.timeline
+        self._open = timeline is not None and not self.saver.record(timeline.record)
+
+    def _leave_unsaved(self) -> None:
         self._open = False
 
+    def _choose_branch(self) -> None:
+        """Open the list of branches and earlier runs."""
+        if self.director.others():
+            self.toolbar.open("branch", lambda: entries_of_runs(self.director, self._show_run))
+        else:
+            self._other_branch()
+
+    def _show_run(self, world: World) -> None:
+        """Show another branch or an earlier run; a drag in the present one ends."""
+        self.grab.cancel()
+        self.director.show(world)
+        self._meet()
+
     def _other_branch(self) -> None:
-        """Show another branch; a drag in the present one ends."""
+        """Show the branch that was left longest ago, or an earlier run."""
         self.grab.cancel()
         self.director.other_branch()
+        self._meet()
 
     def _toggle(self, layer: str) -> None:
         on = not getattr(self.layers, layer)
@@ -563,7 +602,7 @@ class Window:
         elif self.notes.failed:
             self.notes.clear()
         else:
-            self._open = False
+            self._close()
 
     # -- saving, and changing the run -----------------------------------------------------------
 

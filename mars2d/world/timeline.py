@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mars2d.core.errors import InputError, LawError
 from mars2d.record.columns import DiskError
@@ -27,6 +27,12 @@ __all__ = ["Progress", "Timeline"]
 
 NEVER = sys.maxsize
 """A row that no run reaches."""
+
+OF_A_RUN = (
+    "_world", "_experiment", "_past", "branches", "row", "_lines", "_errors", "_count",
+    "_gone_back",
+)  # fmt: skip
+"""The attributes of a timeline that begin anew with a run."""
 
 
 class Timeline:
@@ -49,6 +55,16 @@ class Timeline:
     first. remark: a warning about the last way back, or empty.
     """
 
+    _world: World
+    _experiment: Experiment
+    _past: Past
+    branches: list[World]
+    row: int
+    _lines: dict[World, _Line]
+    _errors: dict[World, LawError]
+    _count: int
+    _gone_back: bool
+
     def __init__(
         self,
         experiment: Experiment,
@@ -59,13 +75,21 @@ class Timeline:
         self._seed = seed
         self._log = log
         self._watchers = watchers
+        self._earlier: list[dict[str, Any]] = []  # runs in which hands did something
         self._begin(experiment)
         with suppress(LawError):  # of a sensor at the start: it is kept as `error`
             self._observe()
 
     def restart(self, experiment: Experiment | None = None) -> None:
-        """Begin anew, with the experiment as its file is now, or as given; forget all branches."""
-        self._begin(self._experiment.reopened() if experiment is None else experiment)
+        """Begin anew, with the experiment as its file is now, or as given.
+
+        A run in which hands did something is kept, with its branches, as one of `others`.
+        """
+        again = self._experiment.reopened() if experiment is None else experiment
+        before = self._run if self.touched else None
+        self._begin(again)
+        if before is not None:
+            self._earlier.append(before)
         self._observe()
 
     def _begin(self, experiment: Experiment) -> None:
@@ -73,11 +97,11 @@ class Timeline:
         self._world = open_world(experiment, self._seed, self._watchers)
         self._experiment = experiment
         self._past = Past(experiment, self._seed)
-        self.branches: list[World] = []
+        self.branches = []
         self.row = 0
         self.remark = ""
         self._lines = {self._world: _Line(((0, 0),))}
-        self._errors: dict[World, LawError] = {}
+        self._errors = {}
         self._count = 0  # of branches that there have been
         self._seen: tuple[World, int, Record] | None = None
         self._gone_back = False
@@ -133,8 +157,25 @@ class Timeline:
 
         Where a run is not over, it says that the window was closed.
         """
-        branches = tuple(_closed(world) for world in self.branches)
-        return replace(_closed(self._world), branches=branches)
+        others = [*self.branches]
+        for run in self._earlier:
+            others += [run["_world"], *run["branches"]]
+        return replace(_closed(self._world), branches=tuple(_closed(world) for world in others))
+
+    @property
+    def touched(self) -> bool:
+        """Whether hands did anything in this run, so that it can't just be run again."""
+        return bool(self.branches or self._world.operator.log or self._past.driven)
+
+    @property
+    def changed(self) -> bool:
+        """Whether hands changed this run or one of `others`; to drive a robot is no change."""
+        return any(world.operator.log for world in (self._world, *self.others))
+
+    @property
+    def _run(self) -> dict[str, Any]:
+        """What belongs to this run alone."""
+        return {name: vars(self)[name] for name in OF_A_RUN}
 
     @property
     def _recorded(self) -> Record:
@@ -320,17 +361,36 @@ class Timeline:
         world.watch = watch_by(self._watchers)
         self._write(row)
 
+    @property
+    def others(self) -> list[World]:
+        """The worlds that can be shown: those of other branches, then those of earlier runs."""
+        return [*self.branches, *(run["_world"] for run in self._earlier)]
+
     def other_branch(self) -> None:
-        """Go to the branch that was left longest ago, at the same row if it has it."""
-        if not self.branches:
+        """Go to the branch that was left longest ago; without one, to an earlier run."""
+        if self.others:
+            self.show(self.others[0])
+
+    def show(self, other: World) -> None:
+        """Go to one of `others`, at the same row if it has it."""
+        if other not in self.branches:
+            self._show_run(other)
             return
-        other = self.branches.pop(0)
+        self.branches.remove(other)
         self.branches.append(self._world)
         common = self._lines[self._world].common(self._lines[other])
         self._past.forget_from(common)
         self._world = other
         self._write(common)
         self.go(self.row)
+
+    def _show_run(self, other: World) -> None:
+        """Go to an earlier run; this one becomes one of them."""
+        run = next(run for run in self._earlier if run["_world"] is other)
+        self._earlier.remove(run)
+        self._earlier.append(self._run)
+        vars(self).update(run)
+        self._write()
 
     def parted(self, other: World) -> int:
         """Return the row up to which another branch is the same as the present one."""

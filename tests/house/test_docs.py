@@ -57,7 +57,8 @@ PIP = {*SET_UP, 'pip install ".[video,data,log,cluster]"'}
 """The only commands that are not executed, but for the part of them that is mars2d."""
 
 MEASURED = {
-    "speed_growth.png", "paper_page.png", "window_branch.png", "replay.png", "league.png", "home.png",
+    "speed_growth.png", "paper_page.png", "window_branch.png", "replay.png", "league.png",
+    "home.png",
 }  # fmt: skip
 """Pictures that no block makes: `benchmarks/growth.py` takes minutes, a page needs a browser, a
 window somebody at the keys."""

@@ -2,7 +2,7 @@
 
 Arguments: speed, then options as JSON: `experiment` or `record`, a file, and `human`, a robot; or
 else fields of Circling. `dark`, `text` and `silent`, without notes, are how it looks; `windows` is
-how many come one after the other.
+how many come one after the other; `asks`: whether a changed run is asked for at the end.
 """
 
 import json
@@ -134,11 +134,12 @@ def main():
     speed, options = sys.argv[1], json.loads(sys.argv[2])
     silent = options.pop("silent", False)
     windows, human = options.pop("windows", 1), options.pop("human", None)
+    asks = options.pop("asks", False)
     look = Preferences(dark=options.pop("dark", False), text=options.pop("text", 1.0))
     for _ in range(windows):
         source = source_of({**options})
         window = Observed(source, speed if speed == "max" else float(speed), (800, 600), look)
-        window.silent = silent
+        window.silent, window.asks = silent, asks
         if human is not None:
             window.wait_for(human)
         try:

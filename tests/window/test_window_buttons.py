@@ -2,7 +2,7 @@
 
 import pytest
 
-from mars2d import run
+from mars2d import load, run
 from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.table import LAYERS
 from mars2d.window import keys, toolbar
@@ -101,16 +101,16 @@ def test_buttons_and_keys_zoom_and_follow(open_window):
 
 def test_buttons_drive_draw_and_begin_anew(open_window, room):
     window = open_window(0, experiment=str(room))
-    push(window, "drive")
-    window.until(lambda s: s["driving"] == 0)
-    push(window, "drive")
-    window.until(lambda s: s["driving"] is None)
     push(window, "step")
     window.until(lambda s: s["row"] == 1)
     push(window, "restart")
     window.until(lambda s: s["newest"] == 0)
     push(window, "branch")
     window.says("no other branch")
+    push(window, "drive")
+    window.until(lambda s: s["driving"] == 0)
+    push(window, "drive")
+    window.until(lambda s: s["driving"] is None)
     push(window, "edit")
     window.until(lambda s: s["editor"] is not None)
 
@@ -217,3 +217,63 @@ def test_every_button_has_a_key_of_the_same_label():
     groups = (*toolbar.TRANSPORT, toolbar.SEE, toolbar.CHANGE, toolbar.SAVE, toolbar.LOOK)
     for name in (name for group in groups for name in group):
         assert CONTROLS[name].key == by_action[name].labels[0], name
+
+
+# -- nothing is lost ------------------------------------------------------------------------------
+
+
+def test_a_run_changed_by_hand_is_kept_when_it_is_started_anew(open_window, room):
+    window = open_window(0, experiment=str(room))
+    window.drag((1, -1), (1.2, 0), (1.5, 0.5))
+    window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
+    window.press("Right", "r")
+    window.until(lambda s: s["newest"] == 0 and s["props"][0] == [1, -1, 0])
+    push(window, "branch")
+    choose(window, "Earlier run, until 0.1 s")
+    window.until(lambda s: s["newest"] == 1)
+    assert window.state["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05)
+    window.press("b")
+    window.until(lambda s: s["newest"] == 0 and s["props"][0] == [1, -1, 0])
+
+
+def test_before_a_run_changed_by_hand_is_lost_the_window_asks(open_window, room, tmp_path):
+    window = open_window(0, experiment=str(room), asks=True, folder=tmp_path)
+    window.drag((1, -1), (1.2, 0), (1.5, 0.5))
+    window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
+    window.press("Right")
+    window.until(lambda s: s["row"] == 1)
+    window.do("mousemove", *window.state["close"], "click", 1)
+    window.until(lambda s: s["selected"] is None)
+    for stay in ("Escape", "Stay"):
+        window.press("Escape")
+        window.until(lambda s: "Stay" in s["menu"])
+        if stay == "Stay":
+            choose(window, "Stay")
+        else:
+            window.press("Escape")
+        window.until(lambda s: not s["menu"])
+    window.press("ctrl+q")
+    choose(window, "Save it, and leave")
+    window.until(lambda s: s.get("left"))
+    (saved,) = tmp_path.glob("*.npz")
+    record = load(saved)
+    assert len(record.interventions) > 0
+    assert record.prop_pose[-1, :2, 0] == pytest.approx([1.5, 0.5], abs=0.05)
+
+
+def test_asked_twice_to_close_the_window_does(open_window, room):
+    window = open_window(0, experiment=str(room), asks=True)
+    window.drag((1, -1), (1.2, 0), (1.5, 0.5))
+    window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
+    window.press("ctrl+q")
+    window.until(lambda s: s["menu"])
+    window.press("ctrl+q")
+    window.until(lambda s: s.get("left"))
+
+
+def test_a_run_that_can_be_run_again_is_not_asked_for(open_window, room):
+    window = open_window(0, experiment=str(room), asks=True)
+    window.press("Right")
+    window.until(lambda s: s["row"] == 1)
+    window.press("Escape")
+    window.until(lambda s: s.get("left"))

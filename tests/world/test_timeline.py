@@ -960,3 +960,37 @@ scenario = Scenario(
         timeline.branch()
         finish(timeline)
         assert timeline.record.digest == expected.digest
+
+
+# -- started anew ----------------------------------------------------------------------------------
+
+
+def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 60)
+    timeline.go(40)
+    timeline.change(lambda w: w.hands.place(0, (-4.0, -4.0, 0.0)))
+    run_to(timeline, 80)
+    changed, (before,) = timeline.world, timeline.branches
+    timeline.restart()
+    assert (timeline.newest, timeline.branches, timeline.others) == (0, [], [changed])
+    assert not timeline.touched
+    assert timeline.changed
+    finish(timeline)
+    assert timeline.record.digest == simulated(memory).digest
+    assert [len(branch) for branch in timeline.record.branches] == [80, 60]
+    timeline.other_branch()
+    assert (timeline.world, timeline.branches, timeline.row) == (changed, [before], 80)
+    run_to(timeline, 90)
+    timeline.go(50)
+    assert timeline.branch() is not changed
+    assert len(timeline.branches) == 2
+
+
+def test_a_run_that_can_be_run_again_is_not_kept(memory):
+    timeline = Timeline(open_experiment(memory), 3)
+    run_to(timeline, 60)
+    timeline.restart()
+    timeline.restart()
+    assert timeline.others == []
+    assert not timeline.changed

@@ -146,7 +146,16 @@ def _run_in_window(
 ) -> tuple[Record, Film | None]:
     human, look = human_of(arguments, experiment), preferences_of(arguments)
     log = formats.log_to(arguments.record)
-    record = show(experiment, arguments.speed, arguments.seed, look, human, log, [watcher])
+    record = show(
+        experiment,
+        arguments.speed,
+        arguments.seed,
+        look,
+        human,
+        log,
+        [watcher],
+        kept=arguments.record is not None,
+    )
     return record, None
 
 

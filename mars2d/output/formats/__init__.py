@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from importlib import import_module
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -27,6 +28,7 @@ __all__ = [
     "require",
     "rescued",
     "save",
+    "save_branches",
     "save_or_rescue",
 ]
 
@@ -139,6 +141,15 @@ def save_or_rescue(record: Record, path: Path) -> None:
         failure = InputError(f"{error}; {kept}")
         failure.record = record
         raise failure from error
+
+
+def save_branches(record: Record, beside: Path) -> list[Path]:
+    """Save the branches of a record beside it, under free names; return these."""
+    saved = []
+    for branch in record.branches:
+        names = (beside.with_stem(f"{beside.stem}_branch{k}") for k in count(1))
+        saved.append(branch.save(next(name for name in names if not name.exists())))
+    return saved
 
 
 def rescued(record: Record, path: Path) -> Path | None:
