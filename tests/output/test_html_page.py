@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Robot, Scenario
+from mars2d import Animation, Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
 from mars2d.bodies.props import Box
 from mars2d.output.pages.replay import page
@@ -212,6 +212,40 @@ def test_a_contact_has_arrows_of_its_force(tab, record):
     tab.settle()
     force = np.hypot(contact["normal_impulse"], contact["tangential_impulse"]) / 0.1
     assert f"crate {force:.1f} N" in tab.text("#panel")
+
+
+SAID = """
+window.said = [];
+const fill = CanvasRenderingContext2D.prototype.fillText;
+CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+  said.push(text);
+  return fill.call(this, text, ...rest);
+};
+"""
+"""Notes what is written on the picture."""
+
+
+def test_the_panel_says_the_forces_of_the_arrows_where_rows_are_left_out(open_tab, tmp_path):
+    scenario = Scenario(
+        robots=[Robot(), Robot(pose=(0.4, 0, 0))], sampling_time=0.02, stop_time=60.0,
+        animation=Animation(grid=False, forces=True, names=False),
+    )  # fmt: skip
+
+    def law(world):
+        return np.array([[0.4 * np.sin(5 * world.time) + 0.1, -0.1], [0, 0]])
+
+    path = mars2d.run(scenario, control=law).save_html(tmp_path / "long.html")
+    tab = open_tab(path, script=SAID)
+    tab.press("n")
+    told = set()
+    for row in range(700, 760):
+        tab.page.evaluate("said = []")
+        tab.go(row)
+        arrows = [text for text in tab.page.evaluate("said") if text.endswith(" N")]
+        panel = tab.page.locator("#panel dd").last.inner_text()
+        assert panel.split("\n") == ["none"] if not arrows else arrows[0] in panel
+        told.add(bool(arrows))
+    assert told == {True, False}
 
 
 def test_it_zooms_and_moves_by_buttons_keys_wheel_and_mouse(tab):

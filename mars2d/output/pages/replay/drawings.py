@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mars2d.core.scene import Arrow, Circle, Image, Line, Polygon, Shape, Text
 from mars2d.output.pages.replay.columns import Columns, Int, rounded
 
-__all__ = ["Drawing", "Flat", "Float", "flat", "follows", "pack"]
+__all__ = ["Drawing", "Flat", "Float", "flat", "follows", "kept_rows", "pack"]
 
 Float = NDArray[np.float64]
 
@@ -189,6 +189,11 @@ def pack(
     }
     columns.beside = len(zlib.compress(json.dumps(header).encode()))
     return columns, header, most
+
+
+def kept_rows(drawing: Drawing, every: int) -> list[int]:
+    """Return the rows of which `pack` keeps the scenes."""
+    return [row for row, _ in _last_of_each(drawing, every)]
 
 
 def _last_of_each(drawing: Drawing, every: int) -> list[tuple[int, Flat]]:
