@@ -22,6 +22,7 @@ from mars2d.output.layers.forces import (
     force_scale,
     mean_forces,
 )
+from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
 from mars2d.output.layers.trails import (
     PROP_TRAIL_WIDTH,
@@ -29,6 +30,7 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
+from mars2d.output.marks import MARKS, Mark
 from mars2d.output.pages.replay import sensors
 from mars2d.output.pages.replay.columns import Columns, Int, fitted, rounded
 from mars2d.output.pages.replay.drawings import (
@@ -39,9 +41,11 @@ from mars2d.output.pages.replay.drawings import (
     follows,
     kept_rows,
     pack,
+    shapes_of,
 )
 from mars2d.output.pages.replay.sensors import Carried
 from mars2d.record.frame import Frame
+from mars2d.record.marks import marks_of
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.robot import Robot
 from mars2d.sensors.base import Sensor
@@ -108,7 +112,10 @@ class _Content:
         header = self._about()
         header["bodies"] = self._bodies()
         header["readings"] = self._add_panel()
+        header["marks"] = self._add_marks()
         header["layers"] = _table(self.scenario.animation)
+        header["legends"] = [_legend(each) for each in legends(self.scenario)]
+        header["longestArrow"] = MAX_ARROW
         header["drawn"] = self._add_layers()
         if self.record.drawn.shapes:
             self.notes.append("what add-ons drew while they ran is shown at the end alone")
@@ -232,6 +239,16 @@ class _Content:
         self.columns.take(columns)
         self._note("commands and readings in the panel", every)
         return words
+
+    def _add_marks(self) -> list[dict[str, str]]:
+        """Add the rows that have marks on the time bar; return which kinds there are."""
+        kinds = []
+        for kind, rows in marks_of(self.record).items():
+            if rows:
+                at = np.minimum(np.searchsorted(self.kept, rows), len(self.kept) - 1)
+                self.columns.add(f"marks:{kind}", np.unique(at), order=1)
+                kinds.append(kind)
+        return [{"kind": kind, **_place_of(MARKS[kind])} for kind in MARKS if kind in kinds]
 
     # -- layers -------------------------------------------------------------------------------
 
@@ -381,6 +398,25 @@ def _table(animation: Animation) -> list[dict[str, Any]]:
         }
         for layer in LAYERS
     ]
+
+
+def _place_of(mark: Mark) -> dict[str, Any]:
+    return {"above": mark.above, "below": mark.below, "meaning": mark.meaning}
+
+
+def _legend(legend: Legend) -> dict[str, Any]:
+    """Return a legend for the page: its arrow at all round numbers, and its signs."""
+    ruler = legend.ruler
+    numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
+    return {
+        "layer": legend.layer,
+        "arrow": ruler and ["arrow", ruler.color, None, ruler.width],
+        "lengths": [[ruler.unit * each, ruler.in_words(each)] for each in numbers] if ruler else [],
+        "signs": [
+            {"room": sign.room, "meaning": sign.meaning, "shapes": shapes_of(sign.scene)}
+            for sign in legend.signs
+        ],
+    }
 
 
 def _drawn(layer: Layer, frame: Frame) -> Flat:
