@@ -35,14 +35,18 @@ def running_browser() -> Iterator[Any]:
 class Tab:
     """A page in a browser without a network, and all that it asked for and complained about."""
 
-    def __init__(self, browser: Any, size: tuple[int, int], **how: Any) -> None:
-        """Open an empty one; how: what the context is like, as color_scheme="dark"."""
+    def __init__(self, browser: Any, size: tuple[int, int], script: str = "", **how: Any) -> None:
+        """Open an empty one; how: what the context is like, as color_scheme="dark".
+
+        script: runs before those of the page.
+        """
         how = {"reduced_motion": "reduce", "color_scheme": "light", **how}
         self.context = browser.new_context(
             viewport={"width": size[0], "height": size[1]}, offline=True, **how
         )
         self.context.set_default_timeout(PATIENCE * 1000)
         self.page = self.context.new_page()
+        self.page.add_init_script(script)
         self.asked: list[str] = []
         self.complaints: list[str] = []
         self.page.on("request", lambda request: self.asked.append(request.url))
@@ -70,6 +74,11 @@ class Tab:
         """Press keys, one after the other."""
         for key in keys:
             self.page.keyboard.press(key)
+        self.settle()
+
+    def go(self, row: int) -> None:
+        """Pull the time to a row."""
+        self.page.locator("#slider").fill(str(row))
         self.settle()
 
     def settle(self) -> None:

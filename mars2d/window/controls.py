@@ -5,15 +5,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 
-import numpy as np
 import pygame
 
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
+from mars2d.record.marks import MarkKind, marks_of, meetings
 from mars2d.window.mouse import Handle, Pixel
 from mars2d.window.player import SPEEDS, Player
 from mars2d.window.slider import SpeedSlider
-from mars2d.window.timebar import MarkKind, TimeBar, TimeState
+from mars2d.window.source import Playback, Source
+from mars2d.window.timebar import TimeBar, TimeState
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -26,12 +27,12 @@ MARK_INTERVAL = 0.25
 class Controls:
     """Shows a player's time and speed, and lets the mouse change them.
 
-    marks: of the time bar; None for a recording. handles: for the mouse.
+    handles: for the mouse.
     """
 
-    def __init__(self, player: Player, marks: Marks | None) -> None:
+    def __init__(self, player: Player) -> None:
         """Start with nothing drawn."""
-        self._player, self._marks = player, marks
+        self._player, self._marks = player, _marks_of(player.source)
         self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
         self.handles: list[Handle] = [
             (self.time_bar.hit, self._scrub),
@@ -60,11 +61,15 @@ class Controls:
     def time_state(self) -> TimeState:
         """Return the state that the time bar shows."""
         source = self._player.source
-        last = source.scenario.last_iteration
-        if self._marks is None:  # a recording ends with its last row
-            last = source.newest
-        marks = {} if self._marks is None else self._marks.rows()
-        return TimeState(source.row, source.newest, last, source.scenario.sampling_time, marks)
+        live = not isinstance(source, Playback)
+        return TimeState(
+            row=source.row,
+            rows=source.newest,
+            last=source.scenario.last_iteration if live else source.newest,
+            sampling_time=source.scenario.sampling_time,
+            marks=self._marks(),
+            live=live,
+        )
 
     def _scrub(self, pixel: Pixel) -> None:
         """Go to the row at a pixel of the time bar."""
@@ -77,6 +82,14 @@ class Controls:
         speed = self.slider.speed_at(pixel[0])
         if speed is not None and speed != self._player.speed:
             self._player.set_speed(speed)
+
+
+def _marks_of(source: Source) -> Callable[[], Mapping[MarkKind, Sequence[int]]]:
+    """Return what tells the rows with marks: of a recording they stay the same."""
+    if isinstance(source, Timeline):
+        return Marks(source).rows
+    marks = marks_of(source.record) if isinstance(source, Playback) else {}
+    return lambda: marks
 
 
 class Marks:
@@ -119,6 +132,5 @@ class Marks:
         contacts = world.frame.contact_log()
         new = contacts[self._seen :]
         self._seen = len(contacts)
-        steps = new["time"][new["began"]] / world.sampling_time
-        rows = np.ceil(steps - 1e-6).astype(int).tolist()
-        self._touched += sorted(set(rows) - set(self._touched[-1:]))
+        rows = meetings(new, world.sampling_time)
+        self._touched += [row for row in rows if row not in self._touched[-1:]]

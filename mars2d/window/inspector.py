@@ -26,6 +26,7 @@ from mars2d.window.readout import (
     kind_of,
     rounded,
     state_of,
+    touching,
 )
 from mars2d.window.sensorplot import TITLE, SensorPlot, plot_of
 
@@ -65,7 +66,8 @@ class Section(NamedTuple):
 class Inspector:
     """Shows the state, contacts, forces, sensors and messages of one body.
 
-    clock: seconds; the inspector is drawn anew a few times a second.
+    clock: seconds; the inspector is drawn anew a few times a second, and as soon as the body comes
+    to touch another or parts from it, since it stands beside the arrows.
     """
 
     def __init__(self, painter: Painter, clock: Callable[[], float] = time.perf_counter) -> None:
@@ -111,7 +113,7 @@ class Inspector:
     ) -> pygame.Rect:
         """Draw the inspector of a body within a rectangle; return the part that it covers."""
         ui, theme = self.painter.ui, self.painter.theme
-        of = body, frame.scenario, rect.size, ui, theme
+        of = body, touching(frame, body), frame.scenario, rect.size, ui, theme
         reading = self._meter.read(frame, body)  # at each control step, else it would start over
         now = self._clock()
         late = frame is not self._frame and now - self._drawn_at >= DRAW_INTERVAL

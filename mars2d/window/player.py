@@ -12,7 +12,7 @@ from mars2d.core.errors import Mars2dError
 from mars2d.record.frame import Frame, between
 from mars2d.scenario.animation import playback_speed
 from mars2d.window.slider import BEHIND, times
-from mars2d.window.source import Source
+from mars2d.window.source import Playback, Source
 
 __all__ = ["SPEEDS", "Player", "between"]
 
@@ -79,13 +79,17 @@ class Player:
 
     @property
     def past(self) -> bool:
-        """Whether an earlier row than the newest is shown."""
+        """Whether an earlier row than the newest is shown, of a run that goes on from it."""
+        return self._behind and not isinstance(self.source, Playback)
+
+    @property
+    def _behind(self) -> bool:
         return self.source.row < self.source.newest
 
     @property
     def failed(self) -> bool:
         """Whether the row is shown at which a law, sensor or add-on has failed."""
-        return self.error is not None and not self.past
+        return self.error is not None and not self._behind
 
     @property
     def over(self) -> bool:

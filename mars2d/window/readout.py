@@ -25,6 +25,7 @@ __all__ = [
     "kind_of",
     "rounded",
     "state_of",
+    "touching",
 ]  # fmt: skip
 
 MAX_MESSAGES = 3
@@ -116,6 +117,13 @@ def _degrees(angle: float) -> str:
 def in_both_units(angle: float) -> str:
     """Return a heading in degrees, and in radians as laws have it: ``90° (1.571 rad)``."""
     return f"{np.degrees(angle) + 0.0:.4g}° ({angle + 0.0:.4g} rad)".replace("-", MINUS)
+
+
+def touching(frame: Frame, body: int) -> frozenset[int]:
+    """Return what a body touches: indices of bodies, or -1 - k of obstacle k."""
+    rows = frame.contacts
+    others = np.where(rows["a"] == body, rows["b"], rows["a"])
+    return frozenset(others[(rows["a"] == body) | (rows["b"] == body)].tolist())
 
 
 def contacts_of(frame: Frame, body: int) -> list[str]:

@@ -51,23 +51,23 @@ class Playback:
     """A recorded run, row by row."""
 
     def __init__(self, record: Record) -> None:
-        self._record = record
+        self.record = record
         self.row = 0
 
     @property
     def scenario(self) -> Scenario:
         """What was simulated."""
-        return self._record.scenario_at(self.row)
+        return self.record.scenario_at(self.row)
 
     @property
     def frame(self) -> Frame:
         """The present row."""
-        return self._record.frame(self.row)
+        return self.record.frame(self.row)
 
     @property
     def newest(self) -> int:
         """The last row."""
-        return len(self._record) - 1
+        return len(self.record) - 1
 
     @property
     def over(self) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 import pygame
@@ -12,15 +11,14 @@ from numpy.typing import NDArray
 
 from mars2d.core.plane import grid_step
 from mars2d.core.scene import Scene
-from mars2d.output.layers.forces import FORCE
+from mars2d.output.marks import MARKS
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.theme import Theme, mixed
+from mars2d.output.raster.theme import mixed
+from mars2d.record.marks import MarkKind
 from mars2d.window.slider import Slider, draw_tooltip
 
-__all__ = ["MarkKind", "TimeBar", "TimeState"]
-
-MarkKind = Literal["collision", "hand", "branch", "error"]
+__all__ = ["TimeBar", "TimeState"]
 
 ENDLESS = 1_000_000
 """Experiments of more rows than this are shown only as far as they have gone."""
@@ -36,7 +34,8 @@ class TimeState:
 
     row: the row shown. rows: the newest row simulated so far. last: the row at which the experiment
     ends. sampling_time: seconds between two rows. marks: rows, in ascending order, at which
-    collisions began, a person intervened, a branch begins, or a law failed.
+    collisions began, a person intervened, a branch begins, or a law failed. live: whether the run
+    can go on from the row; else it is a recording.
     """
 
     row: int
@@ -44,6 +43,12 @@ class TimeState:
     last: int
     sampling_time: float
     marks: Mapping[MarkKind, Sequence[int]] = field(default_factory=dict)
+    live: bool = True
+
+    @property
+    def past(self) -> bool:
+        """Whether an earlier row is shown than the newest of a run that goes on."""
+        return self.live and self.row < self.rows
 
     @property
     def extent(self) -> float:
@@ -182,19 +187,15 @@ class TimeBar(Slider):
             self._fill(surface, painter, round(self.x_of(row)), color)
 
     def _marks(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Draw a tick per event: interventions above the line, collisions below it."""
+        """Draw a tick per event above the line, below it, or both."""
         ui, line = painter.ui, self._line
         thick, long = max(1, round(1.5 * ui)), round(6 * ui)
         above, below = line.top - round(2 * ui) - long, line.bottom + round(2 * ui)
-        ticks: tuple[tuple[MarkKind, int, int], ...] = (
-            ("collision", below, long),
-            ("hand", above, long),
-            ("branch", above, below + long - above),
-            ("error", above, below + long - above),
-        )
-        for kind, top, height in ticks:
+        for kind, mark in MARKS.items():
+            top = above if mark.above else below
+            height = (below if mark.below else above) + long - top
             wide = thick * (2 if kind == "error" else 1)
-            color = _mark_color(kind, painter.theme)
+            color = mark.color(painter.theme)
             for x, width in self._ticks_of(kind, state).stretches(line.left, wide):
                 surface.fill(color, (x, top, width, height))
 
@@ -216,7 +217,7 @@ class TimeBar(Slider):
     ) -> None:
         """Draw the handle, larger while the mouse is over the bar."""
         theme = painter.theme
-        color = theme.past.ink if state.row < state.rows else theme.selected
+        color = theme.past.ink if state.past else theme.selected
         scene = Scene()
         center = self.x_of(state.row), -self._line.centery
         scene.circle(center, 0.0, fill=theme.bar, pixels=11.0 if lifted else 9.0)
@@ -225,7 +226,7 @@ class TimeBar(Slider):
 
     def _label(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
         """Write the time above the handle, while the past is shown."""
-        if state.row >= state.rows:
+        if not state.past:
             return
         ui, line = painter.ui, self._line
         text = _time(state.row, state)
@@ -238,11 +239,6 @@ class TimeBar(Slider):
         ground = place.inflate(round(8 * ui), 0)
         surface.fill(painter.theme.bar, ground)
         surface.blit(image, place)
-
-
-def _mark_color(kind: MarkKind, theme: Theme) -> str:
-    tones = {"hand": theme.hand, "branch": theme.past, "error": theme.error}
-    return tones[kind].ink if kind in tones else theme.shade(FORCE)
 
 
 def _time(row: float, state: TimeState, digits: int | None = None) -> str:

@@ -28,7 +28,7 @@ from mars2d.window.context import (
     entries_of_place,
     entries_of_runs,
 )
-from mars2d.window.controls import Controls, Marks
+from mars2d.window.controls import Controls
 from mars2d.window.desktop import desktop_scale, opening_size
 from mars2d.window.director import Director
 from mars2d.window.display import (
@@ -106,7 +106,7 @@ class Window:
         self.saver = Saver(self.notes, _stem(source))
         self.editor: Editor | None = None
         timeline = self.director.timeline
-        self._controls = Controls(self.player, None if timeline is None else Marks(timeline))
+        self._controls = Controls(self.player)
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
         self._ending = Ending(self.player)

@@ -14,6 +14,7 @@ from mars2d.core.scene import Arrow, Circle, Line, Text
 from mars2d.output.layers.forces import (
     MAX_CONTACTS,
     MAX_LABELS,
+    as_read,
     force_scale,
     forces,
     in_newtons,
@@ -167,10 +168,20 @@ def test_a_frame_without_contacts_makes_an_empty_scene():
 
 @pytest.mark.parametrize(
     ("force", "text"),
-    [(0.123, "0.12 N"), (4.96, "5.0 N"), (9.81, "9.8 N"), (56.2, "56 N"), (2400, "2.4 kN")],
+    [
+        (0.123, "0.12 N"),
+        (0.997, "1.0 N"),
+        (4.96, "5.0 N"),
+        (9.81, "9.8 N"),
+        (9.96, "10 N"),
+        (56.2, "56 N"),
+        (999.7, "1 kN"),
+        (2400, "2.4 kN"),
+    ],
 )
 def test_forces_are_read_with_two_digits(force, text):
     assert in_newtons(force) == text
+    assert in_newtons(as_read(force)) == text, "what is rounded once stays as it is"
 
 
 @pytest.mark.parametrize(

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Robot, Scenario
+from mars2d import Animation, Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
 from mars2d.bodies.props import Box
 from mars2d.output.pages.replay import page
 from mars2d.output.raster.theme import DARK, contrast, on_dark
 from mars2d.record.interventions import Steer
+from mars2d.record.marks import marks_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.browser import Tab, differing
 
@@ -154,7 +155,7 @@ def test_it_plays_at_the_speed_that_is_chosen(tab):
 
 
 def test_a_loop_begins_again(tab):
-    tab.press("r")
+    tab.press("j")
     assert tab.is_on("#loop")
     tab.page.select_option("#speed", "100")
     tab.press("End", "ArrowLeft", "Space")
@@ -214,6 +215,79 @@ def test_a_contact_has_arrows_of_its_force(tab, record):
     assert f"crate {force:.1f} N" in tab.text("#panel")
 
 
+def test_a_legend_says_how_long_a_force_is_and_follows_the_zoom(tab):
+    show_only(tab, "forces")
+    assert tab.text("#legend").split("\n")[-1] == "slips"
+    far = tab.text("#legend").split()[:2]
+    for _ in range(4):
+        tab.click("Zoom in")
+    near = tab.text("#legend").split()[:2]
+    assert far[1] == near[1] == "N"
+    assert float(near[0]) < float(far[0])
+    show_only(tab, "velocities")
+    assert "m/s" in tab.text("#legend")
+    assert "slips" not in tab.text("#legend")
+    show_only(tab)
+    assert not tab.text("#legend").strip()
+
+
+def test_the_time_bar_has_marks_where_bodies_met_and_where_hands_were(record, open_tab, tmp_path):
+    marked = replace(record, interventions=tuple(Steer(k, 1, True) for k in (60, 80)))
+    tab = open_tab(marked.save_html(tmp_path / "marked.html"))
+    met = [row for row in marks_of(record)["collision"] if row > 5]
+    assert len(met) > 0
+    marks = tab.page.locator("#marks")
+    box = marks.bounding_box()
+    pixels, (wide, high) = marks.evaluate("""(canvas) => {
+        const { width, height } = canvas, context = canvas.getContext("2d");
+        return [Array.from(context.getImageData(0, 0, width, height).data), [width, height]];
+    }""")
+    inked = np.reshape(pixels, (high, wide, 4))[..., 3] > 0
+    above, below = np.array_split(inked, 2)
+    for rows, seen in (([60, 80], above), (met, below)):
+        places = [8 + (box["width"] - 16) * row / 120 for row in rows]
+        columns = np.flatnonzero(seen.any(axis=0))
+        assert all(np.abs(columns - place).min() <= 2 for place in places)
+        assert all(np.abs(np.array(places) - column).min() <= 2 for column in columns)
+    tab.press("F1")
+    assert "on the time bar: bodies came to touch" in tab.text("#helping")
+    assert "on the time bar: something was changed by hand" in tab.text("#helping")
+
+
+SAID = """
+window.said = [];
+const fill = CanvasRenderingContext2D.prototype.fillText;
+CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+  said.push(text);
+  return fill.call(this, text, ...rest);
+};
+"""
+"""Notes what is written on the picture."""
+
+
+def test_the_panel_says_the_forces_of_the_arrows_where_rows_are_left_out(open_tab, tmp_path):
+    scenario = Scenario(
+        robots=[Robot(), Robot(pose=(0.4, 0, 0))], sampling_time=0.02, stop_time=60.0,
+        animation=Animation(grid=False, forces=True, names=False),
+    )  # fmt: skip
+
+    def law(world):
+        return np.array([[0.4 * np.sin(5 * world.time) + 0.1, -0.1], [0, 0]])
+
+    path = mars2d.run(scenario, control=law).save_html(tmp_path / "long.html")
+    tab = open_tab(path, script=SAID)
+    tab.press("n")
+    told = set()
+    for row in range(700, 760):
+        tab.page.evaluate("said = []")
+        tab.go(row)
+        arrows = [text for text in tab.page.evaluate("said") if text.endswith(" N")]
+        panel = tab.page.locator("#panel dd").last.inner_text()
+        assert panel.split("\n") == ["none"] if not arrows else arrows[0] in panel
+        told.add(bool(arrows))
+    assert told == {True, False}
+
+
 def test_it_zooms_and_moves_by_buttons_keys_wheel_and_mouse(tab):
     show_only(tab)
     fitted = tab.picture()
@@ -223,11 +297,11 @@ def test_it_zooms_and_moves_by_buttons_keys_wheel_and_mouse(tab):
     tab.settle()
     assert differing(tab.picture(), fitted) > 0.01
     assert tab.middle_of(GREEN) == pytest.approx((x, y), abs=4)  # what is under the pointer stays
-    for button in ("Fit", "Zoom in", "Fit", "Zoom out"):
+    for button in ("Show all", "Zoom in", "Show all", "Zoom out"):
         before = tab.picture()
         tab.click(button)
         assert differing(tab.picture(), before) > 0.01
-        assert (differing(tab.picture(), fitted) == 0) is (button == "Fit")
+        assert (differing(tab.picture(), fitted) == 0) is (button == "Show all")
     tab.press("f", "z", "Shift+Z")
     assert differing(tab.picture(), fitted) < 1e-3
     tab.press("f", "Shift+ArrowRight")
@@ -395,11 +469,11 @@ def test_on_a_phone_all_is_in_reach_of_a_thumb(open_tab, replay):
         assert box["x"] >= 0, control
         assert box["x"] + box["width"] <= 360, control
         assert box["y"] + box["height"] <= 640, control
-    tab.page.get_by_role("button", name="Show").tap()
+    tab.page.get_by_role("button", name="Show", exact=True).tap()
     tab.page.get_by_role("button", name="Trails").tap()
     tab.settle()
     assert not tab.is_on("#layer-trails")
-    tab.page.get_by_role("button", name="Show").tap()
+    tab.page.get_by_role("button", name="Show", exact=True).tap()
     show_only(tab)
     x, y = tab.middle_of(ORANGE)
     tab.page.touchscreen.tap(x, y)

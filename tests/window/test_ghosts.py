@@ -9,9 +9,10 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.controls import Marks
+from mars2d.window.controls import Controls, Marks
 from mars2d.window.ghosts import ghosts
-from mars2d.window.player import between
+from mars2d.window.player import Player, between
+from mars2d.window.source import Playback
 from mars2d.world.timeline import Timeline
 from tests.worlds import ahead
 
@@ -132,6 +133,24 @@ def test_marks_of_hands_branches_and_collisions():
     assert rows["collision"] == [int(np.ceil(touched[0] / 0.5))]
     assert rows["hand"] == [30]
     assert rows["branch"] == [30]
+
+
+def test_a_recording_has_the_marks_that_its_run_had():
+    timeline = timeline_of(addons=[Map([[(1.0, -1.0), (1.0, 1.0)]])])
+    run_to(timeline, 30)
+    timeline.change(lambda w: w.hands.place(1, (3.0, 3.0, 0.0)))
+    run_to(timeline, 40)
+    ran = Marks(timeline).rows()
+    player = Player(Playback(timeline.record), 1.0)
+    player.go(20)
+    shown = Controls(player).time_state()
+    assert {kind: [*rows] for kind, rows in shown.marks.items()} == {
+        kind: [*ran[kind]] for kind in shown.marks
+    }
+    assert shown.marks["collision"]
+    assert shown.marks["hand"] == [30]
+    assert (shown.last, shown.past) == (len(timeline.record) - 1, False)
+    assert player.status() == ("paused", "waiting"), "a recording has no present to be behind"
 
 
 def test_collisions_are_looked_for_now_and_then(monkeypatch):

@@ -305,7 +305,7 @@ def test_it_lies_at_the_right_unless_the_body_is_there():
 
 
 def test_between_two_drawings_it_is_the_same_for_a_while():
-    world, now = team(steps=5), [0.0]
+    world, now = team(steps=8), [0.0]
     inspector = Inspector(Painter(), clock=lambda: now[0])
     surface = pygame.Surface((344, 580), 0, 32)
 
@@ -323,6 +323,22 @@ def test_between_two_drawings_it_is_the_same_for_a_while():
     world.step()
     now[0] = 0.2
     assert not np.array_equal(picture(world.frame), first)
+
+
+def test_a_contact_that_begins_or_ends_is_seen_at_once():
+    world, kept = team(steps=5), Inspector(Painter(), clock=lambda: 0.0)
+    frame = world.frame
+    touch = np.zeros(1, dtype=frame.contacts.dtype)
+    touch["a"], touch["b"], touch["normal_impulse"] = 0, 1, 1.0
+
+    def picture(inspector, contacts):
+        surface = pygame.Surface((344, 580), 0, 32)
+        inspector.draw(surface, surface.get_rect(), replace(frame, contacts=contacts), 0)
+        return pygame.surfarray.array3d(surface)
+
+    for contacts in (touch[:0], touch, touch[:0]):
+        anew = picture(Inspector(Painter()), contacts)
+        assert np.array_equal(picture(kept, contacts), anew)
 
 
 def test_it_takes_little_time(world):

@@ -1,5 +1,6 @@
 """The time bar shows where an experiment is and finds the row under the pointer; so the slider."""
 
+from dataclasses import replace
 from itertools import pairwise
 from math import inf
 
@@ -229,3 +230,11 @@ def test_the_slider_can_be_hit_and_is_not_the_time_bar(size):
     x = round(slid.slider.x_of(1.0))
     assert sum(slid.slider.hit((x, y)) for y in range(size[1])) >= 24
     assert all(a < b for a, b in pairwise([slid.layout.timebar.right - 1, x]))
+
+
+def test_the_handle_of_a_recording_is_never_in_the_past():
+    shown = replace(state(), live=False)
+    drawn = Drawn(shown)
+    assert drawn.has(LIGHT.selected, 300)
+    assert "30.0 s" not in drawn.surface.texts
+    assert "30.0 s" in Drawn(state()).surface.texts

@@ -21,6 +21,7 @@ __all__ = [
     "SLIPPING",
     "SLIP_EDGE",
     "ForceScale",
+    "as_read",
     "bounding_circle",
     "force_scale",
     "forces",
@@ -178,10 +179,21 @@ def _touching_points(frame: Frame) -> Float:
 
 def in_newtons(force: float) -> str:
     """Return a force as it is read: 0.25 N, 4.9 N, 12 N, 2.4 kN."""
+    force = as_read(force)
     if force >= 1000:
         return f"{force / 1000:.3g} kN"
-    digits = 2 if force < 1 else 1 if force < 10 else 0
-    return f"{force:.{digits}f} N"
+    return f"{force:.{_decimals(force)}f} N"
+
+
+def as_read(force: float) -> float:
+    """Return a force rounded to the digits with which it is read, newtons."""
+    return round(force, _decimals(force))
+
+
+def _decimals(force: float) -> int:
+    if force >= 999.5:
+        return 2 - floor(log10(force))
+    return 2 if force < 0.995 else 1 if force < 9.95 else 0
 
 
 def round_force(most: float) -> float:

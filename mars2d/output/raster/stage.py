@@ -11,6 +11,7 @@ from time import perf_counter
 import pygame
 
 from mars2d.core.scene import Shape
+from mars2d.output.layers.legend import legends
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
@@ -164,10 +165,8 @@ class Stage:
                 self.painter.paint(surface, _sensors(frame), camera)
         self._paint_above(surface, frame, camera, layers, beneath, marks)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
-        draw_legends(
-            surface, self.painter, frame.scenario, camera, plot,
-            forces=layers.forces, velocities=layers.velocities,
-        )  # fmt: skip
+        shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
+        draw_legends(surface, self.painter, camera, plot, shown)
         surface.set_clip(before)
 
     def _paint_above(

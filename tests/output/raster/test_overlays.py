@@ -13,6 +13,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Arrow, Line, Text
 from mars2d.output.layers.bodies import names
+from mars2d.output.layers.legend import legends
 from mars2d.output.layers.neighbours import Links
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.velocities import speed_scale, velocities
@@ -90,9 +91,9 @@ def test_the_legends_lie_side_by_side(scale):
     camera, seen = Camera(scale, 320.0, 240.0), {}
     for forces, velocities_too in ((True, False), (False, True), (True, True)):
         surface = pygame.Surface(plot.size, 0, 32)
-        draw_legends(
-            surface, Painter(), scenario, camera, plot, forces=forces, velocities=velocities_too
-        )
+        wanted = {"forces": forces, "velocities": velocities_too}
+        shown = [each for each in legends(scenario) if wanted[each.layer]]
+        draw_legends(surface, Painter(), camera, plot, shown)
         seen[forces, velocities_too] = pygame.surfarray.array3d(surface).any(axis=(1, 2))
     wide = [int(seen[key].sum()) for key in ((True, False), (False, True))]
     both = seen[True, True]

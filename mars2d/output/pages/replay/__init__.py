@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.output.controls import CONTROLS, PAUSE
+from mars2d.output.marks import MARKS
 from mars2d.output.pages.replay.content import content_of
 from mars2d.output.raster.theme import DARK, LIGHT, Theme
 
@@ -34,7 +35,19 @@ __all__ = [
     "save_html",
 ]
 
-SCRIPTS = ("data", "shades", "camera", "painter", "drawings", "picture", "clock", "panel", "replay")
+SCRIPTS = (
+    "data",
+    "shades",
+    "camera",
+    "painter",
+    "drawings",
+    "picture",
+    "clock",
+    "panel",
+    "legend",
+    "marks",
+    "replay",
+)
 """The parts of the script, each of which may use those before it."""
 
 
@@ -145,6 +158,7 @@ def _variables(theme: Theme) -> str:
         "over": theme.over, "on-over": theme.on_banner, "effort": theme.effort,
         "failed": theme.failed,
     }  # fmt: skip
+    values |= {f"mark-{kind}": mark.color(theme) for kind, mark in MARKS.items()}
     return " ".join(f"--{name}: {value};" for name, value in values.items())
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,15 @@ from mars2d.core.quantity import UNKNOWN, Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.bodies import prop_colors
-from mars2d.output.layers.forces import FAINTEST, MAX_CONTACTS, SLIPPING, force_scale, mean_forces
+from mars2d.output.layers.forces import (
+    FAINTEST,
+    MAX_CONTACTS,
+    SLIPPING,
+    as_read,
+    force_scale,
+    mean_forces,
+)
+from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
 from mars2d.output.layers.trails import (
     PROP_TRAIL_WIDTH,
@@ -21,11 +30,22 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
+from mars2d.output.marks import MARKS, Mark
 from mars2d.output.pages.replay import sensors
 from mars2d.output.pages.replay.columns import Columns, Int, fitted, rounded
-from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack
+from mars2d.output.pages.replay.drawings import (
+    Drawing,
+    Flat,
+    Float,
+    flat,
+    follows,
+    kept_rows,
+    pack,
+    shapes_of,
+)
 from mars2d.output.pages.replay.sensors import Carried
 from mars2d.record.frame import Frame
+from mars2d.record.marks import marks_of
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.robot import Robot
 from mars2d.sensors.base import Sensor
@@ -41,10 +61,10 @@ MAX_ROWS = 20_000
 ROOM = 1_380_000
 """The most bytes of all columns; as text they take a third more."""
 
-POSES, PANEL, CONTACTS = 480_000, 200_000, 60_000
+POSES, PANEL = 480_000, 200_000
 """The most bytes of each; beyond, they are thinned. Sensors get the rest."""
 
-LAYER_ROOM = {"addons": 240_000, "forces": 120_000}
+LAYER_ROOM = {"addons": 240_000, "forces": 180_000}
 OTHER_ROOM = 60_000
 """The most bytes of a layer."""
 
@@ -92,8 +112,10 @@ class _Content:
         header = self._about()
         header["bodies"] = self._bodies()
         header["readings"] = self._add_panel()
-        self._add_contacts()
+        header["marks"] = self._add_marks()
         header["layers"] = _table(self.scenario.animation)
+        header["legends"] = [_legend(each) for each in legends(self.scenario)]
+        header["longestArrow"] = MAX_ARROW
         header["drawn"] = self._add_layers()
         if self.record.drawn.shapes:
             self.notes.append("what add-ons drew while they ran is shown at the end alone")
@@ -218,16 +240,15 @@ class _Content:
         self._note("commands and readings in the panel", every)
         return words
 
-    def _add_contacts(self) -> None:
-        if not len(self.record.contacts):
-            return
-
-        def packed(every: int) -> tuple[Columns, int]:
-            return pack_contacts(self.record, self.kept, every)
-
-        columns, every = fitted(CONTACTS, packed)
-        self.columns.take(columns)
-        self._note("contacts in the panel", every)
+    def _add_marks(self) -> list[dict[str, str]]:
+        """Add the rows that have marks on the time bar; return which kinds there are."""
+        kinds = []
+        for kind, rows in marks_of(self.record).items():
+            if rows:
+                at = np.minimum(np.searchsorted(self.kept, rows), len(self.kept) - 1)
+                self.columns.add(f"marks:{kind}", np.unique(at), order=1)
+                kinds.append(kind)
+        return [{"kind": kind, **_place_of(MARKS[kind])} for kind in MARKS if kind in kinds]
 
     # -- layers -------------------------------------------------------------------------------
 
@@ -309,13 +330,18 @@ class _Content:
         return headers
 
     def _add_rows(self, layer: Layer, scenes: dict[int, Flat], stride: int) -> dict[str, Any]:
-        """Add the scenes of a layer, by row; return their header."""
+        """Add the scenes of a layer, by row; return their header.
+
+        The contacts of the panel stand beside the arrows, so they are those of the same rows.
+        """
         drawings = [Drawing([*scenes], [*scenes.values()])]
         headers: list[dict[str, Any]] = []
 
         def packed(every: int) -> tuple[Columns, int]:
             columns, header, most = pack(layer.name, drawings, every, self.size * COARSE)
             headers.append(header)
+            if layer.name == "forces" and len(self.record.contacts):
+                columns.take(pack_contacts(self.record, self.kept, kept_rows(drawings[0], every)))
             return columns, most
 
         columns, every = fitted(LAYER_ROOM.get(layer.name, OTHER_ROOM), packed, stride)
@@ -374,6 +400,25 @@ def _table(animation: Animation) -> list[dict[str, Any]]:
     ]
 
 
+def _place_of(mark: Mark) -> dict[str, Any]:
+    return {"above": mark.above, "below": mark.below, "meaning": mark.meaning}
+
+
+def _legend(legend: Legend) -> dict[str, Any]:
+    """Return a legend for the page: its arrow at all round numbers, and its signs."""
+    ruler = legend.ruler
+    numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
+    return {
+        "layer": legend.layer,
+        "arrow": ruler and ["arrow", ruler.color, None, ruler.width],
+        "lengths": [[ruler.unit * each, ruler.in_words(each)] for each in numbers] if ruler else [],
+        "signs": [
+            {"room": sign.room, "meaning": sign.meaning, "shapes": shapes_of(sign.scene)}
+            for sign in legend.signs
+        ],
+    }
+
+
 def _drawn(layer: Layer, frame: Frame) -> Flat:
     assert layer.shapes is not None
     return flat(layer.shapes(frame).shapes)
@@ -391,8 +436,8 @@ def _rows(count: int, every: int) -> Int:
 
 # -- the numbers in the panel ---------------------------------------------------------------------
 
-FORCES = 2000
-"""Forces are rounded to the strongest drive's force divided by this."""
+NEWTON = 0.01
+"""The step of forces, newtons: the last digit with which they are read."""
 
 MAX_NUMBERS = 8
 """The most numbers of a reading that is shown as text."""
@@ -404,26 +449,30 @@ def commands_of(robot: Robot) -> list[list[str]]:
     return [[quantity.symbol, quantity.unit, quantity.kind] for quantity in quantities]
 
 
-def pack_contacts(record: Record, kept: Int, every: int) -> tuple[Columns, int]:
-    """Return the contacts of one row in `every` as columns, the strongest of each row."""
+def pack_contacts(record: Record, kept: Int, shown: Sequence[int]) -> Columns:
+    """Return the contacts of rows as columns, the strongest of each row.
+
+    kept: the record's rows of the replay. shown: those of them that have arrows.
+    """
     columns = Columns()
     strongest = force_scale(record.scenario).strongest
     rows = record.contact_rows
     place = np.searchsorted(kept, rows)
     at = np.minimum(place, len(kept) - 1)
-    chosen = np.flatnonzero((kept[at] == rows) & (at % every == 0))
+    chosen = np.flatnonzero((kept[at] == rows) & np.isin(at, shown))
     contacts, at = record.contacts[chosen], at[chosen]
     size = np.linalg.norm(mean_forces(contacts, record.scenario.sampling_time), axis=1)
     order = np.lexsort((-size, at))
     rank = np.arange(len(order)) - np.searchsorted(at[order], at[order], side="left")
     order = order[(rank < MAX_CONTACTS) & (size[order] >= FAINTEST * strongest)]
     contacts, at, size = contacts[order], at[order], size[order]
-    columns.add("contacts:row", at, order=1, every=every)
+    columns.add("contacts:shown", np.array(shown), order=1)
+    columns.add("contacts:row", at, order=1)
     columns.add("contacts:a", contacts["a"].astype(int), order=1)
     columns.add("contacts:b", contacts["b"].astype(int), order=1)
-    newton = strongest / FORCES
-    columns.add("contacts:force", rounded(size, newton), order=1, step=newton)
-    return columns, len(at)
+    said = np.array([as_read(each) for each in size.tolist()])
+    columns.add("contacts:force", rounded(said, NEWTON), order=1, step=NEWTON)
+    return columns
 
 
 def pack_readings(sensors: list[Carried], every: int) -> tuple[Columns, list[dict[str, Any]]]:

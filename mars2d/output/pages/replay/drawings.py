@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.scene import Arrow, Circle, Image, Line, Polygon, Shape, Text
+from mars2d.core.scene import Arrow, Circle, Image, Line, Polygon, Scene, Shape, Text
 from mars2d.output.pages.replay.columns import Columns, Int, rounded
 
-__all__ = ["Drawing", "Flat", "Float", "flat", "follows", "pack"]
+__all__ = ["Drawing", "Flat", "Float", "flat", "follows", "kept_rows", "pack", "shapes_of"]
 
 Float = NDArray[np.float64]
 
@@ -53,6 +53,12 @@ def flat(shapes: Iterable[Shape]) -> Flat:
         numbers.append(values)
     joined = np.concatenate(numbers) if numbers else np.empty(0)
     return Flat(tuple(styles), tuple(map(len, numbers)), joined, images)
+
+
+def shapes_of(scene: Scene) -> list[list[Any]]:
+    """Return the shapes of a scene that stands still, each as its style and its numbers."""
+    pairs = [_split(shape) for shape in scene.shapes]
+    return [[list(style), np.round(numbers, 3).tolist()] for style, numbers in pairs]
 
 
 def _split(shape: Shape) -> tuple[Style, Float]:
@@ -189,6 +195,11 @@ def pack(
     }
     columns.beside = len(zlib.compress(json.dumps(header).encode()))
     return columns, header, most
+
+
+def kept_rows(drawing: Drawing, every: int) -> list[int]:
+    """Return the rows of which `pack` keeps the scenes."""
+    return [row for row, _ in _last_of_each(drawing, every)]
 
 
 def _last_of_each(drawing: Drawing, every: int) -> list[tuple[int, Flat]]:

@@ -89,11 +89,12 @@ class Picture {
     return [speed, (after[2] - before[2]) / spent];
   }
 
-  // The contacts of the control step that led to the row, the strongest first.
+  // The contacts of the control step that led to the row, or of the last one with arrows, the
+  // strongest first.
   contacts() {
     const row = this.columns["contacts:row"];
     if (!row) return [];
-    const every = row.every, wanted = Math.floor(this.row / every) * every;
+    const shown = this.columns["contacts:shown"].values, wanted = shown[countUpTo(shown, this.row) - 1];
     const end = countUpTo(row.values, wanted), begin = countUpTo(row.values, wanted - 1);
     const of = (name, k) => this.columns[`contacts:${name}`].at(k);
     return Array.from({ length: end - begin }, (_, i) => (

@@ -27,6 +27,8 @@ class Replay {
     this.canvas = find("picture");
     this.picture = new Picture(this.canvas, record);
     this.panel = new Panel(find("panel"), this.picture);
+    this.legend = new Legend(find("legend"), record);
+    this.marks = new Marks(find("marks"), record, find("ticks"));
     this.look = Object.fromEntries(record.layers.map(({ name, on }) => [name, on]));
     this.look.picked = -1;
     this.follow = false;
@@ -414,6 +416,8 @@ class Replay {
     }
     picture.draw(look);
     this.drawn = state();
+    this.legend.draw(look, camera, picture.ratio, picture.ui, this.layers.map(({ name }) => name));
+    this.marks.draw(clock.last, look.dark);
     this.panel.write(look.dark);
     this.panel.stepAside();
     const row = Math.floor(clock.position + 1e-9), time = `${this.seconds(clock.time)} / ${this.seconds(clock.end)} s`;

@@ -1,0 +1,79 @@
+"""What the marks of a layer mean: arrows of a round length, and signs with a few words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from mars2d.core.scene import Scene
+from mars2d.output.layers.forces import FORCE, SLIP, SLIP_EDGE, force_scale, in_newtons, round_force
+from mars2d.output.layers.velocities import VELOCITY, in_metres_a_second, speed_scale
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["MAX_ARROW", "Legend", "Ruler", "Sign", "legends"]
+
+MAX_ARROW = 72.0
+"""The greatest length of an arrow, points; it means 1, 2, 5, 10 ... newtons or metres a second."""
+
+
+class Ruler(NamedTuple):
+    """An arrow whose length is a quantity.
+
+    width: points. unit: the metres that one unit is long. in_words: formats a number of units.
+    """
+
+    color: str
+    width: float
+    unit: float
+    in_words: Callable[[float], str]
+
+    def within(self, most: float) -> tuple[float, str]:
+        """Return the longest arrow of a round number up to `most`: metres, and in words."""
+        number = round_force(most / self.unit)
+        return number * self.unit, self.in_words(number)
+
+
+class Sign(NamedTuple):
+    """A sign and what it means. scene: round (0, 0), in points. room: its width, points."""
+
+    scene: Scene
+    room: float
+    meaning: str
+
+
+class Legend(NamedTuple):
+    """The legend of a layer, by the layer's name."""
+
+    layer: str
+    signs: tuple[Sign, ...]
+    ruler: Ruler | None = None
+
+
+def legends(scenario: Scenario) -> list[Legend]:
+    """Return the legends of all layers that have one in an experiment."""
+    force, speed = force_scale(scenario), speed_scale(scenario)
+    newtons = Ruler(FORCE, force.width, force.newton, in_newtons)
+    paces = Ruler(VELOCITY, speed.width, speed.meter_a_second, in_metres_a_second)
+    return [
+        Legend("forces", (Sign(_slipping(), 18.0, "slips"),), newtons),
+        Legend("velocities", (Sign(_turning(), 24.0, "turn in 1 s"),), paces),
+    ]
+
+
+def _slipping() -> Scene:
+    """Return the sign of a drive that slips."""
+    scene = Scene()
+    for color, width in ((SLIP_EDGE, 5.0), (SLIP, 3.0)):
+        scene.circle((0, 0), 0.0, stroke=color, width=width, pixels=6.0)
+    return scene
+
+
+def _turning() -> Scene:
+    """Return the sign of turning."""
+    scene, angles, radius = Scene(), np.linspace(-0.6, 2.6, 16), 9.0
+    rim = np.array([0.0, -radius / 3]) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    scene.line(rim[:-2], stroke=VELOCITY, width=2.0)
+    scene.arrow(rim[-6], rim[-1], fill=VELOCITY, width=2.0)
+    return scene

@@ -1,0 +1,34 @@
+"""The rows of a run at which something happened, as a time bar marks them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from mars2d.record.record import Record
+
+__all__ = ["MarkKind", "marks_of", "meetings"]
+
+MarkKind = Literal["collision", "hand", "branch", "error"]
+"""Bodies came to touch; a person intervened; a branch begins; a law, sensor or add-on failed."""
+
+
+def marks_of(record: Record) -> dict[MarkKind, list[int]]:
+    """Return the rows of a record that have marks, ascending.
+
+    It does not know of branches, nor whether an end was an error.
+    """
+    return {
+        "collision": meetings(record.contacts, record.scenario.sampling_time),
+        "hand": sorted({each.row for each in record.interventions}),
+    }
+
+
+def meetings(contacts: NDArray[np.void], sampling_time: float) -> list[int]:
+    """Return the rows at the ends of the control steps in which bodies came to touch, ascending."""
+    steps = contacts["time"][contacts["began"]] / sampling_time
+    rows: list[int] = np.unique(np.ceil(steps - 1e-6).astype(int)).tolist()
+    return rows
