@@ -52,7 +52,9 @@ class Legend(NamedTuple):
 
 
 def legends(scenario: Scenario) -> list[Legend]:
-    """Return the legends of all layers that have one in an experiment."""
+    """Return the legends of all layers that have one in an experiment; none without robots."""
+    if not scenario.robots:
+        return []
     force, speed = force_scale(scenario), speed_scale(scenario)
     newtons = Ruler(FORCE, force.width, force.newton, in_newtons)
     paces = Ruler(VELOCITY, speed.width, speed.meter_a_second, in_metres_a_second)
