@@ -43,6 +43,7 @@ from typing import Any
 
 import numpy as np
 import pygame
+from numpy.typing import NDArray
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
@@ -123,6 +124,11 @@ class Reel:
     def newest(self) -> int:
         """The last row."""
         return len(self._frames) - 1
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """All contacts."""
+        return self._frames[-1].contact_log()
 
     @property
     def over(self) -> bool:

@@ -36,6 +36,11 @@ CONTROLS = {
         "M4 11a6 6 0 0 1 6-6h9M16 2l3 3-3 3M20 13a6 6 0 0 1-6 6H5M8 22l-3-3 3-3",
     ),
     "layers": Control("Show", "A", "M12 3 3 8l9 5 9-5ZM3 12.5l9 5 9-5M3 17l9 5 9-5"),
+    "contacts": Control(
+        "Contacts",
+        "K",
+        "M3.5 15a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0M11.5 9a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0",
+    ),
     "drive": Control(
         "Drive by hand",
         "H",

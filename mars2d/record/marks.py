@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
-__all__ = ["MarkKind", "marks_of", "meetings"]
+__all__ = ["MarkKind", "marks_of", "meetings", "meets"]
 
 MarkKind = Literal["collision", "hand", "branch", "error"]
 """Bodies came to touch; a person intervened; a branch begins; a law, sensor or add-on failed."""
@@ -25,6 +25,13 @@ def marks_of(record: Record) -> dict[MarkKind, list[int]]:
         "collision": meetings(record.contacts, record.scenario.sampling_time),
         "hand": sorted({each.row for each in record.interventions}),
     }
+
+
+def meets(contacts: NDArray[np.void], body: int | None) -> NDArray[np.bool_]:
+    """Return which contacts begin: those of a body, or all of them for None."""
+    of = True if body is None else (contacts["a"] == body) | (contacts["b"] == body)
+    began: NDArray[np.bool_] = contacts["began"] & of
+    return began
 
 
 def meetings(contacts: NDArray[np.void], sampling_time: float) -> list[int]:

@@ -9,9 +9,21 @@ from mars2d.core.plane import Point
 from mars2d.record.frame import Frame
 from mars2d.window.director import Director
 from mars2d.window.menu import Entry
+from mars2d.window.player import AtContact, Player
 from mars2d.world.world import World
 
-__all__ = ["entries_of_body", "entries_of_leaving", "entries_of_place", "entries_of_runs"]
+__all__ = [
+    "entries_of_body",
+    "entries_of_contacts",
+    "entries_of_leaving",
+    "entries_of_place",
+    "entries_of_runs",
+]
+
+AT_CONTACT: dict[AtContact, str] = {
+    "go on": "Go on", "stop": "Stop", "slow": "Go slowly for a second",
+}  # fmt: skip
+"""What can happen when a contact begins, in words."""
 
 Actions = Mapping[str, Callable[[], None]]
 
@@ -52,6 +64,23 @@ def entries_of_place(point: Point, thing: str, director: Director, actions: Acti
             Entry("Undo what was done by hand", actions["undo"], "Ctrl Z"),
         ]
     return entries
+
+
+def entries_of_contacts(player: Player, actions: Actions) -> list[Entry]:
+    """Return how to get to contacts, and what happens there."""
+
+    def choose(choice: AtContact) -> Entry:
+        def act() -> None:
+            player.at_contact = choice
+
+        return Entry(AT_CONTACT[choice], act, "", player.at_contact == choice)
+
+    return [
+        Entry("On to the next contact", actions["contact"], "N"),
+        Entry("Back to the contact before", actions["contact_back"], "Shift N"),
+        Entry("When a contact begins"),
+        *map(choose, AT_CONTACT),
+    ]
 
 
 def entries_of_runs(director: Director, show: Callable[[World], None]) -> list[Entry]:

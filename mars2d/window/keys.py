@@ -43,6 +43,9 @@ TIME = (
     Key("leap_back", ("page up",), ("PgUp",), "ten steps back", repeats=True),
     Key("start", ("home",), ("Home",), "look at the start"),
     Key("newest", ("end",), ("End",), "look at the newest step"),
+    Key("contact", ("n",), ("N",), "on to the next contact, of what is selected or of all"),
+    Key("contact_back", ("shift+n",), ("Shift N",), "back to the contact before"),
+    Key("contacts", ("k",), ("K",), "choose what happens at contacts: stop, go slowly"),
     Key("loop", ("j",), ("J",), "begin again at the end, on and off"),
     Key("faster", ("+", "=", "[+]"), ("+",), "faster", repeats=True),
     Key("slower", ("-", "[-]"), ("\N{MINUS SIGN}",), "slower", repeats=True),
@@ -158,8 +161,9 @@ class Keyboard:
         held = code in self._held
         self._held.add(code)
         name = pygame.key.name(code)
-        if modifiers & CONTROL:
-            name = chord(code, modifiers)
+        both = chord(code, modifiers)
+        if modifiers & CONTROL or both in _BY_NAME:
+            name = both
         elif _is_digit(character):
             if not held:
                 self.number = min(10 * self.number + int(character), MAX_NUMBER)

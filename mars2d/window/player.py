@@ -10,6 +10,7 @@ from typing import Literal
 
 from mars2d.core.errors import Mars2dError
 from mars2d.record.frame import Frame, between
+from mars2d.record.marks import meetings, meets
 from mars2d.scenario.animation import playback_speed
 from mars2d.window.slider import BEHIND, times
 from mars2d.window.source import Playback, Source
@@ -17,6 +18,7 @@ from mars2d.window.source import Playback, Source
 __all__ = ["SPEEDS", "Player", "between"]
 
 Kind = Literal["running", "waiting", "past", "error"]
+AtContact = Literal["go on", "stop", "slow"]
 Status = tuple[str, Kind]
 """The state of the clock in words, and its kind."""
 
@@ -26,6 +28,9 @@ SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 MAX_GAP = 0.1
 """The longest wall time between two pictures that is caught up with, seconds."""
 
+SLOW, SLOW_FOR = 0.1, 1.0
+"""The factor of the speed after a contact has begun, at most of real time, and for how many seconds
+of wall time."""
 SHARE_AT_MAX = 9.0
 """At speed max, the time of the simulation as a multiple of the last picture's drawing time..."""
 MAX_TIME_AT_MAX = 0.1
@@ -52,9 +57,14 @@ class Player:
         self.speed = float("inf") if checked == "max" else float(checked)
         self.paused = False
         self.loop = False  # whether to begin again at the end
+        self.at_contact: AtContact = "go on"
+        self.body: int | None = None  # whose contacts count; None for all
         self.error: Mars2dError | None = None
         self.drawing = 0.0  # the time of the last picture, seconds
         self._todo = 0  # steps to do
+        self._seeks = False  # whether to go on to the next contact
+        self._met = False  # whether a contact has just begun, and is to be heeded
+        self._slow = 0.0  # wall time for which it still goes slowly, seconds
         self._budget, self._clock = budget, clock
         self._present = source.frame
         self._previous: Frame | None = None
@@ -75,7 +85,7 @@ class Player:
     @property
     def busy(self) -> bool:
         """Whether steps are still to be done."""
-        return self._todo > 0
+        return self._todo > 0 or self._seeks
 
     @property
     def past(self) -> bool:
@@ -116,6 +126,8 @@ class Player:
 
     def pass_time(self, wall: float) -> None:
         """Advance by `wall` seconds since the last picture."""
+        if self._seeks:
+            self._seek()
         if self._todo:
             self._do_steps()
         if self.loop and self.over and not (self.failed or self.paused or self.manual):
@@ -127,10 +139,13 @@ class Player:
             self._advance_for_long()
             self.settle()
         else:
-            wanted = self._time + self.speed * min(wall, MAX_GAP)
+            pace = SLOW * min(self.speed, 1.0) if self._slow else self.speed
+            wanted = self._time + pace * min(wall, MAX_GAP)
             self._advance_until(wanted)
             # If the simulation is too slow, time waits for it and does not catch up later.
             self._time = min(wanted, self._present.time)
+        self._slow = max(0.0, self._slow - wall)
+        self._heed_contact()
         now = self._clock()
         if self._pace and self._time < self._pace[-1][1]:  # it was started anew
             self._pace.clear()
@@ -147,6 +162,45 @@ class Player:
         self.pause()
         self._todo = max(left, count)
         self._do_steps()
+
+    def next_contact(self) -> None:
+        """Go to the next row at which a contact begins; at the newest, run until one does."""
+        later = [row for row in self._meetings() if row > self.source.row]
+        if later:
+            self.go(later[0])
+            return
+        self.go(self.source.newest)
+        self._seeks = not self.source.over and not self.failed
+
+    def last_contact(self) -> None:
+        """Go back to the last row before this one at which a contact began, or to the start."""
+        self.go(max((row for row in self._meetings() if row < self.source.row), default=0))
+
+    def _meetings(self) -> list[int]:
+        contacts = self.source.contacts
+        mine = contacts[meets(contacts, self.body)]
+        return meetings(mine, self.source.scenario.sampling_time)
+
+    def _meets(self) -> bool:
+        """Return whether a contact began in the control step that led to the source's row."""
+        return bool(meets(self.source.frame.contacts, self.body).any())
+
+    def _seek(self) -> None:
+        """Go on until a contact begins, as far as the time of one picture allows."""
+        deadline = self._clock() + self._budget
+        while self._seeks and self._clock() < deadline:
+            self._seeks = self._advance() and not self.source.over and not self._meets()
+        self.settle()
+
+    def _heed_contact(self) -> None:
+        """Stop or go slowly if a contact has begun in the row that was reached last."""
+        if not self._met:
+            return
+        self._met = False
+        if self.at_contact == "stop":
+            self.pause()
+        else:
+            self._slow = SLOW_FOR
 
     def _do_steps(self) -> None:
         """Do the requested steps, as many as fit into the time of one picture."""
@@ -171,7 +225,7 @@ class Player:
 
     def pause(self) -> None:
         """Stop time, and show the present frame."""
-        self._todo = 0
+        self._todo, self._seeks, self._slow = 0, False, 0.0
         if not self.manual:
             self.paused = True
         self.settle()
@@ -181,7 +235,7 @@ class Player:
         if self.manual:
             self.step()
             return
-        self._todo = 0
+        self._todo, self._seeks = 0, False
         if self.over and not self.failed:
             self._rewind()
             self.paused = False
@@ -214,7 +268,7 @@ class Player:
     def restart(self) -> None:
         """Start again; a law that has failed is run again."""
         self.error = None
-        self._todo = 0
+        self._todo, self._seeks = 0, False
         self._pace.clear()
         try:
             self.source.restart()
@@ -230,6 +284,8 @@ class Player:
             return f"{self._pace_in_words() if self.playing else 'past'}  {ago:g} s ago", "past"
         if self.over:
             return ("stopped", "error") if self.failed else ("over", "waiting")
+        if self._seeks:
+            return "until a contact", "running"
         if self._todo:
             return f"{self._todo} steps", "running"
         if self.manual:
@@ -238,6 +294,8 @@ class Player:
 
     def _pace_in_words(self) -> str:
         factor = self.factor
+        if self._slow:
+            return f"slow  {times(SLOW * min(self.speed, 1.0))}"
         if self.speed == float("inf"):
             return "max" if factor is None else f"max  {times(factor)}"
         text = times(self.speed)
@@ -262,7 +320,7 @@ class Player:
         """Advance for as long as a picture may take, without frames in between."""
         seconds = max(self._budget, min(SHARE_AT_MAX * self.drawing, MAX_TIME_AT_MAX))
         deadline = self._clock() + seconds
-        while not self.source.over and self._advance():
+        while not self.source.over and self._advance() and not self._met:
             if self._clock() >= deadline:
                 break
 
@@ -274,7 +332,7 @@ class Player:
                 self.settle()
                 break
             self._present, self._previous = self.source.frame, before
-            if self._clock() >= deadline:
+            if self._met or self._clock() >= deadline:
                 break
 
     def _advance(self) -> bool:
@@ -283,4 +341,5 @@ class Player:
             self.source.advance()
         except Mars2dError as error:
             self.error = error
+        self._met = self.at_contact != "go on" and self._meets()
         return not self.failed

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from mars2d.record.frame import Frame
 from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
@@ -24,6 +27,10 @@ class Source(Protocol):
     @property
     def frame(self) -> Frame:
         """The frame of the present row."""
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """The contacts of all rows, as `Record.contacts`."""
 
     @property
     def row(self) -> int:
@@ -58,6 +65,11 @@ class Playback:
     def scenario(self) -> Scenario:
         """What was simulated."""
         return self.record.scenario_at(self.row)
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """The contacts of all rows."""
+        return self.record.contacts
 
     @property
     def frame(self) -> Frame:

@@ -19,7 +19,7 @@ Actions = Mapping[str, Callable[[], None]]
 Pixel = tuple[int, int]
 
 TRANSPORT = (("start", "back", "pause", "step", "newest", "loop"),)
-SEE = ("layers", "fit", "follow")
+SEE = ("layers", "fit", "follow", "contacts")
 CHANGE = ("drive", "edit", "restart", "branch")
 SAVE = ("picture", "film", "python")
 LOOK = ("screen", "dark", "text", "help")
@@ -80,7 +80,7 @@ class Toolbar:
         for bar, area in zip(self.bars, (transport, tools), strict=True):
             bar.draw(surface, area, painter, pointer)
         self.menu.draw(surface, layout.plot, painter, pointer)
-        for bar in self.bars:
+        for bar in () if self.menu.is_open else self.bars:
             bar.draw_tip(surface, painter, pointer)
 
 

@@ -24,6 +24,7 @@ from mars2d.record.frame import Frame
 from mars2d.window import keys
 from mars2d.window.context import (
     entries_of_body,
+    entries_of_contacts,
     entries_of_leaving,
     entries_of_place,
     entries_of_runs,
@@ -132,6 +133,9 @@ class Window:
             "leap_back": lambda: self.player.back(self._keyboard.typed(LEAP)),
             "start": lambda: self.player.go(0),
             "newest": lambda: self.player.go(source.newest),
+            "contact": lambda: self._to_contact(self.player.next_contact),
+            "contact_back": lambda: self._to_contact(self.player.last_contact),
+            "contacts": lambda: self.toolbar.open("contacts", self._contact_entries),
             "loop": self._loop_or_not,
             "faster": self.player.faster,
             "slower": self.player.slower,
@@ -158,7 +162,7 @@ class Window:
             "leave": self._leave,
         }
         buttons = self._actions | {"branch": self._choose_branch}
-        self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
+        self.toolbar: Toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
 
     @property
     def camera(self) -> Camera:
@@ -475,6 +479,7 @@ class Window:
         return {
             "pause": self.player.playing,
             "loop": self.player.loop,
+            "contacts": self.player.at_contact != "go on" or self.toolbar.menu.name == "contacts",
             "layers": self.toolbar.menu.name == "layers",
             "drive": self._drives,
             "follow": self.viewpoint.following is not None,
@@ -503,6 +508,15 @@ class Window:
     def _loop_or_not(self) -> None:
         """Begin again at the end, or no longer."""
         self.player.loop = not self.player.loop
+
+    def _to_contact(self, go: Callable[[], None]) -> None:
+        """Go to a contact of the selected body, or of any; forces are shown there."""
+        self.player.body = self.selected
+        self.layers = self.layers.switched(forces=True)
+        go()
+
+    def _contact_entries(self) -> list[Entry]:
+        return entries_of_contacts(self.player, self._actions)
 
     def _undo(self) -> None:
         """Undo the last thing done by hand; a drag ends."""

@@ -8,6 +8,9 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from mars2d.core.errors import InputError, LawError
 from mars2d.record.columns import DiskError
 from mars2d.record.frame import Frame
@@ -140,6 +143,11 @@ class Timeline:
         if not frame.over_message:
             return frame
         return replace(frame, over_message="", draw_addons=None)
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """The contacts of all rows up to the newest."""
+        return self._world.frame.contact_log()
 
     @property
     def over(self) -> bool:

@@ -76,23 +76,28 @@ class Circling:
             path=self.path[:k],
             readings=readings,
             over_message=self.message if self.over else "",
-            contacts=self.contacts(k, k),
+            contacts=self.touches(k, k),
             effort=np.full(len(self.scenario.robots), 1.0 if self.pressed and k else 0.0),
-            contact_log=lambda: self.contacts(1, k),
+            contact_log=lambda: self.touches(1, k),
             messages=self.messages(k),
             draw_addons=draw_mark if self.marked else None,
             effort_path=np.full((k, len(self.scenario.robots)), 1.0 if self.pressed else 0.0),
         )
 
-    def contacts(self, first, last):
+    def touches(self, first, last):
         """Return a contact of robot 0 a control step: an obstacle pushes it back with 5 N."""
         steps = np.arange(max(first, 1), last + 1 if self.pressed else 0)
         rows = np.zeros(len(steps), dtype=CONTACT)
         dt = self.scenario.sampling_time
         rows["time"], rows["b"], rows["normal"] = dt * (steps - 0.5), -1, (1.0, 0.0)
         rows["point"] = self.path[steps, :2, 0] + (0.3, 0.0)
+        rows["began"] = steps == 1
         rows["impulse"] = rows["normal_impulse"] = 5.0 * dt
         return rows
+
+    @property
+    def contacts(self):
+        return self.touches(1, self.reached)
 
     def messages(self, row):
         """Return the message of the step that led to a row."""

@@ -255,7 +255,7 @@ def test_every_key_has_its_own_command():
     [
         ("space", " ", "pause"), ("right", "", "step"), ("=", "=", "faster"), ("=", "+", "faster"),
         ("]", "+", "faster"), ("[+]", "+", "faster"), ("-", "-", "slower"), ("f1", "", "help"),
-        ("escape", "", "leave"), ("k", "k", None), ("left shift", "", None), ("return", "", None),
+        ("escape", "", "leave"), ("q", "q", None), ("left shift", "", None), ("return", "", None),
     ],
 )  # fmt: skip
 def test_what_keys_do(name, character, action):
@@ -354,7 +354,7 @@ def test_where_a_restart_fails_it_is_told_at_the_newest_step():
 @pytest.mark.parametrize(
     ("name", "action"),
     [
-        ("space", "step"), ("return", "step"), ("right", "step"), ("k", "step"), ("up", "step"),
+        ("space", "step"), ("return", "step"), ("right", "step"), ("q", "step"), ("up", "step"),
         ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),
         ("tab", "select"), ("escape", "leave"),
         ("left shift", None), ("left ctrl", None),
@@ -363,3 +363,40 @@ def test_where_a_restart_fails_it_is_told_at_the_newest_step():
 def test_in_manual_mode_every_other_key_is_a_step(name, action):
     key = keys.action_of(name, "", manual=True)
     assert (key and key.action) == action
+
+
+# -- contacts -------------------------------------------------------------------------------------
+
+
+def test_at_speed_max_it_stops_at_the_step_of_the_contact_too():
+    p = Player(Circling(rows=50, pressed=True), "max")
+    p.at_contact = "stop"
+    p.pass_time(0.1)
+    assert (p.source.row, p.paused) == (1, True)
+    p.pause_or_resume()
+    while p.playing:
+        p.pass_time(0.1)
+    assert p.source.row == 50
+
+
+def test_slowly_for_a_second_of_wall_time():
+    p = Player(Circling(rows=500, pressed=True), 2.0)
+    p.at_contact = "slow"
+    p.pass_time(0.0625)
+    before = p.frame.time
+    for _ in range(16):
+        assert p.status()[0] == "slow  0.1x"
+        p.pass_time(0.0625)
+    assert p.frame.time - before == pytest.approx(0.1)
+    p.pass_time(0.0625)
+    assert p.frame.time - before == pytest.approx(0.225)
+
+
+def test_without_another_contact_it_goes_to_the_end():
+    p = Player(Circling(rows=30), 0)
+    p.next_contact()
+    while p.busy:
+        p.pass_time(0.01)
+    assert p.over
+    p.last_contact()
+    assert p.source.row == 0

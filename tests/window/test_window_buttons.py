@@ -5,6 +5,7 @@ import pytest
 from mars2d import load, run
 from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.table import LAYERS
+from mars2d.record.marks import marks_of
 from mars2d.window import keys, toolbar
 from tests.window.person import needs_screen
 
@@ -277,3 +278,71 @@ def test_a_run_that_can_be_run_again_is_not_asked_for(open_window, room):
     window.until(lambda s: s["row"] == 1)
     window.press("Escape")
     window.until(lambda s: s.get("left"))
+
+
+# -- contacts -------------------------------------------------------------------------------------
+
+
+def meetings_of(path):
+    return marks_of(run(str(path), show=False))["collision"]
+
+
+@pytest.fixture
+def bumping(tmp_path):
+    """A ball that meets a wall again and again."""
+    path = tmp_path / "bumping.py"
+    path.write_text(BUMPING)
+    return path
+
+
+BUMPING = """
+from mars2d import Robot, Scenario
+from mars2d.bodies import Holonomic
+
+
+def to_and_fro(robot):
+    return (0.5 if robot.time % 4 < 2 else -0.5), 0.0
+
+
+red = Robot(name="red", pose=(-1, 0, 0), drive=Holonomic(), controller=to_and_fro)
+blue = Robot(name="blue", pose=(-0.5, 0, 0), mass=10.0)
+scenario = Scenario(title="Bumping", robots=[red, blue], stop_time=20.0)
+"""
+
+
+def test_from_contact_to_contact(open_window, bumping):
+    rows = meetings_of(bumping)
+    assert len(rows) > 2
+    window = open_window(0, experiment=str(bumping))
+    window.press("n")
+    window.until(lambda s: s["row"] == s["newest"] == rows[0] and s["layers"]["forces"])
+    push(window, "contacts")
+    choose(window, "On to the next contact")
+    window.until(lambda s: s["row"] == s["newest"] == rows[1])
+    window.press("shift+n")
+    window.until(lambda s: s["row"] == rows[0] < s["newest"])
+    push(window, "contacts")
+    choose(window, "Back to the contact before")
+    window.until(lambda s: s["row"] == 0)
+    window.press("n", "n")
+    window.until(lambda s: s["row"] == rows[1])
+
+
+def test_at_a_contact_time_stops_if_it_is_to(open_window, bumping):
+    rows = meetings_of(bumping)
+    window = open_window(5, experiment=str(bumping))
+    window.press("k")
+    choose(window, "Stop")
+    for _ in range(2):
+        window.until(lambda s: not s["playing"])
+        assert window.state["row"] in rows
+        window.press("space")
+        window.until(lambda s: s["playing"])
+
+
+def test_at_a_contact_time_goes_slowly_if_it_is_to(open_window, bumping):
+    window = open_window(5, experiment=str(bumping))
+    window.press("k")
+    choose(window, "Go slowly for a second")
+    window.until(lambda s: s["chip"] == "slow  0.1x")
+    window.until(lambda s: s["chip"] != "slow  0.1x" and s["playing"])
