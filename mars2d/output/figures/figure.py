@@ -26,6 +26,7 @@ from mars2d.output.figures.style import SCREEN, Style, style_of
 from mars2d.output.layers.forces import FORCE, LABEL_SIZE, force_scale, in_newtons, round_force
 from mars2d.output.layers.forces import forces as force_arrows
 from mars2d.output.layers.table import Layers
+from mars2d.output.layers.trails import trails
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -359,7 +360,7 @@ def paint_row(
         if layer.name == "workspace":  # its edge is a layer of its own
             scene = Scene([_without_edge(shape) for shape in scene.shapes])
         elif layer.name == "trails":
-            scene = _told_apart(scene, record.scenario, look)
+            scene = _told_apart(now, look)
         elif layer.name == "sensors":
             scene = Scene([_faint(shape) for shape in scene.shapes])
         scale = scales.get(layer.name, scales["bodies"])
@@ -441,26 +442,15 @@ def _force_legend(ax: Axes, now: Frame) -> tuple[Scene, Scene]:
     return arrow, text
 
 
-def _told_apart(trails: Scene, scenario: Scenario, look: Style) -> Scene:
-    """Return the paths with the style's dashes, and paler for many robots."""
-    trails = _dashed(trails, scenario, look)
+def _told_apart(now: Frame, look: Style) -> Scene:
+    """Return the paths: without colours with a line style for each robot, and paler for many."""
+    scenario, styles = now.scenario, None
+    if look.greys and scenario.animation.wake_style == "-":
+        styles = [look.dash(k) for k in range(len(scenario.robots))]
+    paths = trails(now, styles)
     if len(scenario.robots) > LEGEND_LIMIT:
-        trails = Scene([_paler(shape) for shape in trails.shapes])
-    return trails
-
-
-def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:
-    """Return the paths, with a line style for each robot if the style has no colours."""
-    if not look.greys or scenario.animation.wake_style != "-":
-        return trails
-    first = len(trails.shapes) - len(scenario.robots)  # the props' come before
-    shapes = [
-        replace(shape, style=look.dash(k - first))
-        if k >= first and isinstance(shape, Line)
-        else shape
-        for k, shape in enumerate(trails.shapes)
-    ]
-    return Scene(shapes)
+        paths = Scene([_paler(shape) for shape in paths.shapes])
+    return paths
 
 
 def _paler(shape: Shape) -> Shape:
