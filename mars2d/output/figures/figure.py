@@ -67,6 +67,9 @@ SUFFIXES = (".png", ".pdf", ".svg")
 LEGEND_LIMIT = 8
 """The most robots with a legend; beyond, base colours recur."""
 
+CROWD = 60
+"""With more robots, paths are thinner."""
+
 NAME_LIMIT = 24
 
 FAINT_AREA = 0.1
@@ -87,7 +90,8 @@ def plot_paths(
 
     ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
     and which a notebook shows. style: a name in `figures.style.STYLES`. layers: the switches; by
-    default those of the animation, with sensors if there are few robots. Returns the axes.
+    default those of the animation, with paths, and with sensors if there are few robots. Returns
+    the axes.
     Raises InputError if the record has no rows.
 
     >>> import mars2d
@@ -98,6 +102,7 @@ def plot_paths(
     look = style_of(style)
     view = View.of(record, len(record) - 1)
     record = look.restyled(record)
+    layers = layers or layers_of(record.scenario, paths=True)
     own = ax is None
     with look.fonts():
         if ax is None:
@@ -389,10 +394,14 @@ def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, *, forces: bo
     return placed_names(names, now, words / points_per_metre(ax), view, others)
 
 
-def layers_of(scenario: Scenario) -> Layers:
-    """Return the default layers of a figure, for many robots without sensors, which hide paths."""
+def layers_of(scenario: Scenario, *, paths: bool = False) -> Layers:
+    """Return the default layers of a figure, for many robots without sensors, which hide paths.
+
+    paths: whether it is a figure of paths, which has them even where the animation has none.
+    """
     few = len(scenario.robots) <= LEGEND_LIMIT
-    return Layers.of(scenario.animation, sensors=few)
+    layers = Layers.of(scenario.animation, sensors=few)
+    return layers.switched(trails=True) if paths else layers
 
 
 def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
@@ -411,7 +420,7 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
         "edge": 0.75,
         "obstacles": 0.6,
         "starts": min(1.3 * robots, 0.75),
-        "trails": 0.55 if few else 0.4,
+        "trails": 0.55 if few else 0.4 * min(1.0, (CROWD / len(scenario.robots)) ** 0.5),
         "sensors": 0.4,
         "addons": 0.75,
         "theory": 0.75,
