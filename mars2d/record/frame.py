@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mars2d.core.scene import Scene
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
+from mars2d.record.interventions import Leap
 from mars2d.record.message import MESSAGE
 from mars2d.scenario.scenario import Scenario
 
@@ -51,7 +52,7 @@ class Frame:
     so far, and the texts to which their field `content` refers. reading_path: returns the readings
     of a sensor, by its name, on a robot at the times of `path`, (k, ...), or None if unknown.
     exact_velocity: (3, n + p), of robots and props at this instant, and work: (6,) J since the
-    start; empty if they are unknown.
+    start; empty if they are unknown. leaps: when bodies were put elsewhere by hand, in order.
     """
 
     scenario: Scenario
@@ -75,12 +76,14 @@ class Frame:
     reading_path: Callable[[str, int], NDArray[Any] | None] = _no_readings
     exact_velocity: Float = field(default_factory=lambda: np.empty((3, 0)))
     work: Float = field(default_factory=lambda: np.empty(0))
+    leaps: Sequence[Leap] = ()
 
     @property
     def velocity(self) -> Float:
         """The mean velocities (3, n + p) of robots and props: x', y' [m/s], theta' [rad/s].
 
-        The mean is over the control step that led here, as far as it has got; 0 if unknown.
+        The mean is over the control step that led here, as far as it has got; 0 if unknown, as
+        where a body was put elsewhere.
         """
         velocity = np.zeros((3, self.pose.shape[1] + self.prop_pose.shape[1]))
         dt = self.scenario.sampling_time
@@ -90,6 +93,7 @@ class Frame:
             velocity[:, :n] = (self.pose - self.path[row]) / spent
         if 0 <= row < len(self.prop_path):
             velocity[:, n:] = (self.prop_pose - self.prop_path[row]) / spent
+        velocity[:, [body for leap, body in self.leaps if leap > row]] = 0.0
         return velocity
 
     @property
@@ -120,19 +124,23 @@ def between(first: Frame, second: Frame, time: float) -> Frame:
     """Return the frame at a time [s] between two frames, its poses by linear interpolation.
 
     Contacts, efforts and messages are the second's, of the control step that leads there; all else
-    is the first's. A time outside is clipped to that of the first or the second.
+    is the first's. A body that is put elsewhere stays until then. A time outside is clipped to that
+    of the first or the second.
     """
     span = second.time - first.time
     if span <= 0 or time >= second.time:
         return second
-    share = max(0.0, (time - first.time) / span)
+    n, before, after = first.pose.shape[1], first._poses, second._poses
+    share = np.full(after.shape[1], max(0.0, (time - first.time) / span))
+    share[[body for row, body in second.leaps if row > first.iteration]] = 0.0
+    poses = before + share * (after - before)
     return replace(
         first,
         time=max(time, first.time),
-        pose=first.pose + share * (second.pose - first.pose),
+        pose=poses[:, :n],
         sensed=first.pose,
         path=second.path,
-        prop_pose=first.prop_pose + share * (second.prop_pose - first.prop_pose),
+        prop_pose=poses[:, n:],
         prop_path=second.prop_path,
         contacts=second.contacts,
         effort=second.effort,

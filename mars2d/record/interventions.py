@@ -6,7 +6,7 @@ can be repeated to the bit from its commands and interventions.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, fields
 from math import isfinite
 from typing import Any
@@ -15,7 +15,18 @@ from mars2d.core.plane import Point
 from mars2d.scenario import pictures, serialize
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Change", "Intervention", "Place", "Pull", "Steer", "check", "of_plain", "to_plain"]
+__all__ = [
+    "Change",
+    "Intervention",
+    "Leap",
+    "Place",
+    "Pull",
+    "Steer",
+    "check",
+    "leaps_of",
+    "of_plain",
+    "to_plain",
+]
 
 Triple = tuple[float, float, float]
 
@@ -76,6 +87,20 @@ class Change:
 
 
 Intervention = Place | Pull | Steer | Change
+
+Leap = tuple[int, int]
+"""A row, and a body that was put elsewhere then: it went no way there from the row before."""
+
+
+def leaps_of(done: Iterable[Intervention]) -> tuple[Leap, ...]:
+    """Return where bodies were put elsewhere, in order: the rule for all paths that are drawn."""
+    leaps: list[Leap] = []
+    for each in done:
+        if isinstance(each, Place):
+            leaps.append((each.row, each.body))
+        elif isinstance(each, Change):
+            leaps += [(each.row, body) for body, _ in each.moved]
+    return tuple(leaps)
 
 
 def to_plain(intervention: Intervention) -> dict[str, Any]:

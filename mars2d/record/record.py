@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -20,7 +20,7 @@ from mars2d.record.columns import Texts, blocks
 from mars2d.record.contact import CONTACT, rows_of
 from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
-from mars2d.record.interventions import Change, Intervention
+from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
 from mars2d.record.message import MESSAGE, in_flight
 from mars2d.scenario.scenario import Scenario
 
@@ -211,6 +211,7 @@ class Record:
             reading_path=lambda name, robot: self._readings_before(row, name, robot),
             exact_velocity=np.hstack([self.velocity[row], self.prop_velocity[row]]),
             work=self.work[row],
+            leaps=self._leaps[: bisect_left(self._leaps, (row + 1, 0))],
             draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
         )
 
@@ -223,6 +224,10 @@ class Record:
     def changes(self) -> tuple[Change, ...]:
         """The interventions that changed the scenario, in order."""
         return tuple(each for each in self.interventions if isinstance(each, Change))
+
+    @cached_property
+    def _leaps(self) -> tuple[Leap, ...]:
+        return leaps_of(self.interventions)
 
     @cached_property
     def contact_rows(self) -> NDArray[np.intp]:

@@ -244,14 +244,15 @@ def _pose(frame: Frame, body: int) -> Triple:
 
 
 def with_pose(frame: Frame, body: int, pose: Triple) -> Frame:
-    """Return a frame with one body at another pose."""
+    """Return a frame with one body put at another pose."""
     robots, props, n = frame.pose.copy(), frame.prop_pose.copy(), frame.pose.shape[1]
     if body < n:
         robots[:, body] = pose
     else:
         props[:, body - n] = pose
     sensed = frame.pose if frame.sensed is None else frame.sensed
-    return replace(frame, pose=robots, prop_pose=props, sensed=sensed)
+    leaps = (*frame.leaps, (len(frame.path), body))
+    return replace(frame, pose=robots, prop_pose=props, sensed=sensed, leaps=leaps)
 
 
 def local_point(frame: Frame, body: int, point: Point) -> Point:

@@ -14,6 +14,7 @@ from mars2d.core.arrays import sealed
 from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.record.frame import Frame
+from mars2d.record.interventions import leaps_of
 from mars2d.record.record import Record
 from mars2d.record.recorder import History
 from mars2d.scenario.scenario import Scenario
@@ -228,6 +229,7 @@ class WorldView(Uncopied):
             reading_path=partial(now.recorder.readings, now.iteration),
             exact_velocity=np.hstack([now.velocity, now.prop_velocity]),
             work=now.work,
+            leaps=leaps_of(now.operator.log),
         )
 
     # -- what may be done ----------------------------------------------------------------------

@@ -27,6 +27,7 @@ from mars2d.output.figures.artists import paint
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_figure
 from mars2d.output.layers.bodies import NEUTRAL
 from mars2d.output.layers.forces import FORCE
+from mars2d.output.layers.table import Layers
 from mars2d.output.pages.replay import page
 from mars2d.sensors import Proximity
 from tests.processes import PATIENCE
@@ -181,13 +182,30 @@ def test_in_a_crowd_the_paths_are_paler_than_the_robots():
 # -- what the animation's fields choose -------------------------------------------------------
 
 
-def styled(record, **changes):
+def record_with(record, **changes):
     scenario = record.scenario.replace(animation=Animation(**changes))
-    return dataclasses.replace(record, scenario=scenario).plot()
+    return dataclasses.replace(record, scenario=scenario)
 
 
-def test_without_wake_there_are_no_paths(record):
-    assert trails(styled(record, wake=False)) == []
+def styled(record, **changes):
+    return record_with(record, **changes).plot()
+
+
+def test_a_figure_of_paths_has_them_unless_they_are_switched_off(record):
+    assert len(trails(styled(record, wake=False))) == len(record.scenario.robots)
+    still = record_with(record, wake=False)
+    (now,) = plot_snapshots(still, [still.time[-1]]).axes
+    assert trails(now) == []
+    assert trails(plot_paths(still, layers=Layers(trails=False))) == []
+
+
+@pytest.mark.parametrize("robots", [9, 300])
+def test_paths_of_hundreds_are_thinner(robots):
+    pose = [(0.5 * (k % 20), 0.5 * (k // 20), 0) for k in range(robots)]
+    scenario = Scenario(robots=[Robot(pose=at) for at in pose], stop_time=0.3, workspace=None)
+    run = mars2d.run(scenario, control=lambda world: np.full((2, robots), 0.1))
+    width = trails(run.plot())[0].get_linewidth()
+    assert width == pytest.approx(0.64 if robots == 9 else 0.64 * np.sqrt(0.2), rel=0.01)
 
 
 def test_without_show_initial_pose_there_are_no_rings(record):

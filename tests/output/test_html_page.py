@@ -18,6 +18,7 @@ from mars2d.record.interventions import Steer
 from mars2d.record.marks import marks_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.browser import Tab, differing
+from tests.output.test_leaps import run as leaping_run
 
 REFERENCES = Path(__file__).parent / "references"
 SCRIPTS = Path(mars2d.__file__).parent / "output" / "pages" / "replay"
@@ -644,3 +645,18 @@ def test_a_damaged_file_or_an_old_browser_is_told_in_words(browser, replay, tmp_
         assert words in tab.text("#trouble")
         tab.close()
         assert tab.complaints == []
+
+
+def test_a_body_that_a_hand_puts_elsewhere_leaves_no_path_on_its_way(open_tab, tmp_path):
+    _, record = leaping_run()
+    tab = open_tab(record.save_html(tmp_path / "leap.html"), size=(900, 900))
+    for row in (9, 10, 15, 10, 9, 19):
+        tab.go(row)
+        for picked in ("", "n"):
+            tab.press("Escape", *picked)
+            with_trails = tab.picture()
+            tab.press("t")
+            high = len(with_trails)
+            changed = np.flatnonzero((with_trails != tab.picture()).any(axis=(1, 2))) / high
+            assert not ((changed > 0.3) & (changed < 0.4)).any(), (row, picked)
+            tab.press("t")

@@ -451,6 +451,22 @@ def test_it_fits_screens_of_all_sizes(open_tab, path, size):
     assert tab.page.locator("iframe").bounding_box()["height"] > 0.35 * size[1]
 
 
+def test_on_a_phone_a_side_fades_beyond_which_there_are_more_columns(open_tab, path):
+    tab = open_tab(path, size=(390, 844))
+    wide = tab.page.locator(".wide").first
+    edges = "(wide) => ['before', 'beyond'].map((name) => wide.classList.contains(name))"
+    assert wide.evaluate("(wide) => wide.scrollWidth - wide.clientWidth") > 100
+    tab.until(lambda: wide.evaluate(edges) == [False, True])
+    faded = wide.evaluate("(wide) => getComputedStyle(wide).maskImage")
+    assert faded.startswith("linear-gradient")
+    wide.evaluate("(wide) => wide.scrollTo(40, 0)")
+    tab.until(lambda: wide.evaluate(edges) == [True, True])
+    wide.evaluate("(wide) => wide.scrollTo(9999, 0)")
+    tab.until(lambda: wide.evaluate(edges) == [True, False])
+    tab.page.set_viewport_size({"width": 1600, "height": 900})
+    tab.until(lambda: wide.evaluate(edges) == [False, False])
+
+
 def test_without_scripts_all_tables_are_there(open_tab, path):
     tab = open_tab(path, java_script_enabled=False)
     assert tab.page.locator("table.matches tbody tr:visible").count() == 24

@@ -263,6 +263,7 @@ def test_a_drag_shows_a_body_elsewhere_and_puts_it_there_when_it_ends():
     person.move(-1.05, -1.0)
     assert person.shown().prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
     assert person.world.prop_pose[:, 0].tolist() == [-1, 0, 0]
+    assert person.shown().leaps[-1][0] == person.world.iteration, "no path leads there"
     assert person.words() == ["(\N{MINUS SIGN}1.00, \N{MINUS SIGN}1.00) m"]
     assert person.release(-1.05, -1.0)
     assert person.world.prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])

@@ -82,7 +82,8 @@ def _refuse_experiments(path: Path) -> None:
 
 def _drawing(arguments: argparse.Namespace, record: Record) -> Callable[[], Any]:
     """Return the function that makes the figure."""
-    style, layers = arguments.style, _layers(arguments.layers, record)
+    paths = arguments.kind == "paths"
+    style, layers = arguments.style, _layers(arguments.layers, record, paths=paths)
     makers: dict[str, Callable[[], Any]] = {
         "paths": lambda: figure.plot_paths(record, style=style, layers=layers).figure,
         "snapshots": lambda: figure.plot_snapshots(
@@ -105,8 +106,11 @@ def _drawing(arguments: argparse.Namespace, record: Record) -> Callable[[], Any]
     return makers[arguments.kind]
 
 
-def _layers(words: list[str] | None, record: Record) -> Layers | None:
-    """Return the layers of a drawing with some switched; None for those that it has anyway."""
+def _layers(words: list[str] | None, record: Record, *, paths: bool) -> Layers | None:
+    """Return the layers of a drawing with some switched; None for those that it has anyway.
+
+    paths: whether it is a drawing of paths.
+    """
     if words is None:
         return None
     known = [layer.name for layer in LAYERS if layer.switch]
@@ -114,7 +118,7 @@ def _layers(words: list[str] | None, record: Record) -> Layers | None:
     for name in switches:
         if name not in known:
             raise InputError(f"--layers {name}: there is no such layer{nearest(name, known)}")
-    return figure.layers_of(record.scenario).switched(**switches)
+    return figure.layers_of(record.scenario, paths=paths).switched(**switches)
 
 
 def _robots(words: list[str] | None, record: Record) -> list[str | int] | None:

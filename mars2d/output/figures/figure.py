@@ -26,6 +26,7 @@ from mars2d.output.figures.style import SCREEN, Style, style_of
 from mars2d.output.layers.forces import FORCE, LABEL_SIZE, force_scale, in_newtons, round_force
 from mars2d.output.layers.forces import forces as force_arrows
 from mars2d.output.layers.table import Layers
+from mars2d.output.layers.trails import trails
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -66,6 +67,9 @@ SUFFIXES = (".png", ".pdf", ".svg")
 LEGEND_LIMIT = 8
 """The most robots with a legend; beyond, base colours recur."""
 
+CROWD = 60
+"""With more robots, paths are thinner."""
+
 NAME_LIMIT = 24
 
 FAINT_AREA = 0.1
@@ -86,7 +90,8 @@ def plot_paths(
 
     ax: matplotlib axes to draw on; by default those of a new figure, which belongs to no window
     and which a notebook shows. style: a name in `figures.style.STYLES`. layers: the switches; by
-    default those of the animation, with sensors if there are few robots. Returns the axes.
+    default those of the animation, with paths, and with sensors if there are few robots. Returns
+    the axes.
     Raises InputError if the record has no rows.
 
     >>> import mars2d
@@ -97,6 +102,7 @@ def plot_paths(
     look = style_of(style)
     view = View.of(record, len(record) - 1)
     record = look.restyled(record)
+    layers = layers or layers_of(record.scenario, paths=True)
     own = ax is None
     with look.fonts():
         if ax is None:
@@ -359,7 +365,7 @@ def paint_row(
         if layer.name == "workspace":  # its edge is a layer of its own
             scene = Scene([_without_edge(shape) for shape in scene.shapes])
         elif layer.name == "trails":
-            scene = _told_apart(scene, record.scenario, look)
+            scene = _told_apart(now, look)
         elif layer.name == "sensors":
             scene = Scene([_faint(shape) for shape in scene.shapes])
         scale = scales.get(layer.name, scales["bodies"])
@@ -388,10 +394,14 @@ def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, *, forces: bo
     return placed_names(names, now, words / points_per_metre(ax), view, others)
 
 
-def layers_of(scenario: Scenario) -> Layers:
-    """Return the default layers of a figure, for many robots without sensors, which hide paths."""
+def layers_of(scenario: Scenario, *, paths: bool = False) -> Layers:
+    """Return the default layers of a figure, for many robots without sensors, which hide paths.
+
+    paths: whether it is a figure of paths, which has them even where the animation has none.
+    """
     few = len(scenario.robots) <= LEGEND_LIMIT
-    return Layers.of(scenario.animation, sensors=few)
+    layers = Layers.of(scenario.animation, sensors=few)
+    return layers.switched(trails=True) if paths else layers
 
 
 def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
@@ -410,7 +420,7 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
         "edge": 0.75,
         "obstacles": 0.6,
         "starts": min(1.3 * robots, 0.75),
-        "trails": 0.55 if few else 0.4,
+        "trails": 0.55 if few else 0.4 * min(1.0, (CROWD / len(scenario.robots)) ** 0.5),
         "sensors": 0.4,
         "addons": 0.75,
         "theory": 0.75,
@@ -441,26 +451,15 @@ def _force_legend(ax: Axes, now: Frame) -> tuple[Scene, Scene]:
     return arrow, text
 
 
-def _told_apart(trails: Scene, scenario: Scenario, look: Style) -> Scene:
-    """Return the paths with the style's dashes, and paler for many robots."""
-    trails = _dashed(trails, scenario, look)
+def _told_apart(now: Frame, look: Style) -> Scene:
+    """Return the paths: without colours with a line style for each robot, and paler for many."""
+    scenario, styles = now.scenario, None
+    if look.greys and scenario.animation.wake_style == "-":
+        styles = [look.dash(k) for k in range(len(scenario.robots))]
+    paths = trails(now, styles)
     if len(scenario.robots) > LEGEND_LIMIT:
-        trails = Scene([_paler(shape) for shape in trails.shapes])
-    return trails
-
-
-def _dashed(trails: Scene, scenario: Scenario, look: Style) -> Scene:
-    """Return the paths, with a line style for each robot if the style has no colours."""
-    if not look.greys or scenario.animation.wake_style != "-":
-        return trails
-    first = len(trails.shapes) - len(scenario.robots)  # the props' come before
-    shapes = [
-        replace(shape, style=look.dash(k - first))
-        if k >= first and isinstance(shape, Line)
-        else shape
-        for k, shape in enumerate(trails.shapes)
-    ]
-    return Scene(shapes)
+        paths = Scene([_paler(shape) for shape in paths.shapes])
+    return paths
 
 
 def _paler(shape: Shape) -> Shape:

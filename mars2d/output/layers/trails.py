@@ -2,35 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.bodies import prop_colors, prop_edge
 from mars2d.record.frame import Frame
+from mars2d.record.interventions import Leap
 from mars2d.scenario.scenario import Scenario
 
 __all__ = ["PROP_TRAIL_WIDTH", "TRAIL_WIDTH", "prop_trail_colors", "trail_colors", "trails"]
+
+Float = NDArray[np.float64]
 
 TRAIL_WIDTH, PROP_TRAIL_WIDTH = 1.6, 1.0
 """The width of a robot's and of a prop's path, points."""
 
 
-def trails(frame: Frame) -> Scene:
+def trails(frame: Frame, styles: Sequence[str] | None = None) -> Scene:
     """Return the paths so far: the robots' in the animation's wake style, the props' thin.
 
-    Props that have never moved have none.
+    styles: of the robots' paths, in place of the wake style. Props that have never moved have none.
+    A path is broken where its body was put elsewhere by hand.
     """
-    scene = Scene()
+    scene, n = Scene(), len(frame.scenario.robots)
     if len(frame.prop_path):
         for i, color in enumerate(prop_trail_colors(frame.scenario)):
             path = np.vstack([frame.prop_path[:, :2, i], frame.prop_pose[None, :2, i]])
             if np.ptp(path, axis=0).max() > 0:
-                scene.line(path, stroke=color, width=PROP_TRAIL_WIDTH)
-    style = frame.scenario.animation.wake_style
+                for piece in _pieces(path, frame.leaps, n + i):
+                    scene.line(piece, stroke=color, width=PROP_TRAIL_WIDTH)
+    styles = styles or [frame.scenario.animation.wake_style] * n
     for i, color in enumerate(trail_colors(frame.scenario)):
         path = np.vstack([frame.path[:, :2, i], frame.pose[None, :2, i]])
-        scene.line(path, stroke=color, width=TRAIL_WIDTH, style=style)
+        for piece in _pieces(path, frame.leaps, i):
+            scene.line(piece, stroke=color, width=TRAIL_WIDTH, style=styles[i])
     return scene
+
+
+def _pieces(path: Float, leaps: Sequence[Leap], body: int) -> list[Float]:
+    """Return a path (k, 2) in the pieces between a body's leaps."""
+    cuts = {row for row, leaping in leaps if leaping == body}
+    return [piece for piece in np.split(path, sorted(cuts)) if len(piece)]
 
 
 def trail_colors(scenario: Scenario) -> tuple[str, ...]:

@@ -68,7 +68,7 @@ class Canvas:
         start = perf_counter()
         if fresh := self.wakes is None:
             self.wakes = Wakes(self._painter, self._scenario, self.camera, self.still, self._memory)
-        done = self.wakes.show((frame.prop_path, frame.path), until)
+        done = self.wakes.show(frame, until)
         if fresh:
             self.seconds += perf_counter() - start
         return self.wakes.surface if done else None
@@ -256,9 +256,7 @@ class Stage:
         surface.blit(picture, plot, plot.move(-dx, -dy))
         self.painter.paint(surface, read, camera)
         if layers.trails and canvas.wakes is not None:
-            poses = frame.prop_pose, frame.pose
-            for trails, pose in zip(canvas.wakes.trails, poses, strict=True):
-                trails.loose_ends(surface, pose[:2], (dx, dy))
+            canvas.wakes.finish(surface, frame, (dx, dy))
 
     def _enlarge(
         self,

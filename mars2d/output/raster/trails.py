@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import copy
 from time import perf_counter
 
@@ -21,6 +22,7 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import DASHES, MARK_SPACING, dashes, hair_shifts, hairlines
 from mars2d.output.raster.theme import Theme, mixed
+from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
 __all__ = ["Trails", "Wakes"]
@@ -65,10 +67,14 @@ class Trails:
         other = copy(self)
         if self.first is not None:
             other.pen, other.pen_along = self.pen.copy(), self.pen_along.copy()
+            other.tip = self.tip.copy()
         return other
 
-    def prolong(self, surface: pygame.Surface, path: Float) -> None:
-        """Draw the new rows of a path (k, 3, n)."""
+    def prolong(self, surface: pygame.Surface, path: Float, leaping: Sequence[int] = ()) -> None:
+        """Draw the new rows of a path (k, 3, n).
+
+        leaping: those that were put elsewhere at the first of these rows.
+        """
         if len(path) <= self.drawn:
             return
         if self.first is None:
@@ -81,6 +87,8 @@ class Trails:
                 for i in range(n):
                     self._mark(surface, self.pen[i : i + 1], i)
         new = self._pixels(path[self.drawn :, :2])  # (m, n, 2)
+        for i in leaping:
+            self.pen[i] = self.tip[i] = new[0, i]
         self.last = path[-1, :2].copy()
         self.drawn = len(path)
         steps = np.diff(np.concatenate([self.tip[None], new]), axis=0)
@@ -102,15 +110,22 @@ class Trails:
         self.tip, self.tip_along = new[-1].copy(), along[-1].copy()
 
     def loose_ends(
-        self, surface: pygame.Surface, position: Float, shift: tuple[int, int] = (0, 0)
+        self,
+        surface: pygame.Surface,
+        position: Float,
+        shift: tuple[int, int] = (0, 0),
+        leaping: Sequence[int] = (),
     ) -> None:
         """Draw each path from its drawn end to its robot's position, (2, n) metres.
 
-        shift: the offset of the surface that keeps the paths from this one, pixels.
+        shift: the offset of the surface that keeps the paths from this one, pixels. leaping: those
+        that were put there, and went no way.
         """
         if self.first is None or not self.line:
             return
         here, pen = self._pixels(position[None])[0] + shift, self.pen + shift
+        for i in leaping:
+            pen[i] = here[i]
         if self.line == "-":
             self._segments(surface, np.arange(len(here)), pen, here)
             return
@@ -198,24 +213,37 @@ class Wakes:
         self._every = FIRST_STRIDE
         self._kept: dict[int, Kept] = {}
 
-    def show(self, paths: tuple[Float, Float], until: float = float("inf")) -> bool:
-        """Show the paths of props (k, 3, p), which may be empty, and of robots (k, 3, n).
+    def show(self, frame: Frame, until: float = float("inf")) -> bool:
+        """Show the paths of props, which may be unknown, and of robots up to a frame.
 
         until: at which time of the clock to stop. Returns whether all is drawn.
         """
-        rows = len(paths[1])
+        paths = frame.prop_path, frame.path
+        rows, cuts = len(paths[1]), sorted({row for row, _ in frame.leaps})
         self._begin(paths)
         while self._drawn < rows:
             end = rows
             if self._most:
                 end = min(rows, (self._drawn // self._every + 1) * self._every)
-            for trails, path in zip(self.trails, paths, strict=True):
-                trails.prolong(self.surface, path[:end])
+            end = min([end, *(cut for cut in cuts if cut > self._drawn)])
+            leaping = _leaping(frame, self._drawn)
+            for trails, path, those in zip(self.trails, paths, leaping, strict=True):
+                trails.prolong(self.surface, path[:end], those)
             if self._most and end % self._every == 0:
                 self._keep(end)
             if perf_counter() > until:
                 break
         return self._drawn == rows
+
+    def finish(self, surface: pygame.Surface, frame: Frame, shift: tuple[int, int]) -> None:
+        """Draw the loose ends of the paths that `show` has drawn up to a frame.
+
+        shift: the offset of the picture from this surface, pixels.
+        """
+        poses = frame.prop_pose, frame.pose
+        leaping = _leaping(frame, self._drawn)
+        for trails, pose, those in zip(self.trails, poses, leaping, strict=True):
+            trails.loose_ends(surface, pose[:2], shift, those)
 
     @property
     def _drawn(self) -> int:
@@ -244,6 +272,13 @@ class Wakes:
         while len(self._kept) > self._most:
             self._every *= 2
             self._kept = {k: kept for k, kept in self._kept.items() if k % self._every == 0}
+
+
+def _leaping(frame: Frame, row: int) -> tuple[list[int], list[int]]:
+    """Return the props and the robots that were put elsewhere at a row."""
+    n = len(frame.scenario.robots)
+    bodies = [body for leap, body in frame.leaps if leap == row]
+    return [body - n for body in bodies if body >= n], [body for body in bodies if body < n]
 
 
 def _continues(trails: tuple[Trails, ...], paths: tuple[Float, Float]) -> bool:

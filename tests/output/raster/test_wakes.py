@@ -105,9 +105,9 @@ def test_dragging_back_draws_few_rows_anew(run):
     grown = []
     prolong = type(trails).prolong
 
-    def counted(self, surface, path):
+    def counted(self, surface, path, *leaping):
         grown.append(len(path) - self.drawn)
-        prolong(self, surface, path)
+        prolong(self, surface, path, *leaping)
 
     type(trails).prolong = counted
     try:

@@ -45,6 +45,7 @@ from mars2d.output.pages.replay.drawings import (
 )
 from mars2d.output.pages.replay.sensors import Carried
 from mars2d.record.frame import Frame
+from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.robot import Robot
@@ -111,6 +112,7 @@ class _Content:
         self._add_poses()
         header = self._about()
         header["bodies"] = self._bodies()
+        header["leaps"] = self._leaps()
         header["readings"] = self._add_panel()
         header["marks"] = self._add_marks()
         header["layers"] = _table(self.scenario.animation)
@@ -217,6 +219,11 @@ class _Content:
             )
         ]
         return robots + props
+
+    def _leaps(self) -> list[list[int]]:
+        """Return where bodies were put elsewhere: the first kept row after it, and the body."""
+        leaps = leaps_of(self.record.interventions)
+        return [[int(np.searchsorted(self.kept, row)), body] for row, body in leaps]
 
     # -- the panel ----------------------------------------------------------------------------
 

@@ -22,6 +22,7 @@ class Picture {
     this.stillKey = this.pathsKey = "";
     this.pathRow = 0;
     this.ends = [];
+    this.leaps = record.bodies.map((_, i) => new Set(record.leaps.filter(([, body]) => body === i).map(([row]) => row)));
     this.ui = 1; // pixels of the page for one of the picture
   }
 
@@ -42,11 +43,13 @@ class Picture {
   // Put all bodies where they are at a position between two rows.
   move(position) {
     const { places, headings } = this.columns, rows = places.rows, n = this.bodies.length;
-    const row = Math.floor(position), next = Math.min(row + 1, rows - 1), share = position - row;
+    const row = Math.floor(position), next = Math.min(row + 1, rows - 1);
+    let share = 0;
     const between = (values, k) =>
       values[k * rows + row] * (1 - share) + values[k * rows + next] * share;
     const [low, bottom] = places.entry.low;
     for (let i = 0; i < n; i++) {
+      share = this.leaps[i].has(row + 1) ? 0 : position - row; // what is put elsewhere stays until then
       this.x[i] = low + places.step * between(places.values, i);
       this.y[i] = bottom + places.step * between(places.values, n + i);
       this.theta[i] = headings.step * between(headings.values, i);
@@ -82,7 +85,7 @@ class Picture {
   // How fast a body moved and turned on the way to the row.
   velocity(i) {
     const { row } = this;
-    if (row < 1) return [0, 0];
+    if (row < 1 || this.leaps[i].has(row)) return [0, 0];
     const before = this.placeAt(row - 1, i), after = this.placeAt(row, i);
     const spent = this.record.timeOf(row) - this.record.timeOf(row - 1);
     const speed = Math.hypot(after[0] - before[0], after[1] - before[1]) / spent;
@@ -266,6 +269,12 @@ class Picture {
     if (marker && end.row === 0 && end.along === 0) marks.push([px, py]);
     for (let row = end.row + 1; row <= this.row; row++) {
       const x = left + scale * places.values[xs + row], y = foot - scale * places.values[ys + row];
+      if (this.leaps[i].has(row)) { // it was put there, and went no way
+        context.moveTo(x, y);
+        end.row = row;
+        [px, py] = [x, y];
+        continue;
+      }
       const length = Math.hypot(x - px, y - py);
       if (length < 1.5) continue; // no dots on top of dots; the loose end leads on to the body
       context.lineTo(x, y);
@@ -317,8 +326,10 @@ class Picture {
     for (let row = 0; row <= this.row + 1; row++) {
       const [x, y] = row > this.row ? [this.x[i], this.y[i]] : this.placeAt(row, i);
       const at = [camera.x + camera.scale * x, camera.y - camera.scale * y];
-      if (row <= this.row && Math.hypot(at[0] - px, at[1] - py) < 1.5) continue;
-      context.lineTo(...at);
+      const leapt = row <= this.row && this.leaps[i].has(row);
+      if (row <= this.row && !leapt && Math.hypot(at[0] - px, at[1] - py) < 1.5) continue;
+      if (leapt) context.moveTo(...at);
+      else context.lineTo(...at);
       [px, py] = at;
     }
     this.pathInk(context, i, look);

@@ -49,6 +49,20 @@ function sort(header) {
 
 for (const button of all("button.sort")) button.addEventListener("click", () => sort(button.parentNode));
 
+// -- tables that are wider than the page -----------------------------------------------------------
+
+// Let a side fade out beyond which there are more columns.
+function fade(wide) {
+  const { scrollLeft, scrollWidth, clientWidth } = wide;
+  wide.classList.toggle("before", scrollLeft > 1);
+  wide.classList.toggle("beyond", scrollLeft + clientWidth < scrollWidth - 1);
+}
+
+for (const wide of all(".wide")) {
+  wide.addEventListener("scroll", () => fade(wide), { passive: true });
+  new ResizeObserver(() => fade(wide)).observe(wide);
+}
+
 // -- choosing -------------------------------------------------------------------------------------
 
 const body = document.querySelector("table.matches tbody");
