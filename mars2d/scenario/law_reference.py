@@ -58,10 +58,14 @@ class Reference(NamedTuple):
 
 
 def seen_from(file: str, folder: Path) -> str:
-    """Return the path of a file seen from `folder`: relative unless it is far away."""
+    """Return the path of a file seen from `folder`: relative unless it is far away.
+
+    A way that leads through the root of all folders is none: the absolute path is shorter.
+    """
+    whole, here = os.path.normpath(file), os.path.normpath(folder.absolute())
     try:
-        relative = os.path.relpath(file, folder.absolute())
+        shared, relative = os.path.commonpath([whole, here]), os.path.relpath(whole, here)
     except ValueError:  # on another drive
-        return Path(file).as_posix()
-    near = Path(relative).parts.count("..") <= MAX_UP
-    return Path(relative if near else file).as_posix()
+        return Path(whole).as_posix()
+    near = shared != Path(here).anchor and Path(relative).parts.count("..") <= MAX_UP
+    return Path(relative if near else whole).as_posix()

@@ -22,6 +22,9 @@ from mars2d.world.world import World
 
 __all__ = ["Director"]
 
+POSE_DIGITS = 6
+"""The decimals of poses that are saved, of metres and radians."""
+
 RECORDING = "this is a recording: it can be looked at, not changed"
 
 
@@ -205,6 +208,21 @@ class Director:
         except InputError as error:  # bodies of a dense crowd may overlap
             self._notes.say(f"bodies are shown where they were at the start: {error}", "warning")
             return frame.scenario
+
+    def scenario_to_save(self) -> Scenario:
+        """Return the scenario with all bodies at their poses of now, in short numbers.
+
+        What has moved is rounded to micrometres and microradians, so that what is left by rounding
+        of a 0 is 0 again. Where bodies would then overlap, nothing is rounded.
+        """
+        frame = self._player.frame
+        poses = np.hstack([frame.pose, frame.prop_pose])
+        drawn = np.array([body.pose for body in frame.scenario.bodies]).T
+        short = np.where(poses == drawn, poses, np.round(poses, POSE_DIGITS) + 0.0)
+        try:
+            return with_poses(frame.scenario, short)
+        except InputError:
+            return self.scenario_now()
 
     def editor(self, painter: Painter) -> Editor | None:
         """Return an editor of the scenario as it is now."""

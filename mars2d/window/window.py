@@ -635,7 +635,7 @@ class Window:
         """Save the scenario as it is now as a Python file."""
         timeline = self.director.timeline
         self.saver.python(
-            self.director.scenario_now(), None if timeline is None else timeline.world.control
+            self.director.scenario_to_save(), None if timeline is None else timeline.world.control
         )
 
     def _drive_or_not(self) -> None:

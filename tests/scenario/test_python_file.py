@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mars2d
-from mars2d import Animation, Robot, Scenario, Sensor
+from mars2d import Animation, Robot, Scenario, Sensor, load_law
 from mars2d.scenario import serialize
 from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.scenario.pretty import Brackets, laid_out
@@ -118,3 +118,19 @@ def test_what_is_laid_out_keeps_its_items_and_its_width(width):
     text = laid_out(node, width=width)
     assert eval(text, {"f": lambda a, b: (a, b)}) == ([(float(i), -1.5) for i in range(8)], 2)
     assert max(map(len, text.splitlines())) <= max(width, 19)
+
+
+def test_a_law_far_away_has_its_whole_path_and_a_near_one_a_relative_path(tmp_path):
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    laws = tmp_path / "laws"
+    laws.mkdir()
+    (laws / "go.py").write_text("def control(robot):\n    return 0.1, 0.0\n")
+    law = load_law(laws / "go.py")
+    scenario = Scenario(robots=[Robot(controller=law)])
+    assert 'load_law("../laws/go.py")' in as_python(scenario, folder=folder)
+    above = Path(tmp_path.anchor)
+    for far in (above / "home", above / "home" / "me"):
+        text = as_python(scenario, folder=far)
+        assert f'load_law("{(laws / "go.py").as_posix()}")' in text
+        assert executed(text).robots[0].controller is not None

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from math import pi
 
 import numpy as np
 import pygame
@@ -13,8 +14,12 @@ from PIL import Image
 
 from mars2d import InputError, Robot, Scenario
 from mars2d.output.films.filming import FPS, Filming
-from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.window.director import Director
+from mars2d.window.notes import Notes
+from mars2d.window.player import Player
 from mars2d.window.saving import free_name, save_picture, save_python, start_film
+from mars2d.world.timeline import Timeline
 from tests.processes import PATIENCE, bare_environment
 from tests.window.person import needs_screen
 
@@ -255,3 +260,24 @@ def test_to_take_a_picture_is_quick(tmp_path):
         time.sleep(1 / 60)
     film.stop()
     assert np.median(took) < 0.008
+
+
+def test_a_scenario_is_kept_with_short_numbers_which_are_those_of_the_file_for_what_stands():
+    third = 1 / 3
+
+    def turning(_robot):
+        return 0.3, 0.7
+
+    robots = [Robot(pose=(0, 0, 0), controller=turning), Robot(pose=(third, 3, pi))]
+    timeline = Timeline(Experiment(Scenario(robots=robots)))
+    for _ in range(17):
+        timeline.advance()
+    director = Director(Player(timeline, 1.0), Notes(), lambda *_: True)
+    kept = director.scenario_to_save()
+    assert kept.robots[1].pose == (third, 3, pi)
+    (x, y, theta), exact = kept.robots[0].pose, timeline.frame.pose[:, 0]
+    assert np.abs(np.array([x, y, theta]) - exact).max() <= 5e-7
+    assert all(len(repr(value)) <= 9 for value in (x, y, theta))
+    timeline.world.hands.place(0, (1e-9, -1e-9, 1.0))
+    director._player.settle()
+    assert str(director.scenario_to_save().robots[0].pose) == "(0.0, 0.0, 1.0)"
