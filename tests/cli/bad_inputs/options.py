@@ -8,7 +8,6 @@ from tests.cli.bad_inputs.records import saved
 RUN = "mars2d run random_walk --headless --stop-time 2"
 
 ANYWHERE = [
-    ("no verb", "mars2d", "COMMAND", "mars2d --help"),
     ("a misspelt verb", "mars2d rnu random_walk", "'rnu'", "did you mean 'run'?"),
     ("a verb in capitals", "mars2d RUN random_walk", "'RUN'", "mars2d --help"),
     ("an unknown option", "mars2d --verbose", "--verbose", "mars2d --help"),
