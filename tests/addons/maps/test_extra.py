@@ -36,7 +36,8 @@ def test_a_kind_of_file_that_needs_it_says_how_to_install_it(child, tmp_path, na
     done = child(
         MISSING + "from mars2d.addons import Map\n"
         "from mars2d.core.errors import MissingExtraError\n"
-        f"try:\n    Map.from_file({str(file)!r})\nexcept MissingExtraError as error:\n    print(error)"
+        f"try:\n    Map.from_file({str(file)!r})\n"
+        "except MissingExtraError as error:\n    print(error)"
     )
     assert done.stdout.startswith(f"{name}: "), done.stderr
     for part in (f"needs {library}", 'pip install "mars2d[maps]"', "GeoJSON"):
