@@ -132,7 +132,6 @@ def make_all(
     watch(0, left[:count])
     for index, made in each_done(partial(make, folder=folder, seed=seed), order, workers=count):
         number = order[index].number
-        failed = isinstance(made, Failure)
-        done[number] = Result(number, problems=(made.error,)) if failed else made
+        done[number] = Result(number, problems=(made.error,)) if isinstance(made, Failure) else made
         left.remove(number)
         watch(len(done), left[:count])
