@@ -221,9 +221,10 @@ def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[s
         if (folder / path).is_file():
             note_file(folder / path)
             return folder / path
-        if (folder / path).is_dir():
+        if (folder / path).exists():
+            kind = "a folder" if (folder / path).is_dir() else "not a file"
             ends = " or ".join(suffixes)
-            raise InputError(f"{path}: a folder; expected {what}, a file that ends in {ends}")
+            raise InputError(f"{path}: {kind}; expected {what}, a file that ends in {ends}")
     known = {
         str(path.parent / file.name)
         for folder in folders

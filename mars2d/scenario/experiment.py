@@ -280,9 +280,10 @@ def _find(source: str | Path) -> Path:
     known = examples()
     if str(source) in known:
         return known[str(source)]
-    if path.is_dir():
+    if path.exists():
+        kind = "a folder" if path.is_dir() else "not a file"  # a pipe, which may never end
         raise InputError(
-            f"{path}: a folder; expected an experiment, a file that ends in .py or .toml"
+            f"{path}: {kind}; expected an experiment, a file that ends in .py or .toml"
         )
     beside = [str(file) for file in _scripts(path)]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
