@@ -7,6 +7,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from mars2d.core.checks import items_of
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, Mars2dError, shown
 from mars2d.core.interrupt import held_back
@@ -58,6 +59,7 @@ def run(
         options = {**(options or {}), "stop_time": stop_time}
     speed, seed = playback_speed("speed", speed), check_seed(seed)
     opened = open_experiment(experiment, options, control, seed)
+    watchers = _called(watchers)
     driven = None if human is None else robot_of(opened.scenario, human)
     target, log = (None, None) if record is None else _output(record)
     with held_back():  # Ctrl-C ends a run, and not that it is saved
@@ -77,6 +79,15 @@ def run(
 
             save_or_rescue(result, target)
     return result
+
+
+def _called(watchers: Sequence[Watcher]) -> list[Watcher]:
+    """Return the watchers of a run. Raises InputError for anything but functions."""
+    expected = "a list of functions, each called with the world"
+    every = items_of("watchers", watchers, expected)
+    if not all(map(callable, every)):
+        raise wrong("watchers", watchers, expected)
+    return every
 
 
 def _output(record: str | Path) -> tuple[Path, Log | None]:

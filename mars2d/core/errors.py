@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, TypeGuard, TypeVar
 
 __all__ = [
     "InputError",
@@ -16,6 +16,8 @@ __all__ = [
     "nearest",
 ]
 
+
+Raised = TypeVar("Raised", bound=BaseException)
 
 CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
 """Line breaks and the control characters of terminals."""
@@ -49,7 +51,37 @@ class InputError(Mars2dError, ValueError):
 
 
 class Passing(BaseException):
-    """Raised by MARS2D through the user's code, as KeyboardInterrupt is: no error of that code."""
+    """Raised by MARS2D through the user's code, as KeyboardInterrupt is: no error of that code.
+
+    Only its subclasses are raised.
+    """
+
+
+def is_a(error: BaseException | None, kind: type[Raised]) -> TypeGuard[Raised]:
+    """Return whether an exception is of a class, without asking it, as isinstance does."""
+    return issubclass(type(error), kind)
+
+
+def passes(error: BaseException) -> bool:
+    """Return whether an exception goes through the user's code: Ctrl-C, or a `Passing` of ours."""
+    kind = type(error)
+    ours = is_a(error, Passing) and kind is not Passing and is_ours(kind)
+    return ours or is_a(error, KeyboardInterrupt)
+
+
+def part_of(error: BaseException, name: str) -> Any:
+    """Return ``__traceback__`` or the like of an exception, also of one that hides it."""
+    return getattr(BaseException, name).__get__(error)
+
+
+def is_ours(kind: type) -> bool:
+    """Return whether a class of exceptions is one of MARS2D's own."""
+    return str(kind.__module__).partition(".")[0] == "mars2d"
+
+
+def is_made_here(error: BaseException) -> bool:
+    """Return whether an error is as MARS2D makes them: of a class of its own, with one text."""
+    return is_ours(type(error)) and [type(each) for each in error.args] == [str]
 
 
 class LawError(InputError):
@@ -123,6 +155,11 @@ def nearest(name: object, known: Iterable[str], likeness: float = LIKENESS, most
     return likely(name, names, likeness) or listed
 
 
+def class_name(thing: object) -> str:
+    """Return the name of the class of a thing, whatever that class or its own class defines."""
+    return str(type.__dict__["__name__"].__get__(type(thing)))
+
+
 def counted(count: int, thing: str) -> str:
     """Return a number with its noun, such as ``1 step`` or ``2 steps``."""
     return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
@@ -161,8 +198,8 @@ def shown(value: Any, limit: int = 60) -> str:
     """Return `value` as quoted in a message: its repr, cut to `limit` characters."""
     try:
         text = " ".join(repr(value).split())
-    except (KeyboardInterrupt, Passing):
-        raise
     except BaseException as error:
-        text = f"<{type(value).__name__} whose repr raises {type(error).__name__}>"
+        if passes(error):
+            raise
+        text = f"<{class_name(value)} whose repr raises {class_name(error)}>"
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -6,7 +6,7 @@ import os
 import stat
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from contextvars import ContextVar
 from io import BufferedRandom
 from pathlib import Path
@@ -69,18 +69,38 @@ def writing(target: Path) -> Iterator[None]:
 
 
 @contextmanager
-def atomic_write(target: Path) -> Iterator[BinaryIO]:
+def atomic_write(target: Path, held: BinaryIO | None = None) -> Iterator[BinaryIO]:
     """Open a new file, which takes the place of `target` once everything is written.
 
     If writing fails, the previous file is left untouched. Its permissions are kept, and a symbolic
-    link still points to it. Raises InputError if the file can't be written, for example because the
-    disk is full.
+    link still points to it. held: the file that is replaced, where the caller has it by `growing`.
+    Raises InputError if the file can't be written, for example because the disk is full, or because
+    something else is adding to it.
     """
     refuse_unwritable(target)
+    with _not_growing(target, held):
+        pass  # else it would be known only after all the work
     with writing(target), closing(_Part(Path(os.path.realpath(target)))) as part:
         with part.path.open("r+b") as file:
             yield file
-        part.replace()
+        with _not_growing(target, held):
+            part.replace()
+
+
+@contextmanager
+def _not_growing(target: Path, held: BinaryIO | None) -> Iterator[None]:
+    """Let nobody begin to add to a file within the block; InputError where somebody does.
+
+    held: the file, if it is the caller who adds to it.
+    """
+    with ExitStack() as stack:
+        if held is None:
+            with suppress(OSError):  # there is no such file yet, or it can't be read
+                file = stack.enter_context(target.open("rb"))
+                lock(file, target, shared=True)
+        if not REPLACED_OPEN:
+            stack.close()
+        yield
 
 
 class _Part:
@@ -201,9 +221,10 @@ def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[s
         if (folder / path).is_file():
             note_file(folder / path)
             return folder / path
-        if (folder / path).is_dir():
+        if (folder / path).exists():
+            kind = "a folder" if (folder / path).is_dir() else "not a file"
             ends = " or ".join(suffixes)
-            raise InputError(f"{path}: a folder; expected {what}, a file that ends in {ends}")
+            raise InputError(f"{path}: {kind}; expected {what}, a file that ends in {ends}")
     known = {
         str(path.parent / file.name)
         for folder in folders

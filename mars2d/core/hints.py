@@ -10,7 +10,7 @@ from contextlib import suppress
 from importlib import import_module
 from types import FrameType
 
-from mars2d.core.errors import InputError, Passing, likely
+from mars2d.core.errors import InputError, class_name, is_a, likely, passes
 from mars2d.core.words import instead
 
 __all__ = ["described"]
@@ -25,27 +25,23 @@ LIBRARIES = ("numpy", "scipy", "matplotlib", "pygame", "pymunk", "mars2d")
 
 def described(error: BaseException) -> str:
     """Return the message of an exception in the user's code, with a hint at what to write."""
-    said, name = _said(error), type(error).__name__
-    if isinstance(error, InputError):
+    name = class_name(error)
+    try:
+        said = str(error)
+    except BaseException as worse:  # a class of the user's may refuse
+        if passes(worse):
+            raise
+        return f"{name}, whose text raises {class_name(worse)}"
+    if is_a(error, InputError) and said:
         return said
-    if isinstance(error, ImportError):
+    if is_a(error, ImportError):
         said = said.partition(" (")[0]  # the path of the module helps nobody
     text = f"{name}: {said}" if said else name
     for kind, hint in _HINTS.items():
-        if isinstance(error, kind):
+        if is_a(error, kind):
             with suppress(Exception):  # of the user's own classes, which may be anything
                 return text + hint(error)
     return text
-
-
-def _said(error: BaseException) -> str:
-    """Return the text of an exception, which a class of the user's may refuse."""
-    try:
-        return str(error)
-    except (KeyboardInterrupt, Passing):
-        raise
-    except BaseException as worse:
-        return f"its text raises {type(worse).__name__}"
 
 
 def _of_unbound(error: UnboundLocalError) -> str:

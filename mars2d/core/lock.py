@@ -15,13 +15,14 @@ LOCKED_BYTE = 2**40
 """The byte to lock on systems that lock bytes: far behind the end of any file."""
 
 
-def lock(file: BinaryIO, path: Path) -> None:
+def lock(file: BinaryIO, path: Path, *, shared: bool = False) -> None:
     """Lock a file until it is closed or the process ends.
 
-    Raises InputError if it is locked already. Does nothing on systems without locks.
+    shared: others may lock it in this way as well; Windows has no such locks. Raises InputError if
+    it is locked already. Does nothing on systems without locks.
     """
     try:
-        _lock(file)
+        _lock(file, shared=shared)
     except (BlockingIOError, PermissionError):
         raise InputError(
             f"{path}: another process is writing to it, or another part of this one: wait for its "
@@ -31,7 +32,7 @@ def lock(file: BinaryIO, path: Path) -> None:
         return
 
 
-def _lock(file: BinaryIO) -> None:
+def _lock(file: BinaryIO, *, shared: bool) -> None:
     if sys.platform == "win32":
         import msvcrt
 
@@ -40,4 +41,4 @@ def _lock(file: BinaryIO) -> None:
     else:
         import fcntl
 
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        fcntl.flock(file, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)

@@ -20,14 +20,19 @@ class Stepped(Protocol):
 class Progress:
     """A bar on one line of a terminal with progress, rate and time left; silent elsewhere."""
 
-    def __init__(self, total: int, unit: str = "steps", stream: TextIO | None = None) -> None:
-        """Take the total number of steps; `stream` is stderr by default."""
+    def __init__(
+        self, total: int, unit: str = "steps", stream: TextIO | None = None, after: float = 0.5
+    ) -> None:
+        """Take the total number of steps; `stream` is stderr by default.
+
+        after: the time before the bar is shown, seconds; a short run needs none.
+        """
         self._total = max(total, 1)
         self._unit = unit
         self._stream = sys.stderr if stream is None else stream
         self._on = self._stream is not None and self._stream.isatty()  # None: it was closed
         self._start = time.monotonic()
-        self._next = self._start + 0.5  # a short run needs no bar
+        self._next = self._start + after
         self._shown = False
 
     def __call__(self, stepped: Stepped) -> None:

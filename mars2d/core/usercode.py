@@ -15,7 +15,15 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mars2d.core.errors import InputError, LawError, Passing
+from mars2d.core.errors import (
+    InputError,
+    LawError,
+    is_a,
+    is_made_here,
+    is_ours,
+    part_of,
+    passes,
+)
 from mars2d.core.hints import described
 
 __all__ = [
@@ -26,6 +34,7 @@ __all__ = [
     "excerpt_of",
     "name_of",
     "raise_in",
+    "stack_of",
     "users_line",
 ]
 
@@ -73,20 +82,36 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
 
     def blame(self, error: BaseException) -> None:
         """Raise the LawError for an exception that was caught, unless it is to be passed on."""
-        if isinstance(error, (KeyboardInterrupt, Passing)):
+        if passes(error):
             return
-        stack = traceback.extract_tb(error.__traceback__)
-        where = users_line(stack) or definition(self._function)
-        if isinstance(error, LawError):
+        where = users_line(stack_of(error)) or definition(self._function)
+        if is_a(error, LawError) and _is_plain(error):
             error.where, error.robot = error.where or where, error.robot or self._robot
             return
         at_start = getattr(self._function, "__name__", "") == "on_start"
-        if isinstance(error, InputError) and where is None and at_start:
+        if is_a(error, InputError) and where is None and at_start:
             return
-        what = error.why if isinstance(error, Hangs) else f"raised {described(error)}"
+        what = f"raised {described(error)}"
+        if is_a(error, Hangs) and is_ours(type(error)):
+            what = type(error).why
         wrapped = LawError(f"{self._name} {what}")
         wrapped.where, wrapped.robot = where, self._robot
         raise wrapped from error
+
+
+def _is_plain(error: LawError) -> bool:
+    """Return whether a LawError is as MARS2D makes them, not one that a law has put together."""
+    return (
+        is_made_here(error)
+        and (error.where is None or type(error.where) is str)
+        and type(error.robot) is str
+        and (error.time is None or isinstance(error.time, float))
+    )
+
+
+def stack_of(error: BaseException) -> traceback.StackSummary:
+    """Return the steps from where an exception was caught to where it was raised."""
+    return traceback.extract_tb(part_of(error, "__traceback__"))
 
 
 def users_line(stack: traceback.StackSummary) -> str | None:
@@ -181,16 +206,17 @@ def excerpt_of(error: BaseException, beside: Path | None = None) -> Excerpt | No
 
 def _stacks(error: BaseException | None) -> list[traceback.StackSummary]:
     """Return the stacks of an error and of its causes, the first cause first."""
-    chain: list[BaseException] = []
-    while error is not None and error not in chain:
-        chain.insert(0, error)
-        error = error.__cause__ or error.__context__
-    return [_stack(step) for step in chain]
+    chain: dict[int, BaseException] = {}
+    while error is not None and id(error) not in chain:
+        chain[id(error)] = error
+        cause = part_of(error, "__cause__")
+        error = part_of(error, "__context__") if cause is None else cause
+    return [_stack(step) for step in reversed(chain.values())]
 
 
 def _stack(error: BaseException) -> traceback.StackSummary:
-    stack = traceback.extract_tb(error.__traceback__)
-    if isinstance(error, SyntaxError) and error.filename:
+    stack = stack_of(error)
+    if is_a(error, SyntaxError) and error.filename:
         stack.append(traceback.FrameSummary(error.filename, error.lineno, "", lookup_line=False))
     return stack
 

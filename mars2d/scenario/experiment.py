@@ -9,7 +9,6 @@ import inspect
 import itertools
 import numbers
 import sys
-import traceback
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -19,10 +18,20 @@ from typing import Any, Protocol, cast
 
 from mars2d.core import checks
 from mars2d.core.description import wrong
-from mars2d.core.errors import InputError, LawError, Mars2dError, Passing, likely, nearest, shown
+from mars2d.core.errors import (
+    InputError,
+    LawError,
+    Mars2dError,
+    is_a,
+    is_made_here,
+    likely,
+    nearest,
+    passes,
+    shown,
+)
 from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
-from mars2d.core.usercode import called
+from mars2d.core.usercode import called, stack_of
 from mars2d.scenario.map_option import MapOption, reading_options
 from mars2d.scenario.options import override
 from mars2d.scenario.prediction import Prediction
@@ -271,9 +280,10 @@ def _find(source: str | Path) -> Path:
     known = examples()
     if str(source) in known:
         return known[str(source)]
-    if path.is_dir():
+    if path.exists():
+        kind = "a folder" if path.is_dir() else "not a file"  # a pipe, which may never end
         raise InputError(
-            f"{path}: a folder; expected an experiment, a file that ends in .py or .toml"
+            f"{path}: {kind}; expected an experiment, a file that ends in .py or .toml"
         )
     beside = [str(file) for file in _scripts(path)]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
@@ -308,9 +318,9 @@ def _load(path: Path, what: str = "an experiment") -> ModuleType:
         place = Path(error.filename or path).name
         problem.where = f"{place}, line {error.lineno}" if error.lineno else place
         raise problem from error
-    except (KeyboardInterrupt, Passing):
-        raise
     except BaseException as error:
+        if passes(error):
+            raise
         problem = InputError(described(error))
         problem.where = _line_in(error, path)
         raise problem from error
@@ -333,9 +343,7 @@ def _forget_modules(before: set[str], folder: str) -> None:
 def _line_in(error: BaseException, path: Path) -> str:
     """Return the line of `path` that an error passed through."""
     lines = [
-        step.lineno
-        for step in traceback.extract_tb(error.__traceback__)
-        if Path(step.filename).absolute() == path.absolute()
+        step.lineno for step in stack_of(error) if Path(step.filename).absolute() == path.absolute()
     ]
     return f"{path.name}, line {lines[-1]}" if lines else path.name
 
@@ -399,10 +407,12 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
         _check_kind(name, value, parameters[name].default)
     try:
         return function(**chosen)
-    except (KeyboardInterrupt, Passing):
-        raise
     except BaseException as error:
-        problem = error if isinstance(error, Mars2dError) else InputError(described(error))
+        if passes(error):
+            raise
+        problem: Mars2dError = InputError(described(error))
+        if is_a(error, Mars2dError) and is_made_here(error):
+            problem = error
         code = getattr(function, "__code__", None)
         if code is not None and problem.where is None:
             unsaid = {k: v for k, v in chosen.items() if str(v) not in str(problem)}

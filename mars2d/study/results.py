@@ -52,7 +52,7 @@ class Results:
         """Replace the file by a whole table; nothing can be added afterwards."""
         if not REPLACED_OPEN:
             self._file.close()
-        save_table(table, self._path)
+        save_table(table, self._path, self._file)
 
     def _resume(self) -> None:
         """Read the rows; cut off an incomplete line, and begin an empty file with the header."""

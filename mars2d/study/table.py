@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from math import nan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -221,13 +221,16 @@ def _html_text(cell: Any) -> str:
 # -- writing files ---------------------------------------------------------------------------------
 
 
-def save_table(table: Table, path: str | Path) -> Path:
-    """Write a table as a .csv file, which appears when it is complete, and return its path."""
+def save_table(table: Table, path: str | Path, held: BinaryIO | None = None) -> Path:
+    """Write a table as a .csv file, which appears when it is complete, and return its path.
+
+    held: see `atomic_write`.
+    """
     target = Path(path)
     if target.suffix.lower() != ".csv":
         raise InputError(f"{target}: expected a name that ends in .csv")
     lines = [file_header(table), *(file_line(table, result) for result in table.results)]
-    with atomic_write(target) as file:
+    with atomic_write(target, held) as file:
         file.write(b"".join(lines))
     return target
 

@@ -23,7 +23,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Any, NamedTuple, TypeVar
 
-from mars2d.core.errors import InputError, Passing, shown
+from mars2d.core.errors import InputError, Passing, passes, shown
 from mars2d.core.hints import described
 from mars2d.core.interrupt import interrupts_blocked
 from mars2d.core.lastresort import die_with_parent, kill_group
@@ -80,9 +80,9 @@ def attempt(function: Callable[[T], R], task: T) -> R | Failure:
     """Return the function's result for a task, or a Failure if it raises."""
     try:
         return function(task)
-    except (KeyboardInterrupt, Passing):
-        raise
     except BaseException as error:
+        if passes(error):
+            raise
         return Failure(reason(error))
 
 

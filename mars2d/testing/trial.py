@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 import time
-import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -20,7 +19,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.hints import described
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
-from mars2d.core.usercode import users_line
+from mars2d.core.usercode import stack_of, users_line
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
@@ -138,7 +137,7 @@ def as_input_error(error: Exception) -> InputError:
     if isinstance(error, InputError):
         return error
     result = InputError(described(error))
-    result.where = users_line(traceback.extract_tb(error.__traceback__))
+    result.where = users_line(stack_of(error))
     return result
 
 

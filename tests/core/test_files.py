@@ -134,10 +134,12 @@ def test_a_file_that_was_replaced_before_it_was_locked_is_opened_again(
     path.write_bytes(b"older")
     locked = []
 
-    def late(file, where) -> None:
-        if not locked:
+    def late(file, where, *, shared=False) -> None:
+        if not (shared or locked):
+            locked.append(file)
             write(path)
-        locked.append(file)
+        elif not shared:
+            locked.append(file)
 
     monkeypatch.setattr("mars2d.core.files.lock", late)
     with growing(path) as file:
@@ -159,6 +161,42 @@ def test_a_log_is_written_by_one_run_at_a_time(tmp_path) -> None:
     record = mars2d.run(Scenario(stop_time=1), control=control, record=path)
     assert told[0].returncode == 2
     assert f"{path}: another process is writing to it" in told[0].stderr
+    assert mars2d.load(path).digest == record.digest
+
+
+def test_a_file_that_grows_is_not_replaced_by_others(tmp_path) -> None:
+    path = tmp_path / "rows"
+    with growing(path) as file:
+        with pytest.raises(InputError, match="rows: another process is writing to it"):
+            write(path)
+        with atomic_write(path, file) as whole:
+            whole.write(b"by its writer")
+    assert path.read_bytes() == b"by its writer"
+    with atomic_write(path) as one:
+        one.write(b"one")
+        write(path)  # who saves at the same time is not refused
+    assert path.read_bytes() == b"one"
+    with (
+        pytest.raises(InputError, match="rows: another process is writing to it"),
+        atomic_write(path),
+    ):
+        file = growing(path)  # begun since
+    file.close()
+    assert path.read_bytes() == b"one"
+
+
+def test_no_record_is_saved_over_a_log_that_a_run_writes(tmp_path) -> None:
+    pytest.importorskip("mcap")
+    path = tmp_path / "run.mcap"
+    other = mars2d.run(Scenario(stop_time=1))
+
+    def control(world):
+        if world.iteration == 5:
+            with pytest.raises(InputError, match="another process is writing to it"):
+                other.save(path)
+        return 0.1, 0.2
+
+    record = mars2d.run(Scenario(stop_time=1), control=control, record=path)
     assert mars2d.load(path).digest == record.digest
 
 

@@ -11,9 +11,10 @@ import pytest
 
 import mars2d
 from mars2d import InputError, Scenario
+from mars2d.addons import Map
 from mars2d.cli.command_line import main
 from mars2d.output.formats import SUFFIXES
-from tests.processes import PATIENCE, bare_environment
+from tests.processes import PATIENCE, bare_environment, mars
 
 # -- names of files -------------------------------------------------------------------------------
 
@@ -145,3 +146,27 @@ def test_they_are_many():
     variables = sum(map(len, VARIABLES.values()))
     settings = len([*itertools.product(FIELDS, VALUES)])
     assert (len(NAMES) * len(SUFFIXES), settings, variables) == (215, 432, 52)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes of POSIX")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("run", "law.py", "--headless"),
+        ("run", "law.toml"),
+        ("check", "law.npz"),
+        ("replay", "l.csv"),
+    ],
+)
+def test_a_pipe_that_nobody_writes_to_is_not_waited_for(tmp_path, words):
+    os.mkfifo(tmp_path / next(word for word in words if "." in word))
+    done = mars(*words, cwd=tmp_path)
+    assert done.returncode == 2
+    assert ": not a file; expected a" in done.stderr
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes of POSIX")
+def test_a_map_is_no_pipe(tmp_path):
+    os.mkfifo(tmp_path / "map.dxf")
+    with pytest.raises(InputError, match="not a file; expected a map"):
+        Map.from_file(tmp_path / "map.dxf")

@@ -58,7 +58,7 @@ def whims(tmp_path):
 def test_a_run_says_the_line_and_keeps_its_record(whims):
     done = mars("run", "whims.py", "--headless", "--record", "kept.npz", cwd=whims)
     assert done.returncode == 2
-    assert "whims.py, line 31: go raised Whim: its text raises Whim (red, at" in done.stderr
+    assert "whims.py, line 31: go raised Whim, whose text raises Whim (red, at" in done.stderr
     assert "Traceback" not in done.stderr
     assert len(mars2d.load(whims / "kept.npz")) == 3
 

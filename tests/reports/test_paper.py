@@ -30,6 +30,7 @@ from mars2d.reports.paper.page import MARK, page, typeset
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
+from tests.faults.commands import started
 from tests.processes import PATIENCE, mars, wait_until
 
 FAILS = """
@@ -493,6 +494,17 @@ def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
     check_numbers(folder)
     assert not list(folder.glob("fig7*"))  # nor half a picture
     wait_until(lambda: not is_group(child.pid))  # no worker is left behind
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_no_process_outlives_it_however_it_ends(tmp_path, number):
+    command = started(tmp_path, "paper", "out", "--only", "2,4,7")
+    wait_until(lambda: [*(tmp_path / "out").glob("*.pdf")])
+    os.kill(command.pid, number)
+    assert command.end().code == (130 if number == signal.SIGTERM else -number)
+    assert command.left() == []
 
 
 # -- formulas, and the browser ----------------------------------------------------------------

@@ -341,7 +341,7 @@ NASTY = {
     "an exception of its own": ("error", "line 3: control raised Bad: no", """
         class Bad(BaseException): pass
         def control(robot): raise Bad("no")"""),
-    "an exception that raises": ("error", "raised Bad: its text raises ValueError", """
+    "an exception that raises": ("error", "raised Bad, whose text raises ValueError", """
         class Bad(BaseException):
             def __str__(self): raise ValueError
         def control(robot): raise Bad"""),

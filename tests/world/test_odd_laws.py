@@ -1,6 +1,7 @@
 """Laws, sensors and add-ons that raise or return anything: always their error, the record kept."""
 
 import asyncio
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +9,8 @@ import pytest
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario
 from mars2d.addons import Addon
+from mars2d.core.errors import Passing, UnknownNameError, class_name
+from mars2d.core.usercode import Hangs, excerpt_of
 from mars2d.sensors import Sensor
 from mars2d.study.measures import measured
 from mars2d.study.work import Failure
@@ -49,18 +52,69 @@ class Own(BaseException):
         return str(1 / 0)
 
 
+class ClosedError(Exception):
+    """An exception that answers nothing."""
+
+    def __getattribute__(self, name):
+        raise RuntimeError(name)
+
+
+class Nameless(type):
+    @property
+    def __name__(cls):
+        raise RuntimeError("no name")
+
+
+class NamelessError(Exception, metaclass=Nameless):
+    pass
+
+
+class UnequalError(Exception):
+    __hash__ = None
+
+    def __eq__(self, other):
+        raise RuntimeError("not compared")
+
+
+class FrozenError(LawError):
+    def __setattr__(self, name, value):
+        raise RuntimeError("not set")
+
+
+class LateError(Hangs):
+    why = NoText()
+
+
+def altered(**attributes):
+    """Return a LawError to which a law has given attributes of its own."""
+    error = LawError("mine")
+    vars(error).update(attributes)
+    return error
+
+
+def in_a_circle():
+    """Return an error that has caused itself."""
+    one, other = ValueError("one"), ValueError("other")
+    one.__cause__, other.__cause__ = other, one
+    return one
+
+
 RETURNED = [NoArray(), NoText(), NoItems(), NoNumber(), (NoArray(), NoText()), [[NoText()], [0]]]
 
 RAISED = [
     SilentError(), Own(), asyncio.CancelledError(), GeneratorExit(), SystemExit(3),
     StopIteration(), RecursionError(), MemoryError(), OSError(28, "full"), Warning("w"),
     ExceptionGroup("several", [SilentError()]), UnicodeDecodeError("utf-8", b"x", 0, 1, "odd"),
-    AttributeError(name="a", obj=NoText()), InputError(NoText()),
+    AttributeError(name="a", obj=NoText()), InputError(NoText()), in_a_circle(),
+    ClosedError(), NamelessError(), UnequalError(), FrozenError("x"), LateError(), Passing("x"),
+    LawError(), LawError(NoText()), UnknownNameError(NoText()), altered(where=NoText()),
+    altered(where=5), altered(robot=NoText()), altered(time=NoText()), altered(time="now"),
+    altered(record=5), altered(args=(NoText(),)),
 ]  # fmt: skip
 
 
 def names(things):
-    return [type(each).__name__ for each in things]
+    return [class_name(each) for each in things]
 
 
 def acting(act):
@@ -88,39 +142,47 @@ def failed(scenario, control=None):
     assert error.record.over_message.startswith("Error: ")
     assert error.where.startswith("test_odd_laws.py, line ")
     assert "at 0.2 s)" in str(error)
+    assert excerpt_of(error, Path(__file__)) is not None
     return error
 
 
-ACTS = [lambda each=each: each for each in RETURNED] + [raising(error) for error in RAISED]
+RAISING = [pytest.param(raising(error), id=class_name(error)) for error in RAISED]
+"""The functions that raise: pytest looks at the exceptions themselves, which some do not bear."""
+
+RETURNING = [
+    pytest.param(lambda each=each: each, id=name)
+    for each, name in zip(RETURNED, names(RETURNED), strict=True)
+]
+ACTS = RETURNING + RAISING
 
 
-@pytest.mark.parametrize("act", ACTS, ids=names(RETURNED + RAISED))
+@pytest.mark.parametrize("act", ACTS)
 def test_a_law_of_a_robot(act):
     error = failed(Scenario(robots=[Robot(name="red", controller=acting(act))], stop_time=1))
     assert error.robot == "red"
 
 
-@pytest.mark.parametrize("act", ACTS, ids=names(RETURNED + RAISED))
+@pytest.mark.parametrize("act", ACTS)
 def test_a_law_of_a_team(act):
     failed(Scenario(stop_time=1), control=acting(act))
 
 
-@pytest.mark.parametrize("error", RAISED, ids=names(RAISED))
-def test_a_generator(error):
+@pytest.mark.parametrize("act", RAISING)
+def test_a_generator(act):
     def law(robot):
         yield 0.0, 0.0
         yield 0.0, 0.0
-        raise error
+        act()
 
     failed(Scenario(robots=[Robot(controller=law)], stop_time=1))
 
 
-@pytest.mark.parametrize("error", RAISED, ids=names(RAISED))
-def test_a_sensor(error):
+@pytest.mark.parametrize("act", RAISING)
+def test_a_sensor(act):
     class Odd(Sensor):
         def read(self, robot, world, rng):
             if world.time > 0.15:
-                raise error
+                act()
             return 0.0
 
     said = failed(Scenario(robots=[Robot(name="red", sensors=[Odd()])], stop_time=1))
@@ -136,12 +198,12 @@ def test_a_reading(value):
     failed(Scenario(robots=[Robot(name="red", sensors=[Odd()])], stop_time=1))
 
 
-@pytest.mark.parametrize("error", RAISED, ids=names(RAISED))
-def test_an_addon(error):
+@pytest.mark.parametrize("act", RAISING)
+def test_an_addon(act):
     class Odd(Addon):
         def on_step(self, world):
             if world.time > 0.15:
-                raise error
+                act()
 
     failed(Scenario(addons=[Odd()], stop_time=1))
 
@@ -149,25 +211,25 @@ def test_an_addon(error):
 class Odd(float):
     """A number that refuses to be one."""
 
-    def __new__(cls, error):
+    def __new__(cls, act):
         made = super().__new__(cls, 1.0)
-        made.error = error
+        made.act = act
         return made
 
     def __float__(self):
-        raise self.error
+        self.act()
 
 
-@pytest.mark.parametrize("error", RAISED, ids=names(RAISED))
-def test_a_measure(error):
+@pytest.mark.parametrize("act", RAISING)
+def test_a_measure(act):
     record = mars2d.run(Scenario(stop_time=1))
     with pytest.raises(LawError, match=r"odd (raised|returned)"):
-        measured("odd", lambda _: Odd(error), record)
+        measured("odd", lambda _: Odd(act), record)
 
 
-@pytest.mark.parametrize("error", RAISED, ids=names(RAISED))
-def test_a_task_of_a_study(error):
-    assert isinstance(attempt(lambda _: raising(error)(), None), Failure)
+@pytest.mark.parametrize("act", RAISING)
+def test_a_task_of_a_study(act):
+    assert isinstance(attempt(lambda _: act(), None), Failure)
 
 
 def test_ctrl_c_is_no_error_of_the_law():

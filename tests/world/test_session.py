@@ -346,3 +346,9 @@ def test_where_the_record_of_a_failed_law_can_not_be_saved_the_laws_error_counts
         mars2d.run(SQUARE, control=law, record=target)
     assert len(caught.value.record) == 3
     assert "run.npz: can't be written" in caught.value.__notes__[0]
+
+
+@pytest.mark.parametrize("watchers", [5, [5], "x", print, None])
+def test_watchers_are_functions(watchers):
+    with pytest.raises(mars2d.InputError, match=r"^watchers = .*: expected a list of functions"):
+        mars2d.run("random_walk", stop_time=1, watchers=watchers)

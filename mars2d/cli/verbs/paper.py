@@ -43,7 +43,7 @@ def execute(arguments: argparse.Namespace) -> None:
     figures = [f for f in FIGURES if arguments.only is None or f.number in arguments.only]
     prepare(folder, [name for figure in FIGURES for name in figure.files])
     done: dict[int, Result] = {}
-    progress = Progress(len(figures))
+    progress = Progress(len(figures), after=0)
 
     def watch(count: int, active: Sequence[int]) -> None:
         progress.update(count, f"figure {' and '.join(map(str, active))}")

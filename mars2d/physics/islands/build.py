@@ -11,6 +11,7 @@ import hashlib
 import re
 import sys
 from collections.abc import Sequence
+from contextlib import chdir
 from pathlib import Path
 
 __all__ = ["compile_into", "fingerprint", "functions", "joined"]
@@ -74,17 +75,21 @@ def compile_into(folder: Path, flags: Sequence[str] = ()) -> Path:
     from Cython.Build import cythonize
     from setuptools import Distribution, Extension
 
-    source = folder / "_compiled.pyx"
-    source.write_text(joined(), encoding="utf-8")
+    (folder / "_compiled.pyx").write_text(joined(), encoding="utf-8")
     extension = Extension(
         "mars2d.physics.islands._compiled",
-        [str(source)],
+        ["_compiled.pyx"],
         extra_compile_args=[*EXACTLY, *flags],
         extra_link_args=list(flags),
     )
-    made = cythonize([extension], quiet=True, force=True)
-    command = Distribution({"ext_modules": made}).get_command_obj("build_ext")
-    command.build_lib, command.build_temp = str(folder), str(folder / "temp")
-    command.ensure_finalized()
-    command.run()
-    return Path(command.get_ext_fullpath("mars2d.physics.islands._compiled"))
+    with chdir(folder):  # Cython keeps the path of its source: the same from each folder
+        made = cythonize([extension], quiet=True, force=True)
+        command = Distribution({"ext_modules": made}).get_command_obj("build_ext")
+        command.build_lib, command.build_temp = ".", "temp"
+        command.ensure_finalized()
+        command.run()
+        return Path(command.get_ext_fullpath("mars2d.physics.islands._compiled")).resolve()
+
+
+if __name__ == "__main__":
+    print(compile_into(Path(sys.argv[1])))

@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import re
-import signal
 import struct
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mars2d.core.errors import Mars2dError
 from mars2d.core.hints import described
-from mars2d.core.interrupt import interrupts_blocked
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_drawing
 from mars2d.record.record import Record
 from mars2d.reports.paper.figure import Figure, Picture, Result, Run
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
-from mars2d.study.work import worker_count
+from mars2d.study.work import Failure, each_done, worker_count
 from mars2d.world.loop import simulate
 
 __all__ = ["make", "make_all"]
 
 Watch = Callable[[int, Sequence[int]], None]
-"""Called repeatedly with the number of figures done, and the numbers of those being made."""
+"""Called with the number of figures done, and the numbers of those being made."""
 
 
 def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
@@ -122,9 +117,9 @@ def make_all(
 ) -> None:
     """Make figures in a folder with several processes, and put the results into `done`.
 
-    done: filled as figures are completed, by their numbers, also if Ctrl-C ends the rest.
-    processes: by default one per processor; with 1, or for one figure, no process is started. The
-    results do not depend on it.
+    The figures with the most work are begun first. done: filled as figures are completed, by their
+    numbers, also if Ctrl-C ends the rest. processes: by default one per processor; with 1, or for
+    one figure, no process is started. The results do not depend on it.
     """
     count = min(worker_count(processes), len(figures))
     if count <= 1:
@@ -132,45 +127,11 @@ def make_all(
             watch(len(done), [figure.number])
             done[figure.number] = make(figure, folder, seed)
         return
-    others = multiprocessing.active_children()
-    context = multiprocessing.get_context("spawn")  # a fork would copy locks held by threads
-    with ProcessPoolExecutor(count, context, initializer=_ignore_interrupts) as pool:
-        try:
-            _share(figures, folder, seed, done, watch, pool, count)
-        except BaseException:
-            for child in multiprocessing.active_children():
-                if child not in others:
-                    child.terminate()  # else we would wait for figures that are not wanted
-            raise
-
-
-def _share(
-    figures: Sequence[Figure],
-    folder: Path,
-    seed: int,
-    done: dict[int, Result],
-    watch: Watch,
-    pool: ProcessPoolExecutor,
-    count: int,
-) -> None:
-    """Give the figures to the processes, those with the most work first."""
-    waiting = sorted(figures, key=lambda figure: -figure.work)
-    active: dict[Future[Result], int] = {}
-    while waiting or active:
-        while waiting and len(active) < count:
-            figure = waiting.pop(0)
-            with interrupts_blocked():  # this may start a process
-                future = pool.submit(make, figure, folder, seed)
-            active[future] = figure.number
-        watch(len(done), sorted(active.values()))
-        for future in wait(active, timeout=0.2, return_when=FIRST_COMPLETED).done:
-            number = active.pop(future)
-            try:
-                done[number] = future.result()
-            except BrokenProcessPool:
-                raise Mars2dError(f"figure {number}: its process was ended from outside") from None
-
-
-def _ignore_interrupts() -> None:
-    """Leave Ctrl-C to the process that started this one."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    order = sorted(figures, key=lambda figure: -figure.work)
+    left = [figure.number for figure in order]
+    watch(0, left[:count])
+    for index, made in each_done(partial(make, folder=folder, seed=seed), order, workers=count):
+        number = order[index].number
+        done[number] = Result(number, problems=(made.error,)) if isinstance(made, Failure) else made
+        left.remove(number)
+        watch(len(done), left[:count])

@@ -21,9 +21,9 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from mars2d.core.errors import Mars2dError
+from mars2d.core.errors import Mars2dError, is_a, is_made_here, part_of
 from mars2d.core.hints import described
-from mars2d.core.usercode import users_line
+from mars2d.core.usercode import stack_of, users_line
 from mars2d.scenario.experiment import law_in
 from mars2d.study.isolation.limits import MB
 from mars2d.study.isolation.mirror_world import MirrorWorld
@@ -170,12 +170,12 @@ class Host:
 
     def _blame(self, kind: str, error: BaseException, file: str | None) -> None:
         """Report an exception from loading or calling the law."""
-        place = users_line(traceback.extract_tb(error.__traceback__)) or file
+        place = users_line(stack_of(error)) or file
         if _is_memory_error(error):
             kind = "memory"
             _use_reserve()
-        if isinstance(error, Mars2dError):
-            place, text = error.where or place, str(error.args[0] if error.args else error)
+        if is_a(error, Mars2dError) and is_made_here(error):
+            place, text = error.where or place, str(error.args[0])
         else:
             text = f"raised {described(error)}"
         self.fail(kind, place, text)
@@ -243,8 +243,10 @@ def _use_reserve() -> None:
 
 def _is_memory_error(error: BaseException | None) -> bool:
     """Return whether an error is a MemoryError or was caused by one."""
-    while error is not None:
-        if isinstance(error, MemoryError):
+    seen: set[int] = set()
+    while error is not None and id(error) not in seen:
+        if is_a(error, MemoryError):
             return True
-        error = error.__cause__
+        seen.add(id(error))
+        error = part_of(error, "__cause__")
     return False

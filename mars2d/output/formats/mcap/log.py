@@ -205,7 +205,7 @@ class Log:
             if self._world is not None:
                 if not REPLACED_OPEN:
                     self._shut()
-                self._do(lambda: pack(self.path, self._header, self._begun))
+                self._do(lambda: pack(self.path, self._header, self._begun, self._file.held))
         finally:
             self._shut()
 
@@ -250,8 +250,8 @@ class _File:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._held = growing(path, afresh=True)
-        self._file = self._held.fileno()
+        self.held = growing(path, afresh=True)
+        self._file = self.held.fileno()
         self._pending = bytearray()
         self._taken = 0
         self._broken = False
@@ -297,7 +297,7 @@ class _File:
 
     def close(self) -> None:
         """Close the file as it is, without what was not handed over."""
-        self._held.close()
+        self.held.close()
 
     def _drop(self) -> None:
         """Forget what could not be written whole."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
@@ -149,17 +149,18 @@ def _check_whole(record: Record, path: Path) -> None:
         )
 
 
-def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int]) -> None:
+def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int], held: BinaryIO) -> None:
     """Replace a log that was written step by step by a file that is quick to open.
 
     header: of the run that it ends with. begun: the rows at which it went on with other worlds;
-    rows that they replaced are left out. Raises DiskError, and leaves the file as it is.
+    rows that they replaced are left out. held: see `atomic_write`. Raises DiskError, and leaves the
+    file as it is.
     """
     # Each world's rows count up to the first row at which a later world began.
     ends = [*accumulate([NEVER, *begun[:0:-1]], min)][::-1]
     world = -1
     try:
-        with path.open("rb") as source, atomic_write(path) as file:
+        with path.open("rb") as source, atomic_write(path, held) as file:
             writer = _writer(file)
             writer.start(profile="", library="mars2d")
             for operation in scan(path, source, MAX_LIMIT):
