@@ -9,7 +9,7 @@ from itertools import accumulate, pairwise
 from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.arithmetic import norm
-from mars2d.core.description import entry, flag, number, wrong
+from mars2d.core.description import accepts, entry, flag, number, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.plane import Outline, Point
@@ -20,6 +20,7 @@ __all__ = ["Beacon"]
 PATH = "at least two points, as [(x, y), ...] in metres, or None"
 
 
+@accepts(checks.OUTLINE)
 def _path(name: str, value: object) -> Outline | None:
     """Check a path: unlike an obstacle it may cross itself, and end where it starts."""
     if value is None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core import checks
-from mars2d.core.description import entry, wrong
+from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike
 from mars2d.core.scene import Scene
@@ -52,6 +52,7 @@ class Outcome(NamedTuple):
         return self.captures[-1].time if caught else float("nan")
 
 
+@accepts({"type": "array", "minItems": 2, "maxItems": 2})
 def _roles(name: str, value: object) -> tuple[Role, ...]:
     """Check two roles with their robots, a dict or, as in a file, pairs; keep them as pairs."""
     pairs = list(value.items()) if isinstance(value, Mapping) else value

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from mars2d.addons.base import Addon
-from mars2d.core.checks import names
-from mars2d.core.description import entry, wrong
+from mars2d.core.checks import NAMES, names
+from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, faded
@@ -17,6 +17,7 @@ FAR = 50.0
 """The range beyond which a field is drawn only if its sensor is named, metres."""
 
 
+@accepts(NAMES)
 def _names(name: str, value: object) -> tuple[str, ...] | None:
     return names(name, value, "a list of sensors' names, as ['range_bearing'], or None")
 

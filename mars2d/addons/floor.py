@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.base import Addon, Color
 from mars2d.core import checks
-from mars2d.core.description import entry, wrong
+from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
 from mars2d.core.picture import (
@@ -29,6 +29,7 @@ from mars2d.core.scene import color as checked_color
 __all__ = ["Floor"]
 
 
+@accepts({"type": "string"})
 def _opaque(name: str, value: object) -> str:
     """Check a colour that lets nothing through."""
     result = checked_color(name, value)
@@ -37,6 +38,7 @@ def _opaque(name: str, value: object) -> str:
     return result
 
 
+@accepts({"type": "array"})
 def _patches(name: str, value: object) -> tuple[tuple[Outline, str], ...]:
     expected = "a list of patches, each (outline, colour), as [([(0, 0), (1, 0), (0, 1)], 'red')]"
     if not isinstance(value, (tuple, list)):

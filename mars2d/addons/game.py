@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.contest import Capture, Contest, Outcome, Teams, mark
 from mars2d.core.arithmetic import norms
-from mars2d.core.description import entry, real, wrong
+from mars2d.core.description import accepts, entry, real, wrong
 from mars2d.core.errors import likely
 from mars2d.core.interfaces import FrameLike, RecordLike, WorldLike
 from mars2d.core.scene import Scene, faded
@@ -18,6 +18,7 @@ Float = NDArray[np.float64]
 CONTACT = "contact"
 
 
+@accepts({"anyOf": [{"type": "number", "exclusiveMinimum": 0}, {"const": CONTACT}]})
 def _capture(name: str, value: object) -> str | float:
     expected = "'contact', or a distance between two robots' poses, > 0 [m]"
     if isinstance(value, str):

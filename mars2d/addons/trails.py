@@ -8,9 +8,9 @@ from math import ceil, floor
 import numpy as np
 
 from mars2d.addons.base import Addon
-from mars2d.core.checks import names
+from mars2d.core.checks import NAMES, names
 from mars2d.core.delay import ROUNDING
-from mars2d.core.description import entry, number
+from mars2d.core.description import accepts, entry, number
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, color_of, rgb
 
@@ -29,6 +29,7 @@ STRENGTH = 0.85
 """The opacity of the colour right behind a robot; the trail ends in white."""
 
 
+@accepts(NAMES)
 def _names(name: str, value: object) -> tuple[str, ...] | None:
     return names(name, value, "a list of robots' names, as ['robot0', 'leader'], or None")
 

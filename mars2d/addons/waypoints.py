@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
 from mars2d.core.arithmetic import norms
-from mars2d.core.checks import point
-from mars2d.core.description import entry, number, wrong
+from mars2d.core.checks import POINT, point
+from mars2d.core.description import accepts, entry, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.plane import Outline, Point, outside_polygon
@@ -25,6 +25,7 @@ PALE = 0.35
 """The opacity of waypoints that are reached."""
 
 
+@accepts({"type": "array", "items": {"type": "array", "items": POINT}})
 def _routes(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of lists of points, of which some but not all may be empty."""
     if not isinstance(value, (list, tuple)):

@@ -13,7 +13,7 @@ import numpy as np
 
 from mars2d.core.arithmetic import norms
 from mars2d.core.arrays import is_masked
-from mars2d.core.description import Check, real, wrong
+from mars2d.core.description import Check, Schema, accepts, real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point
 
@@ -42,6 +42,14 @@ MAX_COORDINATE = 1e6
 """The largest coordinate, metres: beyond it a double can't resolve a nanometre."""
 
 
+COORDINATE: Schema = {"type": "number", "minimum": -MAX_COORDINATE, "maximum": MAX_COORDINATE}
+POINT: Schema = {"type": "array", "items": COORDINATE, "minItems": 2, "maxItems": 2}
+OUTLINE: Schema = {"type": "array", "items": POINT, "minItems": 2}
+NAMES: Schema = {
+    "type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True
+}  # fmt: skip
+
+
 def items_of(name: str, value: object, expected: str, most: int = MAX_ITEMS) -> list[Any]:
     """Return the items of a list, an array or anything that yields them; no more than `most`."""
     if isinstance(value, (str, bytes, dict)) or not isinstance(value, (Iterable, np.ndarray)):
@@ -67,6 +75,7 @@ def _coordinates(name: str, value: object, items: list[Any], expected: str) -> l
     return numbers
 
 
+@accepts(POINT)
 def point(name: str, value: object) -> Point:
     """Check a point (x, y) in metres."""
     expected = "a point (x, y) in metres"
@@ -77,6 +86,7 @@ def point(name: str, value: object) -> Point:
     return x, y
 
 
+@accepts(POINT | {"maxItems": 3})
 def pose(name: str, value: object) -> tuple[float, float, float]:
     """Check a pose (x [m], y [m], theta [rad]); a point (x, y) has theta 0."""
     expected = "a pose (x, y, theta) in metres and radians"
@@ -87,6 +97,7 @@ def pose(name: str, value: object) -> tuple[float, float, float]:
     return x, y, theta
 
 
+@accepts(OUTLINE)
 def outline(name: str, value: object, least: int = 2) -> Outline:
     """Check an outline: a wall of two vertices, or a closed polygon that does not cross itself."""
     what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
@@ -129,6 +140,7 @@ def _check_ring(name: str, points: list[Point]) -> None:
         raise wrong(name, points, "a polygon with an area; its vertices lie on one line")
 
 
+@accepts({"type": "array", "items": OUTLINE})
 def polylines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of open lines, each of two or more vertices."""
     items = items_of(name, value, "a list of walls, each [(x, y), ...] in metres")
@@ -146,6 +158,7 @@ def _polyline(name: str, value: object) -> Outline:
     return tuple(points)
 
 
+@accepts({"type": "array", "items": OUTLINE})
 def outlines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of outlines."""
     items = items_of(name, value, "a list of outlines, each [(x, y), ...] in metres")
@@ -165,6 +178,7 @@ def _is_point(value: object) -> bool:
 def optional(check: Callable[..., Any], *arguments: Any) -> Check:
     """Return a check that keeps None, and calls `check(name, value, *arguments)` otherwise."""
 
+    @accepts(vars(check).get("schema", {}))
     def checked(name: str, value: object) -> Any:
         return None if value is None else check(name, value, *arguments)
 

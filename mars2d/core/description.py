@@ -16,7 +16,7 @@ import math
 import numbers
 import re
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, Self, dataclass_transform
+from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
 
 import numpy as np
 
@@ -25,12 +25,16 @@ from mars2d.core.words import instead
 
 __all__ = [
     "Description",
+    "Schema",
     "Stateful",
+    "accepts",
     "choice",
     "entry",
     "flag",
     "integer",
     "number",
+    "numbers_schema",
+    "schema_of",
     "snake_case",
     "text",
 ]
@@ -43,11 +47,34 @@ Check = Callable[[str, Any], Any]
 InputError."""
 
 
+Schema = dict[str, Any]
+"""A JSON Schema: the values that a check accepts, as far as a schema can say."""
+
+C = TypeVar("C", bound=Check)
+
+
+def accepts(schema: Schema) -> Callable[[C], C]:
+    """Decorate a check with the schema of the values that it accepts, None aside."""
+
+    def marked(check: C) -> C:
+        vars(check)["schema"] = schema
+        return check
+
+    return marked
+
+
+def numbers_schema(low: float, high: float, least: int, most: int) -> Schema:
+    """Return the schema of a list of `least` to `most` numbers from low to high."""
+    each = {"type": "number", "minimum": low, "maximum": high}
+    return {"type": "array", "items": each, "minItems": least, "maxItems": most}
+
+
 def wrong(name: str, value: object, expected: str) -> InputError:
     """Return the error for a field `name` that was given `value`, which is not as expected."""
     return InputError(f"{name} = {shown(value)}: expected {expected}")
 
 
+@accepts({"type": "number"})
 def real(name: str, value: object, expected: str = "a number") -> float:
     """Return `value` as a finite float. Raises InputError for a bool, NaN, an infinity or text."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -83,7 +110,9 @@ def number(
 ) -> Any:
     """Declare a field that is a finite float: ``low <= value``, ``above < value <= high``."""
     expected = _bounds(low, above, high, unit) + (", or None" if optional else "")
+    limits = {"minimum": low, "exclusiveMinimum": above, "maximum": high}
 
+    @accepts({"type": "number"} | {name: x for name, x in limits.items() if x is not None})
     def check(name: str, value: object) -> float | None:
         if optional and value is None:
             return None
@@ -110,6 +139,7 @@ def integer(
 ) -> Any:
     """Declare a field that is a whole number, ``low <= value <= high``."""
 
+    @accepts({"type": "integer", "minimum": low, "maximum": high})
     def check(name: str, value: object) -> int:
         expected = f"a whole number from {low} to {high}"
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
@@ -124,6 +154,7 @@ def integer(
 def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = "") -> Any:
     """Declare a field that is one of several words."""
 
+    @accepts({"enum": list(of)})
     def check(name: str, value: object) -> str:
         if not isinstance(value, str) or value not in of:
             hint = likely(value, of) if isinstance(value, str) else ""
@@ -141,6 +172,7 @@ def flag(*, default: Any = dataclasses.MISSING, doc: str = "") -> Any:
 def text(*, default: Any = dataclasses.MISSING, optional: bool = False, doc: str = "") -> Any:
     """Declare a field that is one line of text, such as a name or a title."""
 
+    @accepts({"type": "string"})
     def check(name: str, value: object) -> str | None:
         if optional and value is None:
             return None
@@ -178,12 +210,14 @@ def whole(text: str) -> str:
     return text.encode(errors="replace").decode()
 
 
+@accepts({"type": "boolean"})
 def _check_bool(name: str, value: object) -> bool:
     if isinstance(value, (bool, np.bool_)):
         return bool(value)
     raise wrong(name, value, "True or False")
 
 
+@accepts({"type": "string"})
 def _check_str(name: str, value: object) -> str:
     if not isinstance(value, str):
         raise wrong(name, value, "text in quotes")
@@ -192,6 +226,7 @@ def _check_str(name: str, value: object) -> str:
     return value
 
 
+@accepts({"type": "integer"})
 def _check_int(name: str, value: object) -> int:
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise wrong(name, value, "a whole number")
@@ -208,6 +243,12 @@ _PLAIN: dict[object, Check] = {
     bool: _check_bool,
     str: _check_str,
 }
+
+
+def schema_of(field: dataclasses.Field[Any]) -> Schema:
+    """Return the schema of the values that a field accepts, None aside; {} if it says nothing."""
+    check = field.metadata.get("check") or _PLAIN.get(field.type)
+    return {} if check is None else vars(check).get("schema", {})
 
 
 @dataclass_transform(

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, Self
 
-from mars2d.core.description import real, wrong
+from mars2d.core.description import Schema, accepts, real, wrong
 from mars2d.core.errors import nearest
 
 __all__ = [
@@ -126,6 +126,11 @@ def check_static(name: str, static: float | None, kinetic: float) -> None:
         raise wrong(name, static, f"at least the kinetic coefficient, {kinetic:g}, or None")
 
 
+def _coefficient(high: float) -> Schema:
+    return {"anyOf": [{"type": "number", "minimum": 0, "maximum": high}, {"enum": list(MATERIALS)}]}
+
+
+@accepts({"enum": list(MATERIALS)})
 def material(name: str, value: object) -> str | None:
     """Check a material's name, or None.
 
@@ -139,6 +144,7 @@ def material(name: str, value: object) -> str | None:
     return value
 
 
+@accepts(_coefficient(1e3))
 def surface_friction(name: str, value: object) -> float:
     """Check a surface's coefficient of friction: a number from 0 to 1000, or a material's name.
 
@@ -148,6 +154,7 @@ def surface_friction(name: str, value: object) -> float:
     return _surface(name, value, "friction", 1e3)
 
 
+@accepts(_coefficient(1.0))
 def surface_restitution(name: str, value: object) -> float:
     """Check a surface's restitution: a number from 0 to 1, or a material's name.
 

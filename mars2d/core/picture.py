@@ -15,8 +15,8 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.checks import MAX_COORDINATE
-from mars2d.core.description import real, wrong
+from mars2d.core.checks import COORDINATE, MAX_COORDINATE
+from mars2d.core.description import accepts, real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.scene import LARGEST_IMAGE, rgb
 
@@ -60,6 +60,7 @@ def picture_name(image: str) -> str:
     return Path(image).name
 
 
+@accepts({"type": "string"})
 def image_file(name: str, value: object) -> str | None:
     """Check the name of a PNG file, a picture in a record, or None."""
     if value is None or (isinstance(value, str) and holds_pixels(value)):
@@ -69,6 +70,7 @@ def image_file(name: str, value: object) -> str | None:
     return str(value)
 
 
+@accepts({"type": "array", "items": COORDINATE, "minItems": 4, "maxItems": 4})
 def image_bounds(name: str, value: object) -> Bounds | None:
     """Check the bounds of an image, or None."""
     expected = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.arithmetic import cosines_sines, norm
+from mars2d.core.description import accepts
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.plane import Outline
 
@@ -67,6 +68,7 @@ WAKE_LINES = ("--", "-.", "-", ":")
 WAKE_MARKERS = (".", "o", "x", "+", "*", "s")
 
 
+@accepts({"type": "string"})
 def color(name: str, value: object) -> str:
     """Return a colour as ``#rrggbb`` or ``#rrggbbaa``; field `name` is for the error message."""
     if isinstance(value, str):
@@ -83,6 +85,7 @@ def color(name: str, value: object) -> str:
     raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
 
 
+@accepts({"type": "string"})
 def optional_color(name: str, value: object) -> str | None:
     """Check a colour, or None."""
     return None if value is None else color(name, value)
@@ -128,6 +131,7 @@ def color_of(values: Iterable[float]) -> str:
     return "#" + "".join(f"{round(255 * min(max(value, 0.0), 1.0)):02x}" for value in values)
 
 
+@accepts({"type": "string"})
 def wake_style(name: str, value: object) -> str:
     """Check a wake style: a line style of Matlab's plot, a marker, or both, such as ``o--``."""
     if isinstance(value, str):

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mars2d.core import checks
 from mars2d.core.arithmetic import arsinh, cosine_sine, norm, norms
-from mars2d.core.description import Description, entry, real, wrong
+from mars2d.core.description import Description, accepts, entry, real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point
 
@@ -145,6 +145,7 @@ class Shape(Description):
         return min(_width(piece) for piece in self.pieces)
 
 
+@accepts({"type": "number", "minimum": 1e-3, "maximum": 1e3})
 def _diameter(name: str, value: object) -> float:
     expected = "a number >= 0.001 and <= 1000 [m]"
     result = real(name, value, expected)
@@ -195,6 +196,7 @@ class Disc(Shape):
         return self.replace(center=(x + dx, y + dy))
 
 
+@accepts(checks.OUTLINE | {"minItems": 3})
 def _outline(name: str, value: object) -> Outline:
     result = checks.outline(name, value, least=3)
     if len(result) > MAX_VERTICES:

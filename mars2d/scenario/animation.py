@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mars2d.core.description import Description, entry, flag, real, wrong
+from mars2d.core.description import Description, accepts, entry, flag, real, wrong
 from mars2d.core.scene import PALETTE, color, wake_style
 
 __all__ = ["Animation", "playback_speed"]
 
 
+@accepts({"anyOf": [{"type": "number", "minimum": 0, "maximum": 1e6}, {"const": "max"}]})
 def playback_speed(name: str, value: object) -> float | str:
     """Check a playback speed: a factor of real time, 0 for one step a key press, or "max"."""
     expected = "a factor of real time (1 is real time), 0 for one step a key press, or 'max'"
@@ -21,6 +22,7 @@ def playback_speed(name: str, value: object) -> float | str:
     return factor
 
 
+@accepts({"type": "array", "items": {"type": "string"}, "minItems": 1})
 def _colors(name: str, value: object) -> tuple[str, ...]:
     if isinstance(value, str) or not isinstance(value, (list, tuple)) or not value:
         raise wrong(name, value, "a list of colours, as ['#0072b2', 'orange']")

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from mars2d.core.description import Description, entry, number, wrong
+from mars2d.core.description import Description, accepts, entry, number, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.materials import MATERIALS, check_static
 
 __all__ = ["MaterialPair", "check_once"]
 
 
+@accepts({"enum": list(MATERIALS)})
 def _material(name: str, value: object) -> str:
     """Check a material's name."""
     if not isinstance(value, str) or value not in MATERIALS:

@@ -28,7 +28,7 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
 
-__all__ = ["FORMAT", "SUFFIX", "read", "save"]
+__all__ = ["FORMAT", "NONE", "SUFFIX", "read", "save", "takes_none"]
 
 SUFFIX = ".toml"
 
@@ -45,6 +45,9 @@ TOO_DEEP = re.compile(r"""(?:\.[ \t]*+(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+'
 
 TOO_LONG = re.compile(r"[=\[,][ \t]*+[+-]?(?:0[xob])?[\da-fA-F_]{1000}")
 """A number with so many digits that reading it would fill the memory."""
+
+SCHEMA_FILE = "mars2d.schema.json"
+"""The file beside a scenario in which editors look for its JSON Schema; see `mars2d schema`."""
 
 NONE = "none"
 """The text that stands for None."""
@@ -91,7 +94,8 @@ class _Writer:
         """Return the whole file."""
         kept, lost = serialize.without_code(scenario)
         self.missing += lost
-        head = [comment(f"A scenario of MARS2D. Run it: mars2d run {filename}")]
+        head = [f"#:schema {SCHEMA_FILE}"]
+        head += [comment(f"A scenario of MARS2D. Run it: mars2d run {filename}")]
         head += [comment(f"{serialize.LOST}: {name}") for name in lost]
         team = [] if control is None else [self._law("control", control)]
         if control is None and not any(robot.controller for robot in kept.robots):
@@ -348,8 +352,8 @@ class _Reader:
     ) -> Any:
         """Return the value of a field, before it is checked."""
         check = field.metadata.get("check")
-        if value == NONE and check is not None and _accepts(check, None):
-            return value if _accepts(check, NONE) else None
+        if value == NONE and takes_none(field):
+            return None
         place = serialize.parts_of(kind).get(field.name)
         if place is not None:
             return self._parts(place, value, at) if place.many else self._part(place, value, at)
@@ -425,6 +429,12 @@ def _split(at: str) -> tuple[str, str]:
     """Return the table and the field of ``robots[2].drive``."""
     table, _, field = at.rpartition(".")
     return table, field
+
+
+def takes_none(field: dataclasses.Field[Any]) -> bool:
+    """Return whether the text "none" stands for None in a field, which takes None, not text."""
+    check = field.metadata.get("check")
+    return check is not None and _accepts(check, None) and not _accepts(check, NONE)
 
 
 def _accepts(check: Check, value: object) -> bool:

@@ -15,7 +15,9 @@ from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.delay import steps_until
 from mars2d.core.description import (
     Check,
+    Schema,
     Stateful,
+    accepts,
     entry,
     flag,
     number,
@@ -179,6 +181,7 @@ ROUNDED = 1e-5
 def sight_angle(*, default: float, doc: str) -> Any:
     """Declare a field that holds an angle of view, 0 < angle <= 2 pi."""
 
+    @accepts({"type": "number", "exclusiveMinimum": 0, "maximum": FULL * (1 + ROUNDED)})
     def check(name: str, value: object) -> float:
         expected = "a number > 0 and <= 2 pi"
         given = real(name, value, expected)
@@ -189,6 +192,9 @@ def sight_angle(*, default: float, doc: str) -> Any:
         raise wrong(name, value, expected)
 
     return entry(default=default, check=check, unit="rad", doc=doc)
+
+
+SPREAD: Schema = {"type": "number", "minimum": 0, "maximum": 1e6}
 
 
 def spread(what: str) -> Check:
@@ -202,6 +208,7 @@ def spread(what: str) -> Check:
             raise wrong(name, value, expected)
         return result
 
+    @accepts({"anyOf": [SPREAD, {"type": "array", "items": SPREAD, "minItems": 1}]})
     def check(name: str, value: Any) -> float | tuple[float, ...]:
         if not isinstance(value, (tuple, list)) and not np.ndim(value):
             return one(name, value, or_several)

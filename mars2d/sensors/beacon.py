@@ -9,7 +9,8 @@ from typing import Any, ClassVar, NoReturn
 import numpy as np
 
 from mars2d.core import checks
-from mars2d.core.description import entry, flag, number, wrong
+from mars2d.core.checks import NAMES
+from mars2d.core.description import accepts, entry, flag, number, wrong
 from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, shown
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import Point
@@ -64,6 +65,7 @@ class Sightings(Mapping[str, Sighting]):
         return repr(self._sightings)
 
 
+@accepts(NAMES)
 def _names(name: str, value: object) -> tuple[str, ...] | None:
     if value is None:
         return None

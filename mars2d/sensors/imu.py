@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine, norm
-from mars2d.core.description import entry, real, wrong
+from mars2d.core.description import accepts, entry, numbers_schema, real, wrong
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene
 from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings, spread
@@ -19,6 +19,7 @@ ARROW = 0.2
 """The length of an arrow for an acceleration of 1 m/s^2, metres."""
 
 
+@accepts(numbers_schema(-1e6, 1e6, 3, 3))
 def _three(name: str, value: object) -> tuple[float, float, float]:
     expected = "three numbers, for (ax, ay) [m/s^2] and omega [rad/s]"
     if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 3:
@@ -28,6 +29,7 @@ def _three(name: str, value: object) -> tuple[float, float, float]:
     raise wrong(name, value, expected)
 
 
+@accepts(numbers_schema(0, 1e6, 3, 3))
 def _three_spreads(name: str, value: object) -> tuple[float, float, float]:
     three = _three(name, value)
     if min(three) < 0:

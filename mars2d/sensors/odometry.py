@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine
-from mars2d.core.description import choice, entry, number, real, wrong
+from mars2d.core.description import Schema, accepts, choice, entry, number, real, wrong
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.scene import Scene
 from mars2d.geometry.dead_reckoning import draw_pose, odometry_covariance, sinc
@@ -17,6 +17,10 @@ from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
 __all__ = ["Odometry", "odometry_covariance"]
 
 
+SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "maximum": 10}
+
+
+@accepts({"type": "array", "items": SCALE, "minItems": 2, "maxItems": 2})
 def _scales(name: str, value: object) -> tuple[float, float]:
     expected = "two scales (left, right), each > 0 and <= 10"
     if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 2:
@@ -26,6 +30,7 @@ def _scales(name: str, value: object) -> tuple[float, float]:
     raise wrong(name, value, expected)
 
 
+@accepts({"type": "number", "minimum": 0, "maximum": 1e3})
 def _step(name: str, value: object) -> float:
     """Check a step that travels can be divided by, or 0."""
     expected = "0, or a number >= 1e-09 and <= 1000"

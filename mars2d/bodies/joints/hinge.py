@@ -7,12 +7,13 @@ from typing import Any
 
 from mars2d.bodies.constraints import Constraint, Pin, TurningRange, TurningSpring
 from mars2d.bodies.joints.base import Float, Joint
-from mars2d.core.description import entry, number, real, wrong
+from mars2d.core.description import accepts, entry, number, numbers_schema, real, wrong
 from mars2d.core.scene import INK, Scene
 
 __all__ = ["Hinge", "turning_limits"]
 
 
+@accepts(numbers_schema(-100 * pi, 100 * pi, 2, 2))
 def turning_limits(name: str, value: Any) -> tuple[float, float] | None:
     """Check the limits of a hinge, angles from its start."""
     expected = "(least, largest) angle from the start, radians, least <= 0 <= largest; or None"

@@ -8,7 +8,16 @@ from typing import Any, Self
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
-from mars2d.core.description import Description, entry, number, real, text, wrong
+from mars2d.core.description import (
+    Description,
+    accepts,
+    entry,
+    number,
+    numbers_schema,
+    real,
+    text,
+    wrong,
+)
 from mars2d.core.materials import (
     MATERIALS,
     Coefficient,
@@ -26,6 +35,7 @@ MAX_SPEED = 100.0
 """The highest speed at the start, m/s and rad/s; higher ones need ever more substeps."""
 
 
+@accepts(numbers_schema(-MAX_SPEED, MAX_SPEED, 2, 3))
 def _velocity(name: str, value: Any) -> tuple[float, float, float]:
     expected = f"(vx, vy, omega) in m/s and rad/s, each within +-{MAX_SPEED:g}"
     if not isinstance(value, (tuple, list)) or len(value) not in (2, 3):

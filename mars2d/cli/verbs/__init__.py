@@ -19,6 +19,7 @@ NAMES = (
     "tournament",
     "list",
     "check",
+    "schema",
     "paper",
     "bench",
     "doctor",

@@ -1,0 +1,160 @@
+"""The JSON Schema of scenario files accepts all that is saved, and refuses values beyond bounds."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import tomllib
+from pathlib import Path
+
+import jsonschema
+import pytest
+from hypothesis import given
+
+from mars2d import Robot, Scenario
+from mars2d.core.description import Description, schema_of
+from mars2d.core.errors import InputError, Mars2dError
+from mars2d.scenario import serialize
+from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.schema import schema
+from tests.house.test_any_scenario import any_scenario, scenarios
+from tests.processes import mars
+from tests.worlds import without_laws
+
+SCHEMA = schema()
+CHECKER = jsonschema.Draft202012Validator(SCHEMA)
+EVERYTHING = Path(__file__).parent / "everything.toml"
+
+
+def faults(text: str) -> list[str]:
+    """Return what the schema refuses in the text of a file."""
+    return [error.message[:200] for error in CHECKER.iter_errors(tomllib.loads(text))]
+
+
+def test_it_is_a_schema():
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+def test_it_accepts_a_file_with_everything():
+    assert faults(EVERYTHING.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize("name", sorted(examples()))
+def test_it_accepts_each_example_as_it_is_saved(name, tmp_path):
+    path = tmp_path / "scene.toml"
+    open_experiment(name).scenario.save(path)
+    assert faults(path.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.slow
+@given(data=scenarios())
+def test_it_accepts_whatever_is_saved(data, tmp_path_factory):
+    try:
+        scenario, _ = serialize.to_scenario(data)
+    except Mars2dError:
+        return
+    path = tmp_path_factory.mktemp("schema") / "scene.toml"
+    without_laws(scenario).save(path)
+    assert faults(path.read_text(encoding="utf-8")) == []
+
+
+def bounded():
+    """Yield the parts and fields that are one number, with numbers just beyond their bounds."""
+    for kind in serialize.kinds_of(Description).values():
+        name = kind.__name__
+        for field in dataclasses.fields(kind):
+            found = schema_of(field)
+            if found.get("type") not in ("number", "integer"):
+                continue
+            whole = found["type"] == "integer"
+            beyond = []
+            if "minimum" in found:
+                low = found["minimum"]
+                beyond.append(low - 1 if whole else math.nextafter(low, -math.inf))
+            if "exclusiveMinimum" in found:
+                beyond.append(found["exclusiveMinimum"])
+            if "maximum" in found:
+                high = found["maximum"]
+                beyond.append(high + 1 if whole else math.nextafter(high, math.inf))
+            for value in beyond:
+                yield pytest.param(name, kind, field, value, id=f"{name}.{field.name}={value:g}")
+
+
+@pytest.mark.parametrize(("name", "kind", "field", "value"), bounded())
+def test_gate_and_schema_refuse_the_same_numbers(name, kind, field, value):
+    with pytest.raises(InputError, match=rf"{name}\.{field.name} = "):
+        field.metadata["check"](f"{name}.{field.name}", value)
+    where = SCHEMA if kind is Scenario else SCHEMA["$defs"][f"{kind.__module__}.{name}"]
+    accepted = where["properties"][field.name]
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(value, accepted | {"$defs": SCHEMA["$defs"]})
+
+
+def test_there_are_many_bounds():
+    assert len(list(bounded())) > 150
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "format = 2",
+        "title = 'no format'",
+        "format = 1\nsampling_tme = 0.1",
+        "format = 1\nrobots = 0",
+        "format = 1\n[[robots]]\nmass = 'heavy'",
+        "format = 1\n[[robots]]\npose = [0]",
+        "format = 1\n[[robots]]\ndrive = 'Unicyle'",
+        "format = 1\n[[robots]]\ndrive = { type = 'Box' }",
+        "format = 1\n[[robots]]\nfriction = 'rubbr'",
+        "format = 1\n[[props]]\nlength = 1",  # no type
+        "format = 1\n[[props]]\ntype = 'Ball'\ndiameter = 1e9",
+        "format = 1\n[animation]\ngrid = 'yes'",
+    ],
+)
+def test_gate_and_schema_refuse_the_same_mistakes(text, tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    with pytest.raises(InputError):
+        Scenario.from_file(path)
+    assert faults(text)
+
+
+@pytest.mark.slow
+@given(data=any_scenario())
+def test_the_schema_refuses_nothing_that_the_gate_takes(data, tmp_path_factory):
+    """A file with something odd in it: what a Scenario is made of, the schema accepts as saved."""
+    try:
+        scenario, _ = serialize.to_scenario(data)
+    except Mars2dError:
+        return
+    path = tmp_path_factory.mktemp("schema") / "scene.toml"
+    without_laws(scenario).save(path)
+    assert faults(path.read_text(encoding="utf-8")) == []
+
+
+def test_twins_and_words_are_accepted():
+    assert faults("format = 1\nrobots = 3") == []
+    assert faults("format = 1\n[[robots]]\nradius = 0.2\ndrive = 'Holonomic'") == []
+    assert faults("format = 1\n[[robots]]\nshape = { type = 'Disc' }")
+
+
+def test_every_field_says_what_it_accepts_but_for_code():
+    silent = {
+        f"{name.rpartition('.')[2]}.{field}"
+        for name, part in SCHEMA["$defs"].items()
+        for field, found in part["properties"].items()
+        if not found.keys() - {"description"}
+    }
+    assert silent == {"Density.function", "Graph.graph", "Theory.draws"}
+
+
+def test_saved_files_lead_editors_to_it(tmp_path):
+    Scenario(robots=[Robot()]).save(tmp_path / "a.toml")
+    assert (tmp_path / "a.toml").read_text().startswith("#:schema mars2d.schema.json\n")
+
+
+def test_the_command_prints_it():
+    done = mars("schema")
+    assert done.returncode == 0
+    assert json.loads(done.stdout) == SCHEMA
