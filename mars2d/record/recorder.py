@@ -234,6 +234,7 @@ class Recorder:
         filename: str,
         drawn: Scene,
         interventions: Sequence[Intervention] = (),
+        settings: Mapping[str, Any] | None = None,
     ) -> Record:
         """Return the record so far; later rows do not change it."""
         now = float(self.column("time")[-1]) if self.rows else 0.0
@@ -260,6 +261,7 @@ class Recorder:
             versions=self.versions(),
             drawn=drawn,
             interventions=tuple(each for each in interventions if each.row < self.rows),
+            settings=dict(settings or {}),
         )
 
     def _messages_as_of(self, now: float) -> NDArray[np.void]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from time import perf_counter
 from typing import Any, NoReturn, TypeVar
@@ -50,10 +50,17 @@ class Simulation(State):
     taken by now.
     """
 
-    def __init__(self, scenario: Scenario, seed: int, filename: str, storage: Storage) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        seed: int,
+        filename: str,
+        storage: Storage,
+        settings: Mapping[str, Any],
+    ) -> None:
         """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
         super().__init__(scenario, seed, storage)
-        self.filename = whole(filename)
+        self.filename, self.settings = whole(filename), settings
         self.watch: Callable[[Any], None] | None = None
         self.engine_seconds = 0.0
         self._drawn = Scene()  # by the add-ons, at the end
@@ -150,6 +157,7 @@ class Simulation(State):
             self.filename,
             Scene([*self._drawn.shapes]),
             self.operator.log,
+            self.settings,
         )
 
     @property
@@ -334,15 +342,16 @@ class Simulation(State):
         start: how everything moves from now on, where bodies or obstacles were moved.
         """
         same = {addon.key for addon in self.scenario.addons if addon in scenario.addons}
+        energy = self.energy.total
         self.scenario = scenario
+        self._drives.renew({str(robot.name): robot.drive for robot in scenario.robots})
         there = {key: addon for key, addon in vars(self.addons).items() if key in same}
         self._take_scenario(there, control)
-        if start is None:
-            self.surroundings.renew()
-        else:
-            self.rebuild(start)
+        if start is not None:
+            self.restart_engine(start, energy)
+        self.surroundings.renew()
 
     def rebuild(self, start: Start) -> None:
         """Go on with everything moving like this."""
-        self.restart_engine(start)
+        self.restart_engine(start, self.energy.total)
         self.surroundings.renew()

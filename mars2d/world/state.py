@@ -114,15 +114,15 @@ class State(Uncopied):
         self.engine = ENGINES[scenario.physics](scenario, None)
         self._take_engine()
 
-    def restart_engine(self, start: Start) -> None:
-        """Begin with a new engine; start: how everything moves.
+    def restart_engine(self, start: Start, energy: Float) -> None:
+        """Begin with a new engine; start: how everything moves. energy: of all bodies before, J.
 
         What that changes in the bodies' energies is the work of hands.
         """
-        self._worked, before = self.work, self.energy.total
+        self._worked = self.work
         self.engine = ENGINES[self.scenario.physics](self.scenario, start)
         self._take_engine()
-        self._worked[WORK.index("hands")] += self.energy.total - before
+        self._worked[WORK.index("hands")] += self.energy.total - energy
 
     def _take_engine(self) -> None:
         self.take_poses()

@@ -34,7 +34,8 @@ class World(WorldView):
     world; a robot's own controller overrides its column. seed: of all random streams. filename:
     the experiment's file, for the record. watch: called with the world once a control step, between
     sensing and control: to draw, to wait, to count. storage: what keeps the columns of the record,
-    in memory or, with `mars2d.record.columns.Scratch`, in files.
+    in memory or, with `mars2d.record.columns.Scratch`, in files. settings: the options that the
+    experiment was opened with, for the record.
 
     Laws are given a `WorldView`, which has no more than that class; add-ons and watchers are given
     the World.
@@ -49,10 +50,13 @@ class World(WorldView):
         filename: str = "",
         watch: Watcher | None = None,
         storage: Storage = Column,
+        settings: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(scenario, Scenario):
             raise wrong("World.scenario", scenario, "a Scenario")
-        super().__init__(Simulation(scenario, check_seed(seed), filename, storage))
+        super().__init__(
+            Simulation(scenario, check_seed(seed), filename, storage, dict(settings or {}))
+        )
         self.watch = watch
         view = WorldView(self.simulation)
         team_view = TeamPositionsView(self) if scenario.sees == "positions" else view
@@ -107,16 +111,18 @@ class World(WorldView):
         scenario: Scenario,
         control: Callable[[World], Any] | None = None,
         moved: Mapping[int, tuple[float, float, float]] | None = None,
+        settings: Mapping[str, Any] | None = None,
     ) -> None:
-        """Go on with another scenario from now on: other obstacles, another workspace, other laws.
+        """Go on with another scenario from now on: other obstacles, masses, friction, drives, laws.
 
         Bodies stay where they are, and laws that are the same keep what they remember. control: the
         law of the team from now on, `world.control` for the one that it has. moved: poses of bodies
-        that are put elsewhere with it, by index in `Scenario.bodies`. Raises InputError where a
-        change in `scenario` needs a new start, such as another robot, sensor or sampling time, and
-        where a body would be in an obstacle.
+        that are put elsewhere with it, by index in `Scenario.bodies`. settings: the parameters that
+        make the difference, for the record. Raises InputError where a change in `scenario` needs a
+        new start, such as another robot, sensor or sampling time, and where a body would be in an
+        obstacle.
         """
-        self._simulation.operator.change(scenario, control, moved)
+        self._simulation.operator.change(scenario, control, moved, settings)
 
     def break_off(self, why: str) -> None:
         """End the experiment at once, without a last control step, as after an error."""
