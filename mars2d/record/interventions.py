@@ -124,11 +124,13 @@ def of_plain(data: Any) -> Intervention:
 
 
 def of_one_hand(before: Intervention, after: Intervention) -> bool:
-    """Return whether two interventions in turn belong to one pull, or to one drive."""
+    """Return whether two interventions in turn belong to one pull, one drive, or one slider."""
     if isinstance(before, Pull) and isinstance(after, Pull):
         return before.body == after.body and before.target is not None
     if isinstance(before, Steer) and isinstance(after, Steer):
         return before.robot == after.robot and before.driven
+    if isinstance(before, Change) and isinstance(after, Change) and after.settings:
+        return [name for name, _ in before.settings] == [name for name, _ in after.settings]
     return False
 
 

@@ -486,4 +486,3 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
             given = "".join(f", with {name} = {shown(value)}" for name, value in unsaid.items())
             problem.where = f"{_line_in(error, Path(code.co_filename))}{given}"
         raise problem from error
-

@@ -110,8 +110,7 @@ def _different(before: Any, after: Any, of: Any, free: frozenset[str]) -> dict[s
     return {
         field.name: getattr(after, field.name)
         for field in dataclasses.fields(of)
-        if field.name in free
-        and not alike(getattr(before, field.name), getattr(after, field.name))
+        if field.name in free and not alike(getattr(before, field.name), getattr(after, field.name))
     }
 
 

@@ -108,14 +108,14 @@ class Parameter:
     def of(cls, name: str, value: float, argument: Argument, default: float) -> Parameter:
         """Return the parameter of an argument; without a Range, its slider's ends are a guess.
 
-        They are 0 and twice the default, or -1 and 1; a whole number goes to 10 at least.
+        They are 0 and twice the default, or -1 and 1; a whole number >= 0 goes to 10 at least.
         """
         bounds, whole = argument.bounds, argument.whole
         if bounds is not None:
             return cls(name, value, default, bounds.low, bounds.high, bounds.unit, whole)
-        low, high = sorted((0.0, 2 * default)) if default else (-1.0, 1.0)
-        if whole:
-            low, high = (low, max(high, 10.0)) if default > 0 else (min(low, -10.0), high)
+        low, high = sorted((0.0, 2.0 * default)) if default or whole else (-1.0, 1.0)
+        if whole and default >= 0:
+            high = max(high, 10.0)
         return cls(name, value, default, min(low, value), max(high, value), "", whole)
 
 

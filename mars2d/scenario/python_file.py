@@ -6,6 +6,7 @@ import dataclasses
 import sys
 from collections import defaultdict
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,8 @@ def as_python(
     r"""Return the text of a Python file that makes a scenario, for `mars2d run`.
 
     Only values that differ from their defaults are written. Laws are loaded from their files, if
-    they are functions at the top of these. Other code is left out, or replaced as in a loaded
+    they are functions at the top of these, or a functools.partial of one with plain values. Other
+    code is left out, or replaced as in a loaded
     record, and named in a comment. control: the law of the team. folder: the folder of the file;
     laws near it get relative paths.
 
@@ -45,7 +47,7 @@ def as_python(
     lister = _Lister(None if folder is None else Path(folder))
     body = [laid_out(_named("scenario = ", lister.call(kept)))]
     if control is not None:
-        body.append(f"control = {lister.law(control)}")
+        body.append(laid_out(_named("control = ", lister.law(control))))
     lost = [*missing, *(f"law {name_of(law)}" for law in lister.lost)]
     notes = [comment(f"{serialize.LOST}: {name}") for name in dict.fromkeys(lost)]
     title = comment(kept.title)[2:][:MAX_TITLE].replace("\\", "/").replace('"', "'").strip()
@@ -98,12 +100,22 @@ class _Lister:
             return Brackets("(", items, ",)" if len(items) == 1 else ")", filled=True)
         return Brackets("[", items, "]", filled=True)
 
-    def law(self, law: Law) -> str:
+    def law(self, law: Law) -> Node:
         """Return the call that loads a law; "None" if it can't be found by name."""
-        found = Reference.of(law)
-        if found is None:
+        whole = law.func if isinstance(law, partial) else law
+        found = Reference.of(whole)
+        values = [*law.args, *law.keywords.values()] if isinstance(law, partial) else []
+        if found is None or not all(map(_is_plain, values)):
             self.lost.append(law)
             return "None"
+        loaded = self._loaded(found)
+        if not isinstance(law, partial):
+            return loaded
+        self._names["partial"] = "functools", "partial"
+        named = [_named(f"{name}=", self._plain(value)) for name, value in law.keywords.items()]
+        return Brackets("partial(", [loaded, *map(self._plain, law.args), *named], ")")
+
+    def _loaded(self, found: Reference) -> str:
         file = found.file if self.folder is None else seen_from(found.file, self.folder)
         name = "" if found.name == "control" else f", {quoted(found.name)}"
         self._names["load_law"] = "mars2d", "load_law"
@@ -131,7 +143,15 @@ class _Lister:
             line = f"from {module} import {', '.join(sorted(names))}"
             broken = Brackets(f"from {module} import (", sorted(names), ")", filled=True)
             lines.append(line if len(line) <= WIDTH else laid_out(broken))
-        return sorted(lines)
+        library = [line for line in lines if line.startswith("from functools ")]
+        return [*library, *([""] if library else []), *sorted(set(lines) - set(library))]
+
+
+def _is_plain(value: object) -> bool:
+    """Return whether a value is a number, a word, or a tuple of these: it can be written down."""
+    if isinstance(value, tuple):
+        return all(map(_is_plain, value))
+    return value is None or type(value) in (bool, int, float, str)
 
 
 def _public_module(kind: type) -> str:
