@@ -295,11 +295,14 @@ def open_module(source: str | Path) -> ModuleType:
     return _load(_find(source))
 
 
-def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
+def load_law(
+    path: str | Path, name: str = "control", *arguments: Any, **values: Any
+) -> Callable[[Any], Any]:
     """Return the law called `name` from a file: a function or generator of the robot.
 
     path: a relative path is looked for beside the file that calls this, then in the current folder.
-    Each call runs the file anew, so that robots with the same law share nothing. Raises InputError,
+    arguments, values: of the function, before the robot and by name, as for functools.partial. Each
+    call runs the file anew, so that robots with the same law share nothing. Raises InputError,
     which points at file and line.
     """
     if not isinstance(path, (str, Path)):
@@ -307,24 +310,37 @@ def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
     if not isinstance(name, str):
         raise wrong("load_law(name)", name, "the name of a function, as 'control'")
     caller = Path(sys._getframe(1).f_code.co_filename)
-    return law_in(file_beside(Path(path), caller, "a law", [".py"]), name)
+    file = file_beside(Path(path), caller, "a law", [".py"])
+    return law_in(file, name, given=(arguments, values))
 
 
-def law_in(file: Path, name: str, subject: str = "the robot") -> Callable[[Any], Any]:
-    """Return the law called `name` in a file, which is run anew; `subject`: the robot or world."""
+def law_in(
+    file: Path,
+    name: str,
+    subject: str = "the robot",
+    given: tuple[Sequence[Any], Mapping[str, Any]] = ((), {}),
+) -> Callable[[Any], Any]:
+    """Return the law called `name` in a file, which is run anew.
+
+    subject: the robot or world. given: the arguments of the function that are given.
+    """
     module = _load(file, "a law")
     try:
-        return _law_of(module, name, subject)
+        return _law_of(module, name, subject, *given)
     except InputError as error:
         error.where = file.name
         raise
 
 
-def _law_of(module: ModuleType, name: str, subject: str) -> Callable[[Any], Any]:
+def _law_of(
+    module: ModuleType, name: str, subject: str, args: Sequence[Any], values: Mapping[str, Any]
+) -> Callable[[Any], Any]:
     law = getattr(module, name, None)
     if law is None:
         functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
         raise InputError(f"has no law {name!r}{nearest(name, functions)}")
+    if (args or values) and callable(law):
+        law = partial(law, *args, **values)
     checks.law(name, law, subject)
     return cast("Callable[[Any], Any]", law)
 

@@ -102,24 +102,22 @@ class _Lister:
 
     def law(self, law: Law) -> Node:
         """Return the call that loads a law; "None" if it can't be found by name."""
-        whole = law.func if isinstance(law, partial) else law
-        found = Reference.of(whole)
-        values = [*law.args, *law.keywords.values()] if isinstance(law, partial) else []
-        if found is None or not all(map(_is_plain, values)):
+        function, args, values = law, (), {}
+        if isinstance(law, partial):
+            function, args, values = law.func, law.args, law.keywords
+        found = Reference.of(function)
+        plain = all(map(_is_plain, [*args, *values.values()])) and not {"path", "name"} & {*values}
+        if found is None or not plain:
             self.lost.append(law)
             return "None"
-        loaded = self._loaded(found)
-        if not isinstance(law, partial):
-            return loaded
-        self._names["partial"] = "functools", "partial"
-        named = [_named(f"{name}=", self._plain(value)) for name, value in law.keywords.items()]
-        return Brackets("partial(", [loaded, *map(self._plain, law.args), *named], ")")
-
-    def _loaded(self, found: Reference) -> str:
         file = found.file if self.folder is None else seen_from(found.file, self.folder)
-        name = "" if found.name == "control" else f", {quoted(found.name)}"
+        items: list[Node] = [quoted(file)]
+        if args or found.name != "control":
+            items.append(quoted(found.name))
+        items += map(self._plain, args)
+        items += [_named(f"{name}=", self._plain(value)) for name, value in values.items()]
         self._names["load_law"] = "mars2d", "load_law"
-        return f"load_law({quoted(file)}{name})"
+        return Brackets("load_law(", items, ")", filled=True)
 
     def _class(self, kind: type[Description]) -> str:
         """Return the name for a class; the later of two with one name gets its family's, too."""
@@ -143,8 +141,7 @@ class _Lister:
             line = f"from {module} import {', '.join(sorted(names))}"
             broken = Brackets(f"from {module} import (", sorted(names), ")", filled=True)
             lines.append(line if len(line) <= WIDTH else laid_out(broken))
-        library = [line for line in lines if line.startswith("from functools ")]
-        return [*library, *([""] if library else []), *sorted(set(lines) - set(library))]
+        return sorted(lines)
 
 
 def _is_plain(value: object) -> bool:
