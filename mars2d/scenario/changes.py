@@ -148,15 +148,6 @@ def with_poses(scenario: Scenario, poses: Float) -> Scenario:
         raise
 
 
-def with_body(scenario: Scenario, body: int, **fields: Any) -> Scenario:
-    """Return the scenario with other fields of a robot or prop: an index of `Scenario.bodies`."""
-    n = len(scenario.robots)
-    return scenario.replace(
-        robots=[r.replace(**fields) if i == body else r for i, r in enumerate(scenario.robots)],
-        props=[p.replace(**fields) if i + n == body else p for i, p in enumerate(scenario.props)],
-    )
-
-
 def without_body(scenario: Scenario, body: int) -> Scenario:
     """Return the scenario without a robot or prop: an index of `Scenario.bodies`."""
     n = len(scenario.robots)

@@ -31,7 +31,7 @@ from mars2d.window.context import (
 )
 from mars2d.window.controls import Controls
 from mars2d.window.desktop import desktop_scale, opening_size
-from mars2d.window.director import Director
+from mars2d.window.director import RECORDING, Director
 from mars2d.window.display import (
     PICTURES_A_SECOND,
     Preferences,
@@ -48,6 +48,7 @@ from mars2d.window.inspector import Inspector
 from mars2d.window.menu import Entry
 from mars2d.window.mouse import Mouse
 from mars2d.window.notes import Ending, Notes, Progress, draw_progress
+from mars2d.window.parameter_panel import ParameterPanel
 from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.player import Player
 from mars2d.window.reload import Reload
@@ -118,7 +119,14 @@ class Window:
         self._painter = Painter(theme=theme_of(dark=preferences.dark))
         self._stage = Stage(self._painter, MEMORY)
         self._inspector = Inspector(self._painter)
-        self.dock = Dock(self._painter, [self._inspector])
+        self.parameters = ParameterPanel(
+            self._painter,
+            lambda: None if timeline is None else timeline.experiment,
+            lambda: self.selected,
+            self._set_parameter,
+            lambda: self.player.playing,
+        )
+        self.dock = Dock(self._painter, [self._inspector, self.parameters])
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
         self._mouse = Mouse(
             self.player, self.viewpoint, self.grab, self._controls.handles,
@@ -152,6 +160,7 @@ class Window:
             "fit": self.viewpoint.fit,
             "dark": self._change_theme,
             "text": self._change_text,
+            "parameters": self._show_parameters,
             "drive": self._drive_or_not,
             "edit": self._open_editor,
             "picture": self._save_picture,
@@ -300,6 +309,7 @@ class Window:
         self._read_again()
         self.director.steer(seconds)
         self.grab.tick(self.player.frame, self.camera, self.player.playing)
+        self.parameters.tick()
         self.player.pass_time(seconds)
         self.viewpoint.step(self.player.frame, seconds)
 
@@ -447,13 +457,23 @@ class Window:
         elif not self.help.is_open and self.dock.handle(event):
             pass
         elif event.type == pygame.KEYDOWN:
-            self._press(event.key, event.unicode, event.mod)
+            if not self._to_slider(event):
+                self._press(event.key, event.unicode, event.mod)
         elif event.type == pygame.KEYUP:
             self._keyboard.release(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._keyboard.clear()
         else:
+            if event.type == pygame.MOUSEBUTTONDOWN:
+                self.parameters.leave()
             self._mouse.handle(event)
+
+    def _to_slider(self, event: pygame.Event) -> bool:
+        """Give a pressed key to the slider that has the focus; return whether it took it."""
+        name, shift = pygame.key.name(event.key), bool(event.mod & pygame.KMOD_SHIFT)
+        if self._drives or event.mod & keys.CONTROL:
+            return False
+        return self.parameters.press(name, event.unicode, shift=shift)
 
     def _press(self, code: int, character: str, modifiers: int) -> None:
         key = self._keyboard.press(code, character, modifiers, manual=self.player.manual)
@@ -489,6 +509,7 @@ class Window:
             "loop": self.player.loop,
             "contacts": self.player.at_contact != "go on" or self.toolbar.menu.name == "contacts",
             "layers": self.toolbar.menu.name == "layers",
+            "parameters": self.parameters.is_open,
             "drive": self._drives,
             "follow": self.viewpoint.following is not None,
             "film": self.saver.filming,
@@ -638,6 +659,21 @@ class Window:
         self.saver.python(
             self.director.scenario_to_save(), None if timeline is None else timeline.world.control
         )
+
+    def _show_parameters(self) -> None:
+        """Open the panel of parameters, or close it."""
+        if self.director.timeline is None:
+            self.notes.say(RECORDING, "warning")
+        else:
+            self.dock.switch("parameters")
+
+    def _set_parameter(self, name: str, value: float, restart: bool) -> str:
+        """Set a parameter; return why the run starts anew, or ""."""
+        reason = self.director.set(name, value, restart)
+        if reason and restart:
+            self.grab.cancel()
+        self._meet()
+        return reason
 
     def _drive_or_not(self) -> None:
         """Drive the selected robot by hand, or the first one; or stop driving."""

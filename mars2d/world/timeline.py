@@ -334,12 +334,19 @@ class Timeline:
         """Raise InputError for an experiment that `take` can't go on with."""
         check_alike(self._experiment.scenario, experiment.scenario)
 
-    def set(self, options: Mapping[str, Any], progress: Progress = lambda _: True) -> str:
+    def set(
+        self,
+        options: Mapping[str, Any],
+        progress: Progress = lambda _: True,
+        *,
+        restart: bool = True,
+    ) -> str:
         """Set parameters of the experiment, by the names of ``--set``.
 
         The run goes on with them from the present row if it can, else it starts anew; returns the
-        reason for a new start, or "". Raises InputError, and changes nothing, where there are no
-        such parameters, or no such values.
+        reason for a new start, or "". restart: whether it may start anew; else it is left as it is.
+        Raises InputError, and changes nothing, where there are no such parameters, or no such
+        values.
         """
         before = self._experiment
         after = before.with_options({**before.options, **options})
@@ -347,7 +354,7 @@ class Timeline:
         reason = self._needs_start(after) if begun else ""
         if begun and not reason:
             self.take(after, progress)
-        else:
+        elif restart or not reason:
             self.restart(after)
         return reason
 

@@ -88,7 +88,7 @@ def test_before_the_first_step_a_run_begins_with_the_value_as_if_it_were_its_own
     assert record.settings == {"speed": 0.3}
     assert record.finished
     assert timeline.set({"speed": 0.1}) == "the run is over"
-    assert speeds(after(timeline, 3).record) == [0.1] * 3
+    assert speeds(after(timeline, 3).record) == [0.1] * 2
     timeline.restart()
     assert timeline.experiment.options == {"speed": 0.1}
 
