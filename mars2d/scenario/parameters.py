@@ -67,6 +67,10 @@ class Argument:
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             usual = "" if self.default is None else f"; its default is {self.default}"
             raise wrong(name, value, f"a number{usual}")
+        if self.whole and self.bounds is not None and not isinstance(value, numbers.Integral):
+            raise wrong(
+                name, value, f"a whole number from {self.bounds.low:g} to {self.bounds.high:g}"
+            )
         if self.bounds is not None:
             self.bounds.check(name, value)
 

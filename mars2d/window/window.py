@@ -655,10 +655,11 @@ class Window:
 
     def _save_python(self) -> None:
         """Save the scenario as it is now as a Python file."""
-        timeline = self.director.timeline
-        self.saver.python(
-            self.director.scenario_to_save(), None if timeline is None else timeline.world.control
-        )
+        timeline, scenario = self.director.timeline, self.director.scenario_to_save()
+        if timeline is None:
+            self.saver.python(scenario, None)
+        else:
+            self.saver.python(scenario, timeline.world.control, timeline.settings)
 
     def _show_parameters(self) -> None:
         """Open the panel of parameters, or close it."""

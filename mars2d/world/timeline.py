@@ -171,6 +171,11 @@ class Timeline:
         return replace(_closed(self._world), branches=tuple(_closed(world) for world in others))
 
     @property
+    def settings(self) -> dict[str, Any]:
+        """The options that hold at the newest row of the present branch, by name."""
+        return settings_of(self._world)
+
+    @property
     def touched(self) -> bool:
         """Whether hands did anything in this run, so that it can't just be run again."""
         return bool(self.branches or self._world.operator.log or self._past.driven)
