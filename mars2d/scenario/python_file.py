@@ -123,6 +123,8 @@ class _Lister:
         items += map(self._plain, args)
         items += [_named(f"{name}=", self._plain(value)) for name, value in values.items()]
         self._names["load_law"] = "mars2d", "load_law"
+        if not (args or values):
+            return f"load_law({', '.join(map(str, items))})"
         return Brackets("load_law(", items, ")", filled=True)
 
     def _class(self, kind: type[Description]) -> str:

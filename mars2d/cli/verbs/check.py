@@ -286,8 +286,9 @@ def _check_record(path: Path) -> Record:
 
 def _ask_laws(path: Path, record: Record, source: str, settings: dict[str, Any]) -> None:
     """Ask the laws of an experiment again in the states of a record."""
-    source = _source_of(path, record) if source == SAME else source
-    experiment = open_experiment(source, {**record.settings, **settings}, seed=record.seed)
+    if source == SAME:
+        source, settings = _source_of(path, record), {**record.settings, **settings}
+    experiment = open_experiment(source, settings, seed=record.seed)
     bar = Progress(max(len(record), 1), "rows")
     try:
         departures = ask_again(record, experiment, bar.update)
