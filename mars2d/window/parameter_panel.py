@@ -148,7 +148,7 @@ class ParameterPanel(Panel):
         clip = surface.get_clip()
         surface.set_clip(room.clip(clip))
         top = room.top - self._scroll * ui
-        bar = round(8 * ui) if whole > self._room else 0
+        bar = round(8 * ui) if whole > self._room + 2 else 0
         for line in lines:
             place = pygame.Rect(room.left, round(top), room.width - bar, round(line.height * ui))
             top += line.height * ui
